@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace rt {
+
+/// How the program ends; the numbers are part of the interface (README, "Exit codes").
+enum class ExitCode : int {
+    done = 0,
+    different = 1,
+    usage = 2,
+    input = 3,
+    output = 4,
+    device = 5,
+    non_finite = 6,
+    limit = 7,
+    bug = 70,
+};
+
+/// The one exception of the program: what is wrong, where, and what to do, in one line
+/// (several lines when several mistakes are reported together). Caught only in main.
+class Error : public std::runtime_error {
+   public:
+    Error(ExitCode exit_code, const std::string& message)
+        : std::runtime_error(message), exit_code_(exit_code) {}
+
+    ExitCode exit_code() const { return exit_code_; }
+
+   private:
+    ExitCode exit_code_;
+};
+
+}  // namespace rt

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace rt {
+
+/// What a scene needs of the kernels; the switches of kernels/features.h. Coarse and few: each
+/// combination is built and rendered by a test.
+struct Features {
+    bool spheres = true;
+    bool triangles = true;
+    bool vertex_normals = true;  ///< implies triangles
+    bool lights = true;          ///< shadow rays, diffuse and specular light
+    bool mirrors = true;         ///< the bounce loop
+
+    bool operator==(const Features&) const = default;
+};
+
+/// One switch: its name for people and for the kernels' build options.
+struct FeatureName {
+    bool Features::*flag;
+    const char* name;
+    const char* macro;
+};
+
+inline constexpr std::array<FeatureName, 5> feature_names{{
+    {&Features::spheres, "spheres", "RT_HAS_SPHERES"},
+    {&Features::triangles, "triangles", "RT_HAS_TRIANGLES"},
+    {&Features::vertex_normals, "vertex normals", "RT_HAS_VERTEX_NORMALS"},
+    {&Features::lights, "lights", "RT_HAS_LIGHTS"},
+    {&Features::mirrors, "mirrors", "RT_HAS_MIRRORS"},
+}};
+
+/// The names of the switches that are on (used) or off (left out).
+std::vector<std::string> names_of(const Features& features, bool used);
+
+}  // namespace rt

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+// kernels/shared.h once in float and once in double: the renderer's structs, row for row as the
+// kernels see them.
+#define RT_STATIC_ASSERT(condition) static_assert(condition)
+#define RT_COUNT std::uint64_t
+
+namespace rt::f32 {
+#define RT_REAL float
+#define RT_INDEX std::int32_t
+#include "kernels/shared.h"
+#undef RT_REAL
+#undef RT_INDEX
+static_assert(offsetof(Sphere, material) == 16);
+static_assert(offsetof(Triangle, plane) == 60);
+static_assert(offsetof(VertexNormals, n2) == 32);
+static_assert(offsetof(Material, mirror) == 48);
+static_assert(offsetof(Light, intensity) == 16);
+static_assert(offsetof(Frame, light_count) == 108);
+static_assert(offsetof(Tile, film_width) == 20);
+}  // namespace rt::f32
+
+namespace rt::f64 {
+#define RT_REAL double
+#define RT_INDEX std::int64_t
+#include "kernels/shared.h"
+#undef RT_REAL
+#undef RT_INDEX
+}  // namespace rt::f64
+
+#undef RT_STATIC_ASSERT
+#undef RT_COUNT
+
+namespace rt {
+
+template <typename T>
+struct Flat;
+
+/// The shared structs in the precision of T, float or double.
+template <>
+struct Flat<float> {
+    using Index = f32::Index;
+    using Packed3 = f32::Packed3;
+    using Sphere = f32::Sphere;
+    using Triangle = f32::Triangle;
+    using VertexNormals = f32::VertexNormals;
+    using Material = f32::Material;
+    using Light = f32::Light;
+    using Frame = f32::Frame;
+    using Tile = f32::Tile;
+    using RayCounts = f32::RayCounts;
+    static constexpr Index none = f32::RT_NONE;
+    static constexpr float roundoff = 0x1p-24f;  ///< half an ulp of 1
+};
+
+template <>
+struct Flat<double> {
+    using Index = f64::Index;
+    using Packed3 = f64::Packed3;
+    using Sphere = f64::Sphere;
+    using Triangle = f64::Triangle;
+    using VertexNormals = f64::VertexNormals;
+    using Material = f64::Material;
+    using Light = f64::Light;
+    using Frame = f64::Frame;
+    using Tile = f64::Tile;
+    using RayCounts = f64::RayCounts;
+    static constexpr Index none = f64::RT_NONE;
+    static constexpr double roundoff = 0x1p-53;
+};
+
+template <typename T>
+using Vec3 = glm::vec<3, T, glm::defaultp>;
+
+}  // namespace rt

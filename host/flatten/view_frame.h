@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "host/scene/scene.h"
+
+namespace rt {
+
+/// The frame the renderer works in, and the camera's axes in it. The eye becomes the origin and
+/// lengths are scaled by a power of two that brings the median distance to a primitive near 1; both
+/// are done in double before anything is rounded to float. A scene that is moved, or scaled by a
+/// power of two, with its camera then gives the same bits (docs/numerics.md).
+struct ViewFrame {
+    glm::dvec3 eye{0};  ///< in scene units; an orthographic window's centre
+    double scale = 1;   ///< a power of two
+    glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  ///< orthonormal
+
+    glm::dvec3 to_view(const glm::dvec3& scene_point) const { return (scene_point - eye) * scale; }
+};
+
+ViewFrame make_view_frame(const Scene& scene);
+
+}  // namespace rt

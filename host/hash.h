@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace rt {
+
+/// FNV-1a, 64 bits, over 8-byte words and then bytes: a fingerprint, not a defence.
+class Hasher {
+   public:
+    void add_bytes(std::span<const std::byte> bytes);
+
+    template <typename N>
+    requires std::is_arithmetic_v<N>
+    void add(N number) { add_bytes(std::as_bytes(std::span(&number, 1))); }
+
+    /// Length first, so that "ab", "c" differs from "a", "bc".
+    void add(std::string_view text) {
+        add(text.size());
+        add_bytes(std::as_bytes(std::span(text)));
+    }
+
+    std::uint64_t value() const { return state_; }
+
+   private:
+    std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace rt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "host/image/picture.h"
+
+namespace rt {
+
+/// How 8-bit files store the linear-light film. Float files (.exr, .pfm) ignore it.
+///
+/// - display: value * 255 as it is, as the paper does; the file declares nothing.
+/// - srgb: the transfer curve of IEC 61966-2-1, then * 255; the file declares sRGB.
+/// - linear: the same numbers as display; the file declares linear light (PNG gAMA 1.0).
+enum class Encoding { display, srgb, linear };
+
+/// The name on the command line: "display", "srgb" or "linear".
+std::string_view to_string(Encoding encoding);
+
+/// The inverse of to_string; throws Error(ExitCode::usage) listing the names.
+Encoding parse_encoding(std::string_view name);
+
+/// The transfer curve of IEC 61966-2-1 from linear light to the stored value, both in [0, 1].
+double srgb_from_linear(double linear);
+
+/// One value as 8 bits: clamped to [0, 1], through the curve of the encoding, then
+/// floor(x * 255 + 0.5). NaN becomes 0; callers count non-finite pixels before they get here.
+std::uint8_t encode_8bit(float value, Encoding encoding);
+
+/// The whole picture as 8 bits. The last of 2 or 4 channels is alpha, which has no curve.
+std::vector<std::uint8_t> encode_8bit(const Picture& picture, Encoding encoding);
+
+}  // namespace rt

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/input_file.h"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "host/error.h"
+
+namespace rt {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason,
+                         const std::string& advice) {
+    throw Error(ExitCode::input, path + ": " + reason + "; " + advice);
+}
+
+}  // namespace
+
+InputFile open_input_file(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) {
+        refuse(path, "cannot read: " + std::generic_category().message(errno), "check the path");
+    }
+    if (S_ISDIR(status.st_mode)) refuse(path, "is a directory", "give the name of a picture");
+    if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file", "copy it to one first");
+    errno = 0;
+    InputFile file{std::ifstream(path, std::ios::binary),
+                   static_cast<std::uintmax_t>(status.st_size)};
+    if (!file.stream) {
+        refuse(path, "cannot read: " + std::generic_category().message(errno),
+               "check its permissions");
+    }
+    return file;
+}
+
+void check_picture_size(const std::string& path, int width, int height, int channels) {
+    constexpr int largest_side = 65536;
+    constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+    constexpr std::int64_t most_values = std::int64_t{1} << 30;
+    const std::string size = std::to_string(width) + " x " + std::to_string(height) +
+                             " pixels of " + std::to_string(channels) + " channels";
+    if (width < 1 || height < 1 || channels < 1) refuse(path, "holds " + size, "write it again");
+    const std::int64_t pixels = std::int64_t{width} * height;
+    if (width > largest_side || height > largest_side || pixels > most_pixels || channels > 64 ||
+        pixels * channels > most_values) {
+        refuse(path, "holds " + size + ", too many",
+               "the limit is 65536 a side, 2^28 pixels and 2^30 values: scale it down first");
+    }
+}
+
+}  // namespace rt

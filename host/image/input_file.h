@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+namespace rt {
+
+struct InputFile {
+    std::ifstream stream;
+    std::uintmax_t size = 0;  // in bytes
+};
+
+/// Opens a regular file, and nothing else (a pipe would wait for ever, a device never end).
+/// Throws Error(ExitCode::input) "path: cannot read: reason; what to do".
+InputFile open_input_file(const std::string& path);
+
+/// Refuses what would not be a picture (empty, more than 64 channels) or not fit in memory:
+/// at most 65536 x 65536, 2^28 pixels, 2^30 values. Throws Error(ExitCode::input).
+void check_picture_size(const std::string& path, int width, int height, int channels);
+
+}  // namespace rt

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/oiio_module.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace rt::oiio {
+namespace {
+
+int fail(ErrorText error, const std::string& message) {
+    std::snprintf(error.text, error.size, "%s", message.c_str());
+    return 0;
+}
+
+/// Runs one call of the border: nothing may be thrown across it.
+template <typename Call>
+int guarded(ErrorText error, Call call) {
+    fail(error, "");
+    try {
+        return call();
+    } catch (const std::exception& exception) {
+        return fail(error, exception.what());
+    } catch (...) {
+        return fail(error, "unknown exception in OpenImageIO");
+    }
+}
+
+/// One thread (several gain nothing here), and no remarks on stderr.
+void configure_once() {
+    static const bool done = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1) &&
+                             OIIO::attribute("debug", 0);
+    static_cast<void>(done);
+}
+
+OIIO::ImageSpec make_spec(const EncodeRequest& request, OIIO::TypeDesc type) {
+    OIIO::ImageSpec spec(request.width, request.height, request.channels, type);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (request.color_space != nullptr) spec.attribute("oiio:ColorSpace", request.color_space);
+    if (type == OIIO::TypeFloat) {
+        spec.attribute("compression", "zip");
+        // The writer stamps the time into the file unless the attribute is there; one of the
+        // wrong type is there, and is not written.
+        spec.attribute("DateTime", 0);
+    }
+    for (std::size_t i = 0; i < request.attribute_count; ++i) {
+        spec.attribute(request.attribute_names[i], request.attribute_texts[i]);
+    }
+    return spec;
+}
+
+int encode_picture(const EncodeRequest& request, const ByteSink& sink, ErrorText error) {
+    configure_once();
+    const std::string format = request.format;
+    const OIIO::TypeDesc type = format == "openexr" ? OIIO::TypeFloat : OIIO::TypeUInt8;
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create(format);
+    if (!output) return fail(error, OIIO::geterror());
+    if (!output->set_ioproxy(&memory)) return fail(error, "no writing to memory in this format");
+    const bool written = output->open("memory." + format, make_spec(request, type)) &&
+                         output->write_image(type, request.pixels);
+    const bool closed = output->close();
+    // A writer may return success and still have something to say.
+    const std::string complaint = output->geterror();
+    if (!written || !closed || !complaint.empty()) {
+        return fail(error, complaint.empty() ? "unknown reason" : complaint);
+    }
+    return sink.append(sink.context, bytes.data(), bytes.size());
+}
+
+template <typename Integer>
+void widen(const std::vector<Integer>& from, std::vector<float>& to, float largest) {
+    to.resize(from.size());
+    std::transform(from.begin(), from.end(), to.begin(),
+                   [largest](Integer value) { return static_cast<float>(value) / largest; });
+}
+
+/// Rows [first, last) in the type of the file, whether it stores lines or tiles.
+bool read_native(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int first, int last,
+                 OIIO::TypeDesc type, void* values) {
+    const int y = spec.y + first;
+    const int end = spec.y + last;
+    if (spec.tile_width == 0) {
+        return input.read_scanlines(0, 0, y, end, 0, 0, spec.nchannels, type, values);
+    }
+    return input.read_tiles(0, 0, spec.x, spec.x + spec.width, y, end, 0, 1, 0, spec.nchannels,
+                            type, values);
+}
+
+/// The same rows as float: exactly v / 255 and v / 65535 for integers, untouched otherwise.
+bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int first, int last,
+               std::vector<float>& values) {
+    const std::size_t count = static_cast<std::size_t>(spec.width) * spec.nchannels *
+                              static_cast<std::size_t>(last - first);
+    if (spec.format == OIIO::TypeUInt8) {
+        std::vector<unsigned char> native(count);
+        const bool ok = read_native(input, spec, first, last, spec.format, native.data());
+        widen(native, values, 255.0f);
+        return ok;
+    }
+    if (spec.format == OIIO::TypeUInt16) {
+        std::vector<unsigned short> native(count);
+        const bool ok = read_native(input, spec, first, last, spec.format, native.data());
+        widen(native, values, 65535.0f);
+        return ok;
+    }
+    values.resize(count);
+    return read_native(input, spec, first, last, OIIO::TypeFloat, values.data());
+}
+
+int read_all_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const PictureSink& sink,
+                  ErrorText error) {
+    // A few rows at a time, so that a header that lies costs no memory for pixels never seen.
+    const int step = spec.tile_width == 0 ? 64 : spec.tile_height;
+    std::vector<float> values;
+    for (int first = 0; first < spec.height; first += step) {
+        const int last = std::min(first + step, spec.height);
+        if (!read_rows(input, spec, first, last, values)) {
+            const std::string complaint = input.geterror();
+            return fail(error, complaint.empty() ? "the pixels are damaged" : complaint);
+        }
+        if (sink.rows(sink.context, values.data(), values.size()) == 0) return 0;
+    }
+    return 1;
+}
+
+int decode_picture(const char* path, const char* format, const PictureSink& sink, ErrorText error) {
+    configure_once();
+    const auto input = OIIO::ImageInput::create(format);
+    if (!input) return fail(error, OIIO::geterror());
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);  // values as stored, not multiplied by alpha
+    OIIO::ImageSpec spec;
+    if (!input->open(path, spec, config)) {
+        const std::string complaint = input->geterror();
+        return fail(error, complaint.empty() ? "the header is damaged" : complaint);
+    }
+    if (spec.depth > 1 || spec.deep) return fail(error, "not a flat picture");
+    if (sink.header(sink.context, spec.width, spec.height, spec.nchannels) == 0) return 0;
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+        if (attribute.type() != OIIO::TypeString) continue;
+        const std::string name = attribute.name().string();
+        const std::string text = attribute.get_string();
+        if (sink.attribute(sink.context, name.c_str(), text.c_str()) == 0) return 0;
+    }
+    if (sink.rows == nullptr) return 1;
+    return read_all_rows(*input, spec, sink, error);
+}
+
+int encode(const EncodeRequest* request, const ByteSink* sink, ErrorText error) {
+    return guarded(error, [&] { return encode_picture(*request, *sink, error); });
+}
+
+int decode(const char* path, const char* format, const PictureSink* sink, ErrorText error) {
+    return guarded(error, [&] { return decode_picture(path, format, *sink, error); });
+}
+
+}  // namespace
+}  // namespace rt::oiio
+
+extern "C" __attribute__((visibility("default"))) const rt::oiio::Module* mirrorball_oiio_module() {
+    static constexpr rt::oiio::Module module{rt::oiio::interface_version, rt::oiio::encode,
+                                             rt::oiio::decode};
+    return &module;
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// The border between the program and libmirrorball_oiio.so, the only part that links
+/// OpenImageIO. Plain C on purpose: no exception and no owned memory crosses it. Functions return
+/// 1 for success; 0 leaves a sentence in `error`, or nothing when a callback asked to stop.
+namespace rt::oiio {
+
+/// Raised whenever anything below changes; the program refuses a module of another version.
+constexpr std::uint32_t interface_version = 1;
+constexpr const char* entry_point_name = "mirrorball_oiio_module";
+
+struct EncodeRequest {
+    const char* format;  // OpenImageIO's name: "png" (8-bit pixels) or "openexr" (32-bit float)
+    int width;
+    int height;
+    int channels;
+    const void* pixels;       // row 0 on top, interleaved
+    const char* color_space;  // what the file declares, OpenImageIO's word; null for nothing
+    std::size_t attribute_count;
+    const char* const* attribute_names;
+    const char* const* attribute_texts;
+};
+
+/// Callbacks must not throw; 0 stops the module.
+struct ByteSink {
+    void* context;
+    int (*append)(void* context, const unsigned char* bytes, std::size_t count);
+};
+
+/// Called in this order: header once, attribute for each text, rows until the picture is whole.
+struct PictureSink {
+    void* context;
+    int (*header)(void* context, int width, int height, int channels);
+    int (*attribute)(void* context, const char* name, const char* text);
+    int (*rows)(void* context, const float* values, std::size_t count);  // null: header only
+};
+
+struct ErrorText {
+    char* text;  // zero-terminated on return
+    std::size_t size;
+};
+
+struct Module {
+    std::uint32_t version;
+    int (*encode)(const EncodeRequest* request, const ByteSink* sink, ErrorText error);
+    int (*decode)(const char* path, const char* format, const PictureSink* sink, ErrorText error);
+};
+
+/// The type of the one symbol the module exports.
+using EntryPoint = const Module* (*)();
+
+}  // namespace rt::oiio

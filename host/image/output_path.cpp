@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/output_path.h"
+
+#include <linux/magic.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "host/error.h"
+
+namespace rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string advice(int error) {
+    switch (error) {
+        case ENOSPC:
+        case EDQUOT:
+            return "free some space or write to another disk";
+        case EFBIG:
+            return "raise the file size limit (ulimit -f) or make a smaller picture";
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return "choose a place you may write to";
+        case ENOENT:
+        case ENOTDIR:
+            return "create the directory first";
+        case EISDIR:
+            return "give the name of a file, not of a directory";
+        default:
+            return "write to another place";
+    }
+}
+
+bool is_on_procfs(const fs::path& directory) {
+    struct statfs status {};
+    return ::statfs(directory.c_str(), &status) == 0 && status.f_type == PROC_SUPER_MAGIC;
+}
+
+/// The file behind the symlinks, whether it exists or not; nothing when a link is one of the
+/// kernel's (/dev/stdout ends in one): these lead to open files, not to names.
+std::optional<fs::path> follow_links(const std::string& path) {
+    fs::path file = path;
+    for (int depth = 0; depth < 40; ++depth) {
+        std::error_code error;
+        if (!fs::is_symlink(file, error)) return file;
+        if (is_on_procfs(directory_of(file))) return std::nullopt;
+        const fs::path target = fs::read_symlink(file, error);
+        if (error) fail_to_write(path, error.value());
+        file = file.parent_path() / target;
+    }
+    fail_to_write(path, ELOOP);
+}
+
+}  // namespace
+
+void fail_to_write(const std::string& path, int error) {
+    throw Error(
+        ExitCode::output,
+        path + ": cannot write: " + std::generic_category().message(error) + "; " + advice(error));
+}
+
+fs::path directory_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+OutputDestination find_output_destination(const std::string& path) {
+    OutputDestination destination{path, false, std::nullopt};
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0) {
+        if (S_ISDIR(status.st_mode)) fail_to_write(path, EISDIR);
+        if (S_ISBLK(status.st_mode) || S_ISSOCK(status.st_mode)) fail_to_write(path, ENOTSUP);
+        if (::access(path.c_str(), W_OK) != 0) fail_to_write(path, errno);
+        destination.existing = status;
+        destination.in_place = !S_ISREG(status.st_mode);
+    } else if (errno != ENOENT) {
+        fail_to_write(path, errno);
+    }
+    if (destination.in_place) return destination;
+    if (const auto file = follow_links(path)) {
+        destination.file = *file;
+        if (!file->empty() && !file->has_filename()) fail_to_write(path, EISDIR);
+        if (file->empty()) fail_to_write(path, ENOENT);
+    } else {
+        destination.in_place = true;
+    }
+    return destination;
+}
+
+void check_output_path(const std::string& path) {
+    const OutputDestination destination = find_output_destination(path);
+    if (destination.in_place) return;
+    const fs::path directory = directory_of(destination.file);
+    struct stat status {};
+    if (::stat(directory.c_str(), &status) != 0) fail_to_write(path, errno);
+    if (!S_ISDIR(status.st_mode)) fail_to_write(path, ENOTDIR);
+    if (::access(directory.c_str(), W_OK | X_OK) != 0) fail_to_write(path, errno);
+}
+
+}  // namespace rt

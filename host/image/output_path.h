@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace rt {
+
+/// Where the bytes written to a path really go.
+struct OutputDestination {
+    std::filesystem::path file;  // behind all symlinks
+    bool in_place = false;       // a device, a pipe, an open file: never renamed over
+    std::optional<struct stat> existing;
+};
+
+/// Finds it, and throws Error(ExitCode::output) where nothing could be written: a directory, a
+/// disk, a read-only file.
+OutputDestination find_output_destination(const std::string& path);
+
+/// "." for a bare name.
+std::filesystem::path directory_of(const std::filesystem::path& file);
+
+/// Throws Error(ExitCode::output) "path: cannot write: reason; what to do".
+[[noreturn]] void fail_to_write(const std::string& path, int error);
+
+/// Throws the Error of write_file_atomically when that could not even start: the directory is
+/// missing or not writable, the path is a directory, the file there is read-only.
+/// Writes nothing; meant to be asked before a long computation.
+void check_output_path(const std::string& path);
+
+}  // namespace rt

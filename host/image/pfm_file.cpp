@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/pfm_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+
+#include "host/error.h"
+#include "host/image/input_file.h"
+
+namespace rt {
+namespace {
+
+constexpr bool host_is_little = std::endian::native == std::endian::little;
+
+struct Header {
+    int channels = 0;
+    int width = 0;
+    int height = 0;
+    double scale = 0;
+};
+
+void swap_bytes(std::span<float> values) {
+    for (float& value : values) {
+        const auto bits = std::bit_cast<std::uint32_t>(value);
+        value = std::bit_cast<float>(__builtin_bswap32(bits));
+    }
+}
+
+/// The next word of the header with the one white space behind it; empty when there is none.
+std::string next_word(std::istream& stream) {
+    constexpr std::size_t longest = 32;
+    std::string word;
+    for (int c = stream.get(); c != EOF && word.size() <= longest; c = stream.get()) {
+        const bool is_space = c == ' ' || c == '\n' || c == '\t' || c == '\r';
+        if (is_space) return word;
+        word += static_cast<char>(c);
+    }
+    return {};
+}
+
+template <typename Number>
+std::optional<Number> parse_number(const std::string& word) {
+    Number number{};
+    const char* end = word.data() + word.size();
+    const auto [rest, error] = std::from_chars(word.data(), end, number);
+    if (word.empty() || error != std::errc() || rest != end) return std::nullopt;
+    return number;
+}
+
+Header read_header(const std::string& path, std::istream& stream) {
+    const std::string kind = next_word(stream);
+    const auto width = parse_number<int>(next_word(stream));
+    const auto height = parse_number<int>(next_word(stream));
+    const auto scale = parse_number<double>(next_word(stream));
+    if ((kind != "PF" && kind != "Pf") || !width || !height || !scale || *scale == 0 ||
+        !std::isfinite(*scale)) {
+        throw Error(ExitCode::input,
+                    path +
+                        ": damaged PFM header; expected 'PF', width, height and a scale that "
+                        "is not 0: write the file again");
+    }
+    return {kind == "PF" ? 3 : 1, *width, *height, *scale};
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_pfm(const std::string& path, const Picture& picture) {
+    if (picture.channels != 1 && picture.channels != 3) {
+        throw Error(ExitCode::output, path + ": a PFM file holds 1 or 3 channels, not " +
+                                          std::to_string(picture.channels) + "; write .exr");
+    }
+    const std::string header = std::string(picture.channels == 3 ? "PF\n" : "Pf\n") +
+                               std::to_string(picture.width) + " " +
+                               std::to_string(picture.height) + "\n-1.0\n";
+    const auto row = static_cast<std::size_t>(picture.width) * picture.channels;
+    std::vector<float> flipped(picture.pixels.size());
+    for (std::size_t y = 0; y < static_cast<std::size_t>(picture.height); ++y) {
+        const auto* source = picture.pixels.data() + y * row;
+        std::copy_n(source, row, flipped.data() + (picture.height - 1 - y) * row);
+    }
+    if (!host_is_little) swap_bytes(flipped);
+    std::vector<std::byte> bytes(header.size() + flipped.size() * sizeof(float));
+    std::memcpy(bytes.data(), header.data(), header.size());
+    if (!flipped.empty()) {
+        std::memcpy(bytes.data() + header.size(), flipped.data(), flipped.size() * sizeof(float));
+    }
+    return bytes;
+}
+
+Picture read_pfm(const std::string& path) {
+    InputFile file = open_input_file(path);
+    const Header header = read_header(path, file.stream);
+    check_picture_size(path, header.width, header.height, header.channels);
+
+    Picture picture{header.width, header.height, header.channels, {}};
+    const auto row = static_cast<std::size_t>(header.width) * header.channels;
+    const std::uintmax_t expected = row * header.height * sizeof(float);
+    const auto start = static_cast<std::uintmax_t>(file.stream.tellg());
+    if (file.size - start != expected) {
+        throw Error(ExitCode::input, path + ": " + std::to_string(file.size - start) +
+                                         " bytes of pixels where the header asks for " +
+                                         std::to_string(expected) + "; write the file again");
+    }
+    picture.pixels.resize(row * header.height);
+    for (int y = header.height - 1; y >= 0; --y) {
+        auto* target = reinterpret_cast<char*>(picture.pixels.data() + row * y);
+        file.stream.read(target, static_cast<std::streamsize>(row * sizeof(float)));
+    }
+    if (!file.stream) throw Error(ExitCode::input, path + ": cannot read; check the disk");
+    if ((header.scale < 0) != host_is_little) swap_bytes(picture.pixels);
+    return picture;
+}
+
+}  // namespace rt

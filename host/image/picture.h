@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rt {
+
+/// A picture in memory: linear light, unclamped, channels interleaved, row 0 at the top.
+/// Holds width * height * channels floats.
+struct Picture {
+    int width = 0;
+    int height = 0;
+    int channels = 3;
+    std::vector<float> pixels;
+};
+
+/// What a picture file says about itself: (name, text) pairs.
+using PictureMetadata = std::vector<std::pair<std::string, std::string>>;
+
+}  // namespace rt

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+#include "host/error.h"
+#include "host/options.h"
+#include "host/report/render_stats.h"
+#include "host/stop_signal.h"
+#include "host/verbs/verbs.h"
+
+namespace {
+
+int run(int argc, char** argv, double seconds_before_main) {
+    const rt::Options options = rt::parse_options(argc, argv);
+    switch (options.verb) {
+        case rt::Verb::render:
+            return rt::run_render(options.render, seconds_before_main);
+        case rt::Verb::devices:
+            return rt::run_devices(options.devices);
+        case rt::Verb::scene:
+            return rt::run_scene(options.scene);
+        case rt::Verb::none:
+            fmt::print("{}", options.text);
+            return 0;
+    }
+    return static_cast<int>(rt::ExitCode::bug);
+}
+
+int failed(rt::ExitCode code, const char* message) {
+    fmt::print(stderr, "mirrorball: {}\n", message);
+    return static_cast<int>(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const double seconds_before_main = rt::seconds_since_process_start();
+    rt::ignore_write_signals();
+    try {
+        return run(argc, argv, seconds_before_main);
+    } catch (const rt::Error& error) {
+        return failed(error.exit_code(), error.what());
+    } catch (const std::bad_alloc&) {
+        return failed(rt::ExitCode::limit, "out of memory; render a smaller picture or scene");
+    } catch (const std::exception& error) {
+        return failed(rt::ExitCode::bug, error.what());
+    }
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/image/encoding.h"
+#include "host/render/cl_renderer.h"
+#include "host/render/threads_renderer.h"
+#include "host/render/tile_queue.h"
+#include "host/scene/aa_mode.h"
+
+namespace rt {
+
+enum class Precision { float32, float64 };
+enum class StatsFormat { summary, text, json };
+enum class ProgressMode { automatic, bar, plain, json, none };
+
+struct PictureSize {
+    int width, height;
+};
+
+/// `mirrorball render`; what is not given is the scene's.
+struct RenderOptions {
+    std::string scene;
+    std::string output;  ///< empty: render, write nothing
+    std::string device;  ///< empty: the best there is
+    std::optional<PictureSize> size;
+    std::optional<AaMode> aa;
+    std::optional<int> max_bounces;
+    Precision precision = Precision::float32;
+    bool fast_math = false;
+    Launch launch = Launch::automatic;
+    Schedule schedule = Schedule::tiles;
+    int threads = 0;  ///< 0: all cores
+    bool all_features = false;
+    std::optional<Rect> crop;
+    std::optional<PictureSize> tile;
+    std::string reference;  ///< empty: none
+    Encoding encoding = Encoding::display;
+    StatsFormat stats = StatsFormat::summary;
+    ProgressMode progress = ProgressMode::automatic;
+    bool fallback = true;  ///< finish on threads when the device fails
+    bool quiet = false, verbose = false;
+    bool dumb_terminal = false;  ///< TERM=dumb: no bar
+    std::string pocl_cache;      ///< PoCL's kernel cache folder, for telling cold builds from warm
+};
+
+/// `mirrorball devices`
+struct DevicesOptions {
+    bool json = false;
+};
+
+/// `mirrorball scene info|check`
+struct SceneOptions {
+    std::string scene;
+    bool info = true;  ///< else check
+    bool json = false;
+};
+
+enum class Verb { none, render, devices, scene };
+
+struct Options {
+    Verb verb = Verb::none;
+    RenderOptions render;
+    DevicesOptions devices;
+    SceneOptions scene;
+    std::string text;  ///< help or version, to be printed instead of doing anything
+};
+
+/// Reads the command line and the environment; nothing else in the program does. Throws Error
+/// (ExitCode::usage) for what it does not understand.
+Options parse_options(int argc, const char* const* argv);
+
+}  // namespace rt

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/cl_program.h"
+
+#include <fmt/format.h>
+
+#include "host/error.h"
+
+namespace rt {
+
+std::string build_options(const ClDevice& device, const ProgramOptions& options) {
+    std::string text = "-cl-std=CL1.2";
+    if (options.double_precision) text += " -DRT_DOUBLE=1";
+    if (options.fast_math) {
+        text += " -DRT_FAST_MATH=1 -cl-mad-enable";
+    } else if (device.rounds_correctly) {
+        text += " -cl-fp32-correctly-rounded-divide-sqrt";
+    }
+    if (options.warnings_are_errors) text += " -Werror";
+    for (const FeatureName& feature : feature_names) {
+        if (!(options.features.*feature.flag)) text += fmt::format(" -D{}=0", feature.macro);
+    }
+    return text;
+}
+
+cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
+                          const ProgramOptions& options) {
+    const std::string flags = build_options(device, options);
+    cl::Program program(context, std::string(source));
+    try {
+        program.build({device.handle}, flags.c_str());
+    } catch (const cl::Error& error) {
+        const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle);
+        throw Error(
+            ExitCode::device,
+            fmt::format("the kernels do not build on {} (driver {}): {}\noptions: {}\n{}",
+                        device.name, device.driver, cl_status_text(error.err()), flags, log));
+    }
+    return program;
+}
+
+void throw_device_error(const ClDevice& device, const cl::Error& error) {
+    throw Error(ExitCode::device, fmt::format("{} failed in {}: {}", device.name, error.what(),
+                                              cl_status_text(error.err())));
+}
+
+}  // namespace rt

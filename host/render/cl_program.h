@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/flatten/features.h"
+#include "host/render/cl_device.h"
+
+namespace rt {
+
+/// kernels/render.cl with its includes, embedded at build time (host/embed_kernels.cpp).
+extern const char* const render_kernels;
+
+/// What a program is compiled for. `features` says what may be left out.
+struct ProgramOptions {
+    bool double_precision = false;
+    bool fast_math = false;            ///< let the compiler contract a * b + c
+    bool warnings_are_errors = false;  ///< for tests
+    Features features;
+};
+
+/// The options of clBuildProgram; the same for the same arguments, since drivers cache by them.
+std::string build_options(const ClDevice& device, const ProgramOptions& options);
+
+/// Compiles the source for the device. Throws Error (ExitCode::device) with device, options and the
+/// compiler's log.
+cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
+                          const ProgramOptions& options);
+
+/// The Error (ExitCode::device) for an OpenCL call that failed.
+[[noreturn]] void throw_device_error(const ClDevice& device, const cl::Error& error);
+
+}  // namespace rt

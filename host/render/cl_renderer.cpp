@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/cl_renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+
+#include "host/error.h"
+#include "host/render/cl_program.h"
+#include "host/render/pocl_cache.h"
+#include "host/render/stopwatch.h"
+
+namespace rt {
+
+namespace {
+
+constexpr std::size_t local_size = 64;
+
+/// Work items of one launch. PoCL compiles a kernel again when a grid passes 64 K items, so a CPU
+/// launch stays below; a GPU wants more to fill up.
+constexpr std::size_t cpu_items = 65536 - local_size;
+constexpr std::size_t gpu_items = 1u << 20;
+
+/// Samples of one launch, so that it stays short enough to be interrupted.
+constexpr std::size_t cpu_samples = 1u << 20;
+constexpr std::size_t gpu_samples = 1u << 24;
+
+constexpr std::size_t launches_in_flight = 3;
+constexpr double progress_seconds = 0.2;
+
+std::size_t rounded_up(std::size_t items) {
+    return (items + local_size - 1) / local_size * local_size;
+}
+
+/// The wall-clock seconds that the device spent between two commands' start and end.
+double device_seconds(const cl::Event& event) {
+    const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+    const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+    return static_cast<double>(end - start) * 1e-9;
+}
+
+template <typename T>
+class ClRenderer : public Renderer<T> {
+   public:
+    ClRenderer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
+        : device_(device), frame_(scene.frame) {
+        launch_samples_ = launches_samples(options.launch, device);
+        try {
+            open();
+            upload(scene);
+            build(scene, options);
+        } catch (const cl::Error& error) {
+            throw_device_error(device_, error);
+        }
+    }
+
+    Rect tile_size(int film_width) const override {
+        const auto work =
+            static_cast<std::int64_t>((device_.is_cpu ? cpu_samples : gpu_samples) / samples());
+        const int pixels = static_cast<int>(std::clamp<std::int64_t>(work, 1, most_tile_pixels()));
+        const int width = std::min(film_width, pixels);
+        return {0, 0, width, pixels / width};
+    }
+
+    std::int64_t most_tile_pixels() const override {
+        return static_cast<std::int64_t>(launch_samples_ ? most_items() / samples() : most_items());
+    }
+
+    void render(TileQueue& queue, const Rect& region, Film<T>& film) override {
+        try {
+            Stopwatch watch;
+            cl::Buffer film_buffer = make_buffer(film.rgb.size() * sizeof(T), "the film");
+            queue_.enqueueFillBuffer(film_buffer, T(0), 0, film.rgb.size() * sizeof(T));
+            trace_tiles(queue, region, film_buffer);
+            times_.trace += watch.lap();
+            queue_.enqueueReadBuffer(film_buffer, CL_TRUE, 0, film.rgb.size() * sizeof(T),
+                                     film.rgb.data());
+            times_.read_back += watch.lap();
+        } catch (const cl::Error& error) {
+            throw_device_error(device_, error);
+        }
+    }
+
+    RendererTimes times() const override { return times_; }
+
+   private:
+    using FlatTile = typename Flat<T>::Tile;
+    using FlatCounts = typename Flat<T>::RayCounts;
+
+    struct InFlight {
+        Rect tile;
+        std::vector<cl::Event> events;
+    };
+
+    std::size_t samples() const { return static_cast<std::size_t>(frame_.grid * frame_.grid); }
+    std::size_t most_items() const { return device_.is_cpu ? cpu_items : gpu_items; }
+
+    void open() {
+        const Stopwatch watch;
+        context_ = cl::Context(device_.handle);
+        queue_ = cl::CommandQueue(context_, device_.handle, CL_QUEUE_PROFILING_ENABLE);
+        times_.open = watch.seconds();
+    }
+
+    /// A buffer of that many bytes; an empty one is no buffer at all (a null argument).
+    cl::Buffer make_buffer(std::size_t bytes, const char* what,
+                           cl_mem_flags flags = CL_MEM_READ_WRITE) const {
+        if (bytes == 0) return {};
+        if (bytes > device_.max_buffer_bytes) {
+            throw Error(ExitCode::limit,
+                        fmt::format("{} needs {} bytes in one piece; {} gives at most {}", what,
+                                    bytes, device_.name, device_.max_buffer_bytes));
+        }
+        return cl::Buffer(context_, flags, bytes);
+    }
+
+    template <typename Item>
+    cl::Buffer upload_array(const std::vector<Item>& items, const char* what) const {
+        const std::size_t bytes = items.size() * sizeof(Item);
+        cl::Buffer buffer = make_buffer(bytes, what, CL_MEM_READ_ONLY);
+        if (bytes > 0) queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, items.data());
+        return buffer;
+    }
+
+    void upload(const FlatScene<T>& scene) {
+        const Stopwatch watch;
+        spheres_ = upload_array(scene.spheres, "the spheres");
+        triangles_ = upload_array(scene.triangles, "the triangles");
+        vertex_normals_ = upload_array(scene.vertex_normals, "the vertex normals");
+        materials_ = upload_array(scene.materials, "the materials");
+        lights_ = upload_array(scene.lights, "the lights");
+        counts_ = upload_array(std::vector<FlatCounts>(rounded_up(most_items())), "ray counts");
+        if (launch_samples_) {
+            samples_ = make_buffer(most_items() * 3 * sizeof(T), "the samples");
+        }
+        times_.upload = watch.seconds();
+    }
+
+    /// Builds the program and launches each kernel once over nothing, since some drivers finish
+    /// compiling only then.
+    void build(const FlatScene<T>& scene, const ClOptions& options) {
+        ProgramOptions program_options;
+        program_options.double_precision = sizeof(T) == sizeof(double);
+        program_options.fast_math = options.fast_math;
+        program_options.warnings_are_errors = options.warnings_are_errors;
+        if (!options.all_features) program_options.features = scene.features;
+        const bool is_pocl = device_.platform == "Portable Computing Language";
+        const PoclCacheWatch cache(is_pocl ? options.pocl_cache : "");
+        const Stopwatch watch;
+        const cl::Program program =
+            build_program(context_, device_, render_kernels, program_options);
+        render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
+        set_render_arguments();
+        if (launch_samples_) {
+            resolve_ = cl::Kernel(program, "resolve_samples");
+            resolve_.setArg(1, samples_);
+            resolve_.setArg(2, static_cast<typename Flat<T>::Index>(samples()));
+        }
+        launch({}, cl::Buffer(), local_size);
+        queue_.finish();
+        times_.build = watch.seconds();
+        times_.build_cache = !is_pocl || options.pocl_cache.empty() ? BuildCache::unknown
+                             : cache.grew()                         ? BuildCache::cold
+                                                                    : BuildCache::warm;
+    }
+
+    void set_render_arguments() {
+        render_.setArg(1, counts_);
+        render_.setArg(2, spheres_);
+        render_.setArg(3, triangles_);
+        render_.setArg(4, vertex_normals_);
+        render_.setArg(5, materials_);
+        render_.setArg(6, lights_);
+        render_.setArg(7, frame_);
+    }
+
+    /// Enqueues the kernels of one tile, `pixels` work items where a pixel is one.
+    std::vector<cl::Event> launch(const FlatTile& tile, const cl::Buffer& film,
+                                  std::size_t pixels) {
+        std::vector<cl::Event> events(launch_samples_ ? 2 : 1);
+        render_.setArg(0, launch_samples_ ? samples_ : film);
+        render_.setArg(8, tile);
+        const std::size_t items = launch_samples_ ? pixels * samples() : pixels;
+        queue_.enqueueNDRangeKernel(render_, cl::NullRange, rounded_up(items), local_size, nullptr,
+                                    &events[0]);
+        if (launch_samples_) {
+            resolve_.setArg(0, film);
+            resolve_.setArg(3, tile);
+            queue_.enqueueNDRangeKernel(resolve_, cl::NullRange, rounded_up(pixels), local_size,
+                                        nullptr, &events[1]);
+        }
+        queue_.flush();
+        return events;
+    }
+
+    void trace_tiles(TileQueue& queue, const Rect& region, const cl::Buffer& film) {
+        std::deque<InFlight> in_flight;
+        Stopwatch since_progress;
+        while (const auto tile = queue.next()) {
+            in_flight.push_back({*tile, launch(flat_tile<T>(*tile, region), film,
+                                               static_cast<std::size_t>(tile->pixels()))});
+            if (in_flight.size() < launches_in_flight) continue;
+            finish_oldest(queue, in_flight);
+            if (since_progress.seconds() < progress_seconds) continue;
+            count_rays(queue);
+            since_progress.lap();
+        }
+        while (!in_flight.empty()) finish_oldest(queue, in_flight);
+        count_rays(queue);
+    }
+
+    void finish_oldest(TileQueue& queue, std::deque<InFlight>& in_flight) {
+        const InFlight oldest = in_flight.front();
+        in_flight.pop_front();
+        oldest.events.back().wait();
+        times_.kernel += device_seconds(oldest.events.front());
+        if (launch_samples_) times_.resolve += device_seconds(oldest.events.back());
+        primary_ += static_cast<std::uint64_t>(oldest.tile.pixels()) * samples();
+        queue.finish(oldest.tile);
+    }
+
+    /// Tells the queue of the rays traced since the last time.
+    void count_rays(TileQueue& queue) {
+        std::vector<FlatCounts> slots(rounded_up(most_items()));
+        queue_.enqueueReadBuffer(counts_, CL_TRUE, 0, slots.size() * sizeof(FlatCounts),
+                                 slots.data());
+        RayCounts total;
+        total.primary = primary_;
+        for (const FlatCounts& slot : slots) {
+            total.shadow += slot.shadow;
+            total.mirror += slot.mirror;
+        }
+        queue.add_rays({total.primary - counted_.primary, total.shadow - counted_.shadow,
+                        total.mirror - counted_.mirror});
+        counted_ = total;
+    }
+
+    const ClDevice device_;
+    typename Flat<T>::Frame frame_;
+    bool launch_samples_ = false;
+    cl::Context context_;
+    cl::CommandQueue queue_;
+    cl::Kernel render_, resolve_;
+    cl::Buffer spheres_, triangles_, vertex_normals_, materials_, lights_, counts_, samples_;
+    std::uint64_t primary_ = 0;
+    RayCounts counted_;
+    RendererTimes times_;
+};
+
+}  // namespace
+
+bool launches_samples(Launch launch, const ClDevice& device) {
+    return launch == Launch::sample || (launch == Launch::automatic && !device.is_cpu);
+}
+
+template <typename T>
+std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const ClDevice& device,
+                                              const ClOptions& options) {
+    if (sizeof(T) == sizeof(double) && !device.has_double) {
+        throw Error(ExitCode::device,
+                    fmt::format("{} has no double precision; use --precision float or --device "
+                                "threads",
+                                device.name));
+    }
+    return std::make_unique<ClRenderer<T>>(scene, device, options);
+}
+
+template std::unique_ptr<Renderer<float>> make_cl_renderer(const FlatScene<float>&, const ClDevice&,
+                                                           const ClOptions&);
+template std::unique_ptr<Renderer<double>> make_cl_renderer(const FlatScene<double>&,
+                                                            const ClDevice&, const ClOptions&);
+
+}  // namespace rt

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/flatten/flat_scene.h"
+#include "host/render/cl_device.h"
+#include "host/render/renderer.h"
+
+namespace rt {
+
+enum class Launch {
+    automatic,  ///< pixel on CPUs, sample elsewhere
+    pixel,      ///< a work item is a pixel
+    sample,     ///< a work item is a sample, averaged by a second kernel
+};
+
+/// Whether a launch on this device has a work item per sample.
+bool launches_samples(Launch launch, const ClDevice& device);
+
+struct ClOptions {
+    Launch launch = Launch::automatic;
+    bool fast_math = false;
+    bool all_features = false;         ///< compile what the scene does not need, too
+    bool warnings_are_errors = false;  ///< for tests
+    std::string pocl_cache;            ///< PoCL's kernel cache folder; may be empty
+};
+
+/// A renderer on an OpenCL device: builds the kernels for the scene's features and uploads it. The
+/// scene may go once this returns. Throws Error: ExitCode::device when the device cannot do it,
+/// ExitCode::limit when the scene does not fit, with the numbers.
+template <typename T>
+std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const ClDevice& device,
+                                              const ClOptions& options);
+
+}  // namespace rt

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/device_spec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <functional>
+#include <optional>
+
+#include "host/error.h"
+
+namespace rt {
+
+namespace {
+
+constexpr int most_threads = 4096;
+
+std::optional<int> parse_number(std::string_view text) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size() || number < 0) return std::nullopt;
+    return number;
+}
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return lower(text).find(lower(part)) != std::string::npos;
+}
+
+std::string describe_all(const std::vector<ClDevice>& devices) {
+    std::string text;
+    for (const ClDevice& device : devices) {
+        text += fmt::format("\n  {}  {} ({})", device.index, device.name, device.platform);
+    }
+    return text.empty() ? " none (see 'mirrorball devices')" : text;
+}
+
+using Test = std::function<bool(const ClDevice&)>;
+
+/// The test for a spec that is neither threads nor "".
+Test test_for(const std::string& spec) {
+    const auto colon = spec.find(':');
+    if (const auto index = parse_number(spec)) {
+        return [=](const ClDevice& device) { return device.index == *index; };
+    }
+    if (spec == "cpu") return [](const ClDevice& device) { return device.is_cpu; };
+    if (spec == "gpu") return [](const ClDevice& device) { return device.is_gpu; };
+    if (spec == "pocl") {
+        return
+            [](const ClDevice& device) { return device.platform == "Portable Computing Language"; };
+    }
+    if (spec.rfind("name:", 0) == 0 && spec.size() > 5) {
+        const std::string text = spec.substr(5);
+        return [=](const ClDevice& device) {
+            return contains(device.name, text) || contains(device.platform, text) ||
+                   contains(device.vendor, text);
+        };
+    }
+    if (colon != std::string::npos) {
+        const auto platform = parse_number(std::string_view(spec).substr(0, colon));
+        const auto index = parse_number(std::string_view(spec).substr(colon + 1));
+        if (platform && index) {
+            return [=](const ClDevice& device) {
+                return device.platform_index == *platform && device.device_index == *index;
+            };
+        }
+    }
+    throw Error(ExitCode::usage,
+                fmt::format("--device '{}' is not understood; use an index, platform:device, pocl, "
+                            "name:TEXT, cpu, gpu or threads[:N]",
+                            spec));
+}
+
+int preference(const ClDevice& device) {
+    if (!device.unusable.empty()) return 3;
+    return device.is_gpu ? 0 : (device.is_cpu ? 2 : 1);
+}
+
+DeviceChoice best_device(const std::vector<ClDevice>& devices,
+                         const std::vector<std::string>& problems) {
+    DeviceChoice choice;
+    const auto best = std::min_element(
+        devices.begin(), devices.end(),
+        [](const ClDevice& a, const ClDevice& b) { return preference(a) < preference(b); });
+    if (best != devices.end() && best->unusable.empty()) {
+        choice.device = *best;
+        return choice;
+    }
+    choice.use_threads = true;
+    choice.note = "no usable OpenCL device; rendering on threads";
+    if (best != devices.end())
+        choice.note += fmt::format(" ({}: {})", best->name, best->unusable);
+    else if (!problems.empty())
+        choice.note += " (" + problems.front() + ")";
+    return choice;
+}
+
+}  // namespace
+
+bool names_threads(const std::string& spec, DeviceChoice& choice) {
+    if (spec != "threads" && spec.rfind("threads:", 0) != 0) return false;
+    choice.use_threads = true;
+    if (spec == "threads") return true;
+    const auto count = parse_number(std::string_view(spec).substr(8));
+    if (!count || *count < 1 || *count > most_threads) {
+        throw Error(ExitCode::usage,
+                    fmt::format("--device '{}': the number of threads must be 1 to {}", spec,
+                                most_threads));
+    }
+    choice.threads = *count;
+    return true;
+}
+
+DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,
+                           const std::vector<std::string>& problems) {
+    if (spec.empty()) return best_device(devices, problems);
+    std::vector<ClDevice> fitting;
+    std::copy_if(devices.begin(), devices.end(), std::back_inserter(fitting), test_for(spec));
+    if (fitting.empty()) {
+        throw Error(ExitCode::device,
+                    fmt::format("--device '{}' fits no OpenCL device; there is:{}", spec,
+                                describe_all(devices)));
+    }
+    if (fitting.size() > 1) {
+        throw Error(ExitCode::usage, fmt::format("--device '{}' fits several devices; name one by "
+                                                 "its index:{}",
+                                                 spec, describe_all(fitting)));
+    }
+    if (!fitting.front().unusable.empty()) {
+        throw Error(ExitCode::device,
+                    fmt::format("device {} ({}) cannot be used: {}", fitting.front().index,
+                                fitting.front().name, fitting.front().unusable));
+    }
+    DeviceChoice choice;
+    choice.device = fitting.front();
+    return choice;
+}
+
+}  // namespace rt

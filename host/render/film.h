@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rt {
+
+/// The rendered picture in linear light, unclamped: three numbers a pixel, row 0 at the top.
+template <typename T>
+struct Film {
+    Film(int film_width, int film_height)
+        : width(film_width),
+          height(film_height),
+          rgb(3 * static_cast<std::size_t>(film_width) * static_cast<std::size_t>(film_height)) {}
+
+    int width, height;  ///< pixels
+    std::vector<T> rgb;
+};
+
+/// Pixels with a NaN or an infinity in them.
+template <typename T>
+std::size_t count_non_finite(const Film<T>& film);
+
+/// 64 bits over size and every bit of the film (FNV-1a): equal hashes, equal pictures.
+template <typename T>
+std::uint64_t hash_of(const Film<T>& film);
+
+}  // namespace rt

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/posix_threads.h"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include <atomic>
+#include <cstring>
+#include <exception>
+#include <vector>
+
+#include "host/error.h"
+
+namespace rt {
+
+namespace {
+
+enum class Gate { closed, open, abandoned };
+
+/// What one thread needs; outlives the thread.
+struct Task {
+    const std::function<void(int)>* work;
+    std::atomic<Gate>* gate;
+    int index;
+    std::exception_ptr failure;
+};
+
+void* run_task(void* argument) {
+    Task& task = *static_cast<Task*>(argument);
+    task.gate->wait(Gate::closed);
+    if (task.gate->load() == Gate::abandoned) return nullptr;
+    try {
+        (*task.work)(task.index);
+    } catch (...) {
+        task.failure = std::current_exception();
+    }
+    return nullptr;
+}
+
+void open_gate(std::atomic<Gate>& gate, Gate state) {
+    gate = state;
+    gate.notify_all();
+}
+
+void join_all(const std::vector<pthread_t>& threads) {
+    for (const pthread_t thread : threads) {
+        const int status = pthread_join(thread, nullptr);
+        if (status != 0) {
+            throw Error(ExitCode::bug, fmt::format("pthread_join: {}", std::strerror(status)));
+        }
+    }
+}
+
+}  // namespace
+
+int available_cores() {
+    cpu_set_t mask;
+    if (sched_getaffinity(0, sizeof mask, &mask) != 0) return 1;
+    const int cores = CPU_COUNT(&mask);
+    return cores > 0 ? cores : 1;
+}
+
+void run_on_threads(int count, const std::function<void(int)>& work) {
+    std::atomic<Gate> gate = Gate::closed;
+    std::vector<Task> tasks(static_cast<std::size_t>(count));
+    std::vector<pthread_t> threads;
+    threads.reserve(tasks.size());
+    for (int i = 0; i < count; ++i) {
+        Task& task = tasks[static_cast<std::size_t>(i)];
+        task = {&work, &gate, i, nullptr};
+        pthread_t thread;
+        const int status = pthread_create(&thread, nullptr, run_task, &task);
+        if (status != 0) {
+            open_gate(gate, Gate::abandoned);
+            join_all(threads);
+            throw Error(ExitCode::limit, fmt::format("cannot start thread {} of {}: {}; use a "
+                                                     "smaller --threads",
+                                                     i + 1, count, std::strerror(status)));
+        }
+        threads.push_back(thread);
+    }
+    open_gate(gate, Gate::open);
+    join_all(threads);
+    for (const Task& task : tasks) {
+        if (task.failure) std::rethrow_exception(task.failure);
+    }
+}
+
+}  // namespace rt

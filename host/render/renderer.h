@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "host/flatten/flat_types.h"
+#include "host/render/film.h"
+#include "host/render/tile_queue.h"
+
+namespace rt {
+
+/// Whether the driver compiled the program or took it from its cache.
+enum class BuildCache { none, cold, warm, unknown };
+
+/// Where a renderer's time went, in seconds of wall clock; 0 for what it does not do.
+struct RendererTimes {
+    double open = 0;       ///< find the device, make context and queue
+    double build = 0;      ///< compile or load the kernels
+    double upload = 0;     ///< scene to device
+    double trace = 0;      ///< first ray to last
+    double kernel = 0;     ///< of that, kernels running, by the device's own clock
+    double resolve = 0;    ///< average sample buffers, where that is a pass of its own
+    double read_back = 0;  ///< film to host
+    BuildCache build_cache = BuildCache::none;
+};
+
+/// One flattened scene on one device, ready to render. A tile's pixels depend on the flat scene
+/// alone, not on who renders the tile, when, or how often.
+template <typename T>
+class Renderer {
+   public:
+    virtual ~Renderer() = default;
+
+    /// The tile to hand out at once when nobody asks for another.
+    virtual Rect tile_size(int film_width) const = 0;
+
+    /// No tile may have more pixels than this.
+    virtual std::int64_t most_tile_pixels() const { return std::numeric_limits<int>::max(); }
+
+    /// Renders the queue's tiles into the film, which shows `region` of the picture; returns when
+    /// the queue is empty or stopped, with every tile it took finished. Throws Error
+    /// (ExitCode::device) when the device fails.
+    virtual void render(TileQueue& queue, const Rect& region, Film<T>& film) = 0;
+
+    virtual RendererTimes times() const = 0;
+};
+
+/// The shared launch descriptor of a tile, in a film that shows `region`.
+template <typename T>
+typename Flat<T>::Tile flat_tile(const Rect& tile, const Rect& region);
+
+}  // namespace rt

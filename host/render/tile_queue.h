@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host/trace/ray_counts.h"
+
+namespace rt {
+
+/// A rectangle of picture pixels; rows counted from the top.
+struct Rect {
+    int x = 0, y = 0, width = 0, height = 0;
+
+    std::int64_t pixels() const { return std::int64_t{width} * height; }
+    bool operator==(const Rect&) const = default;
+};
+
+/// Cuts a region into tiles of at most the given size, row by row from the top left.
+std::vector<Rect> make_tiles(const Rect& region, int tile_width, int tile_height);
+
+/// Set by a signal handler to the signal's number; 0 while none has come.
+using StopFlag = volatile std::sig_atomic_t;
+
+/// The shared state of a picture in the making: hands out tiles until none is left or the stop flag
+/// is set, and keeps count of what is finished. Every member may be called from any thread.
+class TileQueue {
+   public:
+    TileQueue(std::vector<Rect> tiles, const StopFlag& stop);
+
+    /// The next tile; empty when there is none or the work was stopped. A renderer finishes every
+    /// tile it has taken.
+    std::optional<Rect> next();
+
+    void finish(const Rect& tile);
+
+    /// Adds to the rays traced so far; for progress, and for the totals at the end.
+    void add_rays(const RayCounts& rays);
+
+    bool stopped() const { return stop_ != 0; }
+    const std::vector<Rect>& tiles() const { return tiles_; }
+    std::size_t tiles_finished() const { return tiles_finished_; }
+    double fraction_finished() const;
+    RayCounts rays() const;
+
+   private:
+    const std::vector<Rect> tiles_;
+    const StopFlag& stop_;
+    std::int64_t pixels_ = 0;
+    std::atomic<std::size_t> next_ = 0;
+    std::atomic<std::size_t> tiles_finished_ = 0;
+    std::atomic<std::int64_t> pixels_finished_ = 0;
+    std::atomic<std::uint64_t> primary_ = 0, shadow_ = 0, mirror_ = 0;
+};
+
+}  // namespace rt

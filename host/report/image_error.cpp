@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/report/image_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/error.h"
+
+namespace rt {
+
+namespace {
+
+void check_same_shape(const Picture& a, const Picture& b) {
+    if (a.width == b.width && a.height == b.height && a.channels == b.channels) return;
+    throw Error(ExitCode::input,
+                fmt::format("the pictures differ in shape: {}x{} with {} channels, {}x{} with {}; "
+                            "compare pictures of one size",
+                            a.width, a.height, a.channels, b.width, b.height, b.channels));
+}
+
+/// Largest absolute channel difference of a pixel; NaN when either pixel is not finite.
+double pixel_difference(const float* a, const float* b, int channels) {
+    double largest = 0;
+    for (int c = 0; c < channels; ++c) {
+        if (!std::isfinite(a[c]) || !std::isfinite(b[c])) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        largest = std::max(largest, std::fabs(double{a[c]} - double{b[c]}));
+    }
+    return largest;
+}
+
+}  // namespace
+
+ImageError image_error(const Picture& picture, const Picture& reference) {
+    check_same_shape(picture, reference);
+    ImageError error;
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    const std::size_t pixels = picture.pixels.size() / channels;
+    double squares = 0, sum = 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const float* a = &picture.pixels[i * channels];
+        const float* b = &reference.pixels[i * channels];
+        const double largest = pixel_difference(a, b, picture.channels);
+        if (std::isnan(largest)) {
+            ++error.non_finite;
+            continue;
+        }
+        for (std::size_t c = 0; c < channels; ++c) {
+            const double difference = double{a[c]} - double{b[c]};
+            squares += difference * difference;
+            sum += std::fabs(difference);
+        }
+        error.over_1 += largest > 1.0 / 255 ? 1 : 0;
+        error.over_8 += largest > 8.0 / 255 ? 1 : 0;
+        if (largest > error.max) {
+            error.max = largest;
+            error.max_x = static_cast<int>(i % static_cast<std::size_t>(picture.width));
+            error.max_y = static_cast<int>(i / static_cast<std::size_t>(picture.width));
+        }
+    }
+    const auto compared = static_cast<double>((pixels - error.non_finite) * channels);
+    const double mse = compared > 0 ? squares / compared : 0;
+    error.rmse = std::sqrt(mse);
+    error.mean = compared > 0 ? sum / compared : 0;
+    error.psnr = mse > 0 ? -10 * std::log10(mse) : std::numeric_limits<double>::infinity();
+    return error;
+}
+
+}  // namespace rt

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "host/image/picture.h"
+
+namespace rt {
+
+/// How far one picture is from another. Channel values are compared as they are stored, unclamped;
+/// pixels that are not finite in either picture are counted and left out of the rest.
+struct ImageError {
+    double rmse = 0;             ///< root of the mean squared difference over channels
+    double mean = 0;             ///< mean absolute difference
+    double max = 0;              ///< largest absolute difference ...
+    int max_x = 0, max_y = 0;    ///< ... and its pixel, from the top left
+    double psnr = 0;             ///< dB against a peak of 1; infinity for equal pictures
+    std::size_t over_1 = 0;      ///< pixels with a channel off by more than 1/255
+    std::size_t over_8 = 0;      ///< ... than 8/255
+    std::size_t non_finite = 0;  ///< pixels with a NaN or an infinity in either picture
+};
+
+/// Throws Error (ExitCode::input) when sizes or channels differ.
+ImageError image_error(const Picture& picture, const Picture& reference);
+
+}  // namespace rt

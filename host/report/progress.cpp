@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/report/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace rt {
+
+namespace {
+
+constexpr int bar_width = 30;
+constexpr std::chrono::milliseconds bar_interval(100);
+constexpr std::chrono::milliseconds line_interval(2000);
+
+std::string eta_text(double fraction, double seconds) {
+    if (fraction <= 0) return "-:--";
+    const auto left = static_cast<long>(std::ceil(seconds * (1 - fraction) / fraction));
+    return fmt::format("{}:{:02}", left / 60, left % 60);
+}
+
+}  // namespace
+
+ProgressMode progress_mode_for_stderr(const RenderOptions& options) {
+    if (options.progress != ProgressMode::automatic) return options.progress;
+    if (options.quiet) return ProgressMode::none;
+    const bool can_show_bar = isatty(STDERR_FILENO) == 1 && !options.dumb_terminal;
+    return can_show_bar ? ProgressMode::bar : ProgressMode::plain;
+}
+
+std::string progress_line(double fraction, double seconds, const RayCounts& rays) {
+    const double rate = seconds > 0 ? static_cast<double>(rays.total()) / seconds * 1e-6 : 0;
+    return fmt::format("{:3.0f} %  {:.1f} Mrays/s  ETA {}", 100 * fraction, rate,
+                       eta_text(fraction, seconds));
+}
+
+ProgressReporter::ProgressReporter(const TileQueue& queue, ProgressMode mode)
+    : queue_(queue), mode_(mode) {
+    if (mode_ != ProgressMode::none) thread_ = std::thread([this] { run(); });
+}
+
+ProgressReporter::~ProgressReporter() {
+    if (!thread_.joinable()) return;
+    {
+        const std::lock_guard lock(mutex_);
+        done_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+}
+
+void ProgressReporter::run() {
+    const auto interval = mode_ == ProgressMode::plain ? line_interval : bar_interval;
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, interval, [this] { return done_; })) show(false);
+    // A picture that is done before anything was shown needs no bar.
+    if (shown_ || mode_ == ProgressMode::json) show(true);
+}
+
+void ProgressReporter::show(bool last) {
+    shown_ = true;
+    const double fraction = queue_.fraction_finished();
+    const double seconds = watch_.seconds();
+    const RayCounts rays = queue_.rays();
+    if (mode_ == ProgressMode::bar) {
+        const int filled = static_cast<int>(fraction * bar_width);
+        fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {}{}", "", filled, "", bar_width - filled,
+                   progress_line(fraction, seconds, rays), last ? "  \n" : "  ");
+        std::fflush(stderr);
+    } else if (mode_ == ProgressMode::json) {
+        fmt::print(stderr, "{{\"fraction\":{:.4f},\"seconds\":{:.3f},\"rays\":{}}}\n", fraction,
+                   seconds, rays.total());
+    } else if (!last) {
+        fmt::print(stderr, "{}\n", progress_line(fraction, seconds, rays));
+    }
+}
+
+}  // namespace rt

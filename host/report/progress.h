@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "host/options.h"
+#include "host/render/stopwatch.h"
+#include "host/render/tile_queue.h"
+
+namespace rt {
+
+/// What --progress asks for, with `auto` made definite: nothing when quiet, a bar on a terminal
+/// that can show one, plain lines elsewhere.
+ProgressMode progress_mode_for_stderr(const RenderOptions& options);
+
+/// One line of progress: "42 %  12.3 Mrays/s  ETA 0:07".
+std::string progress_line(double fraction, double seconds, const RayCounts& rays);
+
+/// Shows on stderr how far a queue has come, from a thread of its own, until it is destroyed.
+class ProgressReporter {
+   public:
+    ProgressReporter(const TileQueue& queue, ProgressMode mode);
+    ~ProgressReporter();
+    ProgressReporter(const ProgressReporter&) = delete;
+    ProgressReporter& operator=(const ProgressReporter&) = delete;
+
+   private:
+    void run();
+    void show(bool last);
+
+    const TileQueue& queue_;
+    const ProgressMode mode_;
+    const Stopwatch watch_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool done_ = false, shown_ = false;
+    std::thread thread_;
+};
+
+}  // namespace rt

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host/flatten/features.h"
+#include "host/trace/ray_counts.h"
+#include "host/render/renderer.h"
+#include "host/report/image_error.h"
+#include "host/scene/aa_mode.h"
+
+namespace rt {
+
+/// Who rendered.
+struct DeviceStats {
+    std::string name;      ///< "threads" or the OpenCL device's name
+    std::string platform;  ///< OpenCL platform; empty for threads
+    std::string driver;
+    std::string launch;         ///< "pixel" or "sample" work items; empty for threads
+    std::string schedule;       ///< "tiles" or "buffers"; empty for OpenCL
+    int threads = 0;            ///< of the pthreads renderer; 0 for OpenCL
+    std::string fallback_from;  ///< the device that failed before; empty when none did
+};
+
+/// What was rendered.
+struct SceneStats {
+    std::string path, name;
+    std::uint64_t hash = 0;
+    std::size_t spheres = 0, triangles = 0, smooth_triangles = 0, lights = 0, materials = 0;
+    std::size_t bytes = 0;  ///< flattened
+};
+
+/// Wall-clock seconds. Set-up, as the paper counts it, is all before `trace`; `resolve_and_write`
+/// is all after it.
+struct PhaseStats {
+    double start = 0;  ///< before main, to 0.01 s
+    double load = 0, flatten = 0;
+    RendererTimes renderer;
+    double write = 0;
+    double total = 0;
+
+    double set_up() const {
+        return start + load + flatten + renderer.open + renderer.build + renderer.upload;
+    }
+    double resolve_and_write() const { return renderer.resolve + renderer.read_back + write; }
+};
+
+/// One rendering, as data: what --stats prints and the benchmarks collect.
+struct RenderStats {
+    SceneStats scene;
+    DeviceStats device;
+    PhaseStats phases;
+    int width = 0, height = 0;  ///< of the whole picture
+    Rect region;                ///< the part that was rendered
+    AaMode aa;
+    int max_bounces = 0;
+    bool double_precision = false, fast_math = false;
+    Features features;          ///< what the scene needs
+    bool all_features = false;  ///< compiled with everything all the same
+    RayCounts rays;
+    std::size_t tiles = 0, tiles_finished = 0;
+    std::uint64_t image_hash = 0;
+    std::size_t non_finite = 0;  ///< pixels
+    std::optional<ImageError> error;
+
+    /// Rays per second while tracing; 0 when nothing was traced.
+    double rays_per_second() const;
+    bool complete() const { return tiles_finished == tiles; }
+};
+
+/// Seconds since the system started this process, to 0.01 s.
+double seconds_since_process_start();
+
+/// 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
+
+const char* to_string(BuildCache cache);
+
+}  // namespace rt

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/report/stats_json.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "host/render/posix_threads.h"
+#include "host/version.h"
+
+namespace rt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cpu_name() {
+    std::ifstream file("/proc/cpuinfo");
+    std::string line;
+    while (std::getline(file, line)) {
+        const auto colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown";
+}
+
+/// The one-minute load average; null where the system does not tell.
+Json load_json() {
+    double load = 0;
+    return getloadavg(&load, 1) == 1 ? Json(load) : Json(nullptr);
+}
+
+Json scene_json(const RenderStats& stats) {
+    return {{"path", stats.scene.path},
+            {"name", stats.scene.name},
+            {"hash", hash_text(stats.scene.hash)},
+            {"spheres", stats.scene.spheres},
+            {"triangles", stats.scene.triangles},
+            {"smooth_triangles", stats.scene.smooth_triangles},
+            {"lights", stats.scene.lights},
+            {"materials", stats.scene.materials},
+            {"flat_bytes", stats.scene.bytes},
+            {"features_used", names_of(stats.features, true)},
+            {"features_left_out", names_of(stats.features, false)}};
+}
+
+Json settings_json(const RenderStats& stats) {
+    return {{"width", stats.width},
+            {"height", stats.height},
+            {"region", {stats.region.x, stats.region.y, stats.region.width, stats.region.height}},
+            {"aa", to_string(stats.aa)},
+            {"samples", stats.aa.samples()},
+            {"max_bounces", stats.max_bounces},
+            {"precision", stats.double_precision ? "double" : "float"},
+            {"math", stats.fast_math ? "fast" : "strict"},
+            {"features", stats.all_features ? "all" : "auto"}};
+}
+
+Json device_json(const DeviceStats& device) {
+    Json json{{"name", device.name}};
+    if (!device.platform.empty()) {
+        json["platform"] = device.platform;
+        json["driver"] = device.driver;
+        json["launch"] = device.launch;
+    } else {
+        json["threads"] = device.threads;
+        json["schedule"] = device.schedule;
+    }
+    if (!device.fallback_from.empty()) json["fallback_from"] = device.fallback_from;
+    return json;
+}
+
+Json phases_json(const PhaseStats& phases) {
+    const RendererTimes& renderer = phases.renderer;
+    return {{"start", phases.start},
+            {"load", phases.load},
+            {"flatten", phases.flatten},
+            {"open", renderer.open},
+            {"build", renderer.build},
+            {"build_cache", to_string(renderer.build_cache)},
+            {"upload", renderer.upload},
+            {"trace", renderer.trace},
+            {"kernel", renderer.kernel},
+            {"resolve", renderer.resolve},
+            {"read_back", renderer.read_back},
+            {"write", phases.write},
+            {"total", phases.total},
+            {"set_up", phases.set_up()},
+            {"resolve_and_write", phases.resolve_and_write()}};
+}
+
+Json error_json(const ImageError& error) {
+    return {{"rmse", error.rmse},
+            {"mean", error.mean},
+            {"max", error.max},
+            {"max_at", {error.max_x, error.max_y}},
+            {"psnr_db", error.psnr},
+            {"pixels_over_1_255", error.over_1},
+            {"pixels_over_8_255", error.over_8},
+            {"non_finite", error.non_finite}};
+}
+
+}  // namespace
+
+Json environment_json() {
+    return {{"program", std::string("mirrorball ") + version},
+            {"git_revision", git_revision},
+            {"cpu", cpu_name()},
+            {"cores", available_cores()},
+            {"load", load_json()}};
+}
+
+Json stats_json(const RenderStats& stats) {
+    Json json{{"format", "mirrorball-render"},
+              {"version", 1},
+              {"environment", environment_json()},
+              {"scene", scene_json(stats)},
+              {"settings", settings_json(stats)},
+              {"device", device_json(stats.device)},
+              {"seconds", phases_json(stats.phases)},
+              {"rays",
+               {{"primary", stats.rays.primary},
+                {"shadow", stats.rays.shadow},
+                {"mirror", stats.rays.mirror},
+                {"total", stats.rays.total()}}},
+              {"rays_per_second", stats.rays_per_second()},
+              {"image", {{"hash", hash_text(stats.image_hash)}, {"non_finite", stats.non_finite}}},
+              {"complete", stats.complete()}};
+    if (stats.error) json["error"] = error_json(*stats.error);
+    return json;
+}
+
+}  // namespace rt

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "host/report/render_stats.h"
+
+namespace rt {
+
+/// The machine and program behind a result: CPU, cores, load, version, git revision.
+nlohmann::ordered_json environment_json();
+
+/// One rendering in the shape of docs/results-format.md, format "mirrorball-render", version 1.
+nlohmann::ordered_json stats_json(const RenderStats& stats);
+
+}  // namespace rt

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/geometry_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace rt {
+namespace {
+
+constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+
+double largest(glm::dvec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// Scales every axis by its own power of two, exactly, so that the largest coordinate on each
+/// lies in 0.5..1 (or is 0). Collinear stays collinear and the other way round.
+std::array<glm::dvec3, 3> scaled_per_axis(std::array<glm::dvec3, 3> corners) {
+    for (int axis = 0; axis < 3; ++axis) {
+        double size = 0;
+        for (const glm::dvec3& corner : corners) size = std::max(size, std::abs(corner[axis]));
+        int exponent = 0;
+        std::frexp(size, &exponent);
+        for (glm::dvec3& corner : corners) corner[axis] = std::ldexp(corner[axis], -exponent);
+    }
+    return corners;
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> unit_direction(glm::dvec3 v) {
+    const double size = largest(v);
+    if (size == 0) return std::nullopt;
+    const glm::dvec3 scaled(v.x / size, v.y / size, v.z / size);
+    return scaled / glm::length(scaled);
+}
+
+bool nearly_same_point(glm::dvec3 a, glm::dvec3 b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double size = std::max(std::abs(a[axis]), std::abs(b[axis]));
+        if (std::abs(a[axis] - b[axis]) > rounding * size) return false;
+    }
+    return true;
+}
+
+bool nearly_parallel(glm::dvec3 a, glm::dvec3 b) {
+    constexpr double smallest_sine = 1e-9;
+    return largest(glm::cross(a, b)) < smallest_sine;
+}
+
+/// The edges' components carry errors of a rounding each (the coordinates are at most 1 after
+/// scaling), so the cross product is zero where it is below what these errors amount to.
+bool zero_area(const std::array<glm::dvec3, 3>& corners) {
+    const auto [a, b, c] = scaled_per_axis(corners);
+    const glm::dvec3 e = b - a, f = c - a;
+    const glm::dvec3 normal = glm::cross(e, f);
+    const auto vanishes = [&](int x, int y, int z) {
+        const double error =
+            rounding * (std::abs(e[y]) + std::abs(f[y]) + std::abs(e[z]) + std::abs(f[z]));
+        return std::abs(normal[x]) <= error;
+    };
+    return vanishes(0, 1, 2) && vanishes(1, 2, 0) && vanishes(2, 0, 1);
+}
+
+}  // namespace rt

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/json_camera.h"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <optional>
+#include <string_view>
+
+#include "host/scene/geometry_checks.h"
+#include "host/scene/json_reader.h"
+#include "host/scene/words.h"
+
+namespace rt {
+namespace {
+
+using Fixed = Scene::FieldOfView::Fixed;
+
+constexpr std::string_view keys[] = {"type",     "from",   "at",     "up",   "fov_degrees",
+                                     "fov_axis", "window", "height", "width"};
+
+std::optional<Scene::Projection> read_projection(const JsonValue& value, std::string_view name,
+                                                 Mistakes& mistakes) {
+    const std::string* text = read_string(value, name, mistakes);
+    if (!text) return std::nullopt;
+    if (*text == "perspective") return Scene::Projection::perspective;
+    if (*text == "orthographic") return Scene::Projection::orthographic;
+    mistakes.add(value.offset, fmt::format("unknown camera type {}; write \"perspective\" or "
+                                           "\"orthographic\"",
+                                           in_quotes(*text)));
+    return std::nullopt;
+}
+
+std::optional<Fixed> read_fov_axis(const JsonValue& value, std::string_view name,
+                                   Mistakes& mistakes) {
+    const std::string* text = read_string(value, name, mistakes);
+    if (!text) return std::nullopt;
+    if (*text == "x") return Fixed::horizontal;
+    if (*text == "y") return Fixed::vertical;
+    mistakes.add(value.offset,
+                 fmt::format("unknown fov_axis {}; write \"x\" or \"y\"", in_quotes(*text)));
+    return std::nullopt;
+}
+
+std::optional<double> read_angle(const JsonValue& value, std::string_view name,
+                                 Mistakes& mistakes) {
+    const auto degrees = read_positive(value, name, mistakes);
+    if (!degrees || *degrees < 180) return degrees;
+    mistakes.add(value.offset,
+                 fmt::format("{} is {}; write an angle between 0 and 180", name, *degrees));
+    return std::nullopt;
+}
+
+std::optional<Scene::Window> read_window(const JsonValue& value, std::string_view name,
+                                         Mistakes& mistakes) {
+    const auto* items = read_array(value, name, 4, mistakes);
+    if (!items) return std::nullopt;
+    double sides[4] = {};
+    for (int i = 0; i < 4; ++i) {
+        const auto number = read_number((*items)[i], name, mistakes);
+        if (!number) return std::nullopt;
+        sides[i] = *number;
+    }
+    const auto [left, right, bottom, top] = sides;
+    if (left < right && bottom < top) return Scene::Window{left, right, bottom, top};
+    mistakes.add(value.offset,
+                 "the window is empty or mirrored; write [left, right, bottom, top] with left < "
+                 "right and bottom < top");
+    return std::nullopt;
+}
+
+/// Notes every key that this kind of camera does not know.
+void refuse_keys(const ObjectReader& camera, std::initializer_list<std::string_view> unwanted,
+                 std::string_view where, std::string_view advice, Mistakes& mistakes) {
+    for (const std::string_view key : unwanted) {
+        if (const JsonMember* member = camera.find_member(key)) {
+            mistakes.add(member->key_offset,
+                         fmt::format("{} has no use in {}; {}", in_quotes(key), where, advice));
+        }
+    }
+}
+
+/// Whether exactly one of the keys is there; notes it when not.
+bool has_exactly_one(const ObjectReader& camera, const JsonValue& value,
+                     std::initializer_list<std::string_view> wanted, std::string_view names,
+                     Mistakes& mistakes) {
+    int count = 0;
+    for (const std::string_view key : wanted) count += camera.find(key) != nullptr;
+    if (count == 1) return true;
+    mistakes.add(value.offset,
+                 fmt::format("the camera gives {} of {}; give exactly one", count, names));
+    return false;
+}
+
+void read_perspective(const ObjectReader& reader, const JsonValue& value, Scene::Camera& camera,
+                      Mistakes& mistakes) {
+    refuse_keys(reader, {"width", "height"}, "a perspective camera",
+                "use fov_degrees or window, or \"type\": \"orthographic\"", mistakes);
+    if (!has_exactly_one(reader, value, {"fov_degrees", "window"}, "'fov_degrees' and 'window'",
+                         mistakes)) {
+        return;
+    }
+    if (!reader.find("fov_degrees")) {
+        refuse_keys(reader, {"fov_axis"}, "a camera with a window", "remove it or use fov_degrees",
+                    mistakes);
+        return;
+    }
+    camera.field_of_view.fixed = Fixed::vertical;
+    reader.optional("fov_axis", camera.field_of_view.fixed, read_fov_axis);
+    reader.optional("fov_degrees", camera.field_of_view.amount, read_angle);
+}
+
+void read_orthographic(const ObjectReader& reader, const JsonValue& value, Scene::Camera& camera,
+                       Mistakes& mistakes) {
+    refuse_keys(reader, {"fov_degrees", "fov_axis"}, "an orthographic camera",
+                "use height, width or window, or \"type\": \"perspective\"", mistakes);
+    if (!has_exactly_one(reader, value, {"height", "width", "window"},
+                         "'height', 'width' and 'window'", mistakes)) {
+        return;
+    }
+    if (reader.find("height")) camera.field_of_view.fixed = Fixed::view_height;
+    if (reader.find("width")) camera.field_of_view.fixed = Fixed::view_width;
+    reader.optional("height", camera.field_of_view.amount, read_positive);
+    reader.optional("width", camera.field_of_view.amount, read_positive);
+}
+
+/// from, at and up must make three axes.
+void check_axes(const ObjectReader& reader, const Scene::Camera& camera, Mistakes& mistakes) {
+    const auto place = [&](std::string_view key) {
+        return (reader.find(key) ? reader.find(key) : reader.find("at"))->offset;
+    };
+    if (nearly_same_point(camera.from, camera.at)) {
+        mistakes.add(place("at"), "the camera looks from and at the same point; move one of them");
+        return;
+    }
+    const auto view = unit_direction(camera.at - camera.from);
+    const auto up = unit_direction(camera.up);
+    if (!up) {
+        mistakes.add(place("up"), "up is zero; give the direction that is up in the picture");
+    } else if (nearly_parallel(*view, *up)) {
+        mistakes.add(place("up"),
+                     "up is parallel to the view direction; give an up that leans to the side");
+    }
+}
+
+}  // namespace
+
+Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes) {
+    Scene::Camera camera;
+    const ObjectReader reader(value, "the camera", keys, mistakes);
+    if (!reader.is_object()) return camera;
+    const std::size_t before = mistakes.count();
+    reader.required("from", "\"from\": [x, y, z], where the eye is", camera.from, read_vec3);
+    reader.required("at", "\"at\": [x, y, z], where it looks", camera.at, read_vec3);
+    reader.optional("up", camera.up, read_vec3);
+    if (mistakes.count() == before) check_axes(reader, camera, mistakes);
+    reader.optional("window", camera.window, read_window);
+    const std::size_t before_type = mistakes.count();
+    reader.optional("type", camera.projection, read_projection);
+    if (mistakes.count() != before_type) return camera;  // which keys belong is not known
+    if (camera.projection == Scene::Projection::perspective) {
+        read_perspective(reader, value, camera, mistakes);
+    } else {
+        read_orthographic(reader, value, camera, mistakes);
+    }
+    return camera;
+}
+
+}  // namespace rt

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/scene/json_document.h"
+#include "host/scene/mistakes.h"
+#include "host/scene/scene.h"
+
+namespace rt {
+
+/// Reads the "camera" object of a scene file; its window is left to camera_window, unless the
+/// file gives one. Notes what is wrong in `mistakes`.
+Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes);
+
+}  // namespace rt

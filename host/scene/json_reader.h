@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "host/scene/json_document.h"
+#include "host/scene/mistakes.h"
+
+namespace rt {
+
+/// No number in a scene file is larger than this in magnitude: it still fits a float, with room
+/// for the differences that rendering takes.
+inline constexpr double max_scene_number = 1e30;
+
+// Every read_ function notes in `mistakes` why a value will not do, and then returns nothing.
+// `name` is what messages call the value: its key, mostly.
+
+std::optional<double> read_number(const JsonValue& value, std::string_view name,
+                                  Mistakes& mistakes);
+std::optional<double> read_positive(const JsonValue& value, std::string_view name,
+                                    Mistakes& mistakes);
+std::optional<double> read_not_negative(const JsonValue& value, std::string_view name,
+                                        Mistakes& mistakes);
+std::optional<int> read_integer(const JsonValue& value, std::string_view name, int low, int high,
+                                Mistakes& mistakes);
+std::optional<bool> read_bool(const JsonValue& value, std::string_view name, Mistakes& mistakes);
+const std::string* read_string(const JsonValue& value, std::string_view name, Mistakes& mistakes);
+std::optional<glm::dvec3> read_vec3(const JsonValue& value, std::string_view name,
+                                    Mistakes& mistakes);
+/// [r, g, b] or one number for a grey, not negative.
+std::optional<glm::dvec3> read_colour(const JsonValue& value, std::string_view name,
+                                      Mistakes& mistakes);
+/// An array; with `size` >= 0, of just that many items.
+const JsonValue::Array* read_array(const JsonValue& value, std::string_view name, int size,
+                                   Mistakes& mistakes);
+
+/// An object whose keys are known beforehand. Notes unknown keys when it is made; one that is no
+/// object is noted too and then has no members.
+class ObjectReader {
+   public:
+    /// `what` names the object in messages: "a sphere".
+    ObjectReader(const JsonValue& value, std::string_view what,
+                 std::span<const std::string_view> known_keys, Mistakes& mistakes);
+
+    bool is_object() const { return members_ != nullptr; }
+    const JsonMember* find_member(std::string_view key) const;
+    const JsonValue* find(std::string_view key) const;
+    /// Like find, but notes a missing key. `example` shows what to add.
+    const JsonValue* require(std::string_view key, std::string_view example) const;
+
+    /// Assigns `read(value, key, mistakes)` to `target` if the key is there and its value good.
+    template <class T, class Read>
+    void optional(std::string_view key, T& target, Read read) const {
+        if (const JsonValue* value = find(key)) {
+            if (const auto result = read(*value, key, mistakes_)) target = *result;
+        }
+    }
+
+    template <class T, class Read>
+    void required(std::string_view key, std::string_view example, T& target, Read read) const {
+        if (const JsonValue* value = require(key, example)) {
+            if (const auto result = read(*value, key, mistakes_)) target = *result;
+        }
+    }
+
+   private:
+    const JsonValue::Object* members_ = nullptr;
+    std::uint32_t offset_ = 0;
+    std::string_view what_;
+    Mistakes& mistakes_;
+};
+
+}  // namespace rt

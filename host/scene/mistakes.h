@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rt {
+
+/// Both count from 1; a column is one character (Unicode code point), a tab is one too.
+struct SourcePosition {
+    std::size_t line = 1, column = 1;
+};
+
+SourcePosition position_of(std::string_view text, std::size_t offset);
+
+/// Gathers what is wrong with one text file, so that its author hears of several mistakes at
+/// once. The text must outlive it.
+class Mistakes {
+   public:
+    static constexpr std::size_t max_count = 20;
+
+    Mistakes(std::string_view text, std::string file_name);
+
+    /// Notes "what is wrong; what to do" at a byte offset. Throws when max_count is reached.
+    void add(std::size_t offset, std::string message);
+
+    std::size_t count() const { return found_.size(); }
+    std::string_view text() const { return text_; }
+
+    /// "file:line:column", for a message that points at a second place.
+    std::string place(std::size_t offset) const;
+
+    /// Throws Error(ExitCode::input) with one line per mistake, in the order of the file, unless
+    /// there is none.
+    void throw_if_any() const;
+
+   private:
+    struct Mistake {
+        std::size_t offset;
+        std::string message;
+    };
+
+    std::string_view text_;
+    std::string file_name_;
+    std::vector<Mistake> found_;
+};
+
+}  // namespace rt

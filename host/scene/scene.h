@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/scene/aa_mode.h"
+
+namespace rt {
+
+/// What the author of a scene file said, in double precision and in the author's own units.
+/// Right-handed; y is up where nothing says otherwise; light is linear RGB. Everything a reader
+/// (json_file) fills in has passed its checks: numbers are finite, radii positive, materials
+/// exist. Nothing downstream of flatten sees these types.
+struct Scene {
+    enum class Projection { perspective, orthographic };
+
+    /// A window on the view plane: at distance 1 from the eye for a perspective camera, in scene
+    /// units for an orthographic one; x grows to the right, y upwards.
+    struct Window {
+        double left = -1, right = 1, bottom = -1, top = 1;
+    };
+
+    /// What the author fixed of the view; the other extent follows from the picture's aspect.
+    struct FieldOfView {
+        enum class Fixed {
+            window,       ///< Camera::window stands as it is, whatever the picture's aspect
+            horizontal,   ///< the full angle the picture's width spans (perspective)
+            vertical,     ///< the full angle the picture's height spans (perspective)
+            view_width,   ///< the width in scene units (orthographic)
+            view_height,  ///< the height in scene units (orthographic)
+        };
+
+        Fixed fixed = Fixed::window;
+        double amount = 0;  ///< degrees of an angle, scene units of a width or height
+    };
+
+    struct Camera {
+        Projection projection = Projection::perspective;
+        glm::dvec3 from{0, 0, 2};
+        glm::dvec3 at{0, 0, 0};
+        glm::dvec3 up{0, 1, 0};
+        FieldOfView field_of_view;
+        /// What the picture spans. The reader fills it in for the scene's own picture size; who
+        /// changes that size asks camera_window again (set_image_size does both).
+        Window window;
+    };
+
+    /// Surface reflectances per RGB channel, each >= 0 (Phong 1975, Blinn 1977, Whitted 1980).
+    struct Material {
+        std::string name;
+        glm::dvec3 ambient{0}, diffuse{0}, specular{0}, mirror{0};
+        double shininess = 1;    ///< exponent of the Blinn lobe, >= 0
+        bool two_sided = false;  ///< turn normals towards the viewer
+    };
+
+    /// A point light without fall-off.
+    struct Light {
+        glm::dvec3 position{0};
+        glm::dvec3 intensity{1};
+    };
+
+    struct Sphere {
+        glm::dvec3 center{0};
+        double radius = 1;
+        int material = 0;  ///< index into Scene::materials
+    };
+
+    /// Counterclockwise seen from the front. Vertex normals, where given, are unit length
+    /// (the reader normalises them) and interpolated over the face.
+    struct Triangle {
+        std::array<glm::dvec3, 3> vertices{};
+        std::optional<std::array<glm::dvec3, 3>> normals;
+        int material = 0;
+    };
+
+    std::string name;
+    Camera camera;
+    int width = 500, height = 500;  ///< pixels
+    AaMode aa;
+    int max_bounces = 8;  ///< mirror rays after the eye ray
+    glm::dvec3 background{0};
+    glm::dvec3 ambient_light{0};
+    std::vector<Light> lights;
+    std::vector<Material> materials;
+    std::vector<Sphere> spheres;
+    std::vector<Triangle> triangles;
+};
+
+/// The window that this camera's field of view spans on a picture of this many pixels.
+Scene::Window camera_window(const Scene::Camera& camera, int width, int height);
+
+/// Gives the scene another picture size (pixels) and the camera the window that goes with it.
+void set_image_size(Scene& scene, int width, int height);
+
+}  // namespace rt

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "host/scene/utf8.h"
+
+namespace rt {
+namespace {
+
+constexpr std::size_t max_quoted_bytes = 60;
+constexpr std::size_t max_listed = 16;
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Edits (insert, delete, replace, swap neighbours) between two words, letter case aside: the
+/// restricted distance of Damerau 1964.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    const auto same = [&](std::size_t i, std::size_t j) {
+        return lower(a[i - 1]) == lower(b[j - 1]);
+    };
+    std::vector<std::size_t> before, above, row(b.size() + 1);
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        before = above;
+        above = row;
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            row[j] = std::min({above[j - 1] + (same(i, j) ? 0 : 1), above[j] + 1, row[j - 1] + 1});
+            const bool swapped = i > 1 && j > 1 && same(i, j - 1) && same(i - 1, j);
+            if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+    }
+    return row[b.size()];
+}
+
+/// Control characters: C0, DEL, and C1 (two bytes in UTF-8, 0xC2 first).
+bool is_control(std::string_view text, std::size_t i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (c < 0x20 || c == 0x7F) return true;
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0u;
+    if (c == 0xC2) return next < 0xA0;
+    return i > 0 && static_cast<unsigned char>(text[i - 1]) == 0xC2 && c < 0xA0;
+}
+
+}  // namespace
+
+std::string in_quotes(std::string_view text) {
+    std::size_t size = std::min(text.size(), max_quoted_bytes);
+    while (size > 0 && size < text.size() && is_utf8_continuation(text[size])) --size;
+    std::string result = "'";
+    for (std::size_t i = 0; i < size; ++i) {
+        if (is_control(text, i)) {
+            result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
+        } else {
+            result += text[i];
+        }
+    }
+    return result + (size < text.size() ? "...'" : "'");
+}
+
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {
+    if (word.size() > max_quoted_bytes) return {};
+    std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+    std::string_view best;
+    for (const std::string_view candidate : known) {
+        if (candidate.size() > word.size() + best_distance) continue;
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance && distance < candidate.size()) {
+            best_distance = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string listed(std::span<const std::string_view> words) {
+    std::string result;
+    const std::size_t shown = std::min(words.size(), max_listed);
+    for (std::size_t i = 0; i < shown; ++i) {
+        if (i > 0) result += i + 1 == words.size() ? " and " : ", ";
+        result += in_quotes(words[i]);
+    }
+    if (shown < words.size()) result += fmt::format(" and {} more", words.size() - shown);
+    return result;
+}
+
+}  // namespace rt

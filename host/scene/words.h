@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace rt {
+
+/// 'text' for a message: control characters as \xNN, long text cut, so that what stands in a
+/// file can neither break a line nor talk to a terminal.
+std::string in_quotes(std::string_view text);
+
+/// The known word that a misspelt one most likely meant, or an empty view when none is near.
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
+
+/// 'a', 'b' and 'c', cut after the first few.
+std::string listed(std::span<const std::string_view> words);
+
+}  // namespace rt

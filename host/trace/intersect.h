@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/trace/math.h"
+#include "host/trace/scene_view.h"
+
+// Twin of kernels/intersect.cl: one ray against one primitive; the method is described there.
+namespace rt::trace {
+
+/// Distance along the ray to the sphere, or -1. `leaving`: the origin lies on this very sphere.
+template <typename T>
+T intersect_sphere(const Ray<T>& ray, const Vec3<T>& center, T radius, bool leaving) {
+    const Vec3<T> f = ray.origin - center;
+    const T b = -dot3(f, ray.dir);
+    if (leaving) return T(2) * b;
+    const Vec3<T> l = add_scaled(f, b, ray.dir);
+    const T discriminant = radius * radius - dot3(l, l);
+    if (!(discriminant >= T(0))) return T(-1);
+    const T s = std::sqrt(discriminant);
+    const T near = b - s;
+    return near > T(0) ? near : b + s;
+}
+
+/// The ray's frame: axis z is where its direction is largest, x and y the next two in turn.
+template <typename T>
+struct RayShear {
+    int kx, ky, kz;
+    T origin_x, origin_y, origin_z;
+    T sx, sy, sz;
+};
+
+template <typename T>
+T component3(const Vec3<T>& v, int k) {
+    return k == 0 ? v.x : (k == 1 ? v.y : v.z);
+}
+
+template <typename T>
+RayShear<T> make_shear(const Ray<T>& ray) {
+    const Vec3<T> a = abs3(ray.dir);
+    RayShear<T> shear;
+    shear.kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+    shear.kx = shear.kz == 2 ? 0 : shear.kz + 1;
+    shear.ky = shear.kx == 2 ? 0 : shear.kx + 1;
+    shear.origin_x = component3(ray.origin, shear.kx);
+    shear.origin_y = component3(ray.origin, shear.ky);
+    shear.origin_z = component3(ray.origin, shear.kz);
+    shear.sz = T(1) / component3(ray.dir, shear.kz);
+    shear.sx = component3(ray.dir, shear.kx) * shear.sz;
+    shear.sy = component3(ray.dir, shear.ky) * shear.sz;
+    return shear;
+}
+
+/// The vertex in the ray's frame. Its components are picked as they are loaded.
+template <typename T>
+Vec3<T> shear_vertex(const RayShear<T>& shear, const typename Flat<T>::Packed3& vertex) {
+    const T* p = &vertex.x;
+    const T z = p[shear.kz] - shear.origin_z;
+    return {std::fma(-shear.sx, z, p[shear.kx] - shear.origin_x),
+            std::fma(-shear.sy, z, p[shear.ky] - shear.origin_y), z};
+}
+
+/// Distance along the ray to the triangle, or -1; u and v are set on a hit.
+template <typename T>
+T intersect_triangle(const RayShear<T>& shear, const typename Flat<T>::Triangle& triangle, T& u,
+                     T& v) {
+    const Vec3<T> a = shear_vertex(shear, triangle.p0);
+    const Vec3<T> b = shear_vertex(shear, triangle.p1);
+    const Vec3<T> c = shear_vertex(shear, triangle.p2);
+    const T wa = difference_of_products(c.x, b.y, c.y, b.x);
+    const T wb = difference_of_products(a.x, c.y, a.y, c.x);
+    const T wc = difference_of_products(b.x, a.y, b.y, a.x);
+    if ((wa < 0 || wb < 0 || wc < 0) && (wa > 0 || wb > 0 || wc > 0)) return T(-1);
+    const T determinant = wa + wb + wc;
+    if (determinant == T(0)) return T(-1);
+    const T inverse = T(1) / determinant;
+    u = wb * inverse;
+    v = wc * inverse;
+    return std::fma(wa, a.z, std::fma(wb, b.z, wc * c.z)) * shear.sz * inverse;
+}
+
+}  // namespace rt::trace

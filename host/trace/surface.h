@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/trace/bits.h"
+#include "host/trace/math.h"
+#include "host/trace/scene_view.h"
+
+// Twin of kernels/surface.cl: from a hit to a point, its normals, and where a further ray starts.
+namespace rt::trace {
+
+template <typename T>
+struct Surface {
+    Vec3<T> point;
+    Vec3<T> normal;     ///< shading normal, unit: interpolated where there are vertex normals
+    Vec3<T> geometric;  ///< geometric normal, unit, on the shading normal's side
+    T offset;           ///< bound on the distance between point and surface
+    typename Flat<T>::Index material;
+};
+
+template <typename T>
+Surface<T> sphere_surface(const Ray<T>& ray, T t, const typename Flat<T>::Sphere& sphere) {
+    const Vec3<T> center = load3(sphere.center);
+    Surface<T> surface;
+    surface.normal = normalize3(add_scaled(ray.origin - center, t, ray.dir));
+    surface.geometric = surface.normal;
+    surface.point = add_scaled(center, sphere.radius, surface.normal);
+    const T spread = dot3(abs3(surface.normal), abs3(surface.point));
+    surface.offset = Flat<T>::roundoff * std::fma(T(5), sphere.radius, spread);
+    surface.material = sphere.material;
+    return surface;
+}
+
+/// The normal blended from the vertices, or the face's own where the blend vanishes.
+template <typename T>
+Vec3<T> blended_normal(const typename Flat<T>::VertexNormals& normals, const Vec3<T>& face, T u,
+                       T v) {
+    Vec3<T> blend = (T(1) - u - v) * load3(normals.n0);
+    blend = add_scaled(blend, u, load3(normals.n1));
+    blend = add_scaled(blend, v, load3(normals.n2));
+    const T squared = dot3(blend, blend);
+    return squared > T(1e-12) ? blend * (T(1) / std::sqrt(squared)) : face;
+}
+
+template <typename T>
+Surface<T> triangle_surface(const Ray<T>& ray, const Hit<T>& hit,
+                            const typename Flat<T>::Triangle& triangle,
+                            const typename Flat<T>::VertexNormals* vertex_normals) {
+    const Vec3<T> normal = load3(triangle.normal);
+    const Vec3<T> p0 = load3(triangle.p0);
+    Surface<T> surface;
+    surface.point = add_scaled(p0, hit.u, load3(triangle.p1) - p0);
+    surface.point = add_scaled(surface.point, hit.v, load3(triangle.p2) - p0);
+    surface.offset = triangle.offset;
+    const T reach = Flat<T>::roundoff * (length3(ray.origin) + hit.t);
+    if (triangle.offset > T(64) * reach) {
+        const Vec3<T> along = add_scaled(ray.origin, hit.t, ray.dir);
+        surface.point = add_scaled(along, triangle.plane - dot3(normal, along), normal);
+        surface.offset = T(16) * reach;
+    }
+    surface.normal = normal;
+    surface.geometric = normal;
+    surface.material = triangle.material;
+    if (triangle.smooth != Flat<T>::none) {
+        surface.normal = blended_normal(vertex_normals[triangle.smooth], normal, hit.u, hit.v);
+        if (dot3(surface.normal, normal) < T(0)) surface.geometric = -normal;
+    }
+    return surface;
+}
+
+template <typename T>
+Surface<T> surface_at(const SceneView<T>& scene, const Ray<T>& ray, const Hit<T>& hit) {
+    if (hit.prim < scene.frame.sphere_count) {
+        return sphere_surface(ray, hit.t, scene.spheres[hit.prim]);
+    }
+    const auto& triangle = scene.triangles[hit.prim - scene.frame.sphere_count];
+    return triangle_surface(ray, hit, triangle, scene.vertex_normals);
+}
+
+/// Where a ray starts that leaves the surface on the side that `side` points to.
+template <typename T>
+Vec3<T> offset_origin(const Surface<T>& surface, const Vec3<T>& side) {
+    const T distance = dot3(surface.geometric, side) < T(0) ? -surface.offset : surface.offset;
+    const Vec3<T> step = distance * surface.geometric;
+    const Vec3<T> p = surface.point + step;
+    return {one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),
+            one_ulp_towards(p.z, step.z)};
+}
+
+}  // namespace rt::trace

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/render/cl_device.h"
+#include "host/render/posix_threads.h"
+#include "host/verbs/verbs.h"
+
+namespace rt {
+
+namespace {
+
+const char* kind_of(const ClDevice& device) {
+    return device.is_gpu ? "GPU" : (device.is_cpu ? "CPU" : "accelerator");
+}
+
+nlohmann::ordered_json to_json(const ClDevice& device) {
+    return {{"index", device.index},
+            {"platform_index", device.platform_index},
+            {"device_index", device.device_index},
+            {"name", device.name},
+            {"vendor", device.vendor},
+            {"platform", device.platform},
+            {"driver", device.driver},
+            {"version", device.version},
+            {"kind", kind_of(device)},
+            {"compute_units", device.compute_units},
+            {"float_lanes", device.float_lanes},
+            {"double_lanes", device.double_lanes},
+            {"memory_bytes", device.memory_bytes},
+            {"max_buffer_bytes", device.max_buffer_bytes},
+            {"has_double", device.has_double},
+            {"rounds_correctly", device.rounds_correctly},
+            {"keeps_subnormals", device.keeps_subnormals},
+            {"usable", device.unusable.empty()},
+            {"unusable_because", device.unusable}};
+}
+
+void print_json(const std::vector<ClDevice>& devices, const std::vector<std::string>& problems) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const ClDevice& device : devices) list.push_back(to_json(device));
+    const nlohmann::ordered_json json{{"format", "mirrorball-devices"},
+                                      {"version", 1},
+                                      {"devices", list},
+                                      {"threads", {{"cores", available_cores()}}},
+                                      {"problems", problems}};
+    fmt::print("{}\n", json.dump(2));
+}
+
+void print_device(const ClDevice& device) {
+    fmt::print("{}  {}\n", device.index, device.name);
+    fmt::print("   {}:{} {} on {}, driver {}, {}\n", device.platform_index, device.device_index,
+               kind_of(device), device.platform, device.driver, device.version);
+    fmt::print(
+        "   {} units, {} float lanes, {}, {:.1f} GiB, {:.1f} GiB in one piece\n",
+        device.compute_units, device.float_lanes,
+        device.has_double ? fmt::format("{} double lanes", device.double_lanes) : "no double",
+        static_cast<double>(device.memory_bytes) / (1u << 30),
+        static_cast<double>(device.max_buffer_bytes) / (1u << 30));
+    if (!device.rounds_correctly) {
+        fmt::print("   does not promise correctly rounded division: bits may differ\n");
+    }
+    if (!device.unusable.empty()) fmt::print("   cannot be used: {}\n", device.unusable);
+}
+
+}  // namespace
+
+int run_devices(const DevicesOptions& options) {
+    std::vector<std::string> problems;
+    const std::vector<ClDevice> devices = list_cl_devices(problems);
+    if (options.json) {
+        print_json(devices, problems);
+        return 0;
+    }
+    for (const ClDevice& device : devices) print_device(device);
+    const int cores = available_cores();
+    fmt::print("threads  POSIX threads on {} core{}\n", cores, cores == 1 ? "" : "s");
+    for (const std::string& problem : problems) fmt::print("{}\n", problem);
+    return 0;
+}
+
+}  // namespace rt

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/picture_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/error.h"
+#include "host/render/cl_renderer.h"
+#include "host/render/device_spec.h"
+#include "host/render/threads_renderer.h"
+#include "host/report/progress.h"
+#include "host/scene/scene_hash.h"
+#include "host/stop_signal.h"
+
+namespace rt {
+
+namespace {
+
+DeviceChoice chosen_device(const RenderOptions& options) {
+    DeviceChoice choice;
+    if (names_threads(options.device, choice)) return choice;
+    std::vector<std::string> problems;
+    const std::vector<ClDevice> devices = list_cl_devices(problems);
+    return choose_device(options.device, devices, problems);
+}
+
+Rect chosen_region(const Scene& scene, const RenderOptions& options) {
+    const Rect whole{0, 0, scene.width, scene.height};
+    if (!options.crop) return whole;
+    const Rect& crop = *options.crop;
+    if (crop.x + crop.width > whole.width || crop.y + crop.height > whole.height) {
+        throw Error(
+            ExitCode::usage,
+            fmt::format("--crop reaches to {},{}, beyond the picture of {}x{} pixels",
+                        crop.x + crop.width, crop.y + crop.height, whole.width, whole.height));
+    }
+    return crop;
+}
+
+SceneStats scene_stats(const Scene& scene) {
+    SceneStats stats;
+    stats.name = scene.name;
+    stats.hash = scene_hash(scene);
+    stats.spheres = scene.spheres.size();
+    stats.triangles = scene.triangles.size();
+    stats.smooth_triangles = static_cast<std::size_t>(std::count_if(
+        scene.triangles.begin(), scene.triangles.end(),
+        [](const Scene::Triangle& triangle) { return triangle.normals.has_value(); }));
+    stats.lights = scene.lights.size();
+    stats.materials = scene.materials.size();
+    return stats;
+}
+
+/// One flattened scene being rendered in the precision of T, with what is found out on the way.
+template <typename T>
+class Job {
+   public:
+    Job(const Scene& scene, const RenderOptions& options)
+        : options_(options), region_(chosen_region(scene, options)) {
+        const Stopwatch watch;
+        scene_ = flatten<T>(scene);
+        stats_.phases.flatten = watch.seconds();
+        stats_.scene = scene_stats(scene);
+        stats_.scene.bytes = scene_.bytes();
+        stats_.width = scene.width;
+        stats_.height = scene.height;
+        stats_.region = region_;
+        stats_.aa = scene.aa;
+        stats_.max_bounces = scene.max_bounces;
+        stats_.double_precision = sizeof(T) == sizeof(double);
+        stats_.fast_math = options.fast_math;
+        stats_.features = scene_.features;
+        stats_.all_features = options.all_features;
+    }
+
+    RenderedPicture run() {
+        const DeviceChoice choice = chosen_device(options_);
+        if (!choice.note.empty()) say(choice.note);
+        if (choice.use_threads) {
+            render_on_threads(choice.threads);
+        } else {
+            render_on_device(choice.device);
+        }
+        return finished_picture();
+    }
+
+   private:
+    void say(const std::string& line) const {
+        if (!options_.quiet) fmt::print(stderr, "mirrorball: {}\n", line);
+    }
+
+    void render_on_device(const ClDevice& device) {
+        ClOptions cl_options;
+        cl_options.launch = options_.launch;
+        cl_options.fast_math = options_.fast_math;
+        cl_options.all_features = options_.all_features;
+        cl_options.pocl_cache = options_.pocl_cache;
+        if (!options_.fast_math && !device.rounds_correctly) {
+            say_verbose(device.name +
+                        " does not promise correctly rounded division and square "
+                        "root; the picture's bits may differ from other devices'");
+        }
+        try {
+            const auto renderer = make_cl_renderer(scene_, device, cl_options);
+            render_with(*renderer);
+        } catch (const Error& error) {
+            if (error.exit_code() != ExitCode::device || !options_.fallback) throw;
+            say(fmt::format("{}\nmirrorball: rendering on threads instead", error.what()));
+            render_on_threads(0);
+            stats_.device.fallback_from = device.name;
+            return;
+        }
+        stats_.device.name = device.name;
+        stats_.device.platform = device.platform;
+        stats_.device.driver = device.driver;
+        stats_.device.launch = launches_samples(options_.launch, device) ? "sample" : "pixel";
+    }
+
+    void say_verbose(const std::string& line) const {
+        if (options_.verbose) say(line);
+    }
+
+    void render_on_threads(int threads) {
+        ThreadsOptions threads_options;
+        threads_options.threads = threads > 0 ? threads : options_.threads;
+        threads_options.schedule = options_.schedule;
+        stats_.device.name = "threads";
+        stats_.device.threads = thread_count(threads_options, stats_.aa.samples());
+        stats_.device.schedule = options_.schedule == Schedule::tiles ? "tiles" : "buffers";
+        render_with(*make_threads_renderer(scene_, threads_options));
+    }
+
+    void render_with(Renderer<T>& renderer) {
+        install_stop_signals();
+        film_ = Film<T>(region_.width, region_.height);
+        const PictureSize tile = tile_size(renderer);
+        TileQueue queue(make_tiles(region_, tile.width, tile.height), stop_flag());
+        {
+            const ProgressReporter progress(queue, progress_mode_for_stderr(options_));
+            renderer.render(queue, region_, film_);
+        }
+        stats_.phases.renderer = renderer.times();
+        stats_.rays = queue.rays();
+        stats_.tiles = queue.tiles().size();
+        stats_.tiles_finished = queue.tiles_finished();
+    }
+
+    /// The tile asked for, cut down to the region and to what the renderer takes.
+    PictureSize tile_size(const Renderer<T>& renderer) const {
+        const Rect own = renderer.tile_size(region_.width);
+        const PictureSize asked = options_.tile.value_or(PictureSize{own.width, own.height});
+        const auto most =
+            static_cast<int>(std::min<std::int64_t>(renderer.most_tile_pixels(), region_.pixels()));
+        const int width = std::min({asked.width, region_.width, most});
+        return {width, std::min({asked.height, region_.height, most / width})};
+    }
+
+    RenderedPicture finished_picture() {
+        stats_.image_hash = hash_of(film_);
+        stats_.non_finite = count_non_finite(film_);
+        RenderedPicture rendered;
+        rendered.picture.width = film_.width;
+        rendered.picture.height = film_.height;
+        rendered.picture.pixels.assign(film_.rgb.begin(), film_.rgb.end());
+        rendered.stats = stats_;
+        return rendered;
+    }
+
+    const RenderOptions& options_;
+    const Rect region_;
+    FlatScene<T> scene_;
+    Film<T> film_{0, 0};
+    RenderStats stats_;
+};
+
+}  // namespace
+
+void apply_overrides(Scene& scene, const RenderOptions& options) {
+    if (options.size) set_image_size(scene, options.size->width, options.size->height);
+    if (options.aa) scene.aa = *options.aa;
+    if (options.max_bounces) scene.max_bounces = *options.max_bounces;
+}
+
+RenderedPicture render_picture(const Scene& scene, const RenderOptions& options) {
+    if (options.precision == Precision::float64) return Job<double>(scene, options).run();
+    return Job<float>(scene, options).run();
+}
+
+}  // namespace rt

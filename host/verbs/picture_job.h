@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/image/picture.h"
+#include "host/options.h"
+#include "host/report/render_stats.h"
+#include "host/scene/scene.h"
+
+namespace rt {
+
+struct RenderedPicture {
+    Picture picture;  ///< the region, row 0 at the top; finished tiles only when stopped early
+    RenderStats stats;
+};
+
+/// Gives the scene what the options override: size, AA, bounces.
+void apply_overrides(Scene& scene, const RenderOptions& options);
+
+/// Flattens the scene, chooses the device, and renders with progress on stderr. When the device
+/// fails, the picture is rendered on threads instead, with a line on stderr, unless
+/// options.fallback is off. SIGINT and SIGTERM end it early, with the tiles finished so far.
+RenderedPicture render_picture(const Scene& scene, const RenderOptions& options);
+
+}  // namespace rt

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/options.h"
+
+namespace rt {
+
+// One function per verb, one file per function. Each returns the program's exit status (an
+// ExitCode, or 128 + signal when stopped) and throws Error.
+int run_render(const RenderOptions& options, double seconds_before_main);
+int run_devices(const DevicesOptions& options);
+int run_scene(const SceneOptions& options);
+
+}  // namespace rt

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The entry points. A work item is a pixel (render_pixels) or a sample (render_samples, averaged by
+// resolve_samples); both add a pixel's samples in the same order, so they give the same bits. The
+// film holds three Reals a pixel, row 0 at the top. counts has one slot a work item and is added to
+// launch after launch.
+
+#include "kernels/whitted.cl"
+
+#define RT_SCENE_ARGUMENTS                                                                  \
+    __global const Sphere *restrict spheres, __global const Triangle *restrict triangles,   \
+        __global const VertexNormals *restrict vertex_normals,                              \
+        __global const Material *restrict materials, __global const Light *restrict lights, \
+        Frame frame
+
+#define RT_SCENE_VIEW \
+    { spheres, triangles, vertex_normals, materials, lights, frame }
+
+void store3(__global Real* to, Index at, real3 color) {
+    to[3 * at] = color.x;
+    to[3 * at + 1] = color.y;
+    to[3 * at + 2] = color.z;
+}
+
+void add_counts(__global RayCounts* counts, size_t slot, RayCounts add) {
+    counts[slot].shadow += add.shadow;
+    counts[slot].mirror += add.mirror;
+}
+
+__kernel void render_pixels(__global Real* restrict film, __global RayCounts* restrict counts,
+                            RT_SCENE_ARGUMENTS, Tile tile) {
+    size_t item = get_global_id(0);
+    if (item >= (size_t)(tile.width * tile.height)) return;
+    SceneView scene = RT_SCENE_VIEW;
+    Index column = (Index)item % tile.width;
+    Index row = (Index)item / tile.width;
+    Index samples = frame.grid * frame.grid;
+    RayCounts used = {0, 0};
+    real3 sum = (real3)((Real)0);
+    for (Index k = 0; k < samples; ++k) {
+        sum += trace_sample(&scene, tile.x + column, frame.height - 1 - (tile.y + row), k, &used);
+    }
+    store3(film, tile.first + row * tile.film_width + column, sum / (Real)samples);
+    add_counts(counts, item, used);
+}
+
+// Sample k of the tile's pixel i goes to samples[k * pixels + i].
+__kernel void render_samples(__global Real* restrict samples, __global RayCounts* restrict counts,
+                             RT_SCENE_ARGUMENTS, Tile tile) {
+    size_t item = get_global_id(0);
+    Index pixels = tile.width * tile.height;
+    if (item >= (size_t)(pixels * frame.grid * frame.grid)) return;
+    SceneView scene = RT_SCENE_VIEW;
+    Index pixel = (Index)item % pixels;
+    Index column = pixel % tile.width;
+    Index row = pixel / tile.width;
+    RayCounts used = {0, 0};
+    real3 color = trace_sample(&scene, tile.x + column, frame.height - 1 - (tile.y + row),
+                               (Index)item / pixels, &used);
+    store3(samples, (Index)item, color);
+    add_counts(counts, item, used);
+}
+
+__kernel void resolve_samples(__global Real* restrict film, __global const Real* restrict samples,
+                              Index sample_count, Tile tile) {
+    size_t item = get_global_id(0);
+    Index pixels = tile.width * tile.height;
+    if (item >= (size_t)pixels) return;
+    Index pixel = (Index)item;
+    real3 sum = (real3)((Real)0);
+    for (Index k = 0; k < sample_count; ++k) {
+        Index at = 3 * (k * pixels + pixel);
+        sum += (real3)(samples[at], samples[at + 1], samples[at + 2]);
+    }
+    Index row = pixel / tile.width;
+    store3(film, tile.first + row * tile.film_width + pixel % tile.width, sum / (Real)sample_count);
+}

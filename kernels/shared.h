@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The structs and limits that the host and the kernels share. Included by OpenCL C once per program
+// and by C++ twice (host/flatten/flat_types.h): whoever includes it first defines
+//   RT_REAL   float or double
+//   RT_INDEX  int or long, the integer as wide as RT_REAL
+//   RT_COUNT  ulong, 64 bits without sign
+// so that every struct is made of rows of four numbers of one width: a packed 3-vector and a named
+// scalar. No float3 here (16 bytes in OpenCL, 12 in GLM) and no data hidden in a fourth component.
+// Positions are in the renderer's frame: the eye is the origin and the scene has been scaled by a
+// power of two (host/flatten). This header includes nothing and has no include guard on purpose.
+
+typedef RT_REAL Real;
+typedef RT_INDEX Index;
+
+typedef struct {
+    Real x, y, z;
+} Packed3;
+
+typedef struct {
+    Packed3 center;
+    Real radius;
+    Index material;
+    Index pad[3];
+} Sphere;
+
+typedef struct {
+    Packed3 p0;
+    Index material;
+    Packed3 p1;
+    Index smooth;  // index into the vertex normals, or RT_NONE for a flat triangle
+    Packed3 p2;
+    Real offset;     // bound on how far a barycentric hit point lies off the plane
+    Packed3 normal;  // unit, made in double from the unrounded vertices
+    Real plane;      // dot(normal, p0), likewise
+} Triangle;
+
+typedef struct {
+    Packed3 n0;
+    Real pad0;
+    Packed3 n1;
+    Real pad1;
+    Packed3 n2;
+    Real pad2;
+} VertexNormals;
+
+typedef struct {
+    Packed3 ambient;
+    Real shininess;
+    Packed3 diffuse;
+    Index two_sided;
+    Packed3 specular;
+    Real pad0;
+    Packed3 mirror;
+    Real pad1;
+} Material;
+
+typedef struct {
+    Packed3 position;
+    Real pad0;
+    Packed3 intensity;
+    Real pad1;
+} Light;
+
+// What stays the same for a whole picture. A sample at (x, y) pixels from the lower left corner
+// starts at sx * origin_dx + sy * origin_dy and goes along direction + sx * direction_dx
+// + sy * direction_dy, where sx = 2 x - width and sy = 2 y - height are exact.
+typedef struct {
+    Packed3 direction;
+    Index width;
+    Packed3 direction_dx;
+    Index height;
+    Packed3 direction_dy;
+    Index grid;  // grid x grid samples a pixel
+    Packed3 origin_dx;
+    Index max_bounces;
+    Packed3 origin_dy;
+    Index sphere_count;
+    Packed3 background;
+    Index triangle_count;
+    Packed3 ambient_light;
+    Index light_count;
+} Frame;
+
+// The pixels of one launch: picture columns x.., rows y.. counted from the top; its first pixel
+// goes to film[first], its next row film_width pixels further on.
+typedef struct {
+    Index x, y, width, height;
+    Index first, film_width;
+    Index pad[2];
+} Tile;
+
+typedef struct {
+    RT_COUNT shadow, mirror;
+} RayCounts;
+
+enum { RT_NONE = -1 };
+
+RT_STATIC_ASSERT(sizeof(Packed3) == 3 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Index) == sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Sphere) == 8 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Triangle) == 16 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(VertexNormals) == 12 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Material) == 16 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Light) == 8 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Frame) == 28 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Tile) == 8 * sizeof(Real));

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs mirrorball as a user would: a fresh folder per test, a time limit on every run."""
+import contextlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import unittest
+
+TIME_LIMIT = 30
+SETTINGS = {}
+
+CAMERA = {"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}
+GREY = {"ambient": 1, "diffuse": 1}
+
+
+@contextlib.contextmanager
+def environment(build, repo):
+    """The program, the scenes, and an OpenCL kernel cache that all tests share."""
+    SETTINGS["program"] = str((build / "mirrorball").resolve())
+    SETTINGS["scenes"] = (repo / "scenes").resolve()
+    with tempfile.TemporaryDirectory(prefix="mirrorball-cli-") as folder:
+        SETTINGS["cache"] = folder
+        yield
+
+
+def scene_path(name):
+    return str(SETTINGS["scenes"] / f"{name}.json")
+
+
+def all_scenes():
+    return sorted(p for p in SETTINGS["scenes"].glob("*.json") if p.name != "scene.schema.json")
+
+
+def image_hash(text):
+    """The hash in a summary line or in --stats text; None when there is none."""
+    found = re.search(r"image (?:hash )?([0-9a-f]{16})\b", text)
+    return found[1] if found else None
+
+
+def clean_environment(changes):
+    """This process's environment without what changes mirrorball; a change to None unsets."""
+    variables = dict(os.environ, POCL_CACHE_DIR=SETTINGS["cache"])
+    for name in ["MIRRORBALL_DEVICE", "POCL_DEVICES", "OCL_ICD_VENDORS", "TERM"]:
+        variables.pop(name, None)
+    variables.update(changes)
+    return {name: value for name, value in variables.items() if value is not None}
+
+
+class CliTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="mirrorball-test-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def run_cli(self, *arguments, env=None, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **more):
+        """Runs the program in the test's folder; output as text."""
+        return subprocess.run(
+            [SETTINGS["program"], *map(str, arguments)], cwd=self.folder, stdout=stdout,
+            stderr=stderr, stdin=subprocess.DEVNULL, env=clean_environment(env or {}),
+            timeout=TIME_LIMIT, text=True, check=False, **more)
+
+    def run_shell(self, command, **env):
+        """Runs a shell line with $MIRRORBALL and $SCENE (the single sphere) set."""
+        return subprocess.run(
+            ["bash", "-c", command], cwd=self.folder, capture_output=True, text=True,
+            env=clean_environment(dict(env, MIRRORBALL=SETTINGS["program"],
+                                       SCENE=scene_path("single-sphere"))),
+            stdin=subprocess.DEVNULL, timeout=TIME_LIMIT, check=False)
+
+    def start(self, *arguments, env=None):
+        """Starts the program and leaves it running; it is killed at the end of the test."""
+        process = subprocess.Popen(
+            [SETTINGS["program"], *map(str, arguments)], cwd=self.folder, text=True,
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            env=clean_environment(env or {}))
+        self.addCleanup(self._finish, process)
+        return process
+
+    @staticmethod
+    def _finish(process):
+        if process.poll() is None:
+            process.send_signal(signal.SIGKILL)
+        process.communicate()
+
+    def render(self, scene, *arguments, **more):
+        """A rendering that must succeed; scene is a name in scenes/ or a path."""
+        path = scene_path(scene) if not os.sep in str(scene) else scene
+        result = self.run_cli("render", path, *arguments, **more)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def hash_of(self, scene, *arguments, **more):
+        result = self.render(scene, *arguments, **more)
+        found = image_hash(result.stderr.strip().splitlines()[-1])
+        self.assertIsNotNone(found, f"no image hash at the end of: {result.stderr}")
+        return found
+
+    def stats_of(self, scene, *arguments, **more):
+        return json.loads(self.render(scene, "--stats=json", *arguments, **more).stdout)
+
+    def write_text(self, name, text):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return str(path)
+
+    def write_scene(self, name="scene.json", **keys):
+        return self.write_text(name, json.dumps({"camera": CAMERA, **keys}))
+
+    def files(self):
+        return sorted(p.name for p in self.folder.iterdir())
+
+    def assert_refused(self, result, code, *fragments, lines=1):
+        """That exit code, that many lines on stderr naming all fragments, and no stdout."""
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(len(result.stderr.splitlines()), lines, result.stderr)
+        for fragment in fragments:
+            self.assertIn(fragment, result.stderr)

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scene files: what is refused and how (exit 3), and `scene info`, `scene check`."""
+import json
+import os
+
+from harness import CAMERA, GREY, CliTest, all_scenes, scene_path
+
+
+class Unreadable(CliTest):
+    def assert_scene_refused(self, path, *says):
+        for verb in [("render", "-o", "out.png"), ("scene", "info"), ("scene", "check")]:
+            with self.subTest(verb=verb):
+                self.assert_refused(self.run_cli(*verb, path), 3, str(path), *says)
+        self.assertNotIn("out.png", self.files())
+
+    def test_missing(self):
+        self.assert_scene_refused("nowhere.json", "no such file")
+
+    def test_folder(self):
+        self.assert_scene_refused(self.folder, "directory")
+
+    def test_fifo_does_not_hang(self):
+        os.mkfifo(self.folder / "fifo.json")
+        self.assert_scene_refused("fifo.json", "regular file")
+
+    def test_empty(self):
+        self.assert_scene_refused(self.write_text("empty.json", ""))
+
+    def test_device_file(self):
+        self.assert_scene_refused("/dev/zero", "regular file")
+
+    def test_name_is_a_file_where_a_folder_should_be(self):
+        self.write_text("file", "")
+        self.assert_scene_refused("file/scene.json")
+
+    def test_name_longer_than_the_system_takes(self):
+        self.assert_scene_refused("x" * 5000 + ".json")
+
+    def test_binary(self):
+        (self.folder / "noise.json").write_bytes(bytes(range(256)) * 16)
+        self.assert_scene_refused("noise.json", "noise.json:1:1")
+
+    def test_symbolic_link_to_itself(self):
+        os.symlink("loop.json", self.folder / "loop.json")
+        self.assert_scene_refused("loop.json")
+
+
+class Mistakes(CliTest):
+    """Each message begins with file:line:column."""
+
+    def assert_mistake(self, text, place, *says, lines=1):
+        path = self.write_text("bad.json", text)
+        result = self.run_cli("render", path, "-o", "out.png")
+        self.assert_refused(result, 3, f"{path}:{place}", *says, lines=lines)
+        self.assertEqual(self.files(), ["bad.json"])
+
+    def scene_with(self, line):
+        return '{\n"camera": ' + json.dumps(CAMERA) + ",\n" + line + "\n}"
+
+    def test_malformed(self):
+        self.assert_mistake('{\n  "camera" 5\n}', "2:12")
+
+    def test_ends_too_early(self):
+        self.assert_mistake('{"camera": ', "1:")
+
+    def test_unknown_key(self):
+        self.assert_mistake(self.scene_with('"light": []'), "3:1", "light", "lights")
+
+    def test_duplicate_key(self):
+        self.assert_mistake(self.scene_with('"name": "a", "name": "b"'), "3:14", "name")
+
+    def test_wrong_type(self):
+        self.assert_mistake(self.scene_with('"max_bounces": "many"'), "3:16", "max_bounces")
+
+    def test_nan(self):
+        self.assert_mistake(self.scene_with('"background": NaN'), "3:15")
+
+    def test_number_beyond_double(self):
+        self.assert_mistake(self.scene_with('"background": 1e999'), "3:15", "1e999")
+
+    def test_negative_radius(self):
+        sphere = '"spheres": [{"center": [0, 0, 0], "radius": -1, "material": "m"}]'
+        self.assert_mistake(self.scene_with('"materials": {"m": {}}, ' + sphere), "3:", "radius")
+
+    def test_unknown_material(self):
+        sphere = '"spheres": [{"center": [0, 0, 0], "radius": 1, "material": "gold"}]'
+        self.assert_mistake(self.scene_with(sphere), "3:", "gold")
+
+    def test_zero_field_of_view(self):
+        camera = dict(CAMERA, fov_degrees=0)
+        self.assert_mistake(json.dumps({"camera": camera}), "1:", "fov_degrees")
+
+    def test_no_camera(self):
+        self.assert_mistake("{}", "1:1", "camera")
+
+    def test_several_at_once(self):
+        self.assert_mistake('{"one": 1,\n"two": 2, "camera": ' + json.dumps(CAMERA) + "}",
+                            "2:1", "bad.json:1:2", lines=2)
+
+    def test_at_most_twenty(self):
+        keys = "".join(f'"key{i}": 0,\n' for i in range(50))
+        result = self.run_cli("scene", "check", self.write_text("bad.json", "{" + keys + "}"))
+        self.assertEqual(result.returncode, 3)
+        self.assertLessEqual(len(result.stderr.splitlines()), 21)
+
+    def test_control_characters_do_not_reach_the_terminal(self):
+        path = self.write_text("bad.json", '{"\\u001b[31m": 1, "camera": 1}')
+        self.assertNotIn("\x1b", self.run_cli("scene", "check", path).stderr)
+
+    def test_nesting_bomb(self):
+        self.assert_mistake("[" * 100000, "1:65")
+
+
+class Check(CliTest):
+    def test_all_shipped_scenes_are_fine(self):
+        for path in all_scenes():
+            with self.subTest(scene=path.name):
+                result = self.run_cli("scene", "check", path)
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                self.assertEqual(result.stdout, f"{path}: fine\n")
+
+
+class Info(CliTest):
+    def info(self, name):
+        result = self.run_cli("scene", "info", scene_path(name), "--json")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return json.loads(result.stdout)
+
+    def test_json_fields(self):
+        info = self.info("single-sphere")
+        self.assertEqual((info["format"], info["version"]), ("mirrorball-scene-info", 1))
+        self.assertEqual((info["width"], info["height"], info["aa"]), (240, 180, "grid:2"))
+        self.assertEqual((info["spheres"], info["triangles"], info["lights"]), (1, 0, 1))
+        self.assertRegex(info["hash"], "^[0-9a-f]{16}$")
+
+    def test_features_used_and_left_out_are_all_features(self):
+        every = set()
+        for path in all_scenes():
+            info = self.info(path.stem)
+            used, left_out = set(info["features_used"]), set(info["features_left_out"])
+            self.assertFalse(used & left_out)
+            every = every or used | left_out
+            self.assertEqual(used | left_out, every)
+
+    def test_empty_scene_needs_nothing(self):
+        self.assertEqual(self.info("empty")["features_used"], [])
+
+    def test_hash_does_not_depend_on_layout_or_name_of_the_file(self):
+        keys = {"materials": {"grey": GREY}, "name": "same"}
+        first = self.write_scene("first.json", **keys)
+        second = self.write_text("second.json", json.dumps({**keys, "camera": CAMERA}, indent=3))
+        hashes = [json.loads(self.run_cli("scene", "info", path, "--json").stdout)["hash"]
+                  for path in [first, second]]
+        self.assertEqual(*hashes)
+
+    def test_text(self):
+        result = self.run_cli("scene", "info", scene_path("cornell-box"))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        for word in ["cornell-box", "500x500", "triangles", "mirrors"]:
+            self.assertIn(word, result.stdout)
+
+    def test_check_json_is_json(self):
+        result = self.run_cli("scene", "check", scene_path("empty"), "--json")
+        self.assertEqual(result.returncode, 0)
+        json.loads(result.stdout)

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Wrong command lines: exit 2 (7 for sizes beyond the limit), one line that names the option."""
+from harness import CliTest, scene_path
+
+
+class Help(CliTest):
+    def assert_helps(self, *arguments, words):
+        result = self.run_cli(*arguments)
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stderr, "")
+        for word in words:
+            self.assertIn(word, result.stdout)
+
+    def test_version(self):
+        result = self.run_cli("--version")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stdout, r"^mirrorball \d+\.\d+\.\d+ \(.+\)\n$")
+
+    def test_program_help_lists_the_verbs(self):
+        self.assert_helps("--help", words=["render", "devices", "scene"])
+
+    def test_render_help_lists_its_options(self):
+        self.assert_helps("render", "--help", words=[
+            "--device", "--size", "--aa", "--max-bounces", "--precision", "--math", "--launch",
+            "--schedule", "--threads", "--features", "--crop", "--reference", "--encoding",
+            "--stats", "--progress", "--no-fallback", "--output"])
+
+    def test_devices_help(self):
+        self.assert_helps("devices", "--help", words=["--json"])
+
+    def test_scene_help_lists_its_actions(self):
+        self.assert_helps("scene", "--help", words=["info", "check"])
+
+    def test_scene_action_help(self):
+        self.assert_helps("scene", "info", "--help", words=["SCENE", "--json"])
+
+
+class WrongCommand(CliTest):
+    def test_no_verb(self):
+        self.assert_refused(self.run_cli(), 2, "--help")
+
+    def test_unknown_verb_is_named(self):
+        self.assert_refused(self.run_cli("rendr"), 2, "rendr")
+
+    def test_no_scene(self):
+        self.assert_refused(self.run_cli("render"), 2, "SCENE")
+
+    def test_scene_without_action(self):
+        self.assert_refused(self.run_cli("scene"), 2, "--help")
+
+    def test_two_scenes(self):
+        scene = scene_path("empty")
+        self.assert_refused(self.run_cli("render", scene, scene), 2, scene)
+
+
+class WrongOption(CliTest):
+    def assert_option_refused(self, *arguments, code=2, says=()):
+        result = self.run_cli("render", scene_path("single-sphere"), "-o", "out.png", *arguments)
+        self.assert_refused(result, code, arguments[0].split("=")[0], *says)
+        self.assertEqual(self.files(), [])
+
+    def test_unknown_option(self):
+        self.assert_option_refused("--colour")
+
+    def test_size_garbage(self):
+        for size in ["8x", "x8", "8x8x8", "eight", "8 x 8", "", "1e3", "8,8", "+8"]:
+            with self.subTest(size=size):
+                self.assert_option_refused("--size", size, says=["640x480"])
+
+    def test_size_zero_or_negative(self):
+        for size in ["0", "0x8", "8x0", "-5"]:
+            with self.subTest(size=size):
+                self.assert_option_refused(f"--size={size}", says=["1 pixel"])
+
+    def test_size_too_large(self):
+        for size in ["65537", "65537x1", "65536x65536", "16385x16384"]:
+            with self.subTest(size=size):
+                self.assert_option_refused("--size", size, code=7, says=["65536"])
+
+    def test_size_beyond_an_int_is_too_large_as_well(self):
+        self.assert_option_refused("--size", "99999999999", code=7, says=["65536"])
+
+    def test_aa_garbage(self):
+        for aa in ["grid", "grid:", "grid:0", "grid:65", "grid:2x2", "nothing", "grid:-1"]:
+            with self.subTest(aa=aa):
+                self.assert_option_refused("--aa", aa, says=["grid:N"])
+
+    def test_crop_garbage(self):
+        for crop in ["1,2,3", "0,0,0,5", "5,0,4,5", "-1,0,5,5", "a,b,c,d", "0,0,5,5,"]:
+            with self.subTest(crop=crop):
+                self.assert_option_refused(f"--crop={crop}", says=["x0,y0,x1,y1"])
+
+    def test_crop_outside_the_picture(self):
+        for crop in ["0,0,241,1", "240,0,241,1", "0,180,1,181", "0,0,2147483647,2147483647"]:
+            with self.subTest(crop=crop):
+                self.assert_option_refused("--crop", crop, says=["240x180"])
+
+    def test_threads_out_of_range(self):
+        for threads in ["0", "-1", "4097", "many"]:
+            with self.subTest(threads=threads):
+                self.assert_option_refused(f"--threads={threads}")
+
+    def test_max_bounces_out_of_range(self):
+        for bounces in ["-1", "100001", "1.5", "lots", "99999999999"]:
+            with self.subTest(bounces=bounces):
+                self.assert_option_refused(f"--max-bounces={bounces}")
+
+    def test_unknown_choices(self):
+        for option in ["--precision", "--math", "--launch", "--schedule", "--features",
+                       "--progress", "--encoding"]:
+            with self.subTest(option=option):
+                self.assert_option_refused(option, "rubbish", says=["rubbish"])
+
+    def test_stats_format(self):
+        self.assert_option_refused("--stats=xml", says=["json"])
+
+    def test_missing_value(self):
+        for option in ["--size", "--device", "--crop"]:
+            with self.subTest(option=option):
+                self.assert_option_refused(option)
+
+    def test_repeated_option(self):
+        self.assert_option_refused("--size", "8", "--size", "9")
+
+    def test_tile_garbage(self):
+        self.assert_option_refused("--tile", "0", says=["1 pixel"])

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "host/error.h"
+#include "host/scene/geometry_checks.h"
+#include "host/scene/json_file.h"
+#include "host/scene/mistakes.h"
+#include "host/scene/words.h"
+
+namespace rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string camera_text =
+    R"("camera": {"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 90})";
+
+/// A scene with a camera and these further members.
+Scene parse_with(const std::string& members) {
+    return parse_json_scene("{" + camera_text + (members.empty() ? "" : ",\n") + members + "}",
+                            "some/where/test.json");
+}
+
+/// A 400 x 100 scene with just this camera.
+Scene parse_camera(const std::string& members) {
+    return parse_json_scene(
+        R"({"image": {"width": 400, "height": 100}, "camera": {)" + members + "}}", "test.json");
+}
+
+struct Refusal {
+    ExitCode exit_code = ExitCode::done;
+    std::string message;
+};
+
+template <class F>
+Refusal refusal_of(F action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return {error.exit_code(), error.what()};
+    }
+    return {};
+}
+
+Refusal refusal_of_text(const std::string& text) {
+    return refusal_of([&] { parse_json_scene(text, "t.json"); });
+}
+
+std::vector<fs::path> json_files(const std::string& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const fs::path& path = entry.path();
+        if (path.extension() == ".json" && path.filename() != "scene.schema.json") {
+            files.push_back(path);
+        }
+    }
+    return files;
+}
+
+/// "line:column: text" from the leading `// expect` lines, or from the .expect file beside.
+std::vector<std::string> expectations(fs::path path) {
+    std::vector<std::string> result;
+    std::ifstream file(path);
+    const std::string mark = "// expect ";
+    for (std::string line; std::getline(file, line) && line.starts_with(mark);) {
+        result.push_back(line.substr(mark.size()));
+    }
+    std::ifstream beside(path.replace_extension(".expect"));
+    for (std::string line; std::getline(beside, line);) result.push_back(line);
+    return result;
+}
+
+void expect_near(const Scene::Window& window, double left, double right, double bottom,
+                 double top) {
+    EXPECT_NEAR(window.left, left, 1e-12);
+    EXPECT_NEAR(window.right, right, 1e-12);
+    EXPECT_NEAR(window.bottom, bottom, 1e-12);
+    EXPECT_NEAR(window.top, top, 1e-12);
+}
+
+TEST(ParseJsonScene, BadFilesAreRefusedAsExpected) {
+    const auto files = json_files(MIRRORBALL_BAD_SCENES_DIR);
+    EXPECT_GE(files.size(), 40u);
+    for (const fs::path& path : files) {
+        SCOPED_TRACE(path.string());
+        const Refusal refusal = refusal_of([&] { load_json_scene(path.string()); });
+        EXPECT_EQ(refusal.exit_code, ExitCode::input);
+        const auto expected = expectations(path);
+        EXPECT_FALSE(expected.empty());
+        for (const std::string& text : expected) {
+            const std::string line = path.string() + ":" + text;
+            EXPECT_NE(refusal.message.find(line), std::string::npos)
+                << "expected " << line << "\nbut got  " << refusal.message;
+        }
+        const auto lines = std::count(refusal.message.begin(), refusal.message.end(), '\n') + 1;
+        EXPECT_EQ(static_cast<std::size_t>(lines), expected.size()) << refusal.message;
+    }
+}
+
+TEST(ParseJsonScene, DefaultsAreTheDocumentedOnes) {
+    const Scene scene = parse_with("");
+    EXPECT_EQ(scene.name, "test");
+    EXPECT_EQ(scene.width, 500);
+    EXPECT_EQ(scene.height, 500);
+    EXPECT_EQ(scene.aa, AaMode{2});
+    EXPECT_EQ(scene.max_bounces, 8);
+    EXPECT_EQ(scene.background, glm::dvec3(0, 0, 0));
+    EXPECT_EQ(scene.ambient_light, glm::dvec3(0, 0, 0));
+    EXPECT_EQ(scene.camera.projection, Scene::Projection::perspective);
+    EXPECT_EQ(scene.camera.up, glm::dvec3(0, 1, 0));
+    EXPECT_TRUE(scene.lights.empty() && scene.spheres.empty() && scene.triangles.empty());
+}
+
+TEST(ParseJsonScene, MaterialsMayFollowTheShapes) {
+    const Scene scene = parse_with(
+        R"("spheres": [{"center": [1, 2, 3], "radius": 4, "material": "b"}],
+           "materials": {"a": {}, "b": {"diffuse": 0.5, "mirror": [0.1, 0.2, 0.3]}})");
+    ASSERT_EQ(scene.spheres.size(), 1u);
+    EXPECT_EQ(scene.spheres[0].material, 1);
+    EXPECT_EQ(scene.materials[1].name, "b");
+    EXPECT_EQ(scene.materials[1].diffuse, glm::dvec3(0.5, 0.5, 0.5));
+    EXPECT_EQ(scene.materials[1].mirror, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(scene.materials[1].shininess, 1);
+    EXPECT_FALSE(scene.materials[1].two_sided);
+}
+
+TEST(ParseJsonScene, DuplicateKeyIsNamedWithItsLine) {
+    const Refusal refusal =
+        refusal_of_text("{\n  " + camera_text + ",\n  \"name\": \"a\",\n  \"name\": \"b\"\n}");
+    EXPECT_EQ(refusal.message,
+              "t.json:4:3: key 'name' is repeated, first at 3:3; keep one of them");
+}
+
+TEST(ParseJsonScene, DuplicateAmongManyKeysIsNamed) {
+    std::string materials;
+    for (int i = 0; i < 30; ++i) materials += "\"m" + std::to_string(i) + "\": {},\n";
+    const Refusal refusal =
+        refusal_of_text("{" + camera_text + ",\"materials\": {\n" + materials + "\"m7\": {}}}");
+    EXPECT_EQ(refusal.message, "t.json:32:1: key 'm7' is repeated, first at 9:1; keep one of them");
+}
+
+TEST(ParseJsonScene, AtMostTwentyMistakesAreReported) {
+    std::string items = "1";
+    for (int i = 0; i < 30; ++i) items += ",\n1";
+    const Refusal refusal = refusal_of_text("{" + camera_text + ",\"lights\": [" + items + "]}");
+    EXPECT_EQ(std::count(refusal.message.begin(), refusal.message.end(), '\n'), 19);
+}
+
+TEST(ParseJsonScene, CommentsAndByteOrderMarkAreAccepted) {
+    const Scene scene = parse_json_scene(
+        "\xEF\xBB\xBF// one\r\n/* two, [ */ { /**/ " + camera_text +
+            ", // \"name\": \"no\"\n\"name\" /*:*/ : /* \" */ \"/* kept // \" } // end",
+        "t.json");
+    EXPECT_EQ(scene.name, "/* kept // ");
+}
+
+TEST(ParseJsonScene, PositionsAreRightBehindCommentsAndEscapes) {
+    const Refusal refusal = refusal_of_text("{" + camera_text +
+                                            ", \"name\": \"\\\\\\\" , // x\",\n"
+                                            "/* a\n b */ \"max_bounces\" /* : */ : // c\n  2.5}");
+    EXPECT_TRUE(refusal.message.starts_with("t.json:4:3: max_bounces is 2.5;")) << refusal.message;
+}
+
+TEST(ParseJsonScene, WholeNumberMayBeWrittenWithAPoint) {
+    EXPECT_EQ(parse_with(R"("max_bounces": 2e1)").max_bounces, 20);
+    EXPECT_EQ(parse_with(R"("max_bounces": 20.0)").max_bounces, 20);
+}
+
+TEST(ParseJsonScene, TinyNumbersAreKept) {
+    const Scene scene = parse_with(
+        R"("materials": {"m": {}},
+           "spheres": [{"center": [5e-324, -1e30, 0], "radius": 1e-30, "material": "m"}])");
+    EXPECT_EQ(scene.spheres[0].center, glm::dvec3(5e-324, -1e30, 0));
+    EXPECT_EQ(scene.spheres[0].radius, 1e-30);
+}
+
+TEST(ParseJsonScene, VertexNormalsAreNormalisedAtAnyScale) {
+    const Scene scene = parse_with(
+        R"("materials": {"m": {}},
+           "triangles": [{"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "material": "m",
+                          "normals": [[0, 0, 1e-300], [3e29, 0, 4e29], [5e-324, 0, 0]]}])");
+    const auto& normals = scene.triangles[0].normals;
+    ASSERT_TRUE(normals);
+    EXPECT_EQ((*normals)[0], glm::dvec3(0, 0, 1));
+    EXPECT_NEAR((*normals)[1].x, 0.6, 1e-15);
+    EXPECT_NEAR((*normals)[1].z, 0.8, 1e-15);
+    EXPECT_EQ((*normals)[2], glm::dvec3(1, 0, 0));
+}
+
+TEST(ParseJsonScene, CameraAxesHoldAtAnyScale) {
+    const std::string fov = R"("fov_degrees": 60, )";
+    EXPECT_NO_THROW(parse_camera(fov + R"("from": [0, 0, 1e-30], "at": [0, 0, 0])"));
+    EXPECT_NO_THROW(parse_camera(fov + R"("from": [0, 0, 1e30], "at": [0, 0, -1e30])"));
+    EXPECT_NO_THROW(
+        parse_camera(fov + R"("from": [0, 0, 1], "at": [0, 0, 0], "up": [0, 1e-300, 0])"));
+    EXPECT_THROW(
+        parse_camera(fov + R"("from": [0, 0, 1e-30], "at": [0, 0, 0], "up": [0, 0, 1e30])"), Error);
+    EXPECT_THROW(parse_camera(fov + R"("from": [0, 0, 1e30], "at": [0, 0, 1e30])"), Error);
+}
+
+TEST(CameraWindow, FovSpansTheHeightByDefault) {
+    const Scene scene = parse_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "fov_degrees": 90)");
+    expect_near(scene.camera.window, -4, 4, -1, 1);
+}
+
+TEST(CameraWindow, FovOnXSpansTheWidth) {
+    const Scene scene =
+        parse_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "fov_degrees": 90, "fov_axis": "x")");
+    expect_near(scene.camera.window, -1, 1, -0.25, 0.25);
+}
+
+TEST(CameraWindow, OrthographicExtentsAreSceneUnits) {
+    const std::string text = R"("type": "orthographic", "from": [0, 0, 1], "at": [0, 0, 0], )";
+    expect_near(parse_camera(text + R"("height": 3)").camera.window, -6, 6, -1.5, 1.5);
+    expect_near(parse_camera(text + R"("width": 8)").camera.window, -4, 4, -1, 1);
+    expect_near(parse_camera(text + R"("window": [1, 2, 3, 5])").camera.window, 1, 2, 3, 5);
+}
+
+TEST(CameraWindow, FollowsAnotherImageSizeUnlessGiven) {
+    Scene scene = parse_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "fov_degrees": 90)");
+    set_image_size(scene, 50, 100);
+    EXPECT_EQ(scene.width, 50);
+    expect_near(scene.camera.window, -0.5, 0.5, -1, 1);
+    Scene fixed = parse_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "window": [-3, 1, -1, 2])");
+    set_image_size(fixed, 50, 100);
+    expect_near(fixed.camera.window, -3, 1, -1, 2);
+}
+
+TEST(LoadJsonScene, EveryCommittedSceneLoads) {
+    const auto files = json_files(MIRRORBALL_SCENES_DIR);
+    EXPECT_GE(files.size(), 10u);
+    for (const fs::path& path : files) {
+        SCOPED_TRACE(path.string());
+        const Refusal refusal = refusal_of([&] { load_json_scene(path.string()); });
+        EXPECT_EQ(refusal.message, "");
+    }
+}
+
+TEST(LoadJsonScene, MissingFileIsRefused) {
+    const Refusal refusal = refusal_of([] { load_json_scene("/nowhere/scene.json"); });
+    EXPECT_EQ(refusal.exit_code, ExitCode::input);
+    EXPECT_EQ(refusal.message, "/nowhere/scene.json: no such file; check the path");
+}
+
+TEST(LoadJsonScene, DirectoryIsRefused) {
+    const Refusal refusal = refusal_of([] { load_json_scene(MIRRORBALL_SCENES_DIR); });
+    EXPECT_EQ(refusal.exit_code, ExitCode::input);
+    EXPECT_NE(refusal.message.find("is a directory"), std::string::npos);
+}
+
+TEST(LoadJsonScene, PipeDoesNotHang) {
+    const fs::path pipe =
+        fs::temp_directory_path() / ("mirrorball-pipe-" + std::to_string(::getpid()) + ".json");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const Refusal refusal = refusal_of([&] { load_json_scene(pipe.string()); });
+    fs::remove(pipe);
+    EXPECT_EQ(refusal.exit_code, ExitCode::input);
+    EXPECT_NE(refusal.message.find("is not a regular file"), std::string::npos);
+}
+
+TEST(LoadJsonScene, FileAboveTheSizeCapIsOverTheLimit) {
+    const fs::path path =
+        fs::temp_directory_path() / ("mirrorball-large-" + std::to_string(::getpid()) + ".json");
+    std::ofstream(path) << "{}";
+    fs::resize_file(path, (std::uintmax_t{256} << 20) + 1);  // sparse: takes no room
+    const Refusal refusal = refusal_of([&] { load_json_scene(path.string()); });
+    fs::remove(path);
+    EXPECT_EQ(refusal.exit_code, ExitCode::limit);
+    EXPECT_NE(refusal.message.find("larger than 256 MiB"), std::string::npos);
+}
+
+/// Of the paper's scene: the geometric normal of each triangle, in file order.
+std::vector<glm::dvec3> box_normals(const Scene& scene) {
+    std::vector<glm::dvec3> normals;
+    for (const Scene::Triangle& triangle : scene.triangles) {
+        const auto& [a, b, c] = triangle.vertices;
+        normals.push_back(glm::normalize(glm::cross(b - a, c - a)));
+    }
+    return normals;
+}
+
+TEST(CornellBox, WallNormalsFaceIntoTheBox) {
+    const Scene scene = load_json_scene(MIRRORBALL_SCENES_DIR "/cornell-box.json");
+    ASSERT_EQ(scene.triangles.size(), 13u);
+    const auto normals = box_normals(scene);
+    const glm::dvec3 walls[] = {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}, {-1, 0, 0}};
+    for (std::size_t i = 0; i < 10; ++i) {
+        EXPECT_EQ(normals[i], walls[i / 2]) << "triangle " << i;
+        for (const glm::dvec3& vertex : scene.triangles[i].vertices) {
+            EXPECT_EQ(glm::dot(vertex, walls[i / 2]), -1) << "triangle " << i;
+        }
+    }
+}
+
+TEST(CornellBox, GoldTrianglesFaceTheViewer) {
+    const Scene scene = load_json_scene(MIRRORBALL_SCENES_DIR "/cornell-box.json");
+    ASSERT_EQ(scene.triangles.size(), 13u);
+    const auto normals = box_normals(scene);
+    for (std::size_t i = 10; i < 13; ++i) {
+        EXPECT_GT(normals[i].z, 0.9) << "triangle " << i;
+        const auto material = static_cast<std::size_t>(scene.triangles[i].material);
+        EXPECT_EQ(scene.materials[material].name, "gold");
+    }
+}
+
+TEST(CornellBox, HasThePapersCameraAndLights) {
+    const Scene scene = load_json_scene(MIRRORBALL_SCENES_DIR "/cornell-box.json");
+    const double half = std::sqrt(1.0 / 3.0);  // tan 30 degrees
+    expect_near(scene.camera.window, -half, half, -half, half);
+    EXPECT_EQ(scene.camera.field_of_view.fixed, Scene::FieldOfView::Fixed::horizontal);
+    EXPECT_EQ(scene.camera.from, glm::dvec3(0, 0, 2));
+    EXPECT_EQ(scene.camera.at, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(scene.aa, AaMode{2});
+    EXPECT_EQ(scene.ambient_light, glm::dvec3(0.2, 0.2, 0.2));
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.lights[0].position, glm::dvec3(0, 0.7, 0));
+    EXPECT_EQ(scene.lights[1].intensity, glm::dvec3(0.3, 0.3, 0.3));
+    ASSERT_EQ(scene.spheres.size(), 2u);
+    EXPECT_EQ(scene.spheres[0].center, glm::dvec3(-0.33, -0.75, -0.33));
+}
+
+TEST(ZeroArea, ThinTriangleIsKept) {
+    EXPECT_FALSE(zero_area({glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0.5, 1e-12, 0)}));
+    EXPECT_FALSE(
+        zero_area({glm::dvec3(1, 1, 1), glm::dvec3(1 + 1e-9, 1, 1), glm::dvec3(1, 1 + 1e-9, 1)}));
+}
+
+TEST(ZeroArea, ScaleDoesNotMatter) {
+    for (const double s : {1e-300, 1e-30, 1.0, 1e30}) {
+        EXPECT_FALSE(zero_area({glm::dvec3(0, 0, 0), glm::dvec3(s, 0, 0), glm::dvec3(0, s, 0)}));
+        EXPECT_TRUE(zero_area({glm::dvec3(0, 0, 0), glm::dvec3(s, s, s), glm::dvec3(3 * s)}));
+    }
+    EXPECT_FALSE(
+        zero_area({glm::dvec3(1e30, 0, 0), glm::dvec3(1e30, 1, 0), glm::dvec3(1e30, 0, 1e-30)}));
+}
+
+TEST(NearestWord, FindsTyposAndNothingElse) {
+    constexpr std::string_view known[] = {"center", "radius", "material"};
+    EXPECT_EQ(nearest_word("centre", known), "center");
+    EXPECT_EQ(nearest_word("Radius", known), "radius");
+    EXPECT_EQ(nearest_word("mateiral", known), "material");
+    EXPECT_EQ(nearest_word("colour", known), "");
+}
+
+TEST(InQuotes, ControlCharactersAreSpelledOut) {
+    EXPECT_EQ(in_quotes("a\x1b[2J\n\xC2\x9B"), "'a\\x1b[2J\\x0a\\xc2\\x9b'");
+    EXPECT_EQ(in_quotes("\xC3\xA4"), "'\xC3\xA4'");
+    EXPECT_EQ(in_quotes(std::string(100, 'x')), "'" + std::string(60, 'x') + "...'");
+}
+
+TEST(PositionOf, ColumnsCountCharacters) {
+    const SourcePosition position = position_of("\xEF\xBB\xBF{\n\xC3\xA4\xE2\x82\xAC!", 10);
+    EXPECT_EQ(position.line, 2u);
+    EXPECT_EQ(position.column, 3u);
+}
+
+}  // namespace
+}  // namespace rt
