@@ -31,7 +31,7 @@ Real intersect_primitive(const SceneView* scene, const Ray* ray, const RayShear*
 // The lowest-numbered primitive hit no further away than t_max; there is one.
 Hit first_listed_hit(const SceneView* scene, const Ray* ray, const RayShear* shear, Real t_max) {
     Index count = scene->frame.sphere_count + scene->frame.triangle_count;
-    Hit hit = {0, 0, 0, RT_NONE};
+    Hit hit = {0, 0, 0, RT_NONE, 1};
     for (Index prim = 0; prim < count; ++prim) {
         hit.t = intersect_primitive(scene, ray, shear, prim, &hit.u, &hit.v);
         if (hit.t > (Real)0 && hit.t <= t_max) {
@@ -45,7 +45,7 @@ Hit first_listed_hit(const SceneView* scene, const Ray* ray, const RayShear* she
 Hit closest_hit(const SceneView* scene, const Ray* ray) {
     Index count = scene->frame.sphere_count + scene->frame.triangle_count;
     RayShear shear = make_shear(ray);
-    Hit best = {INFINITY, 0, 0, RT_NONE};
+    Hit best = {INFINITY, 0, 0, RT_NONE, 0};
     Real second = INFINITY;
     for (Index prim = 0; prim < count; ++prim) {
         Real u = 0, v = 0;

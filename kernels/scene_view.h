@@ -28,6 +28,7 @@ typedef struct {
 typedef struct {
     Real t, u, v;  // u, v: weights of a triangle's second and third vertex
     Index prim;    // RT_NONE: a miss
+    Index tied;    // 1 where several surfaces meet within rounding
 } Hit;
 
 #endif

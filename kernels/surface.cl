@@ -7,6 +7,10 @@
 // onto the plane is nearer. A sphere's point is put back at distance r from the centre. Each point
 // carries a bound on how far it may lie off its surface; secondary rays start that far out along
 // the geometric normal and one ulp further (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8).
+//
+// Where the ray met several surfaces at once, on a shared edge say, that offset clears only one of
+// them, and whether the neighbour is in the way would be decided by rounding. There the point moves
+// eight offsets back along the ray, to the viewer's side of all of them.
 #ifndef RT_SURFACE_CL
 #define RT_SURFACE_CL
 
@@ -68,12 +72,21 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
     return surface;
 }
 
-Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit) {
+Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit) {
     if (RT_HAS_SPHERES && hit->prim < scene->frame.sphere_count) {
         return sphere_surface(ray, hit->t, &scene->spheres[hit->prim]);
     }
     Index index = hit->prim - scene->frame.sphere_count;
     return triangle_surface(ray, hit, &scene->triangles[index], scene->vertex_normals);
+}
+
+// The hit's surface, its point moved clear of the other surfaces it touches.
+Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit) {
+    Surface surface = primitive_surface(scene, ray, hit);
+    if (hit->tied != 0) {
+        surface.point = add_scaled(surface.point, (Real)-8 * surface.offset, ray->dir);
+    }
+    return surface;
 }
 
 // Where a ray starts that leaves the surface on the side that `side` points to.

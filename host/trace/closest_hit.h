@@ -28,7 +28,7 @@ template <typename T>
 Hit<T> first_listed_hit(const SceneView<T>& scene, const Ray<T>& ray, const RayShear<T>& shear,
                         T t_max) {
     const auto count = scene.frame.sphere_count + scene.frame.triangle_count;
-    Hit<T> hit{0, 0, 0, Flat<T>::none};
+    Hit<T> hit{0, 0, 0, Flat<T>::none, 1};
     for (typename Flat<T>::Index prim = 0; prim < count; ++prim) {
         hit.t = intersect_primitive(scene, ray, shear, prim, hit.u, hit.v);
         if (hit.t > T(0) && hit.t <= t_max) {
@@ -43,7 +43,7 @@ template <typename T>
 Hit<T> closest_hit(const SceneView<T>& scene, const Ray<T>& ray) {
     const auto count = scene.frame.sphere_count + scene.frame.triangle_count;
     const RayShear<T> shear = make_shear(ray);
-    Hit<T> best{std::numeric_limits<T>::infinity(), 0, 0, Flat<T>::none};
+    Hit<T> best{std::numeric_limits<T>::infinity(), 0, 0, Flat<T>::none, 0};
     T second = std::numeric_limits<T>::infinity();
     for (typename Flat<T>::Index prim = 0; prim < count; ++prim) {
         T u = 0, v = 0;
@@ -51,7 +51,7 @@ Hit<T> closest_hit(const SceneView<T>& scene, const Ray<T>& ray) {
         if (t > T(0) && t < second) {
             if (t < best.t) {
                 second = best.t;
-                best = {t, u, v, prim};
+                best = {t, u, v, prim, 0};
             } else {
                 second = t;
             }

@@ -30,6 +30,7 @@ template <typename T>
 struct Hit {
     T t, u, v;                     ///< u, v: weights of a triangle's second and third vertex
     typename Flat<T>::Index prim;  ///< none: a miss
+    typename Flat<T>::Index tied;  ///< 1 where several surfaces meet within rounding
 };
 
 }  // namespace rt::trace

@@ -68,12 +68,22 @@ Surface<T> triangle_surface(const Ray<T>& ray, const Hit<T>& hit,
 }
 
 template <typename T>
-Surface<T> surface_at(const SceneView<T>& scene, const Ray<T>& ray, const Hit<T>& hit) {
+Surface<T> primitive_surface(const SceneView<T>& scene, const Ray<T>& ray, const Hit<T>& hit) {
     if (hit.prim < scene.frame.sphere_count) {
         return sphere_surface(ray, hit.t, scene.spheres[hit.prim]);
     }
     const auto& triangle = scene.triangles[hit.prim - scene.frame.sphere_count];
     return triangle_surface(ray, hit, triangle, scene.vertex_normals);
+}
+
+/// The hit's surface, its point moved clear of the other surfaces it touches.
+template <typename T>
+Surface<T> surface_at(const SceneView<T>& scene, const Ray<T>& ray, const Hit<T>& hit) {
+    Surface<T> surface = primitive_surface(scene, ray, hit);
+    if (hit.tied != 0) {
+        surface.point = add_scaled(surface.point, T(-8) * surface.offset, ray.dir);
+    }
+    return surface;
 }
 
 /// Where a ray starts that leaves the surface on the side that `side` points to.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whole pictures: one set of bits from every renderer, and how far float is from double.
+#include <gtest/gtest.h>
+
+#include "host/scene/json_file.h"
+#include "tests/render_helpers.h"
+
+namespace rt::test {
+namespace {
+
+/// A scene at a size that keeps the tests short: 160 pixels wide.
+Scene load_small(const std::filesystem::path& file) {
+    Scene scene = load_json_scene(file.string());
+    set_image_size(scene, 160, std::max(1, 160 * scene.height / scene.width));
+    return scene;
+}
+
+ThreadsOptions threads(int count, Schedule schedule) { return {count, schedule}; }
+
+class EveryScene : public testing::TestWithParam<std::filesystem::path> {};
+
+template <typename T>
+void expect_one_hash(const Scene& scene) {
+    const std::uint64_t hash = hash_of(render_on_threads<T>(scene, threads(1, Schedule::tiles)));
+    const Rect odd_tile{0, 0, 13, 7};
+    for (const int count : {2, 7}) {
+        EXPECT_EQ(hash_of(render_on_threads<T>(scene, threads(count, Schedule::tiles), odd_tile)),
+                  hash);
+        EXPECT_EQ(hash_of(render_on_threads<T>(scene, threads(count, Schedule::buffers))), hash);
+    }
+    for (const bool all_features : {false, true}) {
+        const ClOptions pixel = cl_options(Launch::pixel, all_features);
+        const ClOptions sample = cl_options(Launch::sample, all_features);
+        EXPECT_EQ(hash_of(render_on_device<T>(scene, pixel)), hash);
+        EXPECT_EQ(hash_of(render_on_device<T>(scene, sample)), hash);
+        EXPECT_EQ(hash_of(render_on_device<T>(scene, pixel, odd_tile)), hash);
+        EXPECT_EQ(hash_of(render_on_device<T>(scene, sample, odd_tile)), hash);
+    }
+}
+
+TEST_P(EveryScene, FloatHasTheSameBitsFromEveryRenderer) {
+    expect_one_hash<float>(load_small(GetParam()));
+}
+
+TEST_P(EveryScene, DoubleHasTheSameBitsFromEveryRenderer) {
+    if (!test_device().has_double) GTEST_SKIP() << test_device().name << " has no double";
+    expect_one_hash<double>(load_small(GetParam()));
+}
+
+TEST_P(EveryScene, FloatStaysNearDouble) {
+    const Scene scene = load_small(GetParam());
+    const ImageError error =
+        film_error(render_on_threads<float>(scene), render_on_threads<double>(scene));
+    EXPECT_EQ(error.non_finite, 0u);
+    EXPECT_LE(error.rmse, 1e-3);
+    EXPECT_LE(error.over_1, 12u);  // of 19200: pixels on hard edges may flip
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_files()),
+                         [](const auto& info) {
+                             std::string name = info.param.stem().string();
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+class PaperScene : public testing::TestWithParam<int> {
+   protected:
+    Scene scene() const {
+        Scene paper = load_scene("cornell-box");
+        paper.aa = AaMode{GetParam()};
+        return paper;
+    }
+};
+
+TEST_P(PaperScene, FloatIsWithin1e4OfDoubleDiagonalsIncluded) {
+    const ImageError error =
+        film_error(render_on_device<float>(scene()), render_on_threads<double>(scene()));
+    EXPECT_EQ(error.non_finite, 0u);
+    EXPECT_LE(error.rmse, 1e-4);
+    EXPECT_LE(error.over_1, 10u);
+}
+
+TEST_P(PaperScene, DeviceDoubleIsWithin1e9OfThreadsDouble) {
+    if (!test_device().has_double) GTEST_SKIP() << test_device().name << " has no double";
+    const ImageError error =
+        film_error(render_on_device<double>(scene()), render_on_threads<double>(scene()));
+    EXPECT_EQ(error.non_finite, 0u);
+    EXPECT_LE(error.rmse, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Grids, PaperScene, testing::Values(1, 2));
+
+}  // namespace
+}  // namespace rt::test

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/render_helpers.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "host/flatten/flat_scene.h"
+#include "host/render/device_spec.h"
+#include "host/scene/json_file.h"
+
+namespace rt::test {
+
+namespace {
+
+const StopFlag never_stop = 0;
+
+template <typename T>
+Film<T> render_all(Renderer<T>& renderer, const Scene& scene, Rect tile) {
+    Film<T> film(scene.width, scene.height);
+    const Rect region{0, 0, scene.width, scene.height};
+    if (tile.width == 0) tile = renderer.tile_size(scene.width);
+    TileQueue queue(make_tiles(region, tile.width, tile.height), never_stop);
+    renderer.render(queue, region, film);
+    if (queue.tiles_finished() != queue.tiles().size()) throw std::logic_error("unfinished tiles");
+    return film;
+}
+
+ClDevice find_test_device() {
+    std::vector<std::string> problems;
+    const auto devices = list_cl_devices(problems);
+    if (const char* spec = std::getenv("MIRRORBALL_TEST_DEVICE")) {
+        return choose_device(spec, devices, problems).device;
+    }
+    for (const ClDevice& device : devices) {
+        if (device.platform == "Portable Computing Language") return device;
+    }
+    if (devices.empty()) throw std::runtime_error("no OpenCL device to test");
+    return devices.front();
+}
+
+template <typename T>
+Picture clamped(const Film<T>& film) {
+    Picture picture;
+    picture.width = film.width;
+    picture.height = film.height;
+    for (const T value : film.rgb) {
+        picture.pixels.push_back(static_cast<float>(std::clamp<T>(value, 0, 1)));
+    }
+    return picture;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> scene_files() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(MIRRORBALL_SCENES_DIR)) {
+        const std::string name = entry.path().filename().string();
+        if (name.ends_with(".json") && !name.ends_with(".schema.json")) {
+            files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+Scene load_scene(const std::string& stem) {
+    return load_json_scene(std::string(MIRRORBALL_SCENES_DIR) + "/" + stem + ".json");
+}
+
+const ClDevice& test_device() {
+    static const ClDevice device = find_test_device();
+    return device;
+}
+
+template <typename T>
+Film<T> render_on_threads(const Scene& scene, const ThreadsOptions& options, Rect tile) {
+    const FlatScene<T> flat = flatten<T>(scene);
+    return render_all<T>(*make_threads_renderer(flat, options), scene, tile);
+}
+
+template <typename T>
+Film<T> render_on_device(const Scene& scene, const ClOptions& options, Rect tile) {
+    const FlatScene<T> flat = flatten<T>(scene);
+    return render_all<T>(*make_cl_renderer(flat, test_device(), options), scene, tile);
+}
+
+ClOptions cl_options(Launch launch, bool all_features) {
+    ClOptions options;
+    options.launch = launch;
+    options.all_features = all_features;
+    options.warnings_are_errors = true;
+    return options;
+}
+
+template <typename A, typename B>
+ImageError film_error(const Film<A>& film, const Film<B>& reference) {
+    return image_error(clamped(film), clamped(reference));
+}
+
+template Film<float> render_on_threads(const Scene&, const ThreadsOptions&, Rect);
+template Film<double> render_on_threads(const Scene&, const ThreadsOptions&, Rect);
+template Film<float> render_on_device(const Scene&, const ClOptions&, Rect);
+template Film<double> render_on_device(const Scene&, const ClOptions&, Rect);
+template ImageError film_error(const Film<float>&, const Film<double>&);
+template ImageError film_error(const Film<float>&, const Film<float>&);
+template ImageError film_error(const Film<double>&, const Film<double>&);
+
+}  // namespace rt::test

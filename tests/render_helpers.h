@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/render/cl_renderer.h"
+#include "host/render/film.h"
+#include "host/render/threads_renderer.h"
+#include "host/report/image_error.h"
+#include "host/scene/scene.h"
+
+namespace rt::test {
+
+/// Every scene file in scenes/, sorted.
+std::vector<std::filesystem::path> scene_files();
+
+/// A scene from scenes/ by its stem, such as "cornell-box".
+Scene load_scene(const std::string& stem);
+
+/// The device under test: what MIRRORBALL_TEST_DEVICE says (as --device), else PoCL's, else the
+/// first. The tests that use it fail when there is none.
+const ClDevice& test_device();
+
+/// Whole pictures. A tile of 0 x 0 is the renderer's own.
+template <typename T>
+Film<T> render_on_threads(const Scene& scene, const ThreadsOptions& options = {}, Rect tile = {});
+
+template <typename T>
+Film<T> render_on_device(const Scene& scene, const ClOptions& options = {}, Rect tile = {});
+
+/// Options for tests: OpenCL warnings are errors.
+ClOptions cl_options(Launch launch, bool all_features = false);
+
+/// `film` against `reference`, both clamped to [0, 1].
+template <typename A, typename B>
+ImageError film_error(const Film<A>& film, const Film<B>& reference);
+
+}  // namespace rt::test
