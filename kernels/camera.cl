@@ -20,7 +20,7 @@ Ray camera_ray(const Frame* frame, Index x, Index y, Index k) {
     real3 across = add_scaled(load3(frame->direction), sx, load3(frame->direction_dx));
     Ray ray;
     ray.dir = normalize3(add_scaled(across, sy, load3(frame->direction_dy)));
-    ray.origin = add_scaled(sx * load3(frame->origin_dx), sy, load3(frame->origin_dy));
+    ray.origin = add_scaled(scale3(sx, load3(frame->origin_dx)), sy, load3(frame->origin_dy));
     ray.t_max = INFINITY;
     ray.from = RT_NONE;
     return ray;

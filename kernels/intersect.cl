@@ -18,7 +18,7 @@
 
 // Distance along the ray to the sphere, or -1. `leaving`: the origin lies on this very sphere.
 Real intersect_sphere(const Ray* ray, real3 center, Real radius, bool leaving) {
-    real3 f = ray->origin - center;
+    real3 f = sub3(ray->origin, center);
     Real b = -dot3(f, ray->dir);
     if (leaving) return (Real)2 * b;
     real3 l = add_scaled(f, b, ray->dir);
@@ -57,8 +57,8 @@ RayShear make_shear(const Ray* ray) {
 real3 shear_vertex(const RayShear* shear, __global const Packed3* vertex) {
     __global const Real* p = &vertex->x;
     Real z = p[shear->kz] - shear->origin_z;
-    return (real3)(fma(-shear->sx, z, p[shear->kx] - shear->origin_x),
-                   fma(-shear->sy, z, p[shear->ky] - shear->origin_y), z);
+    return make3(fma(-shear->sx, z, p[shear->kx] - shear->origin_x),
+                 fma(-shear->sy, z, p[shear->ky] - shear->origin_y), z);
 }
 
 // Distance along the ray to the triangle, or -1; u and v are set on a hit.

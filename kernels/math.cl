@@ -8,18 +8,38 @@
 
 #include "kernels/types.h"
 
-real3 load3(Packed3 p) { return (real3)(p.x, p.y, p.z); }
+real3 make3(Real x, Real y, Real z) {
+    real3 v = {x, y, z};
+    return v;
+}
+
+real3 load3(Packed3 p) { return make3(p.x, p.y, p.z); }
+
+real3 add3(real3 a, real3 b) { return make3(a.x + b.x, a.y + b.y, a.z + b.z); }
+
+real3 sub3(real3 a, real3 b) { return make3(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+// Component by component: light times reflectance.
+real3 mul3(real3 a, real3 b) { return make3(a.x * b.x, a.y * b.y, a.z * b.z); }
+
+real3 scale3(Real s, real3 v) { return make3(s * v.x, s * v.y, s * v.z); }
+
+real3 divide3(real3 v, Real s) { return make3(v.x / s, v.y / s, v.z / s); }
+
+real3 negate3(real3 v) { return make3(-v.x, -v.y, -v.z); }
+
+real3 abs3(real3 v) { return make3(fabs(v.x), fabs(v.y), fabs(v.z)); }
 
 Real dot3(real3 a, real3 b) { return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x)); }
 
 // a + s * b
-real3 add_scaled(real3 a, Real s, real3 b) { return fma((real3)(s), b, a); }
+real3 add_scaled(real3 a, Real s, real3 b) {
+    return make3(fma(s, b.x, a.x), fma(s, b.y, a.y), fma(s, b.z, a.z));
+}
 
 Real length3(real3 v) { return sqrt(dot3(v, v)); }
 
-real3 normalize3(real3 v) { return v * ((Real)1 / length3(v)); }
-
-real3 abs3(real3 v) { return fabs(v); }
+real3 normalize3(real3 v) { return scale3((Real)1 / length3(v), v); }
 
 // a b - c d with an error below 1.5 ulp and hence the right sign (Kahan; Jeannerod, Louvet and
 // Muller 2013), whatever cancels.

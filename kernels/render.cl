@@ -36,11 +36,12 @@ __kernel void render_pixels(__global Real* restrict film, __global RayCounts* re
     Index row = (Index)item / tile.width;
     Index samples = frame.grid * frame.grid;
     RayCounts used = {0, 0};
-    real3 sum = (real3)((Real)0);
+    real3 sum = {0, 0, 0};
     for (Index k = 0; k < samples; ++k) {
-        sum += trace_sample(&scene, tile.x + column, frame.height - 1 - (tile.y + row), k, &used);
+        sum = add3(sum, trace_sample(&scene, tile.x + column, frame.height - 1 - (tile.y + row), k,
+                                     &used));
     }
-    store3(film, tile.first + row * tile.film_width + column, sum / (Real)samples);
+    store3(film, tile.first + row * tile.film_width + column, divide3(sum, (Real)samples));
     add_counts(counts, item, used);
 }
 
@@ -67,11 +68,12 @@ __kernel void resolve_samples(__global Real* restrict film, __global const Real*
     Index pixels = tile.width * tile.height;
     if (item >= (size_t)pixels) return;
     Index pixel = (Index)item;
-    real3 sum = (real3)((Real)0);
+    real3 sum = {0, 0, 0};
     for (Index k = 0; k < sample_count; ++k) {
         Index at = 3 * (k * pixels + pixel);
-        sum += (real3)(samples[at], samples[at + 1], samples[at + 2]);
+        sum = add3(sum, make3(samples[at], samples[at + 1], samples[at + 2]));
     }
     Index row = pixel / tile.width;
-    store3(film, tile.first + row * tile.film_width + pixel % tile.width, sum / (Real)sample_count);
+    store3(film, tile.first + row * tile.film_width + pixel % tile.width,
+           divide3(sum, (Real)sample_count));
 }

@@ -17,11 +17,11 @@ bool is_black(real3 color) {
 
 // max(0, n.h)^p with h halfway between the unit directions to the light and to the eye.
 Real specular_lobe(real3 normal, real3 to_light, real3 to_eye, Real shininess) {
-    real3 sum = to_light + to_eye;
+    real3 sum = add3(to_light, to_eye);
     Real squared = dot3(sum, sum);
     if (!(squared > (Real)0)) return (Real)0;
-    real3 half_vector = sum * ((Real)1 / sqrt(squared));
-    real3 gap = normal - half_vector;
+    real3 half_vector = scale3((Real)1 / sqrt(squared), sum);
+    real3 gap = sub3(normal, half_vector);
     return blinn_lobe(dot3(normal, half_vector), (Real)0.5 * dot3(gap, gap), shininess);
 }
 
@@ -29,36 +29,36 @@ Real specular_lobe(real3 normal, real3 to_light, real3 to_eye, Real shininess) {
 real3 light_contribution(const SceneView* scene, const Surface* surface,
                          __global const Material* material, __global const Light* light,
                          real3 origin, real3 to_eye, Index prim, RayCounts* counts) {
-    const real3 none = (real3)((Real)0);
-    real3 to_light = load3(light->position) - origin;
+    const real3 none = {0, 0, 0};
+    real3 to_light = sub3(load3(light->position), origin);
     if (!(dot3(surface->geometric, to_light) > (Real)0)) return none;
     Real distance = length3(to_light);
     Ray shadow;
     shadow.origin = origin;
-    shadow.dir = to_light * ((Real)1 / distance);
+    shadow.dir = scale3((Real)1 / distance, to_light);
     shadow.t_max = distance * ((Real)1 - (Real)16 * (Real)RT_ROUNDOFF);
     shadow.from = prim;
     Real cosine = dot3(surface->normal, shadow.dir);
     if (!(cosine > (Real)0)) return none;
     counts->shadow += 1;
     if (any_hit(scene, &shadow)) return none;
-    real3 reflected = cosine * load3(material->diffuse);
+    real3 reflected = scale3(cosine, load3(material->diffuse));
     real3 specular = load3(material->specular);
     if (!is_black(specular)) {
         Real lobe = specular_lobe(surface->normal, shadow.dir, to_eye, material->shininess);
         reflected = add_scaled(reflected, lobe, specular);
     }
-    return load3(light->intensity) * reflected;
+    return mul3(load3(light->intensity), reflected);
 }
 
 real3 shade(const SceneView* scene, const Surface* surface, __global const Material* material,
             real3 to_eye, Index prim, RayCounts* counts) {
-    real3 color = load3(material->ambient) * load3(scene->frame.ambient_light);
+    real3 color = mul3(load3(material->ambient), load3(scene->frame.ambient_light));
     if (RT_HAS_LIGHTS) {
         real3 origin = offset_origin(surface, surface->geometric);
         for (Index i = 0; i < scene->frame.light_count; ++i) {
-            color += light_contribution(scene, surface, material, &scene->lights[i], origin, to_eye,
-                                        prim, counts);
+            color = add3(color, light_contribution(scene, surface, material, &scene->lights[i],
+                                                   origin, to_eye, prim, counts));
         }
     }
     return color;

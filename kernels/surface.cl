@@ -29,7 +29,7 @@ typedef struct {
 Surface sphere_surface(const Ray* ray, Real t, __global const Sphere* sphere) {
     real3 center = load3(sphere->center);
     Surface surface;
-    surface.normal = normalize3(add_scaled(ray->origin - center, t, ray->dir));
+    surface.normal = normalize3(add_scaled(sub3(ray->origin, center), t, ray->dir));
     surface.geometric = surface.normal;
     surface.point = add_scaled(center, sphere->radius, surface.normal);
     Real spread = dot3(abs3(surface.normal), abs3(surface.point));
@@ -40,11 +40,11 @@ Surface sphere_surface(const Ray* ray, Real t, __global const Sphere* sphere) {
 
 // The normal blended from the vertices, or the face's own where the blend vanishes.
 real3 blended_normal(__global const VertexNormals* normals, real3 face, Real u, Real v) {
-    real3 blend = ((Real)1 - u - v) * load3(normals->n0);
+    real3 blend = scale3((Real)1 - u - v, load3(normals->n0));
     blend = add_scaled(blend, u, load3(normals->n1));
     blend = add_scaled(blend, v, load3(normals->n2));
     Real squared = dot3(blend, blend);
-    return squared > (Real)1e-12 ? blend * ((Real)1 / sqrt(squared)) : face;
+    return squared > (Real)1e-12 ? scale3((Real)1 / sqrt(squared), blend) : face;
 }
 
 Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle* triangle,
@@ -52,8 +52,8 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
     real3 normal = load3(triangle->normal);
     real3 p0 = load3(triangle->p0);
     Surface surface;
-    surface.point = add_scaled(p0, hit->u, load3(triangle->p1) - p0);
-    surface.point = add_scaled(surface.point, hit->v, load3(triangle->p2) - p0);
+    surface.point = add_scaled(p0, hit->u, sub3(load3(triangle->p1), p0));
+    surface.point = add_scaled(surface.point, hit->v, sub3(load3(triangle->p2), p0));
     surface.offset = triangle->offset;
     Real reach = (Real)RT_ROUNDOFF * (length3(ray->origin) + hit->t);
     if (triangle->offset > (Real)64 * reach) {
@@ -67,7 +67,7 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
     if (RT_HAS_VERTEX_NORMALS && triangle->smooth != RT_NONE) {
         __global const VertexNormals* normals = &vertex_normals[triangle->smooth];
         surface.normal = blended_normal(normals, normal, hit->u, hit->v);
-        if (dot3(surface.normal, normal) < (Real)0) surface.geometric = -normal;
+        if (dot3(surface.normal, normal) < (Real)0) surface.geometric = negate3(normal);
     }
     return surface;
 }
@@ -92,10 +92,10 @@ Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit) {
 // Where a ray starts that leaves the surface on the side that `side` points to.
 real3 offset_origin(const Surface* surface, real3 side) {
     Real distance = dot3(surface->geometric, side) < (Real)0 ? -surface->offset : surface->offset;
-    real3 step = distance * surface->geometric;
-    real3 p = surface->point + step;
-    return (real3)(one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),
-                   one_ulp_towards(p.z, step.z));
+    real3 step = scale3(distance, surface->geometric);
+    real3 p = add3(surface->point, step);
+    return make3(one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),
+                 one_ulp_towards(p.z, step.z));
 }
 
 #endif

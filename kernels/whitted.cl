@@ -28,20 +28,22 @@ Ray mirror_ray(const Surface* surface, real3 dir, Index prim) {
 }
 
 real3 trace_path(const SceneView* scene, Ray ray, RayCounts* counts) {
-    real3 color = (real3)((Real)0);
-    real3 throughput = (real3)((Real)1);
+    real3 color = {0, 0, 0};
+    real3 throughput = {1, 1, 1};
     for (Index bounce = 0;; ++bounce) {
         Hit hit = closest_hit(scene, &ray);
-        if (hit.prim == RT_NONE) return color + throughput * load3(scene->frame.background);
+        if (hit.prim == RT_NONE)
+            return add3(color, mul3(throughput, load3(scene->frame.background)));
         Surface surface = surface_at(scene, &ray, &hit);
         __global const Material* material = &scene->materials[surface.material];
         if (material->two_sided != 0 && dot3(surface.geometric, ray.dir) > (Real)0) {
-            surface.normal = -surface.normal;
-            surface.geometric = -surface.geometric;
+            surface.normal = negate3(surface.normal);
+            surface.geometric = negate3(surface.geometric);
         }
-        color += throughput * shade(scene, &surface, material, -ray.dir, hit.prim, counts);
+        real3 local_light = shade(scene, &surface, material, negate3(ray.dir), hit.prim, counts);
+        color = add3(color, mul3(throughput, local_light));
         if (!RT_HAS_MIRRORS || bounce >= scene->frame.max_bounces) return color;
-        throughput = throughput * load3(material->mirror);
+        throughput = mul3(throughput, load3(material->mirror));
         if (is_black(throughput)) return color;
         ray = mirror_ray(&surface, ray.dir, hit.prim);
         counts->mirror += 1;

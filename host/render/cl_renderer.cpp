@@ -130,7 +130,9 @@ class ClRenderer : public Renderer<T> {
         vertex_normals_ = upload_array(scene.vertex_normals, "the vertex normals");
         materials_ = upload_array(scene.materials, "the materials");
         lights_ = upload_array(scene.lights, "the lights");
-        counts_ = upload_array(std::vector<FlatCounts>(rounded_up(most_items())), "ray counts");
+        const std::size_t count_bytes = rounded_up(most_items()) * sizeof(FlatCounts);
+        counts_ = make_buffer(count_bytes, "the ray counts");
+        queue_.enqueueFillBuffer(counts_, std::uint64_t{0}, 0, count_bytes);
         if (launch_samples_) {
             samples_ = make_buffer(most_items() * 3 * sizeof(T), "the samples");
         }

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs every kernel under Oclgrind: no bad memory access, and the bits of the pthreads renderer.
+
+usage: oclgrind_test.py BUILD_DIR REPO_ROOT
+Oclgrind exits with 0 when it has found errors, so its log is what is judged.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(sys.argv.pop(1))
+ROOT = pathlib.Path(sys.argv.pop(1))
+
+
+def render(scene, options, device, prefix=()):
+    """The --stats=json of a 32 x 32 picture."""
+    command = [*prefix, str(BUILD / "mirrorball"), "render", str(ROOT / "scenes" / scene),
+               "--size", "32", "--device", device, "--no-fallback", "--progress", "none",
+               "--stats=json", *options]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=240)
+    if result.returncode != 0:
+        raise AssertionError(f"{command}: exit {result.returncode}\n{result.stderr}")
+    return json.loads(result.stdout)
+
+
+class Oclgrind(unittest.TestCase):
+    def check(self, scene, *options):
+        with tempfile.TemporaryDirectory() as folder:
+            log = pathlib.Path(folder) / "oclgrind.log"
+            simulated = render(scene, options, "0",
+                               ("oclgrind", "--check-api", "--log", str(log)))
+            self.assertEqual(simulated["device"]["platform"], "Oclgrind")
+            self.assertEqual(log.read_text() if log.exists() else "", "")
+        threads = render(scene, options, "threads")
+        self.assertEqual(simulated["image"]["hash"], threads["image"]["hash"])
+        self.assertEqual(simulated["rays"], threads["rays"])
+
+    def test_render_pixels(self):
+        self.check("cornell-box.json", "--launch", "pixel")
+
+    def test_render_samples_and_resolve(self):
+        self.check("cornell-box.json", "--launch", "sample")
+
+    def test_double(self):
+        self.check("cornell-box.json", "--launch", "pixel", "--precision", "double")
+
+    def test_every_feature_with_vertex_normals(self):
+        self.check("vertex-normals.json", "--aa", "none", "--features", "all")
+
+
+if __name__ == "__main__":
+    unittest.main()
