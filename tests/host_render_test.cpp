@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The small parts around the tracer: tiles, threads, device choice, film, image error, statistics.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "host/error.h"
+#include "host/render/device_spec.h"
+#include "host/render/film.h"
+#include "host/render/posix_threads.h"
+#include "host/render/threads_renderer.h"
+#include "host/render/tile_queue.h"
+#include "host/report/image_error.h"
+#include "host/report/progress.h"
+#include "host/scene/aa_mode.h"
+
+namespace rt {
+namespace {
+
+TEST(MakeTiles, CoverEveryPixelOnce) {
+    const Rect region{3, 5, 100, 37};
+    std::set<std::pair<int, int>> pixels;
+    for (const Rect& tile : make_tiles(region, 13, 7)) {
+        EXPECT_LE(tile.width, 13);
+        EXPECT_LE(tile.height, 7);
+        for (int y = tile.y; y < tile.y + tile.height; ++y) {
+            for (int x = tile.x; x < tile.x + tile.width; ++x) {
+                EXPECT_TRUE(pixels.insert({x, y}).second);
+            }
+        }
+    }
+    EXPECT_EQ(pixels.size(), 3700u);
+    EXPECT_EQ(*pixels.begin(), std::make_pair(3, 5));
+    EXPECT_EQ(*pixels.rbegin(), std::make_pair(102, 41));
+}
+
+TEST(TileQueue, HandsOutEveryTileOnceToManyThreads) {
+    static const StopFlag go = 0;
+    TileQueue queue(make_tiles({0, 0, 640, 480}, 8, 8), go);
+    std::atomic<int> taken = 0;
+    run_on_threads(8, [&](int) {
+        while (const auto tile = queue.next()) {
+            ++taken;
+            queue.add_rays({1, 2, 3});
+            queue.finish(*tile);
+        }
+    });
+    EXPECT_EQ(taken, 80 * 60);
+    EXPECT_EQ(queue.tiles_finished(), queue.tiles().size());
+    EXPECT_EQ(queue.fraction_finished(), 1.0);
+    EXPECT_EQ(queue.rays().total(), 6u * 4800);
+}
+
+TEST(TileQueue, GivesNothingOnceStopped) {
+    static StopFlag stop = 0;
+    TileQueue queue(make_tiles({0, 0, 64, 64}, 8, 8), stop);
+    EXPECT_TRUE(queue.next().has_value());
+    stop = 2;
+    EXPECT_FALSE(queue.next().has_value());
+    EXPECT_TRUE(queue.stopped());
+}
+
+TEST(RunOnThreads, RunsEachIndexOnceAndRethrows) {
+    std::atomic<int> sum = 0;
+    run_on_threads(16, [&](int i) { sum += i; });
+    EXPECT_EQ(sum, 120);
+    const auto fail = [](int i) {
+        if (i == 3) throw Error(ExitCode::bug, "three");
+    };
+    EXPECT_THROW(run_on_threads(5, fail), Error);
+}
+
+TEST(ThreadCount, BuffersNeverUseMoreThreadsThanSamples) {
+    EXPECT_EQ(thread_count({0, Schedule::buffers}, 4), 4);
+    EXPECT_EQ(thread_count({2, Schedule::buffers}, 4), 2);
+    EXPECT_EQ(thread_count({9, Schedule::buffers}, 4), 4);
+    EXPECT_EQ(thread_count({9, Schedule::tiles}, 4), 9);
+    EXPECT_EQ(thread_count({0, Schedule::tiles}, 4), available_cores());
+}
+
+ClDevice device(int index, int platform_index, const char* name, const char* platform, bool gpu) {
+    ClDevice made;
+    made.index = index;
+    made.platform_index = platform_index;
+    made.device_index = 0;
+    made.name = name;
+    made.platform = platform;
+    made.is_gpu = gpu;
+    made.is_cpu = !gpu;
+    return made;
+}
+
+std::vector<ClDevice> three_devices() {
+    return {device(0, 0, "pthread-cpu", "Portable Computing Language", false),
+            device(1, 1, "Radeon Pro", "AMD Accelerated", true),
+            device(2, 2, "Xeon", "Intel OpenCL", false)};
+}
+
+int chosen(const std::string& spec) {
+    return choose_device(spec, three_devices(), {}).device.index;
+}
+
+ExitCode refusal(const std::string& spec, const std::vector<ClDevice>& devices) {
+    try {
+        choose_device(spec, devices, {});
+    } catch (const Error& error) {
+        return error.exit_code();
+    }
+    return ExitCode::done;
+}
+
+TEST(ChooseDevice, UnderstandsEverySpec) {
+    EXPECT_EQ(chosen(""), 1);
+    EXPECT_EQ(chosen("2"), 2);
+    EXPECT_EQ(chosen("2:0"), 2);
+    EXPECT_EQ(chosen("pocl"), 0);
+    EXPECT_EQ(chosen("gpu"), 1);
+    EXPECT_EQ(chosen("name:radeon"), 1);
+    EXPECT_EQ(chosen("name:intel"), 2);
+}
+
+TEST(ChooseDevice, RefusesWhatFitsNoneOrSeveral) {
+    EXPECT_EQ(refusal("cpu", three_devices()), ExitCode::usage);
+    EXPECT_EQ(refusal("7", three_devices()), ExitCode::device);
+    EXPECT_EQ(refusal("1:1", three_devices()), ExitCode::device);
+    EXPECT_EQ(refusal("nonsense", three_devices()), ExitCode::usage);
+    EXPECT_EQ(refusal("name:", three_devices()), ExitCode::usage);
+    auto broken = three_devices();
+    broken[1].unusable = "its driver has no compiler";
+    EXPECT_EQ(refusal("gpu", broken), ExitCode::device);
+}
+
+TEST(ChooseDevice, FallsBackToThreadsWithANote) {
+    const DeviceChoice choice = choose_device("", {}, {"no OpenCL platform"});
+    EXPECT_TRUE(choice.use_threads);
+    EXPECT_NE(choice.note.find("no OpenCL platform"), std::string::npos);
+}
+
+TEST(NamesThreads, ReadsTheCount) {
+    DeviceChoice choice;
+    EXPECT_FALSE(names_threads("pocl", choice));
+    EXPECT_TRUE(names_threads("threads", choice));
+    EXPECT_EQ(choice.threads, 0);
+    EXPECT_TRUE(names_threads("threads:7", choice));
+    EXPECT_EQ(choice.threads, 7);
+    for (const char* bad : {"threads:", "threads:0", "threads:-1", "threads:x", "threads:99999"}) {
+        EXPECT_THROW(names_threads(bad, choice), Error) << bad;
+    }
+}
+
+TEST(ParseAaMode, RoundTripsAndRefuses) {
+    for (const char* text : {"none", "grid:2", "grid:64"}) {
+        ASSERT_TRUE(parse_aa_mode(text).has_value()) << text;
+        EXPECT_EQ(to_string(*parse_aa_mode(text)), text);
+    }
+    EXPECT_EQ(parse_aa_mode("grid:1"), AaMode{1});
+    for (const char* bad : {"", "grid", "grid:", "grid:0", "grid:65", "grid:2x", "Grid:2"}) {
+        EXPECT_FALSE(parse_aa_mode(bad).has_value()) << bad;
+    }
+}
+
+TEST(Film, HashSeesEveryBitAndTheShape) {
+    Film<float> film(4, 3), flat(12, 1);
+    const std::uint64_t black = hash_of(film);
+    EXPECT_NE(hash_of(flat), black);
+    film.rgb[35] = -0.0f;
+    EXPECT_NE(hash_of(film), black);
+}
+
+TEST(Film, CountsPixelsThatAreNotFinite) {
+    Film<double> film(4, 3);
+    film.rgb[0] = std::numeric_limits<double>::infinity();
+    film.rgb[2] = std::nan("");
+    film.rgb[7] = -std::numeric_limits<double>::infinity();
+    EXPECT_EQ(count_non_finite(film), 2u);
+}
+
+Picture picture(std::vector<float> pixels) {
+    Picture made;
+    made.width = static_cast<int>(pixels.size() / 3);
+    made.height = 1;
+    made.pixels = std::move(pixels);
+    return made;
+}
+
+TEST(ImageErrorOf, IsWhatTheFormulasSay) {
+    const ImageError error =
+        image_error(picture({0, 0, 0, 0.5f, 1, 0.25f}), picture({0, 0, 0, 0.5f, 0.5f, 0.5f}));
+    const double mse = (0.25 + 0.0625) / 6;
+    EXPECT_DOUBLE_EQ(error.rmse, std::sqrt(mse));
+    EXPECT_DOUBLE_EQ(error.psnr, -10 * std::log10(mse));
+    EXPECT_DOUBLE_EQ(error.mean, 0.75 / 6);
+    EXPECT_EQ(error.max, 0.5);
+    EXPECT_EQ(error.max_x, 1);
+    EXPECT_EQ(error.over_1, 1u);
+    EXPECT_EQ(error.over_8, 1u);
+}
+
+TEST(ImageErrorOf, CountsNonFinitePixelsInsteadOfPassingThem) {
+    const Picture nan = picture({std::nanf(""), 0, 0});
+    EXPECT_EQ(image_error(nan, nan).non_finite, 1u);
+    EXPECT_THROW(image_error(nan, picture({0, 0, 0, 0, 0, 0})), Error);
+}
+
+TEST(ProgressLine, TellsShareRateAndTimeLeft) {
+    EXPECT_EQ(progress_line(0.25, 30, {1000000, 2000000, 0}), " 25 %  0.1 Mrays/s  ETA 1:30");
+    EXPECT_EQ(progress_line(0, 0, {}), "  0 %  0.0 Mrays/s  ETA -:--");
+}
+
+}  // namespace
+}  // namespace rt
