@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <exception>
 #include <new>
+#include <string>
+#include <system_error>
 
+#include "host/console.h"
 #include "host/error.h"
 #include "host/options.h"
 #include "host/report/render_stats.h"
@@ -22,14 +23,14 @@ int run(int argc, char** argv, double seconds_before_main) {
         case rt::Verb::scene:
             return rt::run_scene(options.scene);
         case rt::Verb::none:
-            fmt::print("{}", options.text);
+            rt::print_result(options.text);
             return 0;
     }
     return static_cast<int>(rt::ExitCode::bug);
 }
 
 int failed(rt::ExitCode code, const char* message) {
-    fmt::print(stderr, "mirrorball: {}\n", message);
+    rt::print_message(std::string("mirrorball: ") + message + "\n");
     return static_cast<int>(code);
 }
 
@@ -37,13 +38,18 @@ int failed(rt::ExitCode code, const char* message) {
 
 int main(int argc, char** argv) {
     const double seconds_before_main = rt::seconds_since_process_start();
-    rt::ignore_write_signals();
+    rt::open_missing_streams();
+    rt::prepare_signals();
     try {
-        return run(argc, argv, seconds_before_main);
+        const int status = run(argc, argv, seconds_before_main);
+        rt::flush_results();
+        return status;
     } catch (const rt::Error& error) {
         return failed(error.exit_code(), error.what());
     } catch (const std::bad_alloc&) {
         return failed(rt::ExitCode::limit, "out of memory; render a smaller picture or scene");
+    } catch (const std::system_error& error) {
+        return failed(rt::ExitCode::limit, error.what());
     } catch (const std::exception& error) {
         return failed(rt::ExitCode::bug, error.what());
     }

@@ -41,7 +41,7 @@ struct RenderOptions {
     Encoding encoding = Encoding::display;
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;
-    bool fallback = true;  ///< finish on threads when the device fails
+    bool no_fallback = false;  ///< fail when the device fails, instead of using threads
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar
     std::string pocl_cache;      ///< PoCL's kernel cache folder, for telling cold builds from warm

@@ -171,20 +171,23 @@ TEST(Film, HashSeesEveryBitAndTheShape) {
     EXPECT_NE(hash_of(film), black);
 }
 
-TEST(Film, CountsPixelsThatAreNotFinite) {
-    Film<double> film(4, 3);
-    film.rgb[0] = std::numeric_limits<double>::infinity();
-    film.rgb[2] = std::nan("");
-    film.rgb[7] = -std::numeric_limits<double>::infinity();
-    EXPECT_EQ(count_non_finite(film), 2u);
-}
-
 Picture picture(std::vector<float> pixels) {
     Picture made;
     made.width = static_cast<int>(pixels.size() / 3);
     made.height = 1;
     made.pixels = std::move(pixels);
     return made;
+}
+
+TEST(CountNonFinite, CountsPixelsAndNamesTheFirst) {
+    Picture made = picture(std::vector<float>(36));
+    made.width = 4;
+    made.height = 3;
+    made.pixels[15] = std::numeric_limits<float>::infinity();
+    made.pixels[17] = std::nanf("");
+    made.pixels[22] = -std::numeric_limits<float>::infinity();
+    EXPECT_EQ(count_non_finite(made), 2u);
+    EXPECT_EQ(first_non_finite(made), std::make_pair(1, 1));
 }
 
 TEST(ImageErrorOf, IsWhatTheFormulasSay) {

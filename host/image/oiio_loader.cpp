@@ -5,7 +5,6 @@
 #include <signal.h>
 
 #include <filesystem>
-#include <future>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -89,20 +88,10 @@ LoadResult find_and_load() {
                          "mirrorball again, or use .pfm"};
 }
 
-/// Begins on the first call. At the end of the program the last owner waits for the thread, so
-/// that nothing is being loaded while everything else is torn down.
-const std::shared_future<LoadResult>& loading() {
-    static const std::shared_future<LoadResult> result =
-        std::async(std::launch::async | std::launch::deferred, find_and_load).share();
-    return result;
-}
-
 }  // namespace
 
-void preload_image_library() { loading(); }
-
 const oiio::Module& image_library(ExitCode failure) {
-    const LoadResult& result = loading().get();
+    static const LoadResult result = find_and_load();
     if (result.module == nullptr) throw Error(failure, result.error);
     return *result.module;
 }

@@ -6,12 +6,8 @@
 
 namespace rt {
 
-/// Starts loading the image library on a thread of its own, so that the 150 ms it takes pass
-/// while something else is computed. Safe from any thread, any number of times. A failure is
-/// kept to itself until a picture is really read or written.
-void preload_image_library();
-
-/// The image library, loaded now if it was not before. It is libmirrorball_oiio.so, looked for
+/// The image library, loaded on the first call, which takes 150 ms; while it loads, no thread can
+/// be started, so not while rays are timed. It is libmirrorball_oiio.so, looked for
 /// 1. in the directory of the executable,
 /// 2. in the directories of MIRRORBALL_MODULE_DIR, a list separated by colons fixed when the
 ///    program was built; a relative one starts at the directory of the executable.

@@ -2,6 +2,7 @@
 #include "host/render/cl_device.h"
 
 #include <fmt/format.h>
+#include <stdlib.h>
 
 namespace rt {
 
@@ -57,6 +58,15 @@ ClDevice describe(const cl::Device& device) {
     return described;
 }
 
+/// PoCL hides its device when it cannot write its kernel cache.
+std::string why_no_device(const std::string& platform) {
+    return fmt::format("OpenCL platform '{}' shows no device; {}", platform,
+                       platform == pocl_platform
+                           ? "check that its kernel cache can be written (POCL_CACHE_DIR, else "
+                             "~/.cache/pocl) and what POCL_DEVICES says"
+                           : "look at its driver");
+}
+
 std::vector<cl::Device> devices_of(const cl::Platform& platform) {
     std::vector<cl::Device> devices;
     platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
@@ -67,8 +77,10 @@ void list_platform(const cl::Platform& platform, int platform_index, std::vector
                    std::vector<std::string>& problems) {
     const std::string name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
     try {
+        const std::vector<cl::Device> devices = devices_of(platform);
+        if (devices.empty()) problems.push_back(why_no_device(name));
         int device_index = 0;
-        for (const cl::Device& device : devices_of(platform)) {
+        for (const cl::Device& device : devices) {
             ClDevice described = describe(device);
             described.platform = name;
             described.index = static_cast<int>(found.size());
@@ -77,16 +89,18 @@ void list_platform(const cl::Platform& platform, int platform_index, std::vector
             found.push_back(std::move(described));
         }
     } catch (const cl::Error& error) {
-        // PoCL hides its device when it cannot write its kernel cache.
-        problems.push_back(fmt::format(
-            "OpenCL platform '{}' shows no device: {}{}", name, cl_status_text(error.err()),
-            name == "Portable Computing Language"
-                ? "; check that its kernel cache can be written (POCL_CACHE_DIR, ~/.cache)"
-                : ""));
+        problems.push_back(
+            fmt::format("OpenCL platform '{}' does not tell its devices: {}; look "
+                        "at its driver",
+                        name, cl_status_text(error.err())));
     }
 }
 
 }  // namespace
+
+void limit_pocl_threads(int threads) {
+    setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
+}
 
 std::vector<ClDevice> list_cl_devices(std::vector<std::string>& problems) {
     std::vector<ClDevice> found;

@@ -32,7 +32,8 @@ cl::Program build_program(const cl::Context& context, const ClDevice& device, co
         const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle);
         throw Error(
             ExitCode::device,
-            fmt::format("the kernels do not build on {} (driver {}): {}\noptions: {}\n{}",
+            fmt::format("the kernels do not build on {} (driver {}): {}; update the driver or "
+                        "use --device threads\noptions: {}\n{}",
                         device.name, device.driver, cl_status_text(error.err()), flags, log));
     }
     return program;

@@ -109,8 +109,9 @@ class ClRenderer : public Renderer<T> {
         if (bytes == 0) return {};
         if (bytes > device_.max_buffer_bytes) {
             throw Error(ExitCode::limit,
-                        fmt::format("{} needs {} bytes in one piece; {} gives at most {}", what,
-                                    bytes, device_.name, device_.max_buffer_bytes));
+                        fmt::format("{} needs {} bytes in one piece and {} gives at most {}; use "
+                                    "--crop to render it in parts, or --device threads",
+                                    what, bytes, device_.name, device_.max_buffer_bytes));
         }
         return cl::Buffer(context_, flags, bytes);
     }
@@ -147,7 +148,7 @@ class ClRenderer : public Renderer<T> {
         program_options.fast_math = options.fast_math;
         program_options.warnings_are_errors = options.warnings_are_errors;
         if (!options.all_features) program_options.features = scene.features;
-        const bool is_pocl = device_.platform == "Portable Computing Language";
+        const bool is_pocl = device_.platform == pocl_platform;
         const PoclCacheWatch cache(is_pocl ? options.pocl_cache : "");
         const Stopwatch watch;
         const cl::Program program =

@@ -33,8 +33,10 @@ bool contains(const std::string& text, const std::string& part) {
     return lower(text).find(lower(part)) != std::string::npos;
 }
 
-std::string describe_all(const std::vector<ClDevice>& devices) {
+std::string describe_all(const std::vector<ClDevice>& devices,
+                         const std::vector<std::string>& problems = {}) {
     std::string text;
+    if (devices.empty() && !problems.empty()) return " none (" + problems.front() + "); see 'mirrorball devices'";
     for (const ClDevice& device : devices) {
         text += fmt::format("\n  {}  {} ({})", device.index, device.name, device.platform);
     }
@@ -52,8 +54,7 @@ Test test_for(const std::string& spec) {
     if (spec == "cpu") return [](const ClDevice& device) { return device.is_cpu; };
     if (spec == "gpu") return [](const ClDevice& device) { return device.is_gpu; };
     if (spec == "pocl") {
-        return
-            [](const ClDevice& device) { return device.platform == "Portable Computing Language"; };
+        return [](const ClDevice& device) { return device.platform == pocl_platform; };
     }
     if (spec.rfind("name:", 0) == 0 && spec.size() > 5) {
         const std::string text = spec.substr(5);
@@ -117,6 +118,11 @@ bool names_threads(const std::string& spec, DeviceChoice& choice) {
     return true;
 }
 
+void check_device_spec(const std::string& spec) {
+    DeviceChoice ignored;
+    if (!spec.empty() && !names_threads(spec, ignored)) test_for(spec);
+}
+
 DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,
                            const std::vector<std::string>& problems) {
     if (spec.empty()) return best_device(devices, problems);
@@ -125,7 +131,7 @@ DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>&
     if (fitting.empty()) {
         throw Error(ExitCode::device,
                     fmt::format("--device '{}' fits no OpenCL device; there is:{}", spec,
-                                describe_all(devices)));
+                                describe_all(devices, problems)));
     }
     if (fitting.size() > 1) {
         throw Error(ExitCode::usage, fmt::format("--device '{}' fits several devices; name one by "

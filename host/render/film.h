@@ -19,10 +19,6 @@ struct Film {
     std::vector<T> rgb;
 };
 
-/// Pixels with a NaN or an infinity in them.
-template <typename T>
-std::size_t count_non_finite(const Film<T>& film);
-
 /// 64 bits over size and every bit of the film (FNV-1a): equal hashes, equal pictures.
 template <typename T>
 std::uint64_t hash_of(const Film<T>& film);

@@ -15,7 +15,7 @@ struct StatusName {
     const char* name;
 };
 
-constexpr std::array<StatusName, 27> status_names{{
+constexpr std::array<StatusName, 28> status_names{{
     {0, "CL_SUCCESS"},
     {-1, "CL_DEVICE_NOT_FOUND"},
     {-2, "CL_DEVICE_NOT_AVAILABLE"},
@@ -43,6 +43,7 @@ constexpr std::array<StatusName, 27> status_names{{
     {-52, "CL_INVALID_KERNEL_ARGS"},
     {-54, "CL_INVALID_WORK_GROUP_SIZE"},
     {-61, "CL_INVALID_BUFFER_SIZE"},
+    {-1001, "CL_PLATFORM_NOT_FOUND_KHR"},
 }};
 
 }  // namespace

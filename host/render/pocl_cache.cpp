@@ -10,23 +10,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The last time a folder down to `depth` levels beneath `folder` gained or lost an entry. PoCL
-/// writes <2 hex digits>/<rest of the hash>/<kernel>/<local size>/.
+/// The last time a folder beneath `folder`, down to `depth` levels, gained or lost an entry. Not
+/// `folder` itself, where PoCL makes temporary files in every run; kernels go to
+/// <2 hex digits>/<rest of the hash>/<kernel>/<local size>/.
 fs::file_time_type newest_change(const fs::path& folder, int depth) {
-    std::error_code error;
-    fs::file_time_type newest = fs::last_write_time(folder, error);
-    if (error) return fs::file_time_type::min();
+    fs::file_time_type newest = fs::file_time_type::min();
     if (depth == 0) return newest;
+    std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
         std::error_code ignored;
         if (!entry->is_directory(ignored)) continue;
+        newest = std::max(newest, fs::last_write_time(entry->path(), ignored));
         newest = std::max(newest, newest_change(entry->path(), depth - 1));
     }
     return newest;
 }
 
-constexpr int kernel_folder_depth = 3;
+constexpr int kernel_folder_depth = 4;
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "host/render/memory_limit.h"
 #include "host/render/posix_threads.h"
 #include "host/render/stopwatch.h"
 #include "host/trace/whitted.h"
@@ -103,6 +104,8 @@ class ThreadsRenderer : public Renderer<T> {
     void render_buffers(TileQueue& queue, const Rect& region, Film<T>& film) {
         Stopwatch watch;
         const trace::SceneView<T> view = view_of(scene_);
+        check_memory(static_cast<std::uint64_t>(samples()) * film.rgb.size() * sizeof(T),
+                     "a buffer for each sample", "use --schedule tiles or fewer samples");
         std::vector<std::vector<T>> buffers(static_cast<std::size_t>(samples()),
                                             std::vector<T>(film.rgb.size()));
         std::vector<std::atomic<int>> missing(queue.tiles().size());

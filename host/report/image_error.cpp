@@ -21,6 +21,16 @@ void check_same_shape(const Picture& a, const Picture& b) {
                             a.width, a.height, a.channels, b.width, b.height, b.channels));
 }
 
+bool is_finite_pixel(const Picture& picture, std::size_t pixel) {
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    const auto first = picture.pixels.begin() + static_cast<std::ptrdiff_t>(pixel * channels);
+    return std::all_of(first, first + picture.channels, [](float v) { return std::isfinite(v); });
+}
+
+std::size_t pixel_count(const Picture& picture) {
+    return picture.pixels.size() / static_cast<std::size_t>(picture.channels);
+}
+
 /// Largest absolute channel difference of a pixel; NaN when either pixel is not finite.
 double pixel_difference(const float* a, const float* b, int channels) {
     double largest = 0;
@@ -35,11 +45,24 @@ double pixel_difference(const float* a, const float* b, int channels) {
 
 }  // namespace
 
+std::size_t count_non_finite(const Picture& picture) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < pixel_count(picture); ++i) count += !is_finite_pixel(picture, i);
+    return count;
+}
+
+std::pair<int, int> first_non_finite(const Picture& picture) {
+    std::size_t i = 0;
+    while (is_finite_pixel(picture, i)) ++i;
+    const auto width = static_cast<std::size_t>(picture.width);
+    return {static_cast<int>(i % width), static_cast<int>(i / width)};
+}
+
 ImageError image_error(const Picture& picture, const Picture& reference) {
     check_same_shape(picture, reference);
     ImageError error;
     const auto channels = static_cast<std::size_t>(picture.channels);
-    const std::size_t pixels = picture.pixels.size() / channels;
+    const std::size_t pixels = pixel_count(picture);
     double squares = 0, sum = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
         const float* a = &picture.pixels[i * channels];

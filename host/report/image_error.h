@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "host/image/picture.h"
 
@@ -19,6 +20,12 @@ struct ImageError {
     std::size_t over_8 = 0;      ///< ... than 8/255
     std::size_t non_finite = 0;  ///< pixels with a NaN or an infinity in either picture
 };
+
+/// Pixels with a NaN or an infinity in them.
+std::size_t count_non_finite(const Picture& picture);
+
+/// The first such pixel, x and y from the top left; there is one.
+std::pair<int, int> first_non_finite(const Picture& picture);
 
 /// Throws Error (ExitCode::input) when sizes or channels differ.
 ImageError image_error(const Picture& picture, const Picture& reference);

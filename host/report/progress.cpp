@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+
+#include "host/console.h"
 
 namespace rt {
 
@@ -68,14 +69,13 @@ void ProgressReporter::show(bool last) {
     const RayCounts rays = queue_.rays();
     if (mode_ == ProgressMode::bar) {
         const int filled = static_cast<int>(fraction * bar_width);
-        fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {}{}", "", filled, "", bar_width - filled,
-                   progress_line(fraction, seconds, rays), last ? "  \n" : "  ");
-        std::fflush(stderr);
+        print_message(fmt::format("\r[{:#<{}}{:.<{}}] {}{}", "", filled, "", bar_width - filled,
+                                  progress_line(fraction, seconds, rays), last ? "  \n" : "  "));
     } else if (mode_ == ProgressMode::json) {
-        fmt::print(stderr, "{{\"fraction\":{:.4f},\"seconds\":{:.3f},\"rays\":{}}}\n", fraction,
-                   seconds, rays.total());
+        print_message(fmt::format("{{\"fraction\":{:.4f},\"seconds\":{:.3f},\"rays\":{}}}\n",
+                                  fraction, seconds, rays.total()));
     } else if (!last) {
-        fmt::print(stderr, "{}\n", progress_line(fraction, seconds, rays));
+        print_message(progress_line(fraction, seconds, rays) + "\n");
     }
 }
 

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "host/flatten/features.h"
-#include "host/trace/ray_counts.h"
 #include "host/render/renderer.h"
 #include "host/report/image_error.h"
 #include "host/scene/aa_mode.h"
+#include "host/trace/ray_counts.h"
 
 namespace rt {
 

@@ -104,6 +104,10 @@ Json error_json(const ImageError& error) {
 
 }  // namespace
 
+std::string json_text(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Json environment_json() {
     return {{"program", std::string("mirrorball ") + version},
             {"git_revision", git_revision},

@@ -7,6 +7,10 @@
 
 namespace rt {
 
+/// The text of a JSON value, indented, with a newline; bytes that are not UTF-8 (a file name may
+/// hold them) become replacement characters.
+std::string json_text(const nlohmann::ordered_json& json);
+
 /// The machine and program behind a result: CPU, cores, load, version, git revision.
 nlohmann::ordered_json environment_json();
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 
@@ -78,10 +79,23 @@ void read_objects(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) 
     scene.materials = materials.take();
 }
 
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+std::string name_from(const std::string& file_name) {
+    std::string name = std::filesystem::path(file_name).stem().string();
+    std::replace_if(name.begin(), name.end(), is_control, '?');
+    return name;
+}
+
 void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
     if (const JsonValue* schema = reader.find("$schema")) read_string(*schema, "$schema", mistakes);
     if (const JsonValue* value = reader.find("name")) {
-        if (const std::string* name = read_string(*value, "name", mistakes)) scene.name = *name;
+        const std::string* name = read_string(*value, "name", mistakes);
+        if (name && std::any_of(name->begin(), name->end(), is_control)) {
+            mistakes.add(value->offset, "'name' holds a control character; use plain text");
+        } else if (name) {
+            scene.name = *name;
+        }
     }
 }
 
@@ -114,7 +128,7 @@ Scene parse_json_scene(std::string_view text, const std::string& file_name) {
     const JsonValue root = parse_json(mistakes);
     Scene scene = read_scene(root, mistakes);
     mistakes.throw_if_any();
-    if (scene.name.empty()) scene.name = std::filesystem::path(file_name).stem().string();
+    if (scene.name.empty()) scene.name = name_from(file_name);
     set_image_size(scene, scene.width, scene.height);
     return scene;
 }

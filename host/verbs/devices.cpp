@@ -3,8 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/console.h"
 #include "host/render/cl_device.h"
 #include "host/render/posix_threads.h"
+#include "host/report/stats_json.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {
@@ -45,23 +47,26 @@ void print_json(const std::vector<ClDevice>& devices, const std::vector<std::str
                                       {"devices", list},
                                       {"threads", {{"cores", available_cores()}}},
                                       {"problems", problems}};
-    fmt::print("{}\n", json.dump(2));
+    print_result(json_text(json));
 }
 
-void print_device(const ClDevice& device) {
-    fmt::print("{}  {}\n", device.index, device.name);
-    fmt::print("   {}:{} {} on {}, driver {}, {}\n", device.platform_index, device.device_index,
-               kind_of(device), device.platform, device.driver, device.version);
-    fmt::print(
+constexpr double gib = 1 << 30;
+
+std::string device_text(const ClDevice& device) {
+    std::string text = fmt::format(
+        "{}  {}\n"
+        "   {}:{} {} on {}, driver {}, {}\n"
         "   {} units, {} float lanes, {}, {:.1f} GiB, {:.1f} GiB in one piece\n",
-        device.compute_units, device.float_lanes,
+        device.index, device.name, device.platform_index, device.device_index, kind_of(device),
+        device.platform, device.driver, device.version, device.compute_units, device.float_lanes,
         device.has_double ? fmt::format("{} double lanes", device.double_lanes) : "no double",
-        static_cast<double>(device.memory_bytes) / (1u << 30),
-        static_cast<double>(device.max_buffer_bytes) / (1u << 30));
+        static_cast<double>(device.memory_bytes) / gib,
+        static_cast<double>(device.max_buffer_bytes) / gib);
     if (!device.rounds_correctly) {
-        fmt::print("   does not promise correctly rounded division: bits may differ\n");
+        text += "   does not promise correctly rounded division: bits may differ\n";
     }
-    if (!device.unusable.empty()) fmt::print("   cannot be used: {}\n", device.unusable);
+    if (!device.unusable.empty()) text += "   cannot be used: " + device.unusable + "\n";
+    return text;
 }
 
 }  // namespace
@@ -73,10 +78,12 @@ int run_devices(const DevicesOptions& options) {
         print_json(devices, problems);
         return 0;
     }
-    for (const ClDevice& device : devices) print_device(device);
+    std::string text;
+    for (const ClDevice& device : devices) text += device_text(device);
     const int cores = available_cores();
-    fmt::print("threads  POSIX threads on {} core{}\n", cores, cores == 1 ? "" : "s");
-    for (const std::string& problem : problems) fmt::print("{}\n", problem);
+    text += fmt::format("threads  POSIX threads on {} core{}\n", cores, cores == 1 ? "" : "s");
+    for (const std::string& problem : problems) text += problem + "\n";
+    print_result(text);
     return 0;
 }
 

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 
+#include "host/console.h"
 #include "host/error.h"
 #include "host/render/cl_renderer.h"
 #include "host/render/device_spec.h"
+#include "host/render/memory_limit.h"
 #include "host/render/threads_renderer.h"
 #include "host/report/progress.h"
 #include "host/scene/scene_hash.h"
@@ -19,7 +21,14 @@ namespace {
 
 DeviceChoice chosen_device(const RenderOptions& options) {
     DeviceChoice choice;
-    if (names_threads(options.device, choice)) return choice;
+    if (names_threads(options.device, choice)) {
+        if (choice.threads > 0 && options.threads > 0 && choice.threads != options.threads) {
+            throw Error(ExitCode::usage, fmt::format("--threads {} and --device {}: say it once",
+                                                     options.threads, options.device));
+        }
+        return choice;
+    }
+    if (options.threads > 0) limit_pocl_threads(options.threads);
     std::vector<std::string> problems;
     const std::vector<ClDevice> devices = list_cl_devices(problems);
     return choose_device(options.device, devices, problems);
@@ -75,19 +84,38 @@ class Job {
     }
 
     RenderedPicture run() {
+        const Stopwatch watch;
         const DeviceChoice choice = chosen_device(options_);
+        const double choose_seconds = watch.seconds();
+        say_ignored_options(choice);
         if (!choice.note.empty()) say(choice.note);
         if (choice.use_threads) {
             render_on_threads(choice.threads);
         } else {
             render_on_device(choice.device);
         }
+        stats_.phases.renderer.open += choose_seconds;
         return finished_picture();
     }
 
    private:
+    /// Options that mean nothing on the chosen device are named, not dropped in silence.
+    void say_ignored_options(const DeviceChoice& choice) const {
+        if (choice.use_threads && options_.launch != Launch::automatic) {
+            say("--launch is for OpenCL devices; threads ignore it");
+        }
+        if (!choice.use_threads && options_.schedule != Schedule::tiles) {
+            say("--schedule is for --device threads; OpenCL devices ignore it");
+        }
+        const bool is_pocl = choice.device.platform == pocl_platform;
+        if (!choice.use_threads && options_.threads > 0 && !is_pocl) {
+            say("--threads is for --device threads and PoCL; " + choice.device.name +
+                " ignores it");
+        }
+    }
+
     void say(const std::string& line) const {
-        if (!options_.quiet) fmt::print(stderr, "mirrorball: {}\n", line);
+        if (!options_.quiet) print_message("mirrorball: " + line + "\n");
     }
 
     void render_on_device(const ClDevice& device) {
@@ -105,8 +133,10 @@ class Job {
             const auto renderer = make_cl_renderer(scene_, device, cl_options);
             render_with(*renderer);
         } catch (const Error& error) {
-            if (error.exit_code() != ExitCode::device || !options_.fallback) throw;
-            say(fmt::format("{}\nmirrorball: rendering on threads instead", error.what()));
+            if (error.exit_code() != ExitCode::device || options_.no_fallback) throw;
+            const std::string what = error.what();
+            say(options_.verbose ? what : what.substr(0, what.find('\n')));
+            say("rendering on threads instead");
             render_on_threads(0);
             stats_.device.fallback_from = device.name;
             return;
@@ -133,6 +163,8 @@ class Job {
 
     void render_with(Renderer<T>& renderer) {
         install_stop_signals();
+        check_memory(static_cast<std::uint64_t>(region_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
+                     "the film", "use --crop to render it in parts");
         film_ = Film<T>(region_.width, region_.height);
         const PictureSize tile = tile_size(renderer);
         TileQueue queue(make_tiles(region_, tile.width, tile.height), stop_flag());
@@ -158,11 +190,11 @@ class Job {
 
     RenderedPicture finished_picture() {
         stats_.image_hash = hash_of(film_);
-        stats_.non_finite = count_non_finite(film_);
         RenderedPicture rendered;
         rendered.picture.width = film_.width;
         rendered.picture.height = film_.height;
         rendered.picture.pixels.assign(film_.rgb.begin(), film_.rgb.end());
+        stats_.non_finite = count_non_finite(rendered.picture);
         rendered.stats = stats_;
         return rendered;
     }

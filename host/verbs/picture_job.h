@@ -18,7 +18,7 @@ void apply_overrides(Scene& scene, const RenderOptions& options);
 
 /// Flattens the scene, chooses the device, and renders with progress on stderr. When the device
 /// fails, the picture is rendered on threads instead, with a line on stderr, unless
-/// options.fallback is off. SIGINT and SIGTERM end it early, with the tiles finished so far.
+/// options.no_fallback is on. SIGINT and SIGTERM end it early, with the tiles finished so far.
 RenderedPicture render_picture(const Scene& scene, const RenderOptions& options);
 
 }  // namespace rt

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
+#include <optional>
 
+#include "host/console.h"
 #include "host/error.h"
-#include "host/image/oiio_loader.h"
 #include "host/image/picture_io.h"
 #include "host/render/stopwatch.h"
 #include "host/report/image_error.h"
@@ -34,60 +34,67 @@ PictureMetadata picture_metadata(const RenderStats& stats) {
             {"mirrorball:Version", version}};
 }
 
-bool is_pfm(const std::string& path) {
-    return path.size() >= 4 && (path.ends_with(".pfm") || path.ends_with(".PFM"));
-}
-
 void print_results(const RenderStats& stats, const RenderOptions& options) {
-    if (options.stats == StatsFormat::json) {
-        fmt::print("{}\n", stats_json(stats).dump(2));
-    } else if (options.stats == StatsFormat::text) {
-        fmt::print("{}", stats_text(stats));
-    } else if (!options.quiet) {
-        fmt::print(stderr, "{}\n", summary_line(stats));
-        if (stats.error) fmt::print("{}\n", error_line(*stats.error));
-    }
+    if (options.stats == StatsFormat::json) return print_result(json_text(stats_json(stats)));
+    if (options.stats == StatsFormat::text) return print_result(stats_text(stats));
+    if (!options.quiet) print_message(summary_line(stats) + "\n");
+    if (stats.error) print_result(error_line(*stats.error) + "\n");
 }
 
-std::string first_non_finite(const Picture& picture) {
-    std::size_t i = 0;
-    while (i < picture.pixels.size() && std::isfinite(picture.pixels[i])) ++i;
-    const std::size_t pixel = i / static_cast<std::size_t>(picture.channels);
-    const auto width = static_cast<std::size_t>(picture.width);
-    return fmt::format("{},{}", pixel % width, pixel / width);
+/// Says what is wrong with the values of a picture; whether anything is.
+bool report_non_finite(const RenderedPicture& rendered) {
+    const std::size_t count = rendered.stats.non_finite;
+    if (count == 0) return false;
+    const auto [x, y] = first_non_finite(rendered.picture);
+    print_message(
+        fmt::format("mirrorball: {} pixel{} not finite, the first at {},{}; look for "
+                    "very large numbers in the scene\n",
+                    count, count == 1 ? " is" : "s are", rendered.stats.region.x + x,
+                    rendered.stats.region.y + y));
+    return true;
 }
 
 /// What is wrong with a picture that was rendered, on stderr; and the exit status it means.
 int verdict(const RenderedPicture& rendered, const std::string& output) {
     const RenderStats& stats = rendered.stats;
-    if (stats.non_finite > 0) {
-        fmt::print(stderr,
-                   "mirrorball: {} pixels are not finite, the first at {}; look at the scene's "
-                   "largest numbers there\n",
-                   stats.non_finite, first_non_finite(rendered.picture));
-        return static_cast<int>(ExitCode::non_finite);
-    }
+    const bool non_finite = report_non_finite(rendered);
     if (!stats.complete()) {
-        fmt::print(stderr, "mirrorball: stopped by signal {} after {} of {} tiles{}\n",
-                   static_cast<int>(stop_flag()), stats.tiles_finished, stats.tiles,
-                   output.empty() ? "" : "; what was finished is in " + output);
-        return 128 + static_cast<int>(stop_flag());
+        const int signal = stop_flag();
+        print_message(fmt::format("mirrorball: stopped by signal {} after {} of {} tiles{}\n",
+                                  signal, stats.tiles_finished, stats.tiles,
+                                  output.empty() ? "" : "; what was finished is in " + output));
+        return 128 + signal;
     }
-    return static_cast<int>(ExitCode::done);
+    return static_cast<int>(non_finite ? ExitCode::non_finite : ExitCode::done);
+}
+
+/// The picture to compare with, read before it may be overwritten and before hours are spent.
+std::optional<Picture> load_reference(const RenderOptions& options, const Scene& scene) {
+    if (options.reference.empty()) return std::nullopt;
+    Picture reference = read_picture(options.reference);
+    const int width = options.crop ? options.crop->width : scene.width;
+    const int height = options.crop ? options.crop->height : scene.height;
+    if (reference.width == width && reference.height == height && reference.channels == 3) {
+        return reference;
+    }
+    throw Error(ExitCode::input,
+                fmt::format("{}: {}x{} pixels of {} channels, and the picture will be {}x{} of 3; "
+                            "give --size or --crop to match",
+                            options.reference, reference.width, reference.height,
+                            reference.channels, width, height));
 }
 
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
     const Stopwatch total;
-    if (!options.output.empty()) {
-        check_picture_path(options.output);
-        if (!is_pfm(options.output)) preload_image_library();
-    }
+    if (!options.output.empty()) check_picture_path(options.output);
     Stopwatch watch;
     Scene scene = load_json_scene(options.scene);
     apply_overrides(scene, options);
-    const double load_seconds = watch.seconds();
+    const double load_seconds = watch.lap();
+    const std::optional<Picture> reference = load_reference(options, scene);
+    const double reference_seconds = watch.lap();
     RenderedPicture rendered = render_picture(scene, options);
     RenderStats& stats = rendered.stats;
     stats.scene.path = options.scene;
@@ -98,10 +105,8 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
         write_picture(options.output, rendered.picture, options.encoding, picture_metadata(stats));
     }
     stats.phases.write = watch.seconds();
-    stats.phases.total = seconds_before_main + total.seconds();
-    if (!options.reference.empty()) {
-        stats.error = image_error(rendered.picture, read_picture(options.reference));
-    }
+    stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
+    if (reference) stats.error = image_error(rendered.picture, *reference);
     print_results(stats, options);
     return verdict(rendered, options.output);
 }

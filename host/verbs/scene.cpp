@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "host/console.h"
+#include "host/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/report/render_stats.h"
+#include "host/report/stats_json.h"
 #include "host/scene/json_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/verbs/verbs.h"
@@ -37,38 +40,63 @@ Json info_json(const std::string& path, const Scene& scene, const FlatScene<floa
             {"features_left_out", names_of(flat.features, false)}};
 }
 
-void print_info(const Scene& scene, const FlatScene<float>& flat) {
-    fmt::print("{}\n", scene.name);
-    fmt::print("  hash       {}\n", hash_text(scene_hash(scene)));
-    fmt::print("  picture    {}x{} pixels, {}, up to {} mirror bounces\n", scene.width,
-               scene.height, to_string(scene.aa), scene.max_bounces);
-    fmt::print("  holds      {} spheres, {} triangles ({} smooth), {} materials, {} lights\n",
-               scene.spheres.size(), scene.triangles.size(), flat.vertex_normals.size(),
-               scene.materials.size(), scene.lights.size());
-    fmt::print("  on device  {} bytes in float\n", flat.bytes());
+std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
+    std::string text = fmt::format(
+        "{}\n"
+        "  hash       {}\n"
+        "  picture    {}x{} pixels, {}, up to {} mirror bounces\n"
+        "  holds      {} spheres, {} triangles ({} smooth), {} materials, {} lights\n"
+        "  on device  {} bytes in float\n",
+        scene.name, hash_text(scene_hash(scene)), scene.width, scene.height, to_string(scene.aa),
+        scene.max_bounces, scene.spheres.size(), scene.triangles.size(), flat.vertex_normals.size(),
+        scene.materials.size(), scene.lights.size(), flat.bytes());
     for (const FeatureName& feature : feature_names) {
-        fmt::print("  {:<10} {}\n", flat.features.*feature.flag ? "needs" : "leaves out",
-                   feature.name);
+        const bool used = flat.features.*feature.flag;
+        text += fmt::format("  {:<10} {}\n", used ? "needs" : "leaves out", feature.name);
     }
     if (flat.lights.size() < scene.lights.size()) {
-        fmt::print("  leaves out {} lights that shine on nothing\n",
-                   scene.lights.size() - flat.lights.size());
+        text += fmt::format("  leaves out {} lights that shine on nothing\n",
+                            scene.lights.size() - flat.lights.size());
     }
+    return text;
+}
+
+int show_info(const SceneOptions& options) {
+    const Scene scene = load_json_scene(options.scene);
+    const FlatScene<float> flat = flatten<float>(scene);
+    print_result(options.json ? json_text(info_json(options.scene, scene, flat))
+                              : info_text(scene, flat));
+    return static_cast<int>(ExitCode::done);
+}
+
+Json check_json(const std::string& path, const std::string& mistakes) {
+    Json lines = Json::array();
+    std::istringstream text(mistakes);
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return {{"format", "mirrorball-scene-check"},
+            {"version", 1},
+            {"path", path},
+            {"fine", lines.empty()},
+            {"mistakes", lines}};
+}
+
+int check_scene(const SceneOptions& options) {
+    std::string mistakes;
+    try {
+        flatten<float>(load_json_scene(options.scene));
+    } catch (const Error& error) {
+        if (!options.json || error.exit_code() != ExitCode::input) throw;
+        mistakes = error.what();
+    }
+    print_result(options.json ? json_text(check_json(options.scene, mistakes))
+                              : options.scene + ": fine\n");
+    return static_cast<int>(mistakes.empty() ? ExitCode::done : ExitCode::input);
 }
 
 }  // namespace
 
 int run_scene(const SceneOptions& options) {
-    const Scene scene = load_json_scene(options.scene);
-    const FlatScene<float> flat = flatten<float>(scene);
-    if (options.json) {
-        fmt::print("{}\n", info_json(options.scene, scene, flat).dump(2));
-    } else if (options.info) {
-        print_info(scene, flat);
-    } else {
-        fmt::print("{}: fine\n", options.scene);
-    }
-    return 0;
+    return options.info ? show_info(options) : check_scene(options);
 }
 
 }  // namespace rt

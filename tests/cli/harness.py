@@ -12,6 +12,7 @@ import tempfile
 import unittest
 
 TIME_LIMIT = 30
+POCL_DRIVER = "/etc/OpenCL/vendors/pocl.icd"
 SETTINGS = {}
 
 CAMERA = {"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}
@@ -24,7 +25,9 @@ def environment(build, repo):
     SETTINGS["program"] = str((build / "mirrorball").resolve())
     SETTINGS["scenes"] = (repo / "scenes").resolve()
     with tempfile.TemporaryDirectory(prefix="mirrorball-cli-") as folder:
-        SETTINGS["cache"] = folder
+        for name in ["cache", "no-drivers"]:
+            SETTINGS[name] = os.path.join(folder, name)
+            os.mkdir(SETTINGS[name])
         yield
 
 
@@ -43,12 +46,14 @@ def image_hash(text):
 
 
 def clean_environment(changes):
-    """This process's environment without what changes mirrorball; a change to None unsets."""
+    """This process's environment without what changes mirrorball, and with PoCL alone."""
     variables = dict(os.environ, POCL_CACHE_DIR=SETTINGS["cache"])
     for name in ["MIRRORBALL_DEVICE", "POCL_DEVICES", "OCL_ICD_VENDORS", "TERM"]:
         variables.pop(name, None)
+    if os.path.exists(POCL_DRIVER):
+        variables["OCL_ICD_VENDORS"] = POCL_DRIVER
     variables.update(changes)
-    return {name: value for name, value in variables.items() if value is not None}
+    return variables
 
 
 class CliTest(unittest.TestCase):
@@ -107,8 +112,8 @@ class CliTest(unittest.TestCase):
         path.write_text(text, encoding="utf-8")
         return str(path)
 
-    def write_scene(self, name="scene.json", **keys):
-        return self.write_text(name, json.dumps({"camera": CAMERA, **keys}))
+    def write_scene(self, file="scene.json", **keys):
+        return self.write_text(file, json.dumps({"camera": CAMERA, **keys}))
 
     def files(self):
         return sorted(p.name for p in self.folder.iterdir())

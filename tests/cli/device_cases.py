@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which device renders: --device, MIRRORBALL_DEVICE, `devices`, and what happens without OpenCL."""
+import json
+
+from harness import SETTINGS, CliTest, image_hash, scene_path
+
+TWO_DEVICES = {"POCL_DEVICES": "pthread pthread"}
+
+
+class Devices(CliTest):
+    def devices(self, *arguments, **env):
+        result = self.run_cli("devices", *arguments, env=env)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return result.stdout
+
+    def test_text_names_index_and_threads(self):
+        text = self.devices()
+        self.assertRegex(text, r"(?m)^0  pthread")
+        self.assertIn("Portable Computing Language", text)
+        self.assertRegex(text, r"(?m)^threads  .*\d+ cores?")
+
+    def test_json_fields(self):
+        answer = json.loads(self.devices("--json"))
+        self.assertEqual((answer["format"], answer["version"]), ("mirrorball-devices", 1))
+        self.assertGreater(answer["threads"]["cores"], 0)
+        self.assertEqual(answer["problems"], [])
+        device = answer["devices"][0]
+        self.assertEqual((device["index"], device["platform_index"], device["device_index"]),
+                         (0, 0, 0))
+        self.assertTrue(device["usable"])
+        for key in ["name", "vendor", "platform", "driver", "version", "kind", "compute_units",
+                    "memory_bytes", "has_double", "rounds_correctly", "unusable_because"]:
+            self.assertIn(key, device)
+
+    def test_two_devices_have_their_own_indices(self):
+        devices = json.loads(self.devices("--json", **TWO_DEVICES))["devices"]
+        self.assertEqual([device["index"] for device in devices], [0, 1])
+
+
+class Choice(CliTest):
+    def refused(self, spec, code, *says, lines=1, env=None):
+        result = self.run_cli("render", scene_path("empty"), "--size", "4", "-o", "out.png",
+                              "--device", spec, env=env)
+        self.assert_refused(result, code, "--device", f"'{spec}'", *says, lines=lines)
+        self.assertEqual(self.files(), [])
+
+    def test_garbage(self):
+        for spec in ["garbage", "0:", ":0", "-1", "0:0:0", "name:", "0x1", " ", "threads "]:
+            with self.subTest(spec=spec):
+                self.refused(spec, 2, "threads[:N]")
+
+    def test_number_of_threads(self):
+        for spec in ["threads:0", "threads:-1", "threads:", "threads:4097", "threads:two"]:
+            with self.subTest(spec=spec):
+                self.refused(spec, 2, "4096")
+
+    def test_no_such_device(self):
+        for spec in ["99", "7:7", "0:9", "gpu", "name:nobody"]:
+            with self.subTest(spec=spec):
+                self.refused(spec, 5, "  0  pthread", lines=2)
+
+    def test_ambiguous_lists_the_candidates(self):
+        for spec in ["pocl", "cpu", "name:pthread"]:
+            with self.subTest(spec=spec):
+                self.refused(spec, 2, "\n  0  pthread", "\n  1  pthread", lines=3, env=TWO_DEVICES)
+
+    def test_index_chooses_between_two(self):
+        for spec in ["0", "1", "0:1"]:
+            with self.subTest(spec=spec):
+                self.render("empty", "--size", "4", "--device", spec, env=TWO_DEVICES)
+
+    def test_ways_to_name_the_same_device(self):
+        names = {self.stats_of("empty", "--size", "4", "--device", spec)["device"]["name"]
+                 for spec in ["0", "0:0", "pocl", "cpu", "name:PTHREAD", ""]}
+        self.assertEqual(len(names), 1)
+        self.assertTrue(names.pop().startswith("pthread"))
+
+    def test_threads_count(self):
+        device = self.stats_of("empty", "--size", "4", "--device", "threads:3")["device"]
+        self.assertEqual((device["name"], device["threads"]), ("threads", 3))
+
+    def test_threads_option(self):
+        device = self.stats_of("empty", "--size", "4", "--device", "threads", "--threads", "5")
+        self.assertEqual(device["device"]["threads"], 5)
+
+
+class EnvironmentDefault(CliTest):
+    def device_name(self, *arguments, **env):
+        return self.stats_of("empty", "--size", "4", *arguments, env=env)["device"]["name"]
+
+    def test_is_honoured(self):
+        self.assertEqual(self.device_name(MIRRORBALL_DEVICE="threads:2"), "threads")
+
+    def test_is_overridden(self):
+        name = self.device_name("--device", "pocl", MIRRORBALL_DEVICE="threads:2")
+        self.assertTrue(name.startswith("pthread"))
+
+    def test_empty_is_none(self):
+        self.assertTrue(self.device_name(MIRRORBALL_DEVICE="").startswith("pthread"))
+
+    def test_mistake_in_it_names_the_variable(self):
+        result = self.run_cli("render", scene_path("empty"), env={"MIRRORBALL_DEVICE": "rubbish"})
+        self.assert_refused(result, 2, "rubbish", "MIRRORBALL_DEVICE")
+
+
+class Unusable:
+    """What must hold when OpenCL shows no device; subclasses say why there is none."""
+
+    env, reason = {}, ""
+
+    def test_default_falls_back_to_threads_in_one_line(self):
+        result = self.render("single-sphere", "--size", "8", env=self.env)
+        lines = result.stderr.splitlines()
+        self.assertEqual(len(lines), 2, result.stderr)
+        self.assertIn("threads", lines[0])
+        self.assertIn(self.reason, lines[0])
+        self.assertIsNotNone(image_hash(lines[1]))
+
+    def test_quiet_fallback(self):
+        result = self.render("single-sphere", "--size", "8", "-q", env=self.env)
+        self.assertEqual(result.stderr, "")
+
+    def test_threads_do_not_mind(self):
+        result = self.render("empty", "--size", "8", "--device", "threads", env=self.env)
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+
+    def test_named_device_fails_and_says_why(self):
+        for spec in ["pocl", "0", "cpu"]:
+            result = self.run_cli("render", scene_path("empty"), "--device", spec, "-o", "out.png",
+                                  env=self.env)
+            self.assert_refused(result, 5, spec, "devices")
+        self.assertEqual(self.files(), [])
+
+    def test_devices_says_why(self):
+        result = self.run_cli("devices", env=self.env)
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("threads", result.stdout)
+        self.assertIn(self.reason, result.stdout)
+
+    def test_devices_json_says_why(self):
+        answer = json.loads(self.run_cli("devices", "--json", env=self.env).stdout)
+        self.assertEqual(answer["devices"], [])
+        self.assertIn(self.reason, " ".join(answer["problems"]))
+        self.assertTrue(answer["problems"])
+
+
+class NoOpenCl(Unusable, CliTest):
+    reason = "pocl-opencl-icd"
+
+    def setUp(self):
+        super().setUp()
+        self.env = {"OCL_ICD_VENDORS": SETTINGS["no-drivers"]}
+
+
+class UnwritableKernelCache(Unusable, CliTest):
+    reason = "POCL_CACHE_DIR"
+    env = {"POCL_CACHE_DIR": "/proc/nowhere"}

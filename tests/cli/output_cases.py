@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Output that cannot be written: exit 4, nothing left behind, nothing old destroyed."""
+import os
+import shutil
+import subprocess
+import unittest
+
+from harness import CliTest, scene_path
+
+SCENE = "single-sphere"
+
+
+class WrongName(CliTest):
+    def render_to(self, path, *arguments):
+        return self.run_cli("render", scene_path(SCENE), "--size", "8", "--device", "threads",
+                            "-o", path, *arguments)
+
+    def test_unknown_extension(self):
+        for name in ["out.jpg", "out", "out.png.bak", ".png", "out."]:
+            with self.subTest(name=name):
+                self.assert_refused(self.render_to(name), 2, name, ".png, .exr or .pfm")
+        self.assertEqual(self.files(), [])
+
+    def test_extension_in_capitals_is_known(self):
+        for name in ["out.PNG", "out.Exr", "out.PFM"]:
+            self.assertEqual(self.render_to(name).returncode, 0)
+        self.assertEqual(self.files(), ["out.Exr", "out.PFM", "out.PNG"])
+
+    def test_empty_name(self):
+        self.assertNotEqual(self.render_to("").returncode, 0)
+
+    def test_missing_folder(self):
+        self.assert_refused(self.render_to("nowhere/out.png"), 4, "nowhere/out.png", "create")
+        self.assertEqual(self.files(), [])
+
+    def test_file_where_a_folder_should_be(self):
+        self.write_text("file", "")
+        self.assert_refused(self.render_to("file/out.png"), 4, "file/out.png")
+
+    def test_folder_of_that_name(self):
+        (self.folder / "out.png").mkdir()
+        self.assert_refused(self.render_to("out.png"), 4, "out.png", "director")
+
+    def test_proc(self):
+        self.assert_refused(self.render_to("/proc/x.png"), 4, "/proc/x.png")
+
+    def test_refused_before_the_scene_is_read(self):
+        result = self.run_cli("render", "missing.json", "-o", "nowhere/out.png")
+        self.assert_refused(result, 4, "nowhere/out.png")
+
+    def test_new_file_has_an_ordinary_mode(self):
+        self.assertEqual(self.render_to("out.png").returncode, 0)
+        umask = os.umask(0)
+        os.umask(umask)
+        self.assertEqual((self.folder / "out.png").stat().st_mode & 0o777, 0o666 & ~umask)
+
+    def test_symbolic_link_stays_a_link(self):
+        os.symlink("real.png", self.folder / "out.png")
+        self.assertEqual(self.render_to("out.png").returncode, 0)
+        self.assertTrue((self.folder / "out.png").is_symlink())
+        self.assertGreater((self.folder / "real.png").stat().st_size, 0)
+
+    def test_picture_to_stdout_is_a_whole_pfm(self):
+        os.symlink("/dev/stdout", self.folder / "out.pfm")
+        with open(self.folder / "caught", "wb") as file:
+            result = self.run_cli("render", scene_path(SCENE), "--size", "8", "--device",
+                                  "threads", "-o", "out.pfm", stdout=file)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((self.folder / "caught").stat().st_size, len("PF\n8 8\n-1.0\n") + 8 * 96)
+
+    def test_unreadable_reference_is_refused_before_anything_is_written(self):
+        result = self.render_to("out.png", "--reference", "nowhere.png")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("nowhere.png", result.stderr)
+        self.assertEqual(self.files(), [])
+
+
+class NoRoom(CliTest):
+    OLD = "what was there before"
+
+    def assert_old_file_untouched(self, folder, name):
+        self.assertEqual((folder / name).read_text(), self.OLD)
+        self.assertEqual([p.name for p in folder.iterdir()], [name])
+
+    def test_file_size_limit(self):
+        for name in ["out.pfm", "out.png", "out.exr"]:
+            with self.subTest(name=name):
+                folder = self.folder / name.replace(".", "-")
+                folder.mkdir()
+                (folder / name).write_text(self.OLD)
+                result = self.run_shell(f"ulimit -f 1; cd {folder}; "
+                                        f"$MIRRORBALL render $SCENE --device threads -o {name}")
+                self.assert_refused(result, 4, name, "ulimit")
+                self.assert_old_file_untouched(folder, name)
+
+    def mount(self, options):
+        """A small file system of its own; the test is skipped where that is not allowed."""
+        if os.geteuid() != 0 or not shutil.which("mount"):
+            self.skipTest("mounting a tmpfs takes root")
+        place = self.folder / "disk"
+        place.mkdir()
+        done = subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", place],
+                              capture_output=True, text=True, timeout=10, check=False)
+        if done.returncode != 0:
+            self.skipTest(f"cannot mount a tmpfs: {done.stderr.strip()}")
+        self.addCleanup(subprocess.run, ["umount", "-l", place], check=False, timeout=10)
+        return place
+
+    def test_full_disk(self):
+        place = self.mount("size=8k")
+        for name in ["out.pfm", "out.png", "out.exr"]:
+            with self.subTest(name=name):
+                (place / name).write_text(self.OLD)
+                result = self.run_cli("render", scene_path(SCENE), "--device", "threads",
+                                      "-o", place / name)
+                self.assert_refused(result, 4, name, "space")
+                self.assert_old_file_untouched(place, name)
+                (place / name).unlink()
+
+    def test_read_only_disk(self):
+        place = self.mount("ro,size=64k")
+        result = self.run_cli("render", scene_path(SCENE), "--size", "8", "-o", place / "out.png")
+        self.assert_refused(result, 4, "out.png", "write")
+
+    @unittest.skipUnless(os.geteuid() == 0, "dropping rights takes root")
+    def test_folder_one_may_not_write(self):
+        self.folder.chmod(0o755)
+        locked = self.folder / "locked"
+        locked.mkdir(mode=0o555)
+        cache = self.folder / "cache"
+        cache.mkdir(mode=0o777)
+        cache.chmod(0o777)
+        result = self.run_cli("render", scene_path(SCENE), "--size", "8", "--device", "threads",
+                              "-o", locked / "out.png", user=65534, group=65534, extra_groups=[],
+                              env={"POCL_CACHE_DIR": str(cache)})
+        self.assert_refused(result, 4, "out.png", "Permission denied")

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Picture files: what is in them, and that it is always the same."""
+import math
+import re
+
+from harness import GREY, CliTest
+from pictures import cropped, png_chunks, png_texts, read_pfm, read_png
+
+SMALL = ["--size", "24x18", "--device", "threads"]
+
+
+def display_byte(value):
+    return math.floor(255 * min(max(value, 0.0), 1.0) + 0.5)
+
+
+def srgb_byte(value):
+    value = min(max(value, 0.0), 1.0)
+    curve = 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
+    return math.floor(255 * curve + 0.5)
+
+
+class Pixels(CliTest):
+    def picture(self, scene, name, *arguments):
+        self.render(scene, "-o", name, *SMALL, *arguments)
+        return self.folder / name
+
+    def encoded(self, *arguments):
+        """The film as PFM, and the bytes of the PNG of the same rendering."""
+        width, height, film = read_pfm(self.picture("cornell-box", "film.pfm"))
+        self.assertEqual((width, height), (24, 18))
+        size = read_png(self.picture("cornell-box", "out.png", *arguments))
+        self.assertEqual(size[:2], (24, 18))
+        return film, size[2]
+
+    def test_png_is_the_clamped_rounded_film(self):
+        film, png = self.encoded()
+        self.assertEqual(list(png), [display_byte(value) for value in film])
+
+    def test_png_in_srgb(self):
+        film, png = self.encoded("--encoding", "srgb")
+        self.assertEqual(list(png), [srgb_byte(value) for value in film])
+
+    def test_png_in_linear(self):
+        film, png = self.encoded("--encoding", "linear")
+        self.assertEqual(list(png), [display_byte(value) for value in film])
+
+    def test_png_says_its_encoding(self):
+        kinds = {}
+        for encoding in ["display", "srgb", "linear"]:
+            path = self.picture("empty", f"{encoding}.png", "--encoding", encoding)
+            kinds[encoding] = dict(png_chunks(path.read_bytes()))
+        self.assertNotIn(b"sRGB", kinds["display"])
+        self.assertNotIn(b"gAMA", kinds["display"])
+        self.assertIn(b"sRGB", kinds["srgb"])
+        self.assertEqual(kinds["linear"].get(b"gAMA"), (100000).to_bytes(4, "big"))
+
+    def test_encoding_does_not_touch_pfm(self):
+        first = self.picture("cornell-box", "a.pfm").read_bytes()
+        self.assertEqual(first, self.picture("cornell-box", "b.pfm", "--encoding",
+                                             "srgb").read_bytes())
+
+    def test_film_is_not_clamped(self):
+        scene = self.write_scene(background=[3, 0.5, 0])
+        path = self.picture(scene, "bright.pfm")
+        self.assertEqual(read_pfm(path)[2][:3], [3.0, 0.5, 0.0])
+
+    def test_first_row_is_the_top(self):
+        red = {"ambient": [1, 0, 0]}
+        scene = self.write_scene(
+            ambient_light=1, materials={"red": red},
+            spheres=[{"center": [0, 1, 0], "radius": 0.4, "material": "red"}])
+        for read, name in [(read_png, "out.png"), (read_pfm, "out.pfm")]:
+            width, height, values = read(self.picture(scene, name))
+            rows = {i // (3 * width) for i, value in enumerate(values) if value > 0}
+            self.assertTrue(rows, name)
+            self.assertLess(max(rows), height // 2, name)
+
+    def test_first_column_is_the_left(self):
+        scene = self.write_scene(
+            ambient_light=1, materials={"grey": GREY},
+            spheres=[{"center": [-1, 0, 0], "radius": 0.4, "material": "grey"}])
+        width, _, values = read_png(self.picture(scene, "out.png"))
+        columns = {i // 3 % width for i, value in enumerate(values) if value}
+        self.assertLess(max(columns), width // 2)
+
+
+class Crop(CliTest):
+    def test_is_that_part_of_the_whole(self):
+        for device in ["threads", "pocl"]:
+            options = ["--size", "31x23", "--device", device]
+            self.render("cornell-box", "-o", "whole.pfm", *options)
+            width, _, whole = read_pfm(self.folder / "whole.pfm")
+            for box in [(0, 0, 31, 23), (5, 3, 17, 20), (30, 22, 31, 23), (0, 10, 31, 11)]:
+                with self.subTest(device=device, box=box):
+                    self.render("cornell-box", "-o", "part.pfm", *options,
+                                "--crop", ",".join(map(str, box)))
+                    part = read_pfm(self.folder / "part.pfm")
+                    self.assertEqual(part[:2], (box[2] - box[0], box[3] - box[1]))
+                    self.assertEqual(part[2], cropped(width, whole, *box))
+
+    def test_of_the_buffers_schedule_and_odd_tiles(self):
+        options = ["--size", "31x23", "--crop", "5,3,17,20"]
+        hashes = {self.hash_of("cornell-box", *options, *more) for more in [
+            [], ["--tile", "5x4"], ["--device", "threads", "--schedule", "buffers"],
+            ["--device", "threads", "--tile", "7x2"], ["--launch", "sample", "--tile", "3"]]}
+        self.assertEqual(len(hashes), 1)
+
+
+class Bytes(CliTest):
+    def test_same_file_on_every_run_and_device(self):
+        for ending in ["png", "exr", "pfm"]:
+            files = set()
+            for i, device in enumerate(["pocl", "pocl", "threads:1", "threads:3"]):
+                name = f"{i}.{ending}"
+                self.render("mirror-hall", "--size", "20x15", "--device", device, "-o", name)
+                files.add((self.folder / name).read_bytes())
+            with self.subTest(ending=ending):
+                self.assertEqual(len(files), 1)
+
+
+class Metadata(CliTest):
+    def test_png_tells_scene_settings_and_hash(self):
+        result = self.render("single-sphere", *SMALL, "-o", "out.png")
+        texts = png_texts((self.folder / "out.png").read_bytes())
+        self.assertEqual(texts["mirrorball:Scene"], "single-sphere")
+        self.assertRegex(texts["mirrorball:SceneHash"], "^[0-9a-f]{16}$")
+        self.assertIn(texts["mirrorball:ImageHash"], result.stderr)
+        for setting in ["24x18", "grid:2", "float", "strict"]:
+            self.assertIn(setting, texts["mirrorball:Settings"])
+
+    def test_no_dates_or_paths(self):
+        for name in ["out.png", "out.exr"]:
+            self.render("single-sphere", *SMALL, "-o", name)
+            data = (self.folder / name).read_bytes()
+            with self.subTest(name=name):
+                self.assertIsNone(re.search(rb"20\d\d[:-]\d\d[:-]\d\d", data))
+                self.assertNotIn(str(self.folder).encode(), data)
+                self.assertNotIn(b"capDate", data)
+
+    def test_png_has_no_time_chunk(self):
+        self.render("single-sphere", *SMALL, "-o", "out.png")
+        kinds = [kind for kind, _ in png_chunks((self.folder / "out.png").read_bytes())]
+        self.assertNotIn(b"tIME", kinds)
+
+
+class NotFinite(CliTest):
+    """Light times diffuse is 1e60: too much for a float, exit 6, and the picture is there."""
+
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write_scene(
+            lights=[{"position": [0, 0, 9], "intensity": 1e30}],
+            materials={"hot": {"diffuse": 1e30}},
+            spheres=[{"center": [0, 0, 0], "radius": 0.5, "material": "hot"}])
+
+    def assert_reported(self, *arguments):
+        result = self.run_cli("render", self.scene, "--size", "9", "-o", "out.pfm", *arguments)
+        self.assertEqual(result.returncode, 6, result.stderr)
+        message = result.stderr.splitlines()[-1]
+        self.assertRegex(message, r"^mirrorball: \d+ pixels? .*not finite.* \d+,\d+")
+        values = read_pfm(self.folder / "out.pfm")[2]
+        bad = [i // 3 for i, value in enumerate(values) if not math.isfinite(value)]
+        first = re.search(r"(\d+),(\d+)", message)
+        self.assertEqual((bad[0] % 9, bad[0] // 9), (int(first[1]), int(first[2])))
+
+    def test_on_threads(self):
+        self.assert_reported("--device", "threads")
+
+    def test_on_pocl(self):
+        self.assert_reported("--device", "pocl")
+
+    def test_place_in_a_crop_is_told_in_pixels_of_the_whole_picture(self):
+        result = self.run_cli("render", self.scene, "--size", "9", "--aa", "none", "--crop",
+                              "4,4,5,5")
+        self.assertEqual(result.returncode, 6, result.stderr)
+        self.assertIn("4,4", result.stderr.splitlines()[-1])
+
+    def test_double_whose_float_file_overflows(self):
+        self.assert_reported("--device", "threads", "--precision", "double")

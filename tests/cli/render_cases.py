@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The same picture whoever renders it, and sizes at the ends of what is allowed."""
+import json
+
+from harness import CliTest, all_scenes
+from pictures import read_pfm
+
+PATHS = [
+    ["--device", "pocl", "--launch", "pixel"],
+    ["--device", "pocl", "--launch", "sample"],
+    ["--device", "pocl", "--features", "all"],
+    ["--device", "threads:1"],
+    ["--device", "threads:2"],
+    ["--device", "threads:7"],
+    ["--device", "threads", "--schedule", "buffers"],
+    ["--device", "threads", "--schedule", "buffers", "--threads", "2"],
+]
+
+
+class SameHash(CliTest):
+    def assert_one_hash(self, scene, *options, paths=None):
+        hashes = {" ".join(path): self.hash_of(scene, *options, *path) for path in paths or PATHS}
+        self.assertEqual(len(set(hashes.values())), 1, json.dumps(hashes, indent=1))
+
+    def test_on_every_path(self):
+        for scene in ["cornell-box", "mirror-hall", "vertex-normals", "orthographic"]:
+            with self.subTest(scene=scene):
+                self.assert_one_hash(scene, "--size", "37x29")
+
+    def test_of_all_scenes_on_device_and_threads(self):
+        for path in all_scenes():
+            with self.subTest(scene=path.name):
+                self.assert_one_hash(path, "--size", "25x19", "--aa", "grid:3",
+                                     paths=[PATHS[0], PATHS[5]])
+
+    def test_with_every_tile_size(self):
+        tiles = ["1x1", "1x29", "37x1", "13x7", "10000", "65536x1"]
+        paths = [["--tile", tile, "--device", device] for tile in tiles
+                 for device in ["pocl", "threads"]]
+        paths += [["--tile", "5x3", "--launch", "sample"],
+                  ["--tile", "5x3", "--device", "threads", "--schedule", "buffers"]]
+        self.assert_one_hash("cornell-box", "--size", "37x29", paths=paths)
+
+    def test_with_every_grid(self):
+        for aa in ["none", "grid:1", "grid:5", "grid:64"]:
+            with self.subTest(aa=aa):
+                self.assert_one_hash("single-sphere", "--size", "9x7", "--aa", aa,
+                                     paths=[PATHS[0], PATHS[1], PATHS[4], PATHS[7]])
+
+    def test_in_double(self):
+        self.assert_one_hash("cornell-box", "--size", "20", "--precision", "double",
+                             paths=[PATHS[0], PATHS[1], PATHS[4], PATHS[6]])
+
+    def test_with_few_bounces(self):
+        for bounces in ["0", "1", "50"]:
+            with self.subTest(bounces=bounces):
+                self.assert_one_hash("mirror-hall", "--size", "20", "--max-bounces", bounces,
+                                     paths=[PATHS[0], PATHS[4]])
+
+    def test_hash_tells_pictures_apart(self):
+        hashes = {self.hash_of("cornell-box", "--size", "20", *more) for more in [
+            [], ["--aa", "none"], ["--max-bounces", "0"], ["--precision", "double"]]}
+        self.assertEqual(len(hashes), 4)
+
+    def test_grid_1_is_none(self):
+        self.assertEqual(self.hash_of("cornell-box", "--size", "20", "--aa", "none"),
+                         self.hash_of("cornell-box", "--size", "20", "--aa", "grid:1"))
+
+    def test_fast_math_renders(self):
+        for device in ["pocl", "threads"]:
+            self.hash_of("cornell-box", "--size", "20", "--math", "fast", "--device", device)
+
+
+class Extremes(CliTest):
+    def test_sizes(self):
+        for size in ["1x1", "65536x1", "1x65536"]:
+            hashes = set()
+            for device in ["pocl", "threads"]:
+                hashes.add(self.hash_of("single-sphere", "--size", size, "--aa", "none",
+                                        "--device", device, "-o", "out.pfm"))
+                with self.subTest(size=size, device=device):
+                    width, height, _ = read_pfm(self.folder / "out.pfm")
+                    self.assertEqual(f"{width}x{height}", size)
+            self.assertEqual(len(hashes), 1)
+
+    def test_long_pictures_as_png_and_exr(self):
+        for name in ["out.png", "out.exr"]:
+            self.render("empty", "--size", "65536x1", "--aa", "none", "-o", name)
+        self.assertEqual(self.files(), ["out.exr", "out.png"])
+
+    def test_most_bounces(self):
+        self.hash_of("mirror-hall", "--size", "4", "--max-bounces", "100000")
+
+    def test_most_threads(self):
+        self.hash_of("single-sphere", "--size", "4", "--device", "threads:4096")
+
+    def test_many_buffers(self):
+        self.hash_of("single-sphere", "--size", "4", "--aa", "grid:16", "--device", "threads",
+                     "--schedule", "buffers")
+
+
+class Reference(CliTest):
+    def compare(self, reference, *options):
+        return self.run_cli("render", self.scene, "--size", "16", "--device", "threads",
+                            "--reference", reference, *options)
+
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write_scene(background=[0.25, 0.5, 1])
+        for name in ["same.pfm", "same.exr", "same.png"]:
+            self.render(self.scene, "--size", "16", "--device", "threads", "-o", name)
+        self.render(self.scene, "--size", "17", "--device", "threads", "-o", "larger.pfm")
+
+    def test_equal_picture(self):
+        for name in ["same.pfm", "same.exr"]:
+            with self.subTest(name=name):
+                result = self.compare(name)
+                self.assertEqual(result.returncode, 0)
+                self.assertRegex(result.stdout, r"^RMSE 0\.000e\+00, .* 0 not finite\n$")
+
+    def test_rounded_picture_is_close(self):
+        answer = json.loads(self.compare("same.png", "--stats=json").stdout)
+        self.assertLess(answer["error"]["max"], 0.5 / 255 + 1e-6)
+        self.assertGreater(answer["error"]["max"], 0)
+
+    def test_error_in_json(self):
+        answer = json.loads(self.compare("same.pfm", "--stats=json").stdout)
+        self.assertEqual((answer["error"]["rmse"], answer["error"]["non_finite"]), (0, 0))
+
+    def test_quiet_still_prints_the_result(self):
+        self.assertIn("RMSE", self.compare("same.pfm", "-q").stdout)
+
+    def test_may_be_the_file_that_is_then_overwritten(self):
+        other = self.write_scene("other.json", background=0)
+        self.render(other, "--size", "16", "--device", "threads", "-o", "same.pfm")
+        answer = json.loads(self.compare("same.pfm", "-o", "same.pfm", "--stats=json").stdout)
+        self.assertEqual(answer["error"]["max"], 1)
+
+    def test_other_size_is_refused(self):
+        result = self.compare("larger.pfm")
+        self.assertEqual((result.returncode, result.stdout), (3, ""))
+        self.assertIn("16x16", result.stderr)
+        self.assertIn("17x17", result.stderr)
+
+    def test_not_a_picture(self):
+        self.write_text("text.png", "this is no picture")
+        result = self.compare("text.png")
+        self.assertEqual((result.returncode, result.stdout), (3, ""))
+        self.assertIn("text.png", result.stderr)

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""SIGINT and SIGTERM: exit 130 or 143, the picture so far saved and whole."""
+import json
+import re
+import signal
+import time
+
+from harness import CAMERA, CliTest, scene_path
+from pictures import png_chunks, read_pfm
+
+LONG = ["--size", "900", "--aa", "grid:32", "--progress", "json"]
+PATHS = {
+    "threads": ["--device", "threads"],
+    "pocl": ["--device", "pocl"],
+    "pocl samples": ["--device", "pocl", "--launch", "sample"],
+    "buffers": ["--size", "1500", "--aa", "grid:2", "--max-bounces", "400", "--device", "threads",
+                "--schedule", "buffers"],
+}
+
+
+def long_options(path):
+    """--size and --aa may be given only once."""
+    own = PATHS[path]
+    shared = LONG[4:] if "--size" in own else LONG
+    return shared + own
+
+
+class Interrupted(CliTest):
+    def start_and_wait_until_tiles_are_done(self, path, output):
+        process = self.start("render", scene_path("mirror-hall"), "-o", output,
+                             *long_options(path))
+        for line in process.stderr:
+            if line.startswith("{") and json.loads(line)["fraction"] > 0:
+                return process
+        self.fail(f"ended before it could be interrupted: {process.wait()}")
+
+    def stop(self, process, number):
+        process.send_signal(number)
+        stderr = process.communicate(timeout=20)[1]
+        return process.returncode, stderr.strip().splitlines()
+
+    def assert_stopped(self, path, number, output):
+        process = self.start_and_wait_until_tiles_are_done(path, output)
+        code, lines = self.stop(process, number)
+        self.assertEqual(code, 128 + number, lines)
+        message = re.search(r"after (\d+) of (\d+) tiles.*" + re.escape(output), lines[-1])
+        self.assertIsNotNone(message, lines)
+        self.assertGreater(int(message[1]), 0)
+        self.assertLess(int(message[1]), int(message[2]))
+        self.assertEqual(self.files(), [output])
+
+    def assert_has_light_and_gaps(self, name):
+        _, _, values = read_pfm(self.folder / name)
+        black = sum(1 for i in range(0, len(values), 3) if values[i:i + 3] == [0, 0, 0])
+        self.assertGreater(black, 0)
+        self.assertLess(black, len(values) // 3)
+
+    def test_threads_sigint(self):
+        self.assert_stopped("threads", signal.SIGINT, "out.pfm")
+        self.assert_has_light_and_gaps("out.pfm")
+
+    def test_threads_sigterm(self):
+        self.assert_stopped("threads", signal.SIGTERM, "out.png")
+        png_chunks((self.folder / "out.png").read_bytes())
+
+    def test_pocl_sigint(self):
+        self.assert_stopped("pocl", signal.SIGINT, "out.pfm")
+        self.assert_has_light_and_gaps("out.pfm")
+
+    def test_pocl_sigterm(self):
+        self.assert_stopped("pocl", signal.SIGTERM, "out.png")
+        png_chunks((self.folder / "out.png").read_bytes())
+
+    def test_pocl_samples_sigint(self):
+        self.assert_stopped("pocl samples", signal.SIGINT, "out.pfm")
+        self.assert_has_light_and_gaps("out.pfm")
+
+    def test_buffers_sigint(self):
+        self.assert_stopped("buffers", signal.SIGINT, "out.pfm")
+        self.assert_has_light_and_gaps("out.pfm")
+
+    def test_finished_tiles_are_those_of_the_whole_picture(self):
+        options = ["--size", "150", "--aa", "grid:16", "--device", "threads", "--tile", "10"]
+        self.render("mirror-hall", *options, "-o", "whole.pfm")
+        process = self.start("render", scene_path("mirror-hall"), *options, "-o", "part.pfm",
+                             "--progress", "json")
+        for line in process.stderr:
+            if line.startswith("{"):
+                break
+        self.stop(process, signal.SIGINT)
+        whole, part = (read_pfm(self.folder / name)[2] for name in ["whole.pfm", "part.pfm"])
+        wrong = [i for i, value in enumerate(part) if value not in (0, whole[i])]
+        self.assertEqual(wrong, [])
+
+    def test_twice_leaves_no_half_file(self):
+        process = self.start_and_wait_until_tiles_are_done("threads", "out.png")
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20)
+        self.assertIn(process.returncode, [130, -signal.SIGINT])
+        for name in self.files():
+            self.assertEqual(name, "out.png")
+            png_chunks((self.folder / name).read_bytes())
+
+    def test_stats_say_incomplete(self):
+        process = self.start("render", scene_path("mirror-hall"), *long_options("threads"),
+                             "--stats=json")
+        process.stderr.readline()
+        process.send_signal(signal.SIGTERM)
+        stdout = process.communicate(timeout=20)[0]
+        self.assertEqual(process.returncode, 143)
+        self.assertFalse(json.loads(stdout)["complete"])
+
+
+class Ignored(CliTest):
+    def test_signal_that_the_caller_ignores_stays_ignored(self):
+        """As in `nohup` or a script's background job."""
+        line = ("trap '' INT; $MIRRORBALL render $SCENE --size 200 --aa grid:12 --device threads & "
+                "sleep 0.2; kill -INT $!; wait $!")
+        self.assertEqual(self.run_shell(line).returncode, 0)
+
+
+class BeforeRendering(CliTest):
+    def test_leaves_nothing(self):
+        sphere = {"center": [0, 0, 0], "radius": 1, "material": "grey"}
+        text = json.dumps({"camera": CAMERA, "materials": {"grey": {}},
+                           "spheres": [sphere] * 300000})
+        scene = self.write_text("large.json", text)
+        for number in [signal.SIGINT, signal.SIGTERM]:
+            process = self.start("render", scene, "-o", "out.png", "--size", "4")
+            time.sleep(0.1)
+            process.send_signal(number)
+            process.communicate(timeout=20)
+            self.assertIn(process.returncode, [128 + number, -number])
+            self.assertEqual(self.files(), ["large.json"])

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""--stats and --stats=json: valid, complete, adding up."""
+import json
+import statistics
+
+from harness import CliTest, image_hash, scene_path
+
+DEVICES = [["--device", "pocl"], ["--device", "pocl", "--launch", "sample"],
+           ["--device", "threads"], ["--device", "threads", "--schedule", "buffers"]]
+
+
+class JsonStats(CliTest):
+    def test_shape(self):
+        stats = self.stats_of("cornell-box", "--size", "20x10")
+        self.assertEqual((stats["format"], stats["version"]), ("mirrorball-render", 1))
+        for key in ["program", "git_revision", "cpu", "cores", "load"]:
+            self.assertIn(key, stats["environment"])
+        settings = stats["settings"]
+        self.assertEqual((settings["width"], settings["height"]), (20, 10))
+        self.assertEqual(settings["region"], [0, 0, 20, 10])
+        self.assertEqual((settings["precision"], settings["math"]), ("float", "strict"))
+        self.assertTrue(stats["complete"])
+        self.assertEqual(stats["image"]["non_finite"], 0)
+
+    def test_hash_is_the_summary_line_s(self):
+        for device in DEVICES:
+            summary = self.hash_of("cornell-box", "--size", "20", *device)
+            stats = self.stats_of("cornell-box", "--size", "20", *device)
+            self.assertEqual(stats["image"]["hash"], summary)
+
+    def test_nothing_else_on_stdout_or_stderr(self):
+        result = self.render("cornell-box", "--stats=json", "--size", "20", "-v")
+        json.loads(result.stdout)
+        self.assertEqual(result.stderr, "")
+
+    def test_scene_path_with_quotes_and_umlauts(self):
+        path = self.write_scene('a "quoted" nämé.json')
+        self.assertEqual(self.stats_of(path, "--size", "4")["scene"]["path"], path)
+
+    def test_scene_path_that_is_not_utf_8(self):
+        path = self.folder / b"latin-\xe9.json".decode("utf-8", "surrogateescape")
+        path.write_text('{"camera": {"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}}')
+        result = self.run_cli("render", path, "--size", "4", "--stats=json", "-o", "out.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        json.loads(result.stdout)
+
+
+class Rays(CliTest):
+    def test_the_same_on_every_path(self):
+        for scene in ["cornell-box", "mirror-hall"]:
+            rays = [self.stats_of(scene, "--size", "21x13", "--aa", "grid:3", *device)["rays"]
+                    for device in DEVICES]
+            for other in rays[1:]:
+                self.assertEqual(other, rays[0])
+            self.assertEqual(rays[0]["primary"], 21 * 13 * 9)
+            self.assertEqual(rays[0]["total"], sum(rays[0][k] for k in ["primary", "shadow",
+                                                                       "mirror"]))
+
+    def test_of_a_crop(self):
+        rays = self.stats_of("empty", "--size", "50", "--crop", "1,1,11,6", "--aa", "none")["rays"]
+        self.assertEqual(rays, {"primary": 50, "shadow": 0, "mirror": 0, "total": 50})
+
+
+class Phases(CliTest):
+    def test_sum_to_about_the_total(self):
+        for device in DEVICES:
+            seconds = self.stats_of("mirror-hall", "--size", "300", "--aa", "grid:3", *device,
+                                    "-o", "out.png")["seconds"]
+            known = seconds["set_up"] + seconds["trace"] + seconds["resolve_and_write"]
+            with self.subTest(device=device, seconds=seconds):
+                self.assertLessEqual(known, seconds["total"] + 0.02)
+                self.assertLess(seconds["total"] - known, 0.1 + 0.1 * seconds["total"])
+
+    def test_tracing_takes_no_longer_for_a_png(self):
+        def trace_seconds(name):
+            runs = [self.stats_of("mirror-hall", "--size", "300", "--device", "threads", "-o",
+                                  name, "--progress", "none")["seconds"]["trace"]
+                    for _ in range(5)]
+            return statistics.median(runs)
+        self.assertLess(trace_seconds("out.png"), 1.3 * trace_seconds("out.pfm") + 0.03)
+
+    def test_none_is_negative(self):
+        for device in DEVICES:
+            seconds = self.stats_of("empty", "--size", "9", *device)["seconds"]
+            for name, value in seconds.items():
+                if name != "build_cache":
+                    self.assertGreaterEqual(value, 0, name)
+
+    def test_build_cache_is_cold_then_warm(self):
+        cache = self.folder / "cache"
+        cache.mkdir()
+        kinds = [self.stats_of("single-sphere", "--size", "8", "--device", "pocl",
+                               env={"POCL_CACHE_DIR": str(cache)})["seconds"]["build_cache"]
+                 for _ in range(3)]
+        self.assertEqual(kinds, ["cold", "warm", "warm"])
+
+    def test_threads_have_no_build_cache(self):
+        seconds = self.stats_of("empty", "--size", "8", "--device", "threads")["seconds"]
+        self.assertEqual(seconds["build_cache"], "none")
+        self.assertEqual(seconds["build"], 0)
+
+
+class TextStats(CliTest):
+    def test_sections(self):
+        for option in ["--stats", "--stats=text"]:
+            result = self.render("cornell-box", "--size", "20", option)
+            self.assertEqual(result.stderr, "")
+            for word in ["scene ", "picture 20x20", "device ", "needs ", "leaves out ", "time\n",
+                         "set-up", "ray trace", "total", "rays\n", "primary", "Mrays/s"]:
+                self.assertIn(word, result.stdout)
+            self.assertIsNotNone(image_hash(result.stdout))
+
+    def test_option_before_the_scene(self):
+        result = self.run_cli("render", "--stats", scene_path("empty"), "--size", "4")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("ray trace", result.stdout)
+
+    def test_features_all_is_said(self):
+        result = self.render("empty", "--size", "4", "--features", "all", "--stats")
+        self.assertIn("--features all", result.stdout)

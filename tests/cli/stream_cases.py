@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""stdout and stderr: what goes where, progress, and streams that are closed or full."""
+import json
+import os
+import pty
+
+from harness import CliTest, scene_path
+
+LONG = ["--size", "2000", "--aa", "grid:8", "--device", "threads"]
+
+
+class Summary(CliTest):
+    def test_is_on_stderr_alone(self):
+        result = self.render("single-sphere", "--size", "8")
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+        self.assertRegex(result.stderr,
+                         r"^single-sphere: 8x8 grid:2 float on .* image [0-9a-f]{16}$")
+
+    def test_quiet_says_nothing(self):
+        result = self.render("single-sphere", "--size", "8", "-q", "-o", "out.png")
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+
+    def test_quiet_still_says_errors(self):
+        result = self.run_cli("render", "missing.json", "-q")
+        self.assert_refused(result, 3, "missing.json")
+
+    def test_verbose_keeps_stdout_clean(self):
+        self.assertEqual(self.render("single-sphere", "--size", "8", "-v").stdout, "")
+
+
+class HostileNames(CliTest):
+    def test_control_characters_of_a_scene_s_name_do_not_reach_the_terminal(self):
+        scene = self.write_scene(name="red\x1b[31m\nsecond line")
+        for arguments in [["render", scene, "--size", "2"], ["scene", "info", scene],
+                          ["render", scene, "--size", "2", "--stats"]]:
+            with self.subTest(arguments=arguments):
+                result = self.run_cli(*arguments)
+                self.assertEqual(result.returncode, 3)
+                self.assertIn("control character", result.stderr)
+                self.assertNotIn("\x1b", result.stdout + result.stderr)
+                self.assertNotIn("\nsecond", result.stdout + result.stderr)
+
+    def test_nul_in_a_scene_s_name_is_no_bug_of_ours(self):
+        scene = self.write_scene(name="a\0b")
+        result = self.run_cli("render", scene, "--size", "2", "-o", "out.png")
+        self.assertEqual(result.returncode, 3, result.stderr)
+
+
+class Progress(CliTest):
+    def first_lines(self, *options, count=2, env=None):
+        process = self.start("render", scene_path("mirror-hall"), *LONG, *options, env=env)
+        lines = [process.stderr.readline() for _ in range(count)]
+        process.kill()
+        return lines
+
+    def on_terminal(self, **env):
+        """What a rendering of a second or so writes to a terminal."""
+        ours, terminal = pty.openpty()
+        self.addCleanup(os.close, ours)
+        result = self.run_cli("render", scene_path("mirror-hall"), "--size", "500", "--device",
+                              "threads:1", "--aa", "grid:4", stderr=terminal, env=env)
+        os.close(terminal)
+        self.assertEqual(result.returncode, 0)
+        return os.read(ours, 100000).decode()
+
+    def test_bar_on_a_terminal(self):
+        text = self.on_terminal(TERM="xterm")
+        self.assertRegex(text, r"\r\[#*\.*\] +\d+ %  [\d.]+ Mrays/s  ETA \d+:\d\d")
+        self.assertRegex(text, r"\] 100 %.*\n.*image [0-9a-f]{16}\r\n$")
+
+    def test_no_bar_on_a_dumb_terminal(self):
+        self.assertNotIn("[", self.on_terminal(TERM="dumb"))
+
+    def test_json_lines_parse(self):
+        result = self.render("mirror-hall", "--size", "200", "--progress", "json")
+        lines = [json.loads(line) for line in result.stderr.splitlines() if line[0] == "{"]
+        self.assertTrue(lines)
+        for line in lines:
+            self.assertEqual(set(line), {"fraction", "seconds", "rays"})
+        self.assertEqual(lines[-1]["fraction"], 1)
+
+    def test_json_grows(self):
+        first, second = map(json.loads, self.first_lines("--progress", "json"))
+        self.assertLess(first["seconds"], second["seconds"])
+        self.assertLessEqual(first["fraction"], second["fraction"])
+        self.assertGreater(second["rays"], 0)
+
+    def test_plain_in_a_pipe(self):
+        line = self.first_lines(count=1, env={"TERM": "xterm-256color"})[0]
+        self.assertRegex(line, r"^ *\d+ %  [\d.]+ Mrays/s  ETA \d+:\d\d\n$")
+
+    def test_bar_has_no_escape_codes(self):
+        result = self.render("mirror-hall", "--size", "400", "--progress", "bar")
+        self.assertNotIn("\x1b", result.stderr)
+
+    def test_no_bar_for_a_short_picture(self):
+        result = self.render("empty", "--size", "4", "--progress", "bar")
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+
+    def test_none(self):
+        result = self.render("mirror-hall", "--size", "300", "--progress", "none")
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+
+
+class Lost(CliTest):
+    """Streams that take nothing: never a crash, and exit 4 when a result was lost."""
+
+    RESULTS = ["devices", "devices --json", "--version", "render --help", "scene info $SCENE",
+               "scene check $SCENE", "render $SCENE --size 8 --stats",
+               "render $SCENE --size 8 --stats=json"]
+
+    def test_stdout_closed_or_a_broken_pipe(self):
+        for command in self.RESULTS:
+            for end in [">&-", "| head -c 0"]:
+                with self.subTest(command=command, end=end):
+                    line = f"$MIRRORBALL {command} {end}; exit ${{PIPESTATUS[0]}}"
+                    self.assertIn(self.run_shell(line).returncode, [0, 4])
+
+    def test_full_stdout_is_an_error(self):
+        for command in self.RESULTS:
+            with self.subTest(command=command):
+                result = self.run_shell(f"$MIRRORBALL {command} > /dev/full")
+                self.assertEqual(result.returncode, 4, result.stderr)
+                self.assertEqual(len(result.stderr.splitlines()), 1)
+
+    def test_stderr_closed_full_or_a_broken_pipe(self):
+        for end in ["2>&-", "2>/dev/full", "2>&1 >/dev/null | head -c 0"]:
+            with self.subTest(end=end):
+                line = (f"$MIRRORBALL render $SCENE --size 200 --progress json -o out.png {end}; "
+                        "exit ${PIPESTATUS[0]}")
+                self.assertEqual(self.run_shell(line).returncode, 0)
+                self.assertEqual(self.files(), ["out.png"])
+
+    def test_error_with_stderr_closed_keeps_its_exit_code(self):
+        for end in ["2>&-", "2>/dev/full"]:
+            with self.subTest(end=end):
+                self.assertEqual(self.run_shell(f"$MIRRORBALL render no.json {end}").returncode, 3)
+
+    def test_all_streams_closed(self):
+        line = "$MIRRORBALL render $SCENE --size 8 --device threads -o out.pfm <&- >&- 2>&-"
+        self.assertEqual(self.run_shell(line).returncode, 0)
+        size = (self.folder / "out.pfm").stat().st_size
+        self.assertEqual(size, len("PF\n8 8\n-1.0\n") + 12 * 64)
