@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# embed_kernels(ENTRY NAME): makes a C++ source that defines `const char* const rt::NAME`, the OpenCL
-# C text of ENTRY with its includes, and puts its path into NAME_SOURCE.
+# embed_kernels(ENTRY NAME [FURTHER_DEPENDENCY...]): makes a C++ source that defines
+# `const char* const rt::NAME`, the OpenCL C text of ENTRY with its includes, and puts its path into
+# NAME_SOURCE.
 add_executable(embed_kernels ${CMAKE_CURRENT_LIST_DIR}/../host/embed_kernels.cpp)
 
 function(embed_kernels ENTRY NAME)
@@ -9,7 +10,7 @@ function(embed_kernels ENTRY NAME)
     add_custom_command(
         OUTPUT ${out}
         COMMAND embed_kernels ${CMAKE_SOURCE_DIR} ${ENTRY} ${out} ${NAME}
-        DEPENDS embed_kernels ${kernel_files} ${CMAKE_SOURCE_DIR}/${ENTRY}
+        DEPENDS embed_kernels ${kernel_files} ${CMAKE_SOURCE_DIR}/${ENTRY} ${ARGN}
         COMMENT "Embedding ${ENTRY}")
     set(${NAME}_SOURCE ${out} PARENT_SCOPE)
 endfunction()

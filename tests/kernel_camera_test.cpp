@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// kernels/camera.cl against the closed form in 113 bits and its symmetries, and bit for bit against
+// host/trace/camera.h.
+#include "host/trace/camera.h"
+#include "tests/exact.h"
+#include "tests/kernel_runner.h"
+#include "tests/probe_types.h"
+#include "tests/test_random.h"
+#include "tests/test_shapes.h"
+
+namespace rt {
+
+namespace {
+
+template <typename T>
+using Frame = typename Flat<T>::Frame;
+
+/// A camera of any attitude; a pixel spans about 1e-2 of the view.
+template <typename T>
+Frame<T> any_frame(Random& random, bool orthographic, int grid) {
+    const glm::dvec3 forward = random.unit_vector();
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, random.unit_vector()));
+    const glm::dvec3 up = glm::cross(right, forward);
+    Frame<T> frame{};
+    frame.width = 200;
+    frame.height = 130;
+    frame.grid = grid;
+    frame.direction = round_to<T>(forward);
+    (orthographic ? frame.origin_dx : frame.direction_dx) = round_to<T>(3e-3 * right);
+    (orthographic ? frame.origin_dy : frame.direction_dy) = round_to<T>(4e-3 * up);
+    return frame;
+}
+
+/// Every sample of every pixel.
+template <typename T>
+struct Samples {
+    std::vector<typename Flat<T>::Index> x, y, k;
+
+    explicit Samples(const Frame<T>& frame) {
+        for (int j = 0; j < frame.height; ++j) {
+            for (int i = 0; i < frame.width; ++i) {
+                for (int s = 0; s < frame.grid * frame.grid; ++s) {
+                    x.push_back(i);
+                    y.push_back(j);
+                    k.push_back(s);
+                }
+            }
+        }
+    }
+    std::vector<ProbeRay<T>> device(const Frame<T>& frame) const {
+        return run<T, ProbeRay<T>>("camera_ray", x.size(), std::vector{frame}, x, y, k);
+    }
+    /// 2 (position) - size, with the position of a sample k as the header of the kernel says.
+    Quad sx(std::size_t i, const Frame<T>& f) const {
+        return 2 * (Quad(x[i]) + (Quad(k[i] % f.grid) + 0.5) / f.grid) - f.width;
+    }
+    Quad sy(std::size_t i, const Frame<T>& f) const {
+        return 2 * (Quad(y[i]) + (Quad(k[i] / f.grid) + 0.5) / f.grid) - f.height;
+    }
+};
+
+template <typename T>
+void expect_closed_form(bool orthographic, int grid) {
+    Random random(static_cast<std::uint64_t>(grid));
+    const Frame<T> f = any_frame<T>(random, orthographic, grid);
+    const Samples<T> samples(f);
+    const auto rays = samples.device(f);
+    WorstError dir, origin;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Quad sx = samples.sx(i, f), sy = samples.sy(i, f);
+        dir.add(vector_error<T>(
+            rays[i].dir,
+            unit(exact(f.direction) + sx * exact(f.direction_dx) + sy * exact(f.direction_dy)), 1));
+        origin.add(
+            vector_error<T>(rays[i].origin, sx * exact(f.origin_dx) + sy * exact(f.origin_dy), 1));
+        ASSERT_TRUE(std::isinf(rays[i].t_max) && rays[i].from == Flat<T>::none);
+    }
+    dir.expect_at_most(4, "direction");
+    origin.expect_at_most(orthographic ? 2 : 0, "origin");
+    EXPECT_TRUE(same_bits<T>(rays, for_each_item(rays.size(), [&](std::size_t i) {
+                                 return pack(trace::camera_ray<T>(f, samples.x[i], samples.y[i],
+                                                                  samples.k[i]));
+                             })));
+}
+
+KERNEL_SUITE(CameraRay);
+TYPED_TEST(CameraRay, PerspectiveFansOutFromTheEye) {
+    for (const int grid : {1, 2, 3}) expect_closed_form<TypeParam>(false, grid);
+}
+TYPED_TEST(CameraRay, OrthographicRaysAreParallel) {
+    for (const int grid : {1, 2, 3}) expect_closed_form<TypeParam>(true, grid);
+}
+TYPED_TEST(CameraRay, OnASquarePicturesDiagonalHasEqualComponents) {
+    Frame<TypeParam> frame{};
+    frame.width = frame.height = 101;
+    frame.direction = {0, 0, -1};
+    frame.direction_dx = {TypeParam(0.00517), 0, 0};
+    frame.direction_dy = {0, TypeParam(0.00517), 0};
+    for (const int grid : {1, 2, 3, 4}) {
+        frame.grid = grid;
+        const Samples<TypeParam> samples(frame);
+        const auto rays = samples.device(frame);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (samples.x[i] != samples.y[i]) continue;
+            if (samples.k[i] % grid != samples.k[i] / grid) continue;
+            ASSERT_EQ(rays[i].dir.x, rays[i].dir.y) << samples.x[i];
+        }
+    }
+}
+TYPED_TEST(CameraRay, OppositePixelsMirrorEachOther) {
+    Frame<TypeParam> frame{};
+    frame.width = 64;
+    frame.height = 37;
+    frame.grid = 1;
+    frame.direction = {0, 0, -1};
+    frame.direction_dx = {TypeParam(0.013), 0, 0};
+    frame.direction_dy = {0, TypeParam(0.017), 0};
+    const auto rays = Samples<TypeParam>(frame).device(frame);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto &a = rays[i].dir, &b = rays[rays.size() - 1 - i].dir;
+        ASSERT_TRUE(a.x == -b.x && a.y == -b.y && a.z == b.z) << i;
+    }
+}
+
+}  // namespace
+
+}  // namespace rt

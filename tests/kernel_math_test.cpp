@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// kernels/math.cl and the two helpers of kernels/render.cl: against 113-bit arithmetic and
+// closed forms, and bit for bit against host/trace/math.h. Bars are in roundoffs (half an ulp of
+// 1).
+#include "host/trace/math.h"
+#include "tests/exact.h"
+#include "tests/kernel_runner.h"
+#include "tests/probe_types.h"
+#include "tests/test_random.h"
+
+namespace rt {
+
+namespace {
+
+constexpr std::size_t count = 60000;
+
+/// Vectors with components of any sign and exponents within +-12.
+template <typename T>
+std::vector<Packed3<T>> ordinary_vectors(Random& random) {
+    return many(count, [&] {
+        return round_to<T>(random.log_uniform(0x1p-12, 0x1p12) * random.unit_vector());
+    });
+}
+template <typename T>
+std::vector<Packed3<T>> any_vectors(Random& random) {
+    return many(count, [&] { return random.any_vector<T>(); });
+}
+template <typename T>
+std::vector<T> any_numbers(Random& random) {
+    return many(count, [&] { return random.any_number<T>(); });
+}
+template <typename T>
+std::vector<Packed3<T>> unit_vectors(Random& random) {
+    return many(count, [&] { return round_to<T>(random.unit_vector()); });
+}
+
+KERNEL_SUITE(Load3);
+TYPED_TEST(Load3, AndStore3CopyBits) {
+    Random random(1);
+    const auto a = any_vectors<TypeParam>(random);
+    EXPECT_TRUE(same_bits<TypeParam>(run<TypeParam, Packed3<TypeParam>>("load3", count, a), a));
+    EXPECT_TRUE(same_bits<TypeParam>(run<TypeParam, Packed3<TypeParam>>("store3", count, a), a));
+}
+
+KERNEL_SUITE(AddCounts);
+TYPED_TEST(AddCounts, AddsEachKindIn64Bits) {
+    using Counts = typename Flat<TypeParam>::RayCounts;
+    const std::vector<Counts> a{{1, 2}, {0xffffffff, 0}, {5, 0xffffffffff}},
+        b{{10, 20}, {1, 1}, {0, 1}};
+    const auto sum = run<TypeParam, Counts>("add_counts", a.size(), a, b);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(sum[i].shadow, a[i].shadow + b[i].shadow);
+        EXPECT_EQ(sum[i].mirror, a[i].mirror + b[i].mirror);
+    }
+}
+
+/// One rounding of the C++ operator for each component: IEEE 754 leaves no choice.
+template <typename T, typename F>
+testing::AssertionResult rounds_once(const std::string& function, F f) {
+    Random random(2);
+    const auto a = any_vectors<T>(random), b = any_vectors<T>(random);
+    return same_bits<T>(run<T, Packed3<T>>(function, count, a, b),
+                        for_each_item(count, [&](std::size_t i) -> Packed3<T> {
+                            return {f(a[i].x, b[i].x), f(a[i].y, b[i].y), f(a[i].z, b[i].z)};
+                        }));
+}
+
+KERNEL_SUITE(Componentwise);
+TYPED_TEST(Componentwise, SumDifferenceAndProductRoundOnce) {
+    using T = TypeParam;
+    EXPECT_TRUE(rounds_once<T>("add3", [](T x, T y) { return x + y; }));
+    EXPECT_TRUE(rounds_once<T>("sub3", [](T x, T y) { return x - y; }));
+    EXPECT_TRUE(rounds_once<T>("mul3", [](T x, T y) { return x * y; }));
+}
+TYPED_TEST(Componentwise, ScalingAndDivisionRoundOnce) {
+    Random random(2);
+    const auto a = any_vectors<TypeParam>(random);
+    const auto s = any_numbers<TypeParam>(random);
+    EXPECT_TRUE(same_bits<TypeParam>(run<TypeParam, Packed3<TypeParam>>("scale3", count, s, a),
+                                     for_each_item(count, [&](std::size_t i) -> Packed3<TypeParam> {
+                                         return {s[i] * a[i].x, s[i] * a[i].y, s[i] * a[i].z};
+                                     })));
+    EXPECT_TRUE(same_bits<TypeParam>(run<TypeParam, Packed3<TypeParam>>("divide3", count, a, s),
+                                     for_each_item(count, [&](std::size_t i) -> Packed3<TypeParam> {
+                                         return {a[i].x / s[i], a[i].y / s[i], a[i].z / s[i]};
+                                     })));
+}
+TYPED_TEST(Componentwise, SignsChangeAlone) {
+    Random random(2);
+    const auto a = any_vectors<TypeParam>(random);
+    EXPECT_TRUE(
+        same_bits<TypeParam>(run<TypeParam, Packed3<TypeParam>>("abs3", count, a),
+                             for_each_item(count, [&](std::size_t i) -> Packed3<TypeParam> {
+                                 return {std::abs(a[i].x), std::abs(a[i].y), std::abs(a[i].z)};
+                             })));
+    EXPECT_TRUE(same_bits<TypeParam>(run<TypeParam, Packed3<TypeParam>>("negate3", count, a),
+                                     for_each_item(count, [&](std::size_t i) -> Packed3<TypeParam> {
+                                         return {-a[i].x, -a[i].y, -a[i].z};
+                                     })));
+}
+
+KERNEL_SUITE(Dot3);
+TYPED_TEST(Dot3, IsWithinThreeRoundingsOfItsTerms) {
+    Random random(3);
+    const auto a = ordinary_vectors<TypeParam>(random), b = ordinary_vectors<TypeParam>(random);
+    const auto sums = run<TypeParam, TypeParam>("dot3", count, a, b);
+    WorstError worst;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad3 p = exact(a[i]), q = exact(b[i]);
+        const Quad terms = magnitude(p.x * q.x) + magnitude(p.y * q.y) + magnitude(p.z * q.z);
+        worst.add(error_in_roundoffs(sums[i], dot(p, q), terms));
+    }
+    worst.expect_at_most(3.0, "worst");
+}
+TYPED_TEST(Dot3, IsExactWhereTheLastTermsCancel) {
+    // (1 + e)^2 - 1 = 2 e + e^2 needs the product unrounded.
+    const TypeParam e = std::ldexp(TypeParam(1), -(std::numeric_limits<TypeParam>::digits + 1) / 2);
+    const std::vector<Packed3<TypeParam>> a{{1, 1 + e, 0}}, b{{-1, 1 + e, 0}};
+    const auto sum = run<TypeParam, TypeParam>("dot3", 1, a, b);
+    EXPECT_EQ(sum[0], 2 * e + e * e);
+}
+TYPED_TEST(Dot3, HasTheTwinsBits) {
+    Random random(4);
+    const auto a = any_vectors<TypeParam>(random), b = any_vectors<TypeParam>(random);
+    EXPECT_TRUE(same_bits<TypeParam>(run<TypeParam, TypeParam>("dot3", count, a, b),
+                                     for_each_item(count, [&](std::size_t i) {
+                                         return trace::dot3(trace::load3(a[i]), trace::load3(b[i]));
+                                     })));
+}
+
+KERNEL_SUITE(AddScaled);
+TYPED_TEST(AddScaled, RoundsOnce) {
+    Random random(5);
+    const auto a = ordinary_vectors<TypeParam>(random), b = ordinary_vectors<TypeParam>(random);
+    const auto s = many(count, [&] { return static_cast<TypeParam>(random.uniform(-8, 8)); });
+    const auto sums = run<TypeParam, Packed3<TypeParam>>("add_scaled", count, a, s, b);
+    EXPECT_TRUE(
+        same_bits<TypeParam>(sums, for_each_item(count, [&](std::size_t i) -> Packed3<TypeParam> {
+                                 const Quad3 sum = exact(a[i]) + Quad(s[i]) * exact(b[i]);
+                                 return {TypeParam(sum.x), TypeParam(sum.y), TypeParam(sum.z)};
+                             })));
+}
+TYPED_TEST(AddScaled, HasTheTwinsBits) {
+    Random random(6);
+    const auto a = any_vectors<TypeParam>(random), b = any_vectors<TypeParam>(random);
+    const auto s = any_numbers<TypeParam>(random);
+    EXPECT_TRUE(same_bits<TypeParam>(
+        run<TypeParam, Packed3<TypeParam>>("add_scaled", count, a, s, b),
+        for_each_item(count, [&](std::size_t i) {
+            return pack(trace::add_scaled(trace::load3(a[i]), s[i], trace::load3(b[i])));
+        })));
+}
+
+KERNEL_SUITE(Length3);
+TYPED_TEST(Length3, IsWithinTwoAndAHalfRoundings) {
+    Random random(7);
+    const auto a = ordinary_vectors<TypeParam>(random);
+    const auto lengths = run<TypeParam, TypeParam>("length3", count, a);
+    WorstError worst;
+    for (std::size_t i = 0; i < count; ++i) {
+        worst.add(relative_error(lengths[i], length(exact(a[i]))));
+    }
+    worst.expect_at_most(2.5, "worst");
+}
+TYPED_TEST(Length3, IsExactOnPythagoreanQuadruples) {
+    const std::vector<Packed3<TypeParam>> a{{2, 3, -6}, {1, 4, 8}, {0, -3, 4}, {0, 0, 0}};
+    EXPECT_EQ((run<TypeParam, TypeParam>("length3", 4, a)), (std::vector<TypeParam>{7, 9, 5, 0}));
+}
+TYPED_TEST(Length3, HasTheTwinsBits) {
+    Random random(8);
+    const auto a = any_vectors<TypeParam>(random);
+    EXPECT_TRUE(same_bits<TypeParam>(
+        run<TypeParam, TypeParam>("length3", count, a),
+        for_each_item(count, [&](std::size_t i) { return trace::length3(trace::load3(a[i])); })));
+}
+
+KERNEL_SUITE(Normalize3);
+TYPED_TEST(Normalize3, IsWithinFourAndAHalfRoundings) {
+    Random random(9);
+    const auto a = ordinary_vectors<TypeParam>(random);
+    const auto units = run<TypeParam, Packed3<TypeParam>>("normalize3", count, a);
+    WorstError direction, norm;
+    for (std::size_t i = 0; i < count; ++i) {
+        direction.add(vector_error<TypeParam>(units[i], unit(exact(a[i])), 1));
+        norm.add(error_in_roundoffs<TypeParam>(0, length(exact(units[i])) - 1, 1));
+    }
+    direction.expect_at_most(4.5, "direction");
+    norm.expect_at_most(4.5, "norm");
+}
+TYPED_TEST(Normalize3, HasTheTwinsBits) {
+    Random random(10);
+    const auto a = any_vectors<TypeParam>(random);
+    EXPECT_TRUE(same_bits<TypeParam>(run<TypeParam, Packed3<TypeParam>>("normalize3", count, a),
+                                     for_each_item(count, [&](std::size_t i) {
+                                         return pack(trace::normalize3(trace::load3(a[i])));
+                                     })));
+}
+
+KERNEL_SUITE(DifferenceOfProducts);
+TYPED_TEST(DifferenceOfProducts, HasTheRightSignAndTwoRoundingsWhateverCancels) {
+    Random random(11);
+    const auto number = [&] {
+        const double x = random.uniform(1, 2);
+        return static_cast<TypeParam>(random.coin() ? x : -x);
+    };
+    const auto a = many(count, number), b = many(count, number), c = many(count, number);
+    // d makes both products equal but for its rounding, and a few ulps
+    std::vector<TypeParam> d(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        d[i] = a[i] * b[i] / c[i] * (1 + TypeParam(random.index(3)) * Flat<TypeParam>::roundoff);
+    }
+    const auto results = run<TypeParam, TypeParam>("difference_of_products", count, a, b, c, d);
+    WorstError worst;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad value = Quad(a[i]) * Quad(b[i]) - Quad(c[i]) * Quad(d[i]);
+        ASSERT_EQ(results[i] > 0, value > 0) << i;
+        ASSERT_EQ(results[i] < 0, value < 0) << i;
+        worst.add(relative_error(results[i], value));
+    }
+    worst.expect_at_most(2.0, "worst");
+}
+TYPED_TEST(DifferenceOfProducts, ChangesItsSignAloneWithSwappedProducts) {
+    Random random(12);
+    const auto a = any_numbers<TypeParam>(random), b = any_numbers<TypeParam>(random),
+               c = any_numbers<TypeParam>(random), d = any_numbers<TypeParam>(random);
+    const auto forth = run<TypeParam, TypeParam>("difference_of_products", count, a, b, c, d);
+    const auto back = run<TypeParam, TypeParam>("difference_of_products", count, c, d, a, b);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto sign = [](TypeParam x) { return (x > 0) - (x < 0); };
+        if (std::isfinite(forth[i]) && std::isfinite(back[i])) {
+            ASSERT_EQ(sign(forth[i]), -sign(back[i])) << i;
+        }
+    }
+}
+TYPED_TEST(DifferenceOfProducts, HasTheTwinsBits) {
+    Random random(13);
+    const auto a = any_numbers<TypeParam>(random), b = any_numbers<TypeParam>(random),
+               c = any_numbers<TypeParam>(random), d = any_numbers<TypeParam>(random);
+    EXPECT_TRUE(
+        same_bits<TypeParam>(run<TypeParam, TypeParam>("difference_of_products", count, a, b, c, d),
+                             for_each_item(count, [&](std::size_t i) {
+                                 return trace::difference_of_products(a[i], b[i], c[i], d[i]);
+                             })));
+}
+
+KERNEL_SUITE(Reflect3);
+TYPED_TEST(Reflect3, TurnsTheNormalPartAround) {
+    const std::vector<Packed3<TypeParam>> d{{1, -1, 0}, {0, 0, -1}, {3, 4, 5}},
+        n{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, expected{{1, 1, 0}, {0, 0, 1}, {-3, 4, 5}};
+    EXPECT_TRUE(
+        same_bits<TypeParam>(run<TypeParam, Packed3<TypeParam>>("reflect3", 3, d, n), expected));
+}
+TYPED_TEST(Reflect3, IsWithinFourRoundingsForUnitVectors) {
+    Random random(14);
+    const auto d = unit_vectors<TypeParam>(random), n = unit_vectors<TypeParam>(random);
+    const auto results = run<TypeParam, Packed3<TypeParam>>("reflect3", count, d, n);
+    WorstError worst;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad3 p = exact(d[i]), q = exact(n[i]);
+        worst.add(vector_error<TypeParam>(results[i], p - 2 * dot(p, q) * q, 1));
+    }
+    worst.expect_at_most(4.0, "worst");
+}
+TYPED_TEST(Reflect3, HasTheTwinsBits) {
+    Random random(15);
+    const auto d = any_vectors<TypeParam>(random), n = any_vectors<TypeParam>(random);
+    EXPECT_TRUE(same_bits<TypeParam>(run<TypeParam, Packed3<TypeParam>>("reflect3", count, d, n),
+                                     for_each_item(count, [&](std::size_t i) {
+                                         return pack(trace::reflect3(trace::load3(d[i]),
+                                                                     trace::load3(n[i])));
+                                     })));
+}
+
+}  // namespace
+
+}  // namespace rt

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <span>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "host/flatten/flat_scene.h"
+
+// Runs the probe kernels of tests/probes.cl. A test of a new device function is a probe there and
+//
+//     KERNEL_SUITE(Dot3);
+//     TYPED_TEST(Dot3, IsExactOnSmallIntegers) {
+//         const auto sum = run<TypeParam, TypeParam>("dot3", a.size(), a, b);
+//         ...
+//     }
+//
+// The device is the one MIRRORBALL_TEST_DEVICE names (as --device does), else the first PoCL
+// device, else the first that can render.
+namespace rt {
+
+struct ProbeInput {
+    const void* data;
+    std::size_t bytes;
+};
+
+struct ProbeOutput {
+    void* data;
+    std::size_t bytes;
+};
+
+/// Runs probe_FUNCTION over `count` items; the kernel's arguments are first, count, the inputs and
+/// the outputs. Builds the probes on first use, once per precision, with warnings as errors. Throws
+/// Error (ExitCode::device) that names the device, the probe and the OpenCL status.
+void launch_probe(bool double_precision, const std::string& function, std::size_t count,
+                  std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs);
+
+/// The test device's name, and whether it has the double type.
+std::string test_device_name();
+bool test_device_has_double();
+
+template <typename X>
+void add_inputs(std::vector<ProbeInput>& inputs, const std::vector<X>& values) {
+    inputs.push_back({values.data(), values.size() * sizeof(X)});
+}
+
+/// A scene is six arguments, the PROBE_SCENE of probes.cl.
+template <typename T>
+void add_inputs(std::vector<ProbeInput>& inputs, const FlatScene<T>& scene) {
+    add_inputs(inputs, scene.spheres);
+    add_inputs(inputs, scene.triangles);
+    add_inputs(inputs, scene.vertex_normals);
+    add_inputs(inputs, scene.materials);
+    add_inputs(inputs, scene.lights);
+    inputs.push_back({&scene.frame, sizeof(scene.frame)});
+}
+
+/// Runs probe_FUNCTION in the precision of T over `count` items. Inputs are vectors and scenes; the
+/// results are a vector for each type in Outs, in a tuple if there are several.
+template <typename T, typename... Outs, typename... Ins>
+auto run(const std::string& function, std::size_t count, const Ins&... ins) {
+    std::vector<ProbeInput> inputs;
+    (add_inputs(inputs, ins), ...);
+    std::tuple<std::vector<Outs>...> results{std::vector<Outs>(count)...};
+    std::vector<ProbeOutput> outputs;
+    std::apply(
+        [&](auto&... out) {
+            (outputs.push_back({out.data(), count * sizeof(out[0])}), ...);
+        },
+        results);
+    launch_probe(std::is_same_v<T, double>, function, count, inputs, outputs);
+    if constexpr (sizeof...(Outs) == 1) {
+        return std::get<0>(std::move(results));
+    } else {
+        return results;
+    }
+}
+
+/// Whether two arrays of T, or of structs made of T and Flat<T>::Index, hold the same bits. Any NaN
+/// is like any other: IEEE 754 leaves sign and payload to the machine.
+template <typename T, typename X>
+testing::AssertionResult same_bits(const std::vector<X>& device, const std::vector<X>& twin) {
+    static_assert(sizeof(X) % sizeof(T) == 0 && std::is_trivially_copyable_v<X>);
+    if (device.size() != twin.size()) return testing::AssertionFailure() << "different lengths";
+    constexpr std::size_t words = sizeof(X) / sizeof(T);
+    for (std::size_t i = 0; i < device.size(); ++i) {
+        T a[words], b[words];
+        std::memcpy(a, &device[i], sizeof(X));
+        std::memcpy(b, &twin[i], sizeof(X));
+        for (std::size_t k = 0; k < words; ++k) {
+            const bool both_nan = a[k] != a[k] && b[k] != b[k];
+            if (both_nan || std::memcmp(&a[k], &b[k], sizeof(T)) == 0) continue;
+            return testing::AssertionFailure() << "item " << i << ", number " << k << ": device "
+                                               << std::hexfloat << a[k] << ", twin " << b[k];
+        }
+    }
+    return testing::AssertionSuccess();
+}
+
+/// A test in one precision; skipped where the device has no double.
+template <typename T>
+class KernelTest : public testing::Test {
+   protected:
+    void SetUp() override {
+        if (std::is_same_v<T, double> && !test_device_has_double()) {
+            GTEST_SKIP() << test_device_name() << " has no double precision (cl_khr_fp64)";
+        }
+    }
+};
+
+using Reals = testing::Types<float, double>;
+
+struct RealNames {
+    template <typename T>
+    static std::string GetName(int) {
+        return std::is_same_v<T, float> ? "float" : "double";
+    }
+};
+
+/// A suite of TYPED_TESTs that run in float and in double.
+#define KERNEL_SUITE(name)          \
+    template <typename T>           \
+    using name = rt::KernelTest<T>; \
+    TYPED_TEST_SUITE(name, rt::Reals, rt::RealNames)
+
+}  // namespace rt

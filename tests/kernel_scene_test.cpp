@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// kernels/closest_hit.cl: one ray against all primitives, and the rule for ties (surfaces within 32
+// half-ulps of the nearest are one; its lowest index is hit), whatever the order of the primitives.
+#include <numeric>
+
+#include "host/trace/closest_hit.h"
+#include "tests/exact.h"
+#include "tests/kernel_runner.h"
+#include "tests/probe_types.h"
+#include "tests/test_scenes.h"
+
+namespace rt {
+
+namespace {
+
+template <typename T>
+using Hit = trace::Hit<T>;
+
+/// What a scene answers for one ray, by the definition of the rule: distances of all primitives
+/// first, from the device.
+template <typename T>
+struct AllHits {
+    std::vector<Hit<T>> hits;  ///< ray by ray, in each primitive by primitive
+    std::size_t primitives;
+
+    AllHits(const FlatScene<T>& scene, const std::vector<ProbeRay<T>>& rays)
+        : primitives(scene.spheres.size() + scene.triangles.size()) {
+        std::vector<ProbeRay<T>> ray_of_item;
+        std::vector<Index<T>> prim_of_item;
+        for (const auto& ray : rays) {
+            for (std::size_t prim = 0; prim < primitives; ++prim) {
+                ray_of_item.push_back(ray);
+                prim_of_item.push_back(static_cast<Index<T>>(prim));
+            }
+        }
+        hits = run<T, Hit<T>>("intersect_primitive", ray_of_item.size(), scene, ray_of_item,
+                              prim_of_item);
+    }
+    T distance(std::size_t ray, std::size_t prim) const { return hits[ray * primitives + prim].t; }
+    /// The lowest index within (0, limit], or none.
+    Index<T> first_within(std::size_t ray, T limit) const {
+        for (std::size_t prim = 0; prim < primitives; ++prim) {
+            const T t = distance(ray, prim);
+            if (t > 0 && t <= limit) return static_cast<Index<T>>(prim);
+        }
+        return Flat<T>::none;
+    }
+    T nearest(std::size_t ray) const {
+        T best = std::numeric_limits<T>::infinity();
+        for (std::size_t prim = 0; prim < primitives; ++prim) {
+            const T t = distance(ray, prim);
+            if (t > 0 && t < best) best = t;
+        }
+        return best;
+    }
+    T tie(std::size_t ray) const { return nearest(ray) * (1 + 32 * Flat<T>::roundoff); }
+};
+
+KERNEL_SUITE(IntersectPrimitive);
+TYPED_TEST(IntersectPrimitive, CountsSpheresFirstAndSkipsTheTriangleItLeaves) {
+    FlatScene<TypeParam> scene{};
+    scene.spheres = {make_sphere<TypeParam>({0, 0, -5}, 1)};
+    scene.triangles = {make_triangle<TypeParam>({-1, -1, -3}, {3, -1, -3}, {-1, 3, -3})};
+    count_primitives(scene);
+    auto ray = make_ray<TypeParam>({0, 0, 0}, {0, 0, -1});
+    std::vector<ProbeRay<TypeParam>> rays(4, ray);
+    rays[2].from = 1;
+    rays[3].from = 0;
+    rays[3].origin = {0, 0, -4};
+    const std::vector<Index<TypeParam>> prims{0, 1, 1, 0};
+    const auto hits = run<TypeParam, Hit<TypeParam>>("intersect_primitive", 4, scene, rays, prims);
+    EXPECT_EQ(hits[0].t, 4);
+    EXPECT_EQ(hits[1].t, 3);
+    EXPECT_EQ(hits[2].t, -1);
+    EXPECT_EQ(hits[3].t, 2);  // through the sphere it stands on
+}
+
+KERNEL_SUITE(ClosestHit);
+TYPED_TEST(ClosestHit, IsTheLowestIndexAmongTheNearest) {
+    Random random(1);
+    const auto scene = crowd<TypeParam>(random);
+    const auto rays = rays_about<TypeParam>(random, 20000);
+    const AllHits<TypeParam> all(scene, rays);
+    const auto hits = run<TypeParam, Hit<TypeParam>>("closest_hit", rays.size(), scene, rays);
+    int found = 0, ties = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto prim = all.first_within(i, all.tie(i));
+        ASSERT_EQ(hits[i].prim, prim) << i;
+        if (prim == Flat<TypeParam>::none) continue;
+        ++found;
+        ASSERT_EQ(hits[i].t, all.distance(i, static_cast<std::size_t>(prim)));
+        ties += hits[i].tied != 0;
+    }
+    EXPECT_GT(found, 5000);
+    EXPECT_GT(ties, 100);
+    EXPECT_TRUE(same_bits<TypeParam>(hits, for_each_item(rays.size(), [&](std::size_t i) {
+                                         return trace::closest_hit(view(scene), unpack(rays[i]));
+                                     })));
+}
+
+/// Triangles across the z axis at these distances, each a little turned.
+template <typename T>
+std::vector<typename Flat<T>::Triangle> stack(const std::vector<T>& distances) {
+    std::vector<typename Flat<T>::Triangle> triangles;
+    for (const T z : distances) {
+        const auto n = double(triangles.size());
+        auto triangle = make_triangle<T>({-9 - n, -9, z}, {9, -9 - n, z}, {0, 9, z}, int(n));
+        triangles.push_back(triangle);
+    }
+    return triangles;
+}
+
+TYPED_TEST(ClosestHit, DoesNotDependOnTheOrderOfATie) {
+    // Each within 32 half-ulps of its neighbours, the last two not of the first: a rule that went
+    // by neighbours would depend on the order.
+    const TypeParam ulp = std::numeric_limits<TypeParam>::epsilon();
+    std::vector<TypeParam> distances;
+    for (const int ulps : {0, 6, 12, 20, 28}) distances.push_back(1 + TypeParam(ulps) * ulp);
+    const auto triangles = stack<TypeParam>(distances);
+    std::vector<std::size_t> order(triangles.size());
+    std::iota(order.begin(), order.end(), 0);
+    const std::vector<ProbeRay<TypeParam>> ray{make_ray<TypeParam>({0, 0, 0}, {0, 0, 1})};
+    do {
+        FlatScene<TypeParam> scene{};
+        for (const std::size_t i : order) scene.triangles.push_back(triangles[i]);
+        count_primitives(scene);
+        const auto hit = run<TypeParam, Hit<TypeParam>>("closest_hit", 1, scene, ray)[0];
+        // The first in this order among the three that tie with the nearest.
+        const auto first =
+            std::find_if(order.begin(), order.end(), [](std::size_t i) { return i < 3; });
+        ASSERT_EQ(hit.prim, first - order.begin());
+        ASSERT_EQ(hit.t, distances[*first]);
+        ASSERT_EQ(hit.tied, 1);
+    } while (std::next_permutation(order.begin(), order.end()));
+}
+TYPED_TEST(ClosestHit, ShowsTheFirstOfCoplanarTrianglesOnWhicheverDiagonal) {
+    // A tilted square cut along one diagonal, then along the other and turned round.
+    const glm::dvec3 a{-1, -1.1, 3.1}, b{1.2, -1, 2.7}, c{1, 1.3, 3.3};
+    const glm::dvec3 d = a + (c - b);
+    for (const bool turned : {false, true}) {
+        FlatScene<TypeParam> scene{};
+        scene.triangles = {make_triangle<TypeParam>(a, b, c), make_triangle<TypeParam>(a, c, d),
+                           make_triangle<TypeParam>(d, b, a), make_triangle<TypeParam>(b, d, c)};
+        if (turned)
+            std::rotate(scene.triangles.begin(), scene.triangles.begin() + 2,
+                        scene.triangles.end());
+        count_primitives(scene);
+        Random random(2);
+        const auto rays = many(20000, [&] {
+            const glm::dvec3 p =
+                a + random.uniform(0.02, 0.98) * (b - a) + random.uniform(0.02, 0.98) * (d - a);
+            return make_ray<TypeParam>({0, 0, 0}, p);
+        });
+        const auto hits = run<TypeParam, Hit<TypeParam>>("closest_hit", rays.size(), scene, rays);
+        for (const auto& hit : hits) ASSERT_TRUE(hit.prim == 0 || hit.prim == 1) << hit.prim;
+    }
+}
+
+KERNEL_SUITE(FirstListedHit);
+TYPED_TEST(FirstListedHit, IsTheLowestIndexWithinReach) {
+    Random random(3);
+    const auto scene = crowd<TypeParam>(random);
+    const auto rays = rays_about<TypeParam>(random, 20000);
+    const AllHits<TypeParam> all(scene, rays);
+    const auto hits = run<TypeParam, Hit<TypeParam>>("first_listed_hit", rays.size(), scene, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_EQ(hits[i].prim, all.first_within(i, rays[i].t_max)) << i;
+    }
+    EXPECT_TRUE(same_bits<TypeParam>(hits, for_each_item(rays.size(), [&](std::size_t i) {
+                                         const auto ray = unpack(rays[i]);
+                                         return trace::first_listed_hit(
+                                             view(scene), ray, trace::make_shear(ray), ray.t_max);
+                                     })));
+}
+
+KERNEL_SUITE(AnyHit);
+TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
+    Random random(4);
+    const auto scene = crowd<TypeParam>(random);
+    auto rays = rays_about<TypeParam>(random, 20000);
+    const AllHits<TypeParam> all(scene, rays);
+    // Half the rays end exactly on the nearest surface, or one number before it.
+    for (std::size_t i = 0; i < rays.size(); i += 2) {
+        rays[i].t_max = all.nearest(i);
+        if (i % 4 == 0) rays[i].t_max = std::nextafter(rays[i].t_max, TypeParam(0));
+    }
+    const auto found = run<TypeParam, Index<TypeParam>>("any_hit", rays.size(), scene, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_EQ(found[i] != 0, all.nearest(i) <= rays[i].t_max && std::isfinite(all.nearest(i)))
+            << i;
+        ASSERT_EQ(trace::any_hit(view(scene), unpack(rays[i])), found[i] != 0) << i;
+    }
+}
+TYPED_TEST(AnyHit, FindsNothingInAnEmptyScene) {
+    const FlatScene<TypeParam> scene{};
+    const std::vector<ProbeRay<TypeParam>> rays{make_ray<TypeParam>({0, 0, 0}, {0, 0, 1})};
+    EXPECT_EQ((run<TypeParam, Index<TypeParam>>("any_hit", 1, scene, rays)[0]), 0);
+    const auto hit = run<TypeParam, Hit<TypeParam>>("closest_hit", 1, scene, rays)[0];
+    EXPECT_EQ(hit.prim, Flat<TypeParam>::none);
+}
+
+}  // namespace
+
+}  // namespace rt

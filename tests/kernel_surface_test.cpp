@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// kernels/surface.cl: points, normals and the offset of secondary rays against 113-bit geometry,
+// and bit for bit against host/trace/surface.h. Bars are in roundoffs.
+#include "host/trace/intersect.h"
+#include "host/trace/surface.h"
+#include "tests/exact.h"
+#include "tests/kernel_runner.h"
+#include "tests/test_scenes.h"
+
+namespace rt {
+
+namespace {
+
+constexpr std::size_t count = 30000;
+
+template <typename T>
+using Sphere = typename Flat<T>::Sphere;
+template <typename T>
+using Triangle = typename Flat<T>::Triangle;
+template <typename T>
+using VertexNormals = typename Flat<T>::VertexNormals;
+template <typename T>
+using Hit = trace::Hit<T>;
+
+/// The origins of rays that leave to `sides`.
+template <typename T>
+std::vector<Packed3<T>> offset_origins(const std::vector<ProbeSurface<T>>& surfaces,
+                                       const std::vector<Packed3<T>>& sides) {
+    const auto origins = run<T, Packed3<T>>("offset_origin", surfaces.size(), surfaces, sides);
+    EXPECT_TRUE(same_bits<T>(origins, for_each_item(surfaces.size(), [&](std::size_t i) {
+                                 return pack(trace::offset_origin(unpack(surfaces[i]),
+                                                                  trace::load3(sides[i])));
+                             })));
+    return origins;
+}
+
+/// Rays that hit balls of all sizes and places, from outside and from inside, and where.
+template <typename T>
+struct BallHits {
+    std::vector<ProbeRay<T>> rays;
+    std::vector<Sphere<T>> spheres;
+    std::vector<T> t;
+    std::vector<Packed3<T>> sides;
+
+    explicit BallHits(Random& random) {
+        while (rays.size() < count) {
+            const double r = random.log_uniform(1e-3, 1e3);
+            const glm::dvec3 center = random.log_uniform(1, 1e3) * random.unit_vector();
+            const glm::dvec3 origin = center + r * random.uniform(0, 3) * random.unit_vector();
+            const glm::dvec3 target = center + r * random.uniform(0, 1) * random.unit_vector();
+            const auto ray = make_ray<T>(origin, target - origin);
+            const auto sphere = make_sphere<T>(center, r);
+            const T distance = trace::intersect_sphere(unpack(ray), trace::load3(sphere.center),
+                                                       sphere.radius, false);
+            if (!(distance > 0)) continue;
+            rays.push_back(ray);
+            spheres.push_back(sphere);
+            t.push_back(distance);
+            sides.push_back(round_to<T>(random.unit_vector()));
+        }
+    }
+    std::vector<ProbeSurface<T>> surfaces() const {
+        return run<T, ProbeSurface<T>>("sphere_surface", count, rays, t, spheres);
+    }
+};
+
+KERNEL_SUITE(SphereSurface);
+TYPED_TEST(SphereSurface, HasItsPointOnTheSphereAndTheNormalThere) {
+    Random random(1);
+    const BallHits<TypeParam> hits(random);
+    const auto surfaces = hits.surfaces();
+    WorstError normal, bound;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad3 c = exact(hits.spheres[i].center), o = exact(hits.rays[i].origin);
+        const Quad r = hits.spheres[i].radius;
+        const Quad3 out = o + hits.t[i] * exact(hits.rays[i].dir) - c;
+        const Quad far = (length(o - c) + hits.t[i] + r) / r;
+        normal.add(vector_error<TypeParam>(surfaces[i].normal, unit(out), far));
+        const Quad off = magnitude(length(exact(surfaces[i].point) - c) - r);
+        ASSERT_LE(off, Quad(surfaces[i].offset)) << i;
+        bound.add(error_in_roundoffs(surfaces[i].offset, 0, r + length(exact(surfaces[i].point))));
+    }
+    normal.expect_at_most(1.25, "normal");
+    bound.expect_at_most(5, "offset");
+    EXPECT_TRUE(same_bits<TypeParam>(surfaces, for_each_item(count, [&](std::size_t i) {
+                                         return pack(trace::sphere_surface(
+                                             unpack(hits.rays[i]), hits.t[i], hits.spheres[i]));
+                                     })));
+}
+
+KERNEL_SUITE(OffsetOrigin);
+TYPED_TEST(OffsetOrigin, LiesOutsideOrInsideTheSphereAsAsked) {
+    Random random(2);
+    const BallHits<TypeParam> hits(random);
+    const auto surfaces = hits.surfaces();
+    const auto origins = offset_origins<TypeParam>(surfaces, hits.sides);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad out = dot(exact(hits.sides[i]), exact(surfaces[i].geometric));
+        const Quad3 from_center = exact(origins[i]) - exact(hits.spheres[i].center);
+        const Quad r = hits.spheres[i].radius;
+        ASSERT_EQ(dot(from_center, from_center) > r * r, out > 0) << i;
+        ASSERT_LE(magnitude(length(from_center) - r),
+                  2 * Quad(surfaces[i].offset) +
+                      4 * Quad(Flat<TypeParam>::roundoff) * length(exact(origins[i])));
+    }
+}
+
+/// Rays that hit triangles of sides about `size`, from within `reach`.
+template <typename T>
+struct TriangleHits {
+    std::vector<ProbeRay<T>> rays;
+    std::vector<Hit<T>> hits;
+    std::vector<Triangle<T>> triangles;
+    std::vector<Packed3<T>> sides;
+
+    TriangleHits(Random& random, double size, double reach) {
+        while (rays.size() < count) {
+            const double scale = random.log_uniform(1e-3, 1e3);
+            const glm::dvec3 p = scale * reach * random.in_cube(1);
+            const auto along = [&] { return scale * size * random.unit_vector(); };
+            const glm::dvec3 e1 = along(), e2 = along();
+            // The triangle lies about p, so that a large one is seen from near.
+            const glm::dvec3 p0 = p - random.uniform(0.1, 0.4) * e1 - random.uniform(0.1, 0.4) * e2;
+            const auto triangle = make_triangle<T>(p0, p0 + e1, p0 + e2);
+            const glm::dvec3 origin = p + scale * reach * random.unit_vector();
+            const auto ray = make_ray<T>(
+                origin, p - origin + 0.1 * scale * std::min(size, reach) * random.unit_vector());
+            Hit<T> hit{};
+            hit.t =
+                trace::intersect_triangle(trace::make_shear(unpack(ray)), triangle, hit.u, hit.v);
+            if (!(hit.t > 0)) continue;
+            rays.push_back(ray);
+            hits.push_back(hit);
+            triangles.push_back(triangle);
+            sides.push_back(round_to<T>(random.unit_vector()));
+        }
+    }
+    std::vector<ProbeSurface<T>> surfaces(const std::vector<VertexNormals<T>>& normals) const {
+        const auto found =
+            run<T, ProbeSurface<T>>("triangle_surface", count, rays, hits, triangles, normals);
+        EXPECT_TRUE(same_bits<T>(found, for_each_item(count, [&](std::size_t i) {
+                                     return pack(trace::triangle_surface(
+                                         unpack(rays[i]), hits[i], triangles[i], normals.data()));
+                                 })));
+        return found;
+    }
+};
+
+/// How far p lies above the plane of the rounded vertices, seen from the triangle's normal.
+template <typename T>
+Quad above(const Packed3<T>& p, const Triangle<T>& t) {
+    const Quad3 a = exact(t.p0);
+    const Quad3 n = unit(cross(exact(t.p1) - a, exact(t.p2) - a));
+    const Quad height = dot(exact(p) - a, n);
+    return dot(n, exact(t.normal)) > 0 ? height : -height;
+}
+
+KERNEL_SUITE(TriangleSurface);
+TYPED_TEST(TriangleSurface, LiesWithinItsOffsetOfThePlaneAndRaysStartOnTheAskedSide) {
+    Random random(3);
+    const TriangleHits<TypeParam> cases(random, 1, 2);
+    const auto surfaces = cases.surfaces({});
+    const auto origins = offset_origins<TypeParam>(surfaces, cases.sides);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto& triangle = cases.triangles[i];
+        ASSERT_LE(magnitude(above<TypeParam>(surfaces[i].point, triangle)),
+                  Quad(surfaces[i].offset))
+            << i;
+        const Quad up = dot(exact(cases.sides[i]), exact(triangle.normal));
+        const Quad height = above<TypeParam>(origins[i], triangle);
+        ASSERT_EQ(height > 0, up > 0) << i;
+        ASSERT_LE(magnitude(height), 3 * Quad(surfaces[i].offset)) << i;
+    }
+}
+TYPED_TEST(TriangleSurface, OnAWallSeenFromNearKeepsToThePlanesEquation) {
+    Random random(4);
+    const TriangleHits<TypeParam> cases(random, 8192, 2);
+    const auto surfaces = cases.surfaces({});
+    const auto origins = offset_origins<TypeParam>(surfaces, cases.sides);
+    std::size_t projected = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto& triangle = cases.triangles[i];
+        const Quad3 n = exact(triangle.normal);
+        const Quad reach = length(exact(cases.rays[i].origin)) + cases.hits[i].t;
+        const Quad off = dot(n, exact(surfaces[i].point)) - triangle.plane;
+        ASSERT_LE(magnitude(off), Quad(surfaces[i].offset)) << i;
+        const double bound = error_in_roundoffs(surfaces[i].offset, 0, reach);
+        ASSERT_LE(bound, 65) << i;
+        projected += bound < 17;
+        ASSERT_EQ(dot(n, exact(origins[i])) > triangle.plane, dot(n, exact(cases.sides[i])) > 0)
+            << i;
+    }
+    EXPECT_GT(projected, count * 9 / 10);
+}
+TYPED_TEST(TriangleSurface, TakesTheFacesNormalOrTheBlendAndItsSide) {
+    Random random(5);
+    TriangleHits<TypeParam> cases(random, 1, 2);
+    std::vector<VertexNormals<TypeParam>> normals;
+    for (std::size_t i = 0; i < count; i += 2) {
+        cases.triangles[i].smooth = static_cast<Index<TypeParam>>(normals.size());
+        const auto any = [&] { return round_to<TypeParam>(random.unit_vector()); };
+        normals.push_back({any(), 0, any(), 0, any(), 0});
+    }
+    const auto surfaces = cases.surfaces(normals);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad3 face = exact(cases.triangles[i].normal), shading = exact(surfaces[i].normal);
+        const Quad3 geometric = exact(surfaces[i].geometric);
+        ASSERT_EQ(magnitude(dot(geometric, face)), dot(face, face));
+        ASSERT_GE(dot(geometric, shading), Quad(-4) * Flat<TypeParam>::roundoff);
+        const bool is_face = dot(shading - face, shading - face) == 0;
+        ASSERT_EQ(is_face, i % 2 == 1) << i;
+    }
+}
+
+KERNEL_SUITE(BlendedNormal);
+TYPED_TEST(BlendedNormal, IsTheUnitBlendOfTheVertices) {
+    Random random(6);
+    const auto any = [&] { return round_to<TypeParam>(random.unit_vector()); };
+    const auto normals =
+        many(count, [&]() -> VertexNormals<TypeParam> { return {any(), 0, any(), 0, any(), 0}; });
+    const auto faces = many(count, any);
+    const auto u = many(count, [&] { return static_cast<TypeParam>(random.uniform(0, 0.6)); });
+    const auto v = many(count, [&] { return static_cast<TypeParam>(random.uniform(0, 0.4)); });
+    const auto blends =
+        run<TypeParam, Packed3<TypeParam>>("blended_normal", count, normals, faces, u, v);
+    WorstError worst;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad3 blend = (1 - Quad(u[i]) - v[i]) * exact(normals[i].n0) +
+                            Quad(u[i]) * exact(normals[i].n1) + Quad(v[i]) * exact(normals[i].n2);
+        worst.add(vector_error<TypeParam>(blends[i], unit(blend), 1 + 1 / length(blend)));
+    }
+    worst.expect_at_most(1.5);
+    EXPECT_TRUE(same_bits<TypeParam>(blends, for_each_item(count, [&](std::size_t i) {
+                                         return pack(trace::blended_normal(
+                                             normals[i], trace::load3(faces[i]), u[i], v[i]));
+                                     })));
+}
+TYPED_TEST(BlendedNormal, IsTheFacesWhereTheBlendVanishes) {
+    const Packed3<TypeParam> x{1, 0, 0}, back{-1, 0, 0}, zero{0, 0, 0}, face{0, 0, 1};
+    const std::vector<VertexNormals<TypeParam>> normals{{x, 0, back, 0, x, 0},
+                                                        {zero, 0, zero, 0, zero, 0}};
+    const std::vector<Packed3<TypeParam>> faces(2, face);
+    const std::vector<TypeParam> u(2, TypeParam(0.5)), v(2, 0);
+    EXPECT_TRUE(same_bits<TypeParam>(
+        run<TypeParam, Packed3<TypeParam>>("blended_normal", 2, normals, faces, u, v), faces));
+}
+
+KERNEL_SUITE(SurfaceAt);
+TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceBackedOffATie) {
+    Random random(7);
+    const auto scene = crowd<TypeParam>(random);
+    const auto rays = rays_about<TypeParam>(random, 20000);
+    auto hits = run<TypeParam, Hit<TypeParam>>("closest_hit", rays.size(), scene, rays);
+    for (auto& hit : hits) hit.prim = std::max<Index<TypeParam>>(hit.prim, 0);
+    const auto own = run<TypeParam, ProbeSurface<TypeParam>>("primitive_surface", rays.size(),
+                                                             scene, rays, hits);
+    const auto moved =
+        run<TypeParam, ProbeSurface<TypeParam>>("surface_at", rays.size(), scene, rays, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!std::isfinite(hits[i].t)) continue;
+        const Quad back = hits[i].tied ? Quad(-8) * own[i].offset : Quad(0);
+        const Quad3 expected = exact(own[i].point) + back * exact(rays[i].dir);
+        ASSERT_LE(vector_error<TypeParam>(moved[i].point, expected, 8), 1) << i;
+    }
+    const auto twin = [&](auto surface) {
+        return for_each_item(rays.size(), [&](std::size_t i) {
+            return pack(surface(view(scene), unpack(rays[i]), hits[i]));
+        });
+    };
+    EXPECT_TRUE(same_bits<TypeParam>(own, twin(trace::primitive_surface<TypeParam>)));
+    EXPECT_TRUE(same_bits<TypeParam>(moved, twin(trace::surface_at<TypeParam>)));
+}
+
+}  // namespace
+
+}  // namespace rt

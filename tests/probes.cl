@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One tiny entry point per device function, for the kernel tests: probe_FUNCTION takes the numbers
+// of the first item and of all items, then one array for each argument and one for each result.
+// A host test runs it with run<...>("FUNCTION", ...) (tests/kernel_runner.h). 3-vectors, rays and
+// surfaces travel packed, as everything in memory does.
+#include "kernels/render.cl"
+
+#define PROBE_ITEMS uint first, uint count
+#define PROBE_ITEM                       \
+    size_t i = first + get_global_id(0); \
+    if (i >= count) return
+#define PROBE_SCENE                                                                       \
+    __global const Sphere *spheres, __global const Triangle *triangles,                   \
+        __global const VertexNormals *vertex_normals, __global const Material *materials, \
+        __global const Light *lights, __global const Frame *frame
+#define PROBE_SCENE_VIEW \
+    { spheres, triangles, vertex_normals, materials, lights, *frame }
+
+typedef struct {
+    Packed3 origin;
+    Real t_max;
+    Packed3 dir;
+    Index from;
+} ProbeRay;
+
+typedef struct {
+    Packed3 point;
+    Real offset;
+    Packed3 normal;
+    Index material;
+    Packed3 geometric;
+    Real pad;
+} ProbeSurface;
+
+typedef struct {
+    Index kx, ky, kz;
+    Real origin_x, origin_y, origin_z;
+    Real sx, sy, sz;
+} ProbeShear;
+
+typedef struct {
+    ulong offset, bytes;
+} ProbeField;
+
+Packed3 pack(real3 v) {
+    Packed3 packed = {v.x, v.y, v.z};
+    return packed;
+}
+
+Ray unpack_ray(ProbeRay packed) {
+    Ray ray;
+    ray.origin = load3(packed.origin);
+    ray.dir = load3(packed.dir);
+    ray.t_max = packed.t_max;
+    ray.from = packed.from;
+    return ray;
+}
+
+ProbeRay pack_ray(Ray ray) {
+    ProbeRay packed = {pack(ray.origin), ray.t_max, pack(ray.dir), ray.from};
+    return packed;
+}
+
+Surface unpack_surface(ProbeSurface packed) {
+    Surface surface;
+    surface.point = load3(packed.point);
+    surface.normal = load3(packed.normal);
+    surface.geometric = load3(packed.geometric);
+    surface.offset = packed.offset;
+    surface.material = packed.material;
+    return surface;
+}
+
+ProbeSurface pack_surface(Surface s) {
+    ProbeSurface packed = {pack(s.point), s.offset,          pack(s.normal),
+                           s.material,    pack(s.geometric), 0};
+    return packed;
+}
+
+// shared.h: offset and size of entry i of tests/layout_fields.h
+
+__kernel void probe_layout(PROBE_ITEMS, __global ProbeField* out) {
+    PROBE_ITEM;
+    size_t n = 0;
+#define RT_STRUCT(type)              \
+    if (n++ == i) {                  \
+        out[i].offset = 0;           \
+        out[i].bytes = sizeof(type); \
+    }
+#define RT_FIELD(type, member)                                           \
+    if (n++ == i) {                                                      \
+        type object;                                                     \
+        out[i].offset = (ulong)((char*)&object.member - (char*)&object); \
+        out[i].bytes = sizeof(object.member);                            \
+    }
+#include "tests/layout_fields.h"
+}
+
+// One number in, one out
+
+#define PROBE_UNARY(function)                                                                 \
+    __kernel void probe_##function(PROBE_ITEMS, __global const Real* x, __global Real* out) { \
+        PROBE_ITEM;                                                                           \
+        out[i] = function(x[i]);                                                              \
+    }
+PROBE_UNARY(mantissa_of)
+PROBE_UNARY(atanh_tail)
+PROBE_UNARY(exp_series)
+PROBE_UNARY(twice_atanh)
+PROBE_UNARY(log_one_minus)
+PROBE_UNARY(log_unit)
+PROBE_UNARY(exp_negative)
+
+// bits.cl, power.cl
+
+__kernel void probe_exponent_of(PROBE_ITEMS, __global const Real* x, __global Index* out) {
+    PROBE_ITEM;
+    out[i] = exponent_of(x[i]);
+}
+
+__kernel void probe_power_of_two(PROBE_ITEMS, __global const Index* k, __global Real* out) {
+    PROBE_ITEM;
+    out[i] = power_of_two(k[i]);
+}
+
+__kernel void probe_one_ulp_towards(PROBE_ITEMS, __global const Real* x,
+                                    __global const Real* direction, __global Real* out) {
+    PROBE_ITEM;
+    out[i] = one_ulp_towards(x[i], direction[i]);
+}
+
+__kernel void probe_blinn_lobe(PROBE_ITEMS, __global const Real* n_dot_h,
+                               __global const Real* half_gap, __global const Real* exponent,
+                               __global Real* out) {
+    PROBE_ITEM;
+    out[i] = blinn_lobe(n_dot_h[i], half_gap[i], exponent[i]);
+}
+
+// math.cl
+
+__kernel void probe_load3(PROBE_ITEMS, __global const Packed3* a, __global Packed3* out) {
+    PROBE_ITEM;
+    out[i] = pack(load3(a[i]));
+}
+
+__kernel void probe_dot3(PROBE_ITEMS, __global const Packed3* a, __global const Packed3* b,
+                         __global Real* out) {
+    PROBE_ITEM;
+    out[i] = dot3(load3(a[i]), load3(b[i]));
+}
+
+__kernel void probe_add_scaled(PROBE_ITEMS, __global const Packed3* a, __global const Real* s,
+                               __global const Packed3* b, __global Packed3* out) {
+    PROBE_ITEM;
+    out[i] = pack(add_scaled(load3(a[i]), s[i], load3(b[i])));
+}
+
+__kernel void probe_length3(PROBE_ITEMS, __global const Packed3* a, __global Real* out) {
+    PROBE_ITEM;
+    out[i] = length3(load3(a[i]));
+}
+
+#define PROBE_UNARY3(function)                                             \
+    __kernel void probe_##function(PROBE_ITEMS, __global const Packed3* a, \
+                                   __global Packed3* out) {                \
+        PROBE_ITEM;                                                        \
+        out[i] = pack(function(load3(a[i])));                              \
+    }
+PROBE_UNARY3(abs3)
+PROBE_UNARY3(negate3)
+PROBE_UNARY3(normalize3)
+
+#define PROBE_BINARY3(function)                                                        \
+    __kernel void probe_##function(PROBE_ITEMS, __global const Packed3* a,             \
+                                   __global const Packed3* b, __global Packed3* out) { \
+        PROBE_ITEM;                                                                    \
+        out[i] = pack(function(load3(a[i]), load3(b[i])));                             \
+    }
+PROBE_BINARY3(add3)
+PROBE_BINARY3(sub3)
+PROBE_BINARY3(mul3)
+PROBE_BINARY3(reflect3)
+
+__kernel void probe_scale3(PROBE_ITEMS, __global const Real* s, __global const Packed3* v,
+                           __global Packed3* out) {
+    PROBE_ITEM;
+    out[i] = pack(scale3(s[i], load3(v[i])));
+}
+
+__kernel void probe_divide3(PROBE_ITEMS, __global const Packed3* v, __global const Real* s,
+                            __global Packed3* out) {
+    PROBE_ITEM;
+    out[i] = pack(divide3(load3(v[i]), s[i]));
+}
+
+__kernel void probe_difference_of_products(PROBE_ITEMS, __global const Real* a,
+                                           __global const Real* b, __global const Real* c,
+                                           __global const Real* d, __global Real* out) {
+    PROBE_ITEM;
+    out[i] = difference_of_products(a[i], b[i], c[i], d[i]);
+}
+
+// camera.cl, intersect.cl
+
+__kernel void probe_camera_ray(PROBE_ITEMS, __global const Frame* frame, __global const Index* x,
+                               __global const Index* y, __global const Index* k,
+                               __global ProbeRay* out) {
+    PROBE_ITEM;
+    Frame copy = *frame;
+    out[i] = pack_ray(camera_ray(&copy, x[i], y[i], k[i]));
+}
+
+__kernel void probe_intersect_sphere(PROBE_ITEMS, __global const ProbeRay* rays,
+                                     __global const Sphere* spheres, __global const Index* leaving,
+                                     __global Real* out) {
+    PROBE_ITEM;
+    Ray ray = unpack_ray(rays[i]);
+    out[i] = intersect_sphere(&ray, load3(spheres[i].center), spheres[i].radius, leaving[i] != 0);
+}
+
+__kernel void probe_component3(PROBE_ITEMS, __global const Packed3* v, __global const Index* k,
+                               __global Real* out) {
+    PROBE_ITEM;
+    out[i] = component3(load3(v[i]), k[i]);
+}
+
+__kernel void probe_make_shear(PROBE_ITEMS, __global const ProbeRay* rays,
+                               __global ProbeShear* out) {
+    PROBE_ITEM;
+    Ray ray = unpack_ray(rays[i]);
+    RayShear s = make_shear(&ray);
+    ProbeShear packed = {s.kx, s.ky, s.kz, s.origin_x, s.origin_y, s.origin_z, s.sx, s.sy, s.sz};
+    out[i] = packed;
+}
+
+__kernel void probe_shear_vertex(PROBE_ITEMS, __global const ProbeRay* rays,
+                                 __global const Packed3* vertices, __global Packed3* out) {
+    PROBE_ITEM;
+    Ray ray = unpack_ray(rays[i]);
+    RayShear shear = make_shear(&ray);
+    out[i] = pack(shear_vertex(&shear, &vertices[i]));
+}
+
+__kernel void probe_intersect_triangle(PROBE_ITEMS, __global const ProbeRay* rays,
+                                       __global const Triangle* triangles, __global Hit* out) {
+    PROBE_ITEM;
+    Ray ray = unpack_ray(rays[i]);
+    RayShear shear = make_shear(&ray);
+    Hit hit = {0};
+    hit.t = intersect_triangle(&shear, &triangles[i], &hit.u, &hit.v);
+    out[i] = hit;
+}
+
+// closest_hit.cl
+
+__kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
+                                        __global const Index* prims, __global Hit* out) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Ray ray = unpack_ray(rays[i]);
+    RayShear shear = make_shear(&ray);
+    Hit hit = {0};
+    hit.prim = prims[i];
+    hit.t = intersect_primitive(&scene, &ray, &shear, prims[i], &hit.u, &hit.v);
+    out[i] = hit;
+}
+
+__kernel void probe_first_listed_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
+                                     __global Hit* out) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Ray ray = unpack_ray(rays[i]);
+    RayShear shear = make_shear(&ray);
+    out[i] = first_listed_hit(&scene, &ray, &shear, ray.t_max);
+}
+
+__kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
+                                __global Hit* out) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Ray ray = unpack_ray(rays[i]);
+    out[i] = closest_hit(&scene, &ray);
+}
+
+__kernel void probe_any_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
+                            __global Index* out) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Ray ray = unpack_ray(rays[i]);
+    out[i] = any_hit(&scene, &ray) ? 1 : 0;
+}
+
+// surface.cl
+
+__kernel void probe_sphere_surface(PROBE_ITEMS, __global const ProbeRay* rays,
+                                   __global const Real* t, __global const Sphere* spheres,
+                                   __global ProbeSurface* out) {
+    PROBE_ITEM;
+    Ray ray = unpack_ray(rays[i]);
+    out[i] = pack_surface(sphere_surface(&ray, t[i], &spheres[i]));
+}
+
+__kernel void probe_blended_normal(PROBE_ITEMS, __global const VertexNormals* normals,
+                                   __global const Packed3* faces, __global const Real* u,
+                                   __global const Real* v, __global Packed3* out) {
+    PROBE_ITEM;
+    out[i] = pack(blended_normal(&normals[i], load3(faces[i]), u[i], v[i]));
+}
+
+__kernel void probe_triangle_surface(PROBE_ITEMS, __global const ProbeRay* rays,
+                                     __global const Hit* hits, __global const Triangle* triangles,
+                                     __global const VertexNormals* vertex_normals,
+                                     __global ProbeSurface* out) {
+    PROBE_ITEM;
+    Ray ray = unpack_ray(rays[i]);
+    Hit hit = hits[i];
+    out[i] = pack_surface(triangle_surface(&ray, &hit, &triangles[i], vertex_normals));
+}
+
+__kernel void probe_primitive_surface(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
+                                      __global const Hit* hits, __global ProbeSurface* out) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Ray ray = unpack_ray(rays[i]);
+    Hit hit = hits[i];
+    out[i] = pack_surface(primitive_surface(&scene, &ray, &hit));
+}
+
+__kernel void probe_surface_at(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
+                               __global const Hit* hits, __global ProbeSurface* out) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Ray ray = unpack_ray(rays[i]);
+    Hit hit = hits[i];
+    out[i] = pack_surface(surface_at(&scene, &ray, &hit));
+}
+
+__kernel void probe_offset_origin(PROBE_ITEMS, __global const ProbeSurface* surfaces,
+                                  __global const Packed3* sides, __global Packed3* out) {
+    PROBE_ITEM;
+    Surface surface = unpack_surface(surfaces[i]);
+    out[i] = pack(offset_origin(&surface, load3(sides[i])));
+}
+
+// shade.cl
+
+__kernel void probe_is_black(PROBE_ITEMS, __global const Packed3* colors, __global Index* out) {
+    PROBE_ITEM;
+    out[i] = is_black(load3(colors[i])) ? 1 : 0;
+}
+
+__kernel void probe_specular_lobe(PROBE_ITEMS, __global const Packed3* normals,
+                                  __global const Packed3* to_light, __global const Packed3* to_eye,
+                                  __global const Real* shininess, __global Real* out) {
+    PROBE_ITEM;
+    out[i] = specular_lobe(load3(normals[i]), load3(to_light[i]), load3(to_eye[i]), shininess[i]);
+}
+
+// Light 0 of the scene; the surface says which material and, where it is one, which primitive.
+__kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
+                                       __global const ProbeSurface* surfaces,
+                                       __global const Packed3* origins,
+                                       __global const Packed3* to_eye, __global const Index* prims,
+                                       __global Packed3* out, __global RayCounts* counts) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Surface surface = unpack_surface(surfaces[i]);
+    RayCounts used = {0, 0};
+    out[i] = pack(light_contribution(&scene, &surface, &materials[surface.material], &lights[0],
+                                     load3(origins[i]), load3(to_eye[i]), prims[i], &used));
+    counts[i] = used;
+}
+
+__kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface* surfaces,
+                          __global const Packed3* to_eye, __global const Index* prims,
+                          __global Packed3* out, __global RayCounts* counts) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Surface surface = unpack_surface(surfaces[i]);
+    RayCounts used = {0, 0};
+    out[i] = pack(
+        shade(&scene, &surface, &materials[surface.material], load3(to_eye[i]), prims[i], &used));
+    counts[i] = used;
+}
+
+// whitted.cl
+
+__kernel void probe_mirror_ray(PROBE_ITEMS, __global const ProbeSurface* surfaces,
+                               __global const Packed3* dirs, __global const Index* prims,
+                               __global ProbeRay* out) {
+    PROBE_ITEM;
+    Surface surface = unpack_surface(surfaces[i]);
+    out[i] = pack_ray(mirror_ray(&surface, load3(dirs[i]), prims[i]));
+}
+
+__kernel void probe_trace_path(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
+                               __global Packed3* out, __global RayCounts* counts) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    RayCounts used = {0, 0};
+    out[i] = pack(trace_path(&scene, unpack_ray(rays[i]), &used));
+    counts[i] = used;
+}
+
+__kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
+                                 __global const Index* y, __global const Index* k,
+                                 __global Packed3* out, __global RayCounts* counts) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    RayCounts used = {0, 0};
+    out[i] = pack(trace_sample(&scene, x[i], y[i], k[i], &used));
+    counts[i] = used;
+}
+
+// render.cl
+
+__kernel void probe_store3(PROBE_ITEMS, __global const Packed3* colors, __global Packed3* out) {
+    PROBE_ITEM;
+    store3((__global Real*)out, (Index)i, load3(colors[i]));
+}
+
+__kernel void probe_add_counts(PROBE_ITEMS, __global const RayCounts* a,
+                               __global const RayCounts* b, __global RayCounts* out) {
+    PROBE_ITEM;
+    out[i] = a[i];
+    add_counts(out, i, b[i]);
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <type_traits>
+
+#include "host/flatten/flat_scene.h"
+#include "host/trace/scene_view.h"
+#include "tests/test_random.h"
+#include "tests/test_shapes.h"
+
+// Scenes for the kernel tests, and rays for them.
+namespace rt {
+
+template <typename T>
+using Index = typename Flat<T>::Index;
+
+template <typename T>
+trace::SceneView<T> view(const FlatScene<T>& scene) {
+    return {scene.spheres.data(),   scene.triangles.data(), scene.vertex_normals.data(),
+            scene.materials.data(), scene.lights.data(),    scene.frame};
+}
+
+/// Sets the frame's counts.
+template <typename T>
+void count_primitives(FlatScene<T>& scene) {
+    scene.frame.sphere_count = static_cast<Index<T>>(scene.spheres.size());
+    scene.frame.triangle_count = static_cast<Index<T>>(scene.triangles.size());
+    scene.frame.light_count = static_cast<Index<T>>(scene.lights.size());
+}
+
+/// Balls and triangles about the origin, some of them twice.
+template <typename T>
+FlatScene<T> crowd(Random& random) {
+    FlatScene<T> scene{};
+    for (int i = 0; i < 12; ++i) {
+        scene.spheres.push_back(make_sphere<T>(3.0 * random.unit_vector(), random.uniform(0.2, 1)));
+    }
+    scene.spheres.push_back(scene.spheres[3]);
+    for (int i = 0; i < 12; ++i) {
+        const glm::dvec3 p = 2.0 * random.unit_vector();
+        const auto corner = [&] { return p + random.in_cube(1); };
+        scene.triangles.push_back(make_triangle<T>(corner(), corner(), corner()));
+    }
+    scene.triangles.push_back(scene.triangles[5]);
+    count_primitives(scene);
+    return scene;
+}
+
+template <typename T>
+std::vector<ProbeRay<T>> rays_about(Random& random, std::size_t count) {
+    return many(count, [&] {
+        auto ray = make_ray<T>(random.in_cube(1.5), random.unit_vector());
+        ray.t_max = static_cast<T>(random.uniform(0.1, 6));
+        ray.from = static_cast<Index<T>>(random.index(30) - 4);
+        return ray;
+    });
+}
+
+}  // namespace rt

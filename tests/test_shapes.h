@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/geometric.hpp>
+#include <map>
+#include <utility>
+
+#include "tests/exact.h"
+#include "tests/probe_types.h"
+
+// Shapes for the kernel tests, made as host/flatten makes them but with no frame of its own.
+namespace rt {
+
+template <typename T>
+typename Flat<T>::Sphere make_sphere(const glm::dvec3& center, double radius, int material = 0) {
+    typename Flat<T>::Sphere sphere{};
+    sphere.center = round_to<T>(center);
+    sphere.radius = static_cast<T>(radius);
+    sphere.material = material;
+    return sphere;
+}
+
+template <typename P>
+glm::dvec3 in_double(const P& p) {
+    return {double(p.x), double(p.y), double(p.z)};
+}
+
+inline Quad3 exact_normal(const glm::dvec3& p0, const glm::dvec3& p1, const glm::dvec3& p2) {
+    return unit(cross(exact(p1) - exact(p0), exact(p2) - exact(p0)));
+}
+
+/// A flat triangle; normal, plane and the bound on the offset come from the unrounded vertices.
+template <typename T>
+typename Flat<T>::Triangle make_triangle(const glm::dvec3& p0, const glm::dvec3& p1,
+                                         const glm::dvec3& p2, int material = 0) {
+    typename Flat<T>::Triangle triangle{};
+    triangle.p0 = round_to<T>(p0);
+    triangle.p1 = round_to<T>(p1);
+    triangle.p2 = round_to<T>(p2);
+    triangle.material = material;
+    triangle.smooth = Flat<T>::none;
+    const Quad3 normal = exact_normal(p0, p1, p2);
+    triangle.normal = {T(normal.x), T(normal.y), T(normal.z)};
+    triangle.plane = T(dot(normal, exact(p0)));
+    const glm::dvec3 low = glm::min(p0, glm::min(p1, p2)), high = glm::max(p0, glm::max(p1, p2));
+    const glm::dvec3 error = 4.0 * (high - low) + 6.0 * glm::max(glm::abs(low), glm::abs(high));
+    triangle.offset = static_cast<T>(double(Flat<T>::roundoff) *
+                                     glm::dot(glm::abs(in_double(triangle.normal)), error));
+    return triangle;
+}
+
+/// A closed mesh with shared vertices.
+struct Mesh {
+    std::vector<glm::dvec3> vertices;
+    std::vector<std::array<int, 3>> faces;
+};
+
+inline Mesh icosahedron() {
+    const double g = (1 + std::sqrt(5.0)) / 2;
+    Mesh mesh{{{-1, g, 0},
+               {1, g, 0},
+               {-1, -g, 0},
+               {1, -g, 0},
+               {0, -1, g},
+               {0, 1, g},
+               {0, -1, -g},
+               {0, 1, -g},
+               {g, 0, -1},
+               {g, 0, 1},
+               {-g, 0, -1},
+               {-g, 0, 1}},
+              {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+               {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+               {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+    for (auto& vertex : mesh.vertices) vertex = glm::normalize(vertex);
+    return mesh;
+}
+
+/// Each face in four, the new vertices on the unit sphere.
+inline Mesh subdivided(Mesh mesh) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+        const auto [entry, is_new] =
+            middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices.size()));
+        if (is_new) mesh.vertices.push_back(glm::normalize(mesh.vertices[a] + mesh.vertices[b]));
+        return entry->second;
+    };
+    std::vector<std::array<int, 3>> faces;
+    for (const auto& [a, b, c] : mesh.faces) {
+        const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        faces.insert(faces.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+    }
+    mesh.faces = std::move(faces);
+    return mesh;
+}
+
+template <typename T>
+std::vector<typename Flat<T>::Triangle> triangles_of(const Mesh& mesh) {
+    std::vector<typename Flat<T>::Triangle> triangles;
+    for (const auto& [a, b, c] : mesh.faces) {
+        triangles.push_back(make_triangle<T>(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
+    }
+    return triangles;
+}
+
+}  // namespace rt
