@@ -5,7 +5,17 @@
 // film holds three Reals a pixel, row 0 at the top. counts has one slot a work item and is added to
 // launch after launch.
 
+// Many small functions on structs: 1.35 times faster on PoCL when all are inlined, which it does not
+// do by itself.
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((always_inline)), apply_to = function)
+#endif
+
 #include "kernels/whitted.cl"
+
+#ifdef __clang__
+#pragma clang attribute pop
+#endif
 
 #define RT_SCENE_ARGUMENTS                                                                  \
     __global const Sphere *restrict spheres, __global const Triangle *restrict triangles,   \

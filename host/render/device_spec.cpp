@@ -36,7 +36,8 @@ bool contains(const std::string& text, const std::string& part) {
 std::string describe_all(const std::vector<ClDevice>& devices,
                          const std::vector<std::string>& problems = {}) {
     std::string text;
-    if (devices.empty() && !problems.empty()) return " none (" + problems.front() + "); see 'mirrorball devices'";
+    if (devices.empty() && !problems.empty())
+        return " none (" + problems.front() + "); see 'mirrorball devices'";
     for (const ClDevice& device : devices) {
         text += fmt::format("\n  {}  {} ({})", device.index, device.name, device.platform);
     }
