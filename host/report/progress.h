@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "host/options.h"
+#include "host/options/options.h"
 #include "host/render/stopwatch.h"
 #include "host/render/tile_queue.h"
 

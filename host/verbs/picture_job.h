@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/image/picture.h"
-#include "host/options.h"
+#include "host/options/options.h"
 #include "host/report/render_stats.h"
 #include "host/scene/scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/options.h"
+#include "host/options/options.h"
 
 namespace rt {
 

@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "host/image/encoding.h"
 #include "host/render/cl_renderer.h"
@@ -46,31 +45,5 @@ struct RenderOptions {
     bool dumb_terminal = false;  ///< TERM=dumb: no bar
     std::string pocl_cache;      ///< PoCL's kernel cache folder, for telling cold builds from warm
 };
-
-/// `mirrorball devices`
-struct DevicesOptions {
-    bool json = false;
-};
-
-/// `mirrorball scene info|check`
-struct SceneOptions {
-    std::string scene;
-    bool info = true;  ///< else check
-    bool json = false;
-};
-
-enum class Verb { none, render, devices, scene };
-
-struct Options {
-    Verb verb = Verb::none;
-    RenderOptions render;
-    DevicesOptions devices;
-    SceneOptions scene;
-    std::string text;  ///< help or version, to be printed instead of doing anything
-};
-
-/// Reads the command line and the environment; nothing else in the program does. Throws Error
-/// (ExitCode::usage) for what it does not understand.
-Options parse_options(int argc, const char* const* argv);
 
 }  // namespace rt

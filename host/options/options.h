@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/options/render_options.h"
+
+namespace rt {
+
+/// `mirrorball devices`
+struct DevicesOptions {
+    bool json = false;
+};
+
+/// `mirrorball scene info|check`
+struct SceneOptions {
+    std::string scene;
+    bool info = true;  ///< else check
+    bool json = false;
+};
+
+enum class Verb { none, render, devices, scene };
+
+struct Options {
+    Verb verb = Verb::none;
+    RenderOptions render;
+    DevicesOptions devices;
+    SceneOptions scene;
+    std::string text;  ///< help or version, to be printed instead of doing anything
+};
+
+/// Reads the command line and the environment; nothing else in the program does. Throws Error
+/// (ExitCode::usage) for what it does not understand.
+Options parse_options(int argc, const char* const* argv);
+
+}  // namespace rt

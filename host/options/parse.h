@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/options/render_options.h"
+
+namespace rt {
+
+/// Throws Error (ExitCode::usage): "option 'value': expected".
+[[noreturn]] void refuse(const std::string& option, const std::string& value,
+                         const std::string& expected);
+
+/// Whole numbers with a separator between them; beyond int they become its largest, for range
+/// checks to refuse. Empty when the text is anything else.
+std::optional<std::vector<int>> parse_integers(std::string_view text, char separator);
+
+/// WIDTHxHEIGHT or N. Throws Error: ExitCode::usage, or ExitCode::limit for too many pixels.
+PictureSize parse_size(const std::string& option, const std::string& text);
+
+/// The value of an environment variable, or "".
+std::string environment(const char* name);
+
+template <typename E>
+struct Choice {
+    const char* name;
+    E value;
+};
+
+/// An option that takes one of several names.
+template <typename E>
+void add_choice(CLI::App& app, const std::string& option, E& value,
+                const std::vector<Choice<E>>& choices, const std::string& help) {
+    std::string names;
+    for (const Choice<E>& choice : choices) {
+        names += (names.empty() ? "" : "|") + std::string(choice.name);
+    }
+    const auto read = [&value, choices, option, names](const std::string& text) {
+        for (const Choice<E>& choice : choices) {
+            if (text == choice.name) {
+                value = choice.value;
+                return;
+            }
+        }
+        refuse(option, text, "give one of " + names);
+    };
+    app.add_option_function<std::string>(option, read, help)->type_name(names);
+}
+
+/// An option whose text `parse` reads.
+template <typename Parse>
+void add_text(CLI::App& app, const std::string& name, const char* type, const std::string& help,
+              const Parse& parse) {
+    app.add_option_function<std::string>(name, parse, help)->type_name(type);
+}
+
+}  // namespace rt
