@@ -18,6 +18,12 @@ int run(int argc, char** argv, double seconds_before_main) {
     switch (options.verb) {
         case rt::Verb::render:
             return rt::run_render(options.render, seconds_before_main);
+        case rt::Verb::compare:
+            return rt::run_compare(options.compare);
+        case rt::Verb::bench:
+            return rt::run_bench(options.bench);
+        case rt::Verb::converge:
+            return rt::run_converge(options.converge);
         case rt::Verb::devices:
             return rt::run_devices(options.devices);
         case rt::Verb::scene:

@@ -7,16 +7,14 @@
 #define RT_CAMERA_CL
 
 #include "kernels/math.cl"
+#include "kernels/sampling.cl"
 #include "kernels/scene_view.h"
 
-// The ray through sample k of pixel (x, y), x to the right and y up; sample k lies at column
-// k % grid and row k / grid of the pixel's grid, at (i + 0.5) / grid.
+// The ray through sample k of pixel (x, y), x to the right and y up.
 Ray camera_ray(const Frame* frame, Index x, Index y, Index k) {
-    Real grid = (Real)frame->grid;
-    Real offset_x = ((Real)(k % frame->grid) + (Real)0.5) / grid;
-    Real offset_y = ((Real)(k / frame->grid) + (Real)0.5) / grid;
-    Real sx = (Real)2 * ((Real)x + offset_x) - (Real)frame->width;
-    Real sy = (Real)2 * ((Real)y + offset_y) - (Real)frame->height;
+    Position offset = sample_position(frame, x, y, k);
+    Real sx = (Real)2 * ((Real)x + offset.x) - (Real)frame->width;
+    Real sy = (Real)2 * ((Real)y + offset.y) - (Real)frame->height;
     real3 across = add_scaled(load3(frame->direction), sx, load3(frame->direction_dx));
     Ray ray;
     ray.dir = normalize3(add_scaled(across, sy, load3(frame->direction_dy)));

@@ -71,7 +71,7 @@ typedef struct {
     Packed3 direction_dx;
     Index height;
     Packed3 direction_dy;
-    Index grid;  // grid x grid samples a pixel
+    Index grid;  // a regular grid x grid of samples, or 0: Sobol
     Packed3 origin_dx;
     Index max_bounces;
     Packed3 origin_dy;
@@ -80,6 +80,10 @@ typedef struct {
     Index triangle_count;
     Packed3 ambient_light;
     Index light_count;
+    Index samples;  // of a pixel
+    Index filter;   // RT_FILTER_...
+    Index seed;     // of the Sobol samples
+    Index pad;
 } Frame;
 
 // The pixels of one launch: picture columns x.., rows y.. counted from the top; its first pixel
@@ -96,6 +100,9 @@ typedef struct {
 
 enum { RT_NONE = -1 };
 
+// Reconstruction filters (kernels/sampling.cl).
+enum { RT_FILTER_BOX = 0, RT_FILTER_TENT = 1, RT_FILTER_GAUSSIAN = 2, RT_FILTER_MITCHELL = 3 };
+
 RT_STATIC_ASSERT(sizeof(Packed3) == 3 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Index) == sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Sphere) == 8 * sizeof(Real));
@@ -103,5 +110,5 @@ RT_STATIC_ASSERT(sizeof(Triangle) == 16 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(VertexNormals) == 12 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Material) == 16 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Light) == 8 * sizeof(Real));
-RT_STATIC_ASSERT(sizeof(Frame) == 28 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Frame) == 32 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Tile) == 8 * sizeof(Real));

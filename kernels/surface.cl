@@ -8,9 +8,10 @@
 // carries a bound on how far it may lie off its surface; secondary rays start that far out along
 // the geometric normal and one ulp further (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8).
 //
-// Where the ray met several surfaces at once, on a shared edge say, that offset clears only one of
-// them, and whether the neighbour is in the way would be decided by rounding. There the point moves
-// eight offsets back along the ray, to the viewer's side of all of them.
+// Where the ray met several surfaces at once, or a triangle within rounding of its edge, that
+// offset clears only one of them, and whether the neighbour is in the way would be decided by
+// rounding. There the point moves eight offsets back along the ray, to the viewer's side of all of
+// them.
 #ifndef RT_SURFACE_CL
 #define RT_SURFACE_CL
 
@@ -80,10 +81,17 @@ Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit
     return triangle_surface(ray, hit, &scene->triangles[index], scene->vertex_normals);
 }
 
+// Whether a triangle was hit within rounding of its edge, where a neighbour may begin.
+bool is_on_edge(const SceneView* scene, const Hit* hit) {
+    if (hit->prim < scene->frame.sphere_count) return false;
+    Real rim = (Real)64 * (Real)RT_ROUNDOFF;
+    return hit->u < rim || hit->v < rim || (Real)1 - hit->u - hit->v < rim;
+}
+
 // The hit's surface, its point moved clear of the other surfaces it touches.
 Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit) {
     Surface surface = primitive_surface(scene, ray, hit);
-    if (hit->tied != 0) {
+    if (hit->tied != 0 || is_on_edge(scene, hit)) {
         surface.point = add_scaled(surface.point, (Real)-8 * surface.offset, ray->dir);
     }
     return surface;

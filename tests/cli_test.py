@@ -20,6 +20,7 @@ MODULES = [
     "device_cases",
     "picture_cases",
     "render_cases",
+    "compare_cases",
     "stats_cases",
     "stream_cases",
     "signal_cases",

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "host/error.h"
+#include "host/render/adaptive.h"
 #include "host/render/device_spec.h"
 #include "host/render/film.h"
 #include "host/render/posix_threads.h"
@@ -153,14 +154,40 @@ TEST(NamesThreads, ReadsTheCount) {
 }
 
 TEST(ParseAaMode, RoundTripsAndRefuses) {
-    for (const char* text : {"none", "grid:2", "grid:64"}) {
+    for (const char* text :
+         {"none", "grid:2", "grid:64", "sobol:1", "sobol:4096", "adaptive:0.01"}) {
         ASSERT_TRUE(parse_aa_mode(text).has_value()) << text;
         EXPECT_EQ(to_string(*parse_aa_mode(text)), text);
     }
-    EXPECT_EQ(parse_aa_mode("grid:1"), AaMode{1});
-    for (const char* bad : {"", "grid", "grid:", "grid:0", "grid:65", "grid:2x", "Grid:2"}) {
+    EXPECT_EQ(parse_aa_mode("grid:1"), grid_aa(1));
+    for (const char* bad :
+         {"", "grid", "grid:", "grid:0", "grid:65", "grid:2x", "Grid:2", "sobol:0", "sobol:4097",
+          "sobol", "adaptive:0", "adaptive:nan", "adaptive:2", "adaptive:"}) {
         EXPECT_FALSE(parse_aa_mode(bad).has_value()) << bad;
     }
+}
+
+TEST(PlanRefinement, RefinesBothSidesOfAnEdgeByItsContrast) {
+    Film<float> film(6, 3);
+    for (std::size_t i = 0; i < film.rgb.size(); ++i) film.rgb[i] = i / 3 % 6 < 3 ? 0.0f : 0.3f;
+    std::vector<std::uint8_t> levels(18, 1);
+    const auto plan = plan_refinement(film, 0.1, levels);
+    ASSERT_EQ(plan.size(), 1u);
+    EXPECT_EQ(plan[0].grid, 4);  // 0.3 / 2 > 0.1 >= 0.3 / 4
+    EXPECT_EQ(plan[0].pixels, (std::vector<std::int32_t>{2, 3, 8, 9, 14, 15}));
+    EXPECT_EQ(levels[2], 4);
+    EXPECT_TRUE(plan_refinement(film, 0.1, levels).empty());
+}
+
+TEST(PlanRefinement, LeavesAgreeingNeighboursAloneAndFlagsNaN) {
+    Film<double> film(3, 1);
+    std::vector<std::uint8_t> levels(3, 1);
+    EXPECT_TRUE(plan_refinement(film, 0.01, levels).empty());
+    film.rgb[4] = std::nan("");
+    const auto plan = plan_refinement(film, 0.01, levels);
+    ASSERT_EQ(plan.size(), 1u);
+    EXPECT_EQ(plan[0].grid, 16);
+    EXPECT_EQ(plan[0].pixels.size(), 3u);
 }
 
 TEST(Film, HashSeesEveryBitAndTheShape) {

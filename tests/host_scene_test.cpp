@@ -112,7 +112,7 @@ TEST(ParseJsonScene, DefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(scene.name, "test");
     EXPECT_EQ(scene.width, 500);
     EXPECT_EQ(scene.height, 500);
-    EXPECT_EQ(scene.aa, AaMode{2});
+    EXPECT_EQ(scene.aa, grid_aa(2));
     EXPECT_EQ(scene.max_bounces, 8);
     EXPECT_EQ(scene.background, glm::dvec3(0, 0, 0));
     EXPECT_EQ(scene.ambient_light, glm::dvec3(0, 0, 0));
@@ -320,7 +320,7 @@ TEST(CornellBox, HasThePapersCameraAndLights) {
     EXPECT_EQ(scene.camera.field_of_view.fixed, Scene::FieldOfView::Fixed::horizontal);
     EXPECT_EQ(scene.camera.from, glm::dvec3(0, 0, 2));
     EXPECT_EQ(scene.camera.at, glm::dvec3(0, 0, 1));
-    EXPECT_EQ(scene.aa, AaMode{2});
+    EXPECT_EQ(scene.aa, grid_aa(2));
     EXPECT_EQ(scene.ambient_light, glm::dvec3(0.2, 0.2, 0.2));
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.lights[0].position, glm::dvec3(0, 0.7, 0));

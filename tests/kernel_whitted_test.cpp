@@ -159,8 +159,16 @@ FlatScene<T> mirror_crowd() {
     for (auto& sphere : scene.spheres) sphere.material = random.index(5);
     for (auto& triangle : scene.triangles) triangle.material = random.index(5);
     scene.lights = {{{5, 6, 7}, 0, {1, 1, 1}, 0}, {{-3, 5, 0}, 0, {T(0.5), 1, T(0.25)}, 0}};
-    scene.frame = {{0, 0, -1}, 80, {T(0.02), 0, 0},          60, {0, T(0.02), 0},          2, {}, 6,
-                   {},         0,  {T(0.1), T(0.2), T(0.3)}, 0,  {T(0.5), T(0.5), T(0.5)}, 0};
+    scene.frame.direction = {0, 0, -1};
+    scene.frame.direction_dx = {T(0.02), 0, 0};
+    scene.frame.direction_dy = {0, T(0.02), 0};
+    scene.frame.width = 80;
+    scene.frame.height = 60;
+    scene.frame.grid = 2;
+    scene.frame.samples = 4;
+    scene.frame.max_bounces = 6;
+    scene.frame.background = {T(0.1), T(0.2), T(0.3)};
+    scene.frame.ambient_light = {T(0.5), T(0.5), T(0.5)};
     count_primitives(scene);
     return scene;
 }

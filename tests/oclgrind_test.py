@@ -47,6 +47,13 @@ class Oclgrind(unittest.TestCase):
     def test_double(self):
         self.check("cornell-box.json", "--launch", "pixel", "--precision", "double")
 
+    def test_refined_pixels(self):
+        self.check("cornell-box.json", "--aa", "adaptive:0.4")
+
+    def test_sobol_samples_under_a_filter(self):
+        self.check("cornell-box.json", "--aa", "sobol:4", "--filter", "gaussian", "--launch",
+                   "sample")
+
     def test_every_feature_with_vertex_normals(self):
         self.check("vertex-normals.json", "--aa", "none", "--features", "all")
 

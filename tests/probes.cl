@@ -426,3 +426,87 @@ __kernel void probe_add_counts(PROBE_ITEMS, __global const RayCounts* a,
     out[i] = a[i];
     add_counts(out, i, b[i]);
 }
+
+// sampling.cl
+
+__kernel void probe_reverse_bits(PROBE_ITEMS, __global const uint* v, __global uint* out) {
+    PROBE_ITEM;
+    out[i] = reverse_bits(v[i]);
+}
+
+__kernel void probe_hash_bits(PROBE_ITEMS, __global const uint* v, __global uint* out) {
+    PROBE_ITEM;
+    out[i] = hash_bits(v[i]);
+}
+
+__kernel void probe_owen_scramble(PROBE_ITEMS, __global const uint* v, __global const uint* seed,
+                                  __global uint* out) {
+    PROBE_ITEM;
+    out[i] = owen_scramble(v[i], seed[i]);
+}
+
+__kernel void probe_sobol_second(PROBE_ITEMS, __global const uint* index, __global uint* out) {
+    PROBE_ITEM;
+    out[i] = sobol_second(index[i]);
+}
+
+__kernel void probe_unit_from_bits(PROBE_ITEMS, __global const uint* bits, __global Real* out) {
+    PROBE_ITEM;
+    out[i] = unit_from_bits(bits[i]);
+}
+
+__kernel void probe_sobol_position(PROBE_ITEMS, __global const uint* seed, __global const uint* k,
+                                   __global Real* x, __global Real* y) {
+    PROBE_ITEM;
+    Position position = sobol_position(seed[i], k[i]);
+    x[i] = position.x;
+    y[i] = position.y;
+}
+
+__kernel void probe_grid_position(PROBE_ITEMS, __global const Index* grid, __global const Index* k,
+                                  __global Real* x, __global Real* y) {
+    PROBE_ITEM;
+    Position position = grid_position(grid[i], k[i]);
+    x[i] = position.x;
+    y[i] = position.y;
+}
+
+__kernel void probe_filter_radius(PROBE_ITEMS, __global const Index* filter, __global Real* out) {
+    PROBE_ITEM;
+    out[i] = filter_radius(filter[i]);
+}
+
+__kernel void probe_mitchell_weight(PROBE_ITEMS, __global const Real* d, __global Real* out) {
+    PROBE_ITEM;
+    out[i] = mitchell_weight(d[i]);
+}
+
+__kernel void probe_filter_weight(PROBE_ITEMS, __global const Index* filter, __global const Real* d,
+                                  __global Real* out) {
+    PROBE_ITEM;
+    out[i] = filter_weight(filter[i], d[i]);
+}
+
+// unit_position, sample_position and sample_weight of one sample.
+__kernel void probe_sample(PROBE_ITEMS, __global const Frame* frame, __global const Index* x,
+                           __global const Index* y, __global const Index* k, __global Real* unit_x,
+                           __global Real* unit_y, __global Real* sample_x, __global Real* sample_y,
+                           __global Real* weight) {
+    PROBE_ITEM;
+    Frame f = *frame;
+    Position unit = unit_position(&f, x[i], y[i], k[i]);
+    Position sample = sample_position(&f, x[i], y[i], k[i]);
+    unit_x[i] = unit.x;
+    unit_y[i] = unit.y;
+    sample_x[i] = sample.x;
+    sample_y[i] = sample.y;
+    weight[i] = sample_weight(&f, x[i], y[i], k[i]);
+}
+
+__kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
+                                __global const Index* y, __global Packed3* out) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    RayCounts counts = {0, 0};
+    out[i] = pack(trace_pixel(&scene, x[i], y[i], &counts));
+}

@@ -7,6 +7,7 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/render/device_spec.h"
+#include "host/render/picture_loop.h"
 #include "host/scene/json_file.h"
 
 namespace rt::test {
@@ -21,7 +22,7 @@ Film<T> render_all(Renderer<T>& renderer, const Scene& scene, Rect tile) {
     const Rect region{0, 0, scene.width, scene.height};
     if (tile.width == 0) tile = renderer.tile_size(scene.width);
     TileQueue queue(make_tiles(region, tile.width, tile.height), never_stop);
-    renderer.render(queue, region, film);
+    rt::render_all(renderer, scene.aa, queue, region, film);
     if (queue.tiles_finished() != queue.tiles().size()) throw std::logic_error("unfinished tiles");
     return film;
 }

@@ -21,7 +21,7 @@ static_assert(offsetof(Triangle, plane) == 60);
 static_assert(offsetof(VertexNormals, n2) == 32);
 static_assert(offsetof(Material, mirror) == 48);
 static_assert(offsetof(Light, intensity) == 16);
-static_assert(offsetof(Frame, light_count) == 108);
+static_assert(offsetof(Frame, pad) == 124);
 static_assert(offsetof(Tile, film_width) == 20);
 }  // namespace rt::f32
 

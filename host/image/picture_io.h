@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "host/image/encoding.h"
 #include "host/image/picture.h"
@@ -25,6 +27,9 @@ namespace rt {
 /// whose size is not its pixels' or a metadata name that would not survive.
 void write_picture(const std::string& path, const Picture& picture, Encoding encoding,
                    std::span<const std::pair<std::string, std::string>> metadata = {});
+
+/// The bytes of the .png that write_picture would write. Throws Error as it does.
+std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding);
 
 /// Refuses, before anything is computed, what write_picture would refuse after: Error(usage) for
 /// the extension, Error(output) for a directory that is missing or not writable.

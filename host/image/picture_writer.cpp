@@ -85,8 +85,8 @@ std::vector<std::byte> encode(const std::string& path, oiio::EncodeRequest reque
     return bytes;
 }
 
-std::vector<std::byte> encode_png(const std::string& path, const Picture& picture,
-                                  Encoding encoding, Metadata metadata) {
+std::vector<std::byte> encode_png_file(const std::string& path, const Picture& picture,
+                                       Encoding encoding, Metadata metadata) {
     const std::vector<std::uint8_t> pixels = encode_8bit(picture, encoding);
     const char* color_space = encoding == Encoding::srgb     ? "sRGB"
                               : encoding == Encoding::linear ? "Linear"
@@ -109,7 +109,7 @@ std::vector<std::byte> encode_file(const std::string& path, const Picture& pictu
                                    Encoding encoding, Metadata metadata) {
     switch (picture_format_of_name(path)) {
         case PictureFormat::png:
-            return encode_png(path, picture, encoding, metadata);
+            return encode_png_file(path, picture, encoding, metadata);
         case PictureFormat::exr:
             return encode_exr(path, picture, metadata);
         case PictureFormat::pfm:
@@ -126,6 +126,12 @@ void write_picture(const std::string& path, const Picture& picture, Encoding enc
     check_picture(path, picture);
     check_metadata(path, metadata);
     write_file_atomically(path, encode_file(path, picture, encoding, metadata));
+}
+
+std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding) {
+    const std::string what = "a picture in memory";
+    check_picture(what, picture);
+    return encode_png_file(what, picture, encoding, {});
 }
 
 void check_picture_path(const std::string& path) {

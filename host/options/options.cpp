@@ -42,6 +42,9 @@ Options parse_options(int argc, const char* const* argv) {
     app.set_version_flag("--version", fmt::format("mirrorball {} ({})", version, git_revision));
     app.require_subcommand(1);
     add_render(app, options);
+    add_compare(app, options);
+    add_bench(app, options);
+    add_converge(app, options);
     add_devices(app, options);
     add_scene(app, options);
     try {

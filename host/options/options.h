@@ -3,6 +3,9 @@
 
 #include <string>
 
+#include "host/options/bench_options.h"
+#include "host/options/compare_options.h"
+#include "host/options/converge_options.h"
 #include "host/options/render_options.h"
 
 namespace rt {
@@ -19,11 +22,14 @@ struct SceneOptions {
     bool json = false;
 };
 
-enum class Verb { none, render, devices, scene };
+enum class Verb { none, render, bench, converge, devices, scene, compare };
 
 struct Options {
     Verb verb = Verb::none;
     RenderOptions render;
+    BenchOptions bench;
+    ConvergeOptions converge;
+    CompareOptions compare;
     DevicesOptions devices;
     SceneOptions scene;
     std::string text;  ///< help or version, to be printed instead of doing anything

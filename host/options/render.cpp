@@ -13,7 +13,7 @@ constexpr int most_threads = 4096;
 
 AaMode parse_aa(const std::string& text) {
     const auto mode = parse_aa_mode(text);
-    if (!mode) refuse("--aa", text, "give none or grid:N with N from 1 to 64");
+    if (!mode) refuse("--aa", text, std::string("give ") + aa_mode_help);
     return *mode;
 }
 
@@ -50,9 +50,15 @@ std::string pocl_cache_folder() {
 void add_picture_options(CLI::App& app, RenderOptions& render) {
     add_text(app, "--size", "WxH|N", "pixels (default: the scene's)",
              [&](const std::string& text) { render.size = parse_size("--size", text); });
-    add_text(app, "--aa", "none|grid:N",
-             "samples of a pixel: its centre, or an N x N grid (default: the scene's)",
+    add_text(app, "--aa", "MODE",
+             std::string("samples of a pixel: ") + aa_mode_help + " (default: the scene's)",
              [&](const std::string& text) { render.aa = parse_aa(text); });
+    add_choice<Filter>(app, "--filter", render.filter,
+                       {{"box", Filter::box},
+                        {"tent", Filter::tent},
+                        {"gaussian", Filter::gaussian},
+                        {"mitchell", Filter::mitchell}},
+                       "how samples are weighed (default box)");
     add_text(app, "--crop", "x0,y0,x1,y1",
              "render a window: pixels from the top left, x1 and y1 not included",
              [&](const std::string& text) { render.crop = parse_crop(text); });

@@ -27,6 +27,8 @@ struct RenderOptions {
     std::string device;  ///< empty: the best there is
     std::optional<PictureSize> size;
     std::optional<AaMode> aa;
+    Filter filter = Filter::box;
+    int sampling_seed = 0;  ///< of sobol samples
     std::optional<int> max_bounces;
     Precision precision = Precision::float32;
     bool fast_math = false;

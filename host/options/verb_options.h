@@ -10,6 +10,9 @@ namespace rt {
 // One function per verb, one file per function: adds the verb to the command line and says where
 // its options go.
 void add_render(CLI::App& app, Options& options);
+void add_compare(CLI::App& app, Options& options);
+void add_bench(CLI::App& app, Options& options);
+void add_converge(CLI::App& app, Options& options);
 void add_devices(CLI::App& app, Options& options);
 void add_scene(CLI::App& app, Options& options);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <span>
 
 #include "host/error.h"
 #include "host/render/cl_program.h"
@@ -82,6 +83,24 @@ class ClRenderer : public Renderer<T> {
         }
     }
 
+    void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
+                const Rect& region, Film<T>& film) override {
+        try {
+            const Stopwatch watch;
+            const std::vector<T> colors = refined_colors(pixels, grid, region);
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                const std::size_t at = 3 * static_cast<std::size_t>(pixels[i]);
+                std::copy_n(colors.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                            film.rgb.begin() + static_cast<std::ptrdiff_t>(at));
+            }
+            primary_ += pixels.size() * static_cast<std::size_t>(grid * grid);
+            count_rays(queue);
+            times_.trace += watch.seconds();
+        } catch (const cl::Error& error) {
+            throw_device_error(device_, error);
+        }
+    }
+
     RendererTimes times() const override { return times_; }
 
    private:
@@ -93,7 +112,7 @@ class ClRenderer : public Renderer<T> {
         std::vector<cl::Event> events;
     };
 
-    std::size_t samples() const { return static_cast<std::size_t>(frame_.grid * frame_.grid); }
+    std::size_t samples() const { return static_cast<std::size_t>(frame_.samples); }
     std::size_t most_items() const { return device_.is_cpu ? cpu_items : gpu_items; }
 
     void open() {
@@ -154,13 +173,15 @@ class ClRenderer : public Renderer<T> {
         const cl::Program program =
             build_program(context_, device_, render_kernels, program_options);
         render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
-        set_render_arguments();
+        set_scene_arguments(render_, frame_);
+        listed_ = cl::Kernel(program, "render_listed");
         if (launch_samples_) {
             resolve_ = cl::Kernel(program, "resolve_samples");
             resolve_.setArg(1, samples_);
-            resolve_.setArg(2, static_cast<typename Flat<T>::Index>(samples()));
+            resolve_.setArg(2, frame_);
         }
         launch({}, cl::Buffer(), local_size);
+        if (options.will_refine) launch_listed({}, frame_, cl::Buffer(), cl::Buffer(), local_size);
         queue_.finish();
         times_.build = watch.seconds();
         times_.build_cache = !is_pocl || options.pocl_cache.empty() ? BuildCache::unknown
@@ -168,14 +189,14 @@ class ClRenderer : public Renderer<T> {
                                                                     : BuildCache::warm;
     }
 
-    void set_render_arguments() {
-        render_.setArg(1, counts_);
-        render_.setArg(2, spheres_);
-        render_.setArg(3, triangles_);
-        render_.setArg(4, vertex_normals_);
-        render_.setArg(5, materials_);
-        render_.setArg(6, lights_);
-        render_.setArg(7, frame_);
+    void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::Frame& frame) {
+        kernel.setArg(1, counts_);
+        kernel.setArg(2, spheres_);
+        kernel.setArg(3, triangles_);
+        kernel.setArg(4, vertex_normals_);
+        kernel.setArg(5, materials_);
+        kernel.setArg(6, lights_);
+        kernel.setArg(7, frame);
     }
 
     /// Enqueues the kernels of one tile, `pixels` work items where a pixel is one.
@@ -195,6 +216,37 @@ class ClRenderer : public Renderer<T> {
         }
         queue_.flush();
         return events;
+    }
+
+    cl::Event launch_listed(const FlatTile& tile, const typename Flat<T>::Frame& frame,
+                            const cl::Buffer& colors, const cl::Buffer& list, std::size_t pixels) {
+        set_scene_arguments(listed_, frame);
+        listed_.setArg(0, colors);
+        listed_.setArg(8, tile);
+        listed_.setArg(9, list);
+        cl::Event event;
+        queue_.enqueueNDRangeKernel(listed_, cl::NullRange, rounded_up(pixels), local_size, nullptr,
+                                    &event);
+        return event;
+    }
+
+    /// Three numbers for each of the pixels, rendered with a grid of their own.
+    std::vector<T> refined_colors(std::span<const std::int32_t> pixels, int grid,
+                                  const Rect& region) {
+        const std::size_t bytes = pixels.size() * 3 * sizeof(T);
+        cl::Buffer colors = make_buffer(bytes, "the refined pixels");
+        cl::Buffer list = make_buffer(pixels.size_bytes(), "the pixel list", CL_MEM_READ_ONLY);
+        queue_.enqueueWriteBuffer(list, CL_TRUE, 0, pixels.size_bytes(), pixels.data());
+        typename Flat<T>::Frame frame = frame_;
+        frame.grid = grid;
+        frame.samples = grid * grid;
+        FlatTile tile = flat_tile<T>(region, region);
+        tile.width = static_cast<typename Flat<T>::Index>(pixels.size());
+        const cl::Event event = launch_listed(tile, frame, colors, list, pixels.size());
+        std::vector<T> result(pixels.size() * 3);
+        queue_.enqueueReadBuffer(colors, CL_TRUE, 0, bytes, result.data());
+        times_.kernel += device_seconds(event);
+        return result;
     }
 
     void trace_tiles(TileQueue& queue, const Rect& region, const cl::Buffer& film) {
@@ -244,7 +296,7 @@ class ClRenderer : public Renderer<T> {
     bool launch_samples_ = false;
     cl::Context context_;
     cl::CommandQueue queue_;
-    cl::Kernel render_, resolve_;
+    cl::Kernel render_, resolve_, listed_;
     cl::Buffer spheres_, triangles_, vertex_normals_, materials_, lights_, counts_, samples_;
     std::uint64_t primary_ = 0;
     RayCounts counted_;

@@ -22,6 +22,7 @@ bool launches_samples(Launch launch, const ClDevice& device);
 struct ClOptions {
     Launch launch = Launch::automatic;
     bool fast_math = false;
+    bool will_refine = false;          ///< have the kernel of `refine` ready, too
     bool all_features = false;         ///< compile what the scene does not need, too
     bool warnings_are_errors = false;  ///< for tests
     std::string pocl_cache;            ///< PoCL's kernel cache folder; may be empty

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "host/flatten/flat_types.h"
@@ -42,6 +44,11 @@ class Renderer {
     /// the queue is empty or stopped, with every tile it took finished. Throws Error
     /// (ExitCode::device) when the device fails.
     virtual void render(TileQueue& queue, const Rect& region, Film<T>& film) = 0;
+
+    /// Renders these pixels of the film anew, with a regular grid x grid of samples each; at most
+    /// most_tile_pixels of them. Adds their rays to the queue's. Throws like render.
+    virtual void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
+                        const Rect& region, Film<T>& film) = 0;
 
     virtual RendererTimes times() const = 0;
 };

@@ -40,18 +40,42 @@ void for_each_pixel(const typename Flat<T>::Tile& tile, typename Flat<T>::Index 
     }
 }
 
-/// Twin of render_pixels in kernels/render.cl.
+/// Twin of trace_pixel in kernels/render.cl.
+template <typename T>
+Vec3<T> trace_pixel(const trace::SceneView<T>& scene, typename Flat<T>::Index x,
+                    typename Flat<T>::Index y, RayCounts& counts) {
+    Vec3<T> sum(T(0));
+    T total = 0;
+    for (typename Flat<T>::Index k = 0; k < scene.frame.samples; ++k) {
+        const T weight = trace::sample_weight<T>(scene.frame, x, y, k);
+        sum = trace::add_scaled(sum, weight, trace::trace_sample(scene, x, y, k, counts));
+        total += weight;
+    }
+    return sum / total;
+}
+
 template <typename T>
 RayCounts render_pixels(const trace::SceneView<T>& scene, const typename Flat<T>::Tile& tile,
                         std::vector<T>& rgb) {
     using Index = typename Flat<T>::Index;
-    const Index samples = scene.frame.grid * scene.frame.grid;
     RayCounts counts;
     for_each_pixel<T>(tile, scene.frame.height, [&](Index x, Index y, Index pixel) {
-        Vec3<T> sum(T(0));
-        for (Index k = 0; k < samples; ++k) sum += trace::trace_sample(scene, x, y, k, counts);
-        store3(rgb, pixel, sum / T(samples));
+        store3(rgb, pixel, trace_pixel(scene, x, y, counts));
     });
+    return counts;
+}
+
+/// Twin of render_listed in kernels/render.cl.
+template <typename T>
+RayCounts refine_pixels(const trace::SceneView<T>& scene, std::span<const std::int32_t> pixels,
+                        const Rect& region, std::vector<T>& rgb) {
+    RayCounts counts;
+    for (const std::int32_t pixel : pixels) {
+        const int column = pixel % region.width, row = pixel / region.width;
+        store3(rgb, typename Flat<T>::Index{pixel},
+               trace_pixel<T>(scene, region.x + column, scene.frame.height - 1 - (region.y + row),
+                              counts));
+    }
     return counts;
 }
 
@@ -66,6 +90,9 @@ RayCounts render_sample(const trace::SceneView<T>& scene, const typename Flat<T>
     });
     return counts;
 }
+
+/// Pixels that a thread takes at once when refining.
+constexpr std::size_t refine_run = 64;
 
 template <typename T>
 class ThreadsRenderer : public Renderer<T> {
@@ -83,10 +110,30 @@ class ThreadsRenderer : public Renderer<T> {
         }
     }
 
+    /// Threads take runs of pixels from a shared counter.
+    void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
+                const Rect& region, Film<T>& film) override {
+        const Stopwatch watch;
+        trace::SceneView<T> view = view_of(scene_);
+        view.frame.grid = grid;
+        view.frame.samples = grid * grid;
+        std::atomic<std::size_t> next = 0;
+        run_on_threads(thread_count({options_.threads, Schedule::tiles}, 1), [&](int) {
+            for (;;) {
+                const std::size_t at = next.fetch_add(refine_run);
+                if (at >= pixels.size()) return;
+                queue.add_rays(refine_pixels(
+                    view, pixels.subspan(at, std::min(refine_run, pixels.size() - at)), region,
+                    film.rgb));
+            }
+        });
+        times_.trace += watch.seconds();
+    }
+
     RendererTimes times() const override { return times_; }
 
    private:
-    int samples() const { return static_cast<int>(scene_.frame.grid * scene_.frame.grid); }
+    int samples() const { return static_cast<int>(scene_.frame.samples); }
 
     void render_tiles(TileQueue& queue, const Rect& region, Film<T>& film) {
         const Stopwatch watch;
@@ -132,13 +179,17 @@ class ThreadsRenderer : public Renderer<T> {
     void average(const typename Flat<T>::Tile& tile, const std::vector<std::vector<T>>& buffers,
                  std::vector<T>& rgb) const {
         using Index = typename Flat<T>::Index;
-        for_each_pixel<T>(tile, scene_.frame.height, [&](Index, Index, Index pixel) {
+        for_each_pixel<T>(tile, scene_.frame.height, [&](Index x, Index y, Index pixel) {
             const std::size_t at = 3 * static_cast<std::size_t>(pixel);
             Vec3<T> sum(T(0));
-            for (const auto& buffer : buffers) {
-                sum += Vec3<T>(buffer[at], buffer[at + 1], buffer[at + 2]);
+            T total = 0;
+            for (std::size_t k = 0; k < buffers.size(); ++k) {
+                const T weight = trace::sample_weight<T>(scene_.frame, x, y, static_cast<Index>(k));
+                const Vec3<T> color(buffers[k][at], buffers[k][at + 1], buffers[k][at + 2]);
+                sum = trace::add_scaled(sum, weight, color);
+                total += weight;
             }
-            store3(rgb, pixel, sum / T(buffers.size()));
+            store3(rgb, pixel, sum / total);
         });
     }
 

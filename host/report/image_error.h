@@ -16,7 +16,9 @@ struct ImageError {
     double max = 0;              ///< largest absolute difference ...
     int max_x = 0, max_y = 0;    ///< ... and its pixel, from the top left
     double psnr = 0;             ///< dB against a peak of 1; infinity for equal pictures
+    double rel_mse = 0;          ///< mean of ((a - b) / (b + 0.01))^2, b the reference, as in pbrt
     std::size_t over_1 = 0;      ///< pixels with a channel off by more than 1/255
+    std::size_t over_2 = 0;      ///< ... than 2/255
     std::size_t over_8 = 0;      ///< ... than 8/255
     std::size_t non_finite = 0;  ///< pixels with a NaN or an infinity in either picture
 };
@@ -26,6 +28,9 @@ std::size_t count_non_finite(const Picture& picture);
 
 /// The first such pixel, x and y from the top left; there is one.
 std::pair<int, int> first_non_finite(const Picture& picture);
+
+/// The largest absolute channel difference of two pixels; NaN when either is not finite.
+double pixel_difference(const float* a, const float* b, int channels);
 
 /// Throws Error (ExitCode::input) when sizes or channels differ.
 ImageError image_error(const Picture& picture, const Picture& reference);

@@ -56,6 +56,7 @@ struct RenderStats {
     int width = 0, height = 0;  ///< of the whole picture
     Rect region;                ///< the part that was rendered
     AaMode aa;
+    Filter filter = Filter::box;
     int max_bounces = 0;
     bool double_precision = false, fast_math = false;
     Features features;          ///< what the scene needs

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/render/posix_threads.h"
+#include "host/report/error_json.h"
 #include "host/version.h"
 
 namespace rt {
@@ -52,6 +53,7 @@ Json settings_json(const RenderStats& stats) {
             {"region", {stats.region.x, stats.region.y, stats.region.width, stats.region.height}},
             {"aa", to_string(stats.aa)},
             {"samples", stats.aa.samples()},
+            {"filter", to_string(stats.filter)},
             {"max_bounces", stats.max_bounces},
             {"precision", stats.double_precision ? "double" : "float"},
             {"math", stats.fast_math ? "fast" : "strict"},
@@ -89,17 +91,6 @@ Json phases_json(const PhaseStats& phases) {
             {"total", phases.total},
             {"set_up", phases.set_up()},
             {"resolve_and_write", phases.resolve_and_write()}};
-}
-
-Json error_json(const ImageError& error) {
-    return {{"rmse", error.rmse},
-            {"mean", error.mean},
-            {"max", error.max},
-            {"max_at", {error.max_x, error.max_y}},
-            {"psnr_db", error.psnr},
-            {"pixels_over_1_255", error.over_1},
-            {"pixels_over_8_255", error.over_8},
-            {"non_finite", error.non_finite}};
 }
 
 }  // namespace

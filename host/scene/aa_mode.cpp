@@ -1,24 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/aa_mode.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 namespace rt {
 
-std::optional<AaMode> parse_aa_mode(std::string_view text) {
-    if (text == "none") return AaMode{1};
-    constexpr std::string_view prefix = "grid:";
-    if (!text.starts_with(prefix)) return std::nullopt;
-    text.remove_prefix(prefix.size());
-    int n = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+namespace {
+
+template <typename N>
+std::optional<N> parse_number(std::string_view text) {
+    N number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    if (n < 1 || n > AaMode::max_grid) return std::nullopt;
-    return AaMode{n};
+    return number;
 }
 
-std::string to_string(AaMode mode) {
-    return mode.grid == 1 ? "none" : "grid:" + std::to_string(mode.grid);
+std::optional<AaMode> counted(AaMode::Pattern pattern, std::string_view text, int most) {
+    const auto count = parse_number<int>(text);
+    if (!count || *count < 1 || *count > most) return std::nullopt;
+    return AaMode{pattern, *count, 0};
+}
+
+std::optional<AaMode> adaptive(std::string_view text) {
+    const auto threshold = parse_number<double>(text);
+    if (!threshold || !(*threshold >= AaMode::min_threshold && *threshold <= 1)) {
+        return std::nullopt;
+    }
+    return AaMode{AaMode::Pattern::adaptive, 1, *threshold};
+}
+
+}  // namespace
+
+int AaMode::samples() const { return pattern == Pattern::grid ? count * count : count; }
+
+AaMode grid_aa(int n) { return {AaMode::Pattern::grid, n, 0}; }
+
+std::optional<AaMode> parse_aa_mode(std::string_view text) {
+    if (text == "none") return grid_aa(1);
+    const auto colon = text.find(':');
+    if (colon == std::string_view::npos) return std::nullopt;
+    const std::string_view name = text.substr(0, colon), value = text.substr(colon + 1);
+    if (name == "grid") return counted(AaMode::Pattern::grid, value, AaMode::max_grid);
+    if (name == "sobol") return counted(AaMode::Pattern::sobol, value, AaMode::max_sobol);
+    if (name == "adaptive") return adaptive(value);
+    return std::nullopt;
+}
+
+std::string to_string(const AaMode& mode) {
+    switch (mode.pattern) {
+        case AaMode::Pattern::grid:
+            return mode.count == 1 ? "none" : fmt::format("grid:{}", mode.count);
+        case AaMode::Pattern::sobol:
+            return fmt::format("sobol:{}", mode.count);
+        case AaMode::Pattern::adaptive:
+            return fmt::format("adaptive:{}", mode.threshold);
+    }
+    return "";
+}
+
+std::string to_string(Filter filter) {
+    switch (filter) {
+        case Filter::box:
+            return "box";
+        case Filter::tent:
+            return "tent";
+        case Filter::gaussian:
+            return "gaussian";
+        case Filter::mitchell:
+            return "mitchell";
+    }
+    return "";
 }
 
 }  // namespace rt

@@ -7,21 +7,44 @@
 
 namespace rt {
 
-/// Where a pixel is sampled: an n x n regular grid with offsets (i + 0.5) / n from the pixel's
-/// corner. `none` is n = 1, the pixel centre; n = 2 is the paper's four buffers at .25 and .75.
+/// How a pixel is sampled.
 struct AaMode {
+    enum class Pattern {
+        grid,      ///< count x count regular positions, (i + 0.5) / count from the pixel's corner
+        sobol,     ///< count Owen-scrambled Sobol samples
+        adaptive,  ///< one sample, then finer grids where neighbours differ by more than threshold
+    };
+
     static constexpr int max_grid = 64;
+    static constexpr int max_sobol = 4096;
+    static constexpr double min_threshold = 1e-4;
 
-    int grid = 2;
+    Pattern pattern = Pattern::grid;
+    int count = 2;         ///< grid 2 is the paper's four buffers at .25 and .75
+    double threshold = 0;  ///< adaptive: of a channel, clamped to 0..1
 
-    int samples() const { return grid * grid; }
+    /// Samples of every pixel; of an adaptive mode, in its first pass.
+    int samples() const;
+
     bool operator==(const AaMode&) const = default;
 };
 
-/// "none" or "grid:N" with N in 1..64; empty when the text is neither.
+AaMode grid_aa(int n);
+
+/// "none" (the pixel centre), "grid:N" with N in 1..64, "sobol:S" with S in 1..4096, or
+/// "adaptive:T" with T in 0.0001..1; empty when the text is none of these.
 std::optional<AaMode> parse_aa_mode(std::string_view text);
 
+/// What parse_aa_mode reads, for messages.
+inline constexpr const char* aa_mode_help =
+    "none, grid:N (N from 1 to 64), sobol:S (S from 1 to 4096) or adaptive:T (T from 0.0001 to 1)";
+
 /// The text that parse_aa_mode reads back.
-std::string to_string(AaMode mode);
+std::string to_string(const AaMode& mode);
+
+/// How a pixel's samples are weighed (kernels/sampling.cl).
+enum class Filter { box, tent, gaussian, mitchell };
+
+std::string to_string(Filter filter);
 
 }  // namespace rt

@@ -32,8 +32,7 @@ std::optional<AaMode> read_aa(const JsonValue& value, std::string_view name, Mis
     const auto mode = parse_aa_mode(*text);
     if (!mode) {
         mistakes.add(value.offset,
-                     fmt::format("unknown aa {}; write \"none\" or \"grid:N\" with N from 1 to {}",
-                                 in_quotes(*text), AaMode::max_grid));
+                     fmt::format("unknown aa {}; write {}", in_quotes(*text), aa_mode_help));
     }
     return mode;
 }

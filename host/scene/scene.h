@@ -81,7 +81,9 @@ struct Scene {
     Camera camera;
     int width = 500, height = 500;  ///< pixels
     AaMode aa;
-    int max_bounces = 8;  ///< mirror rays after the eye ray
+    Filter filter = Filter::box;
+    int sampling_seed = 0;  ///< of sobol samples: another seed, another independent picture
+    int max_bounces = 8;    ///< mirror rays after the eye ray
     glm::dvec3 background{0};
     glm::dvec3 ambient_light{0};
     std::vector<Light> lights;

@@ -76,11 +76,19 @@ Surface<T> primitive_surface(const SceneView<T>& scene, const Ray<T>& ray, const
     return triangle_surface(ray, hit, triangle, scene.vertex_normals);
 }
 
+/// Whether a triangle was hit within rounding of its edge, where a neighbour may begin.
+template <typename T>
+bool is_on_edge(const SceneView<T>& scene, const Hit<T>& hit) {
+    if (hit.prim < scene.frame.sphere_count) return false;
+    const T rim = T(64) * Flat<T>::roundoff;
+    return hit.u < rim || hit.v < rim || T(1) - hit.u - hit.v < rim;
+}
+
 /// The hit's surface, its point moved clear of the other surfaces it touches.
 template <typename T>
 Surface<T> surface_at(const SceneView<T>& scene, const Ray<T>& ray, const Hit<T>& hit) {
     Surface<T> surface = primitive_surface(scene, ray, hit);
-    if (hit.tied != 0) {
+    if (hit.tied != 0 || is_on_edge(scene, hit)) {
         surface.point = add_scaled(surface.point, T(-8) * surface.offset, ray.dir);
     }
     return surface;

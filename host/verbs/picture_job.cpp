@@ -10,6 +10,7 @@
 #include "host/render/cl_renderer.h"
 #include "host/render/device_spec.h"
 #include "host/render/memory_limit.h"
+#include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "host/report/progress.h"
 #include "host/scene/scene_hash.h"
@@ -76,6 +77,7 @@ class Job {
         stats_.height = scene.height;
         stats_.region = region_;
         stats_.aa = scene.aa;
+        stats_.filter = scene.filter;
         stats_.max_bounces = scene.max_bounces;
         stats_.double_precision = sizeof(T) == sizeof(double);
         stats_.fast_math = options.fast_math;
@@ -122,6 +124,7 @@ class Job {
         ClOptions cl_options;
         cl_options.launch = options_.launch;
         cl_options.fast_math = options_.fast_math;
+        cl_options.will_refine = stats_.aa.pattern == AaMode::Pattern::adaptive;
         cl_options.all_features = options_.all_features;
         cl_options.pocl_cache = options_.pocl_cache;
         if (!options_.fast_math && !device.rounds_correctly) {
@@ -170,7 +173,7 @@ class Job {
         TileQueue queue(make_tiles(region_, tile.width, tile.height), stop_flag());
         {
             const ProgressReporter progress(queue, progress_mode_for_stderr(options_));
-            renderer.render(queue, region_, film_);
+            render_all(renderer, stats_.aa, queue, region_, film_);
         }
         stats_.phases.renderer = renderer.times();
         stats_.rays = queue.rays();
@@ -208,9 +211,27 @@ class Job {
 
 }  // namespace
 
+namespace {
+
+/// The cubic has negative weights: a handful of scattered samples may add up to nothing.
+void check_filter(const Scene& scene) {
+    constexpr int fewest = 16;
+    if (scene.filter == Filter::mitchell && scene.aa.pattern == AaMode::Pattern::sobol &&
+        scene.aa.count < fewest) {
+        throw Error(ExitCode::usage, fmt::format("--filter mitchell needs at least sobol:{}; {} "
+                                                 "is too few",
+                                                 fewest, to_string(scene.aa)));
+    }
+}
+
+}  // namespace
+
 void apply_overrides(Scene& scene, const RenderOptions& options) {
     if (options.size) set_image_size(scene, options.size->width, options.size->height);
     if (options.aa) scene.aa = *options.aa;
+    scene.filter = options.filter;
+    scene.sampling_seed = options.sampling_seed;
+    check_filter(scene);
     if (options.max_bounces) scene.max_bounces = *options.max_bounces;
 }
 

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+
+#include "host/options/lists.h"
+#include "host/options/verb_options.h"
+
+namespace rt {
+
+namespace {
+
+std::vector<PictureSize> parse_sizes(const std::string& text) {
+    std::vector<PictureSize> sizes;
+    for (const std::string& part : split_list("--sizes", text)) {
+        sizes.push_back(parse_size("--sizes", part));
+    }
+    return sizes;
+}
+
+std::vector<Schedule> parse_schedules(const std::string& text) {
+    std::vector<Schedule> schedules;
+    for (const std::string& part : split_list("--schedules", text)) {
+        if (part != "tiles" && part != "buffers") {
+            refuse("--schedules", part, "give tiles, buffers or tiles,buffers");
+        }
+        schedules.push_back(part == "tiles" ? Schedule::tiles : Schedule::buffers);
+    }
+    return schedules;
+}
+
+/// "5%" or "5": 0.05.
+double parse_percent(const std::string& text) {
+    double percent = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, percent);
+    const bool whole = stop == end || (stop + 1 == end && *stop == '%');
+    if (error != std::errc{} || !whole || !(percent >= 0 && percent <= 1e6)) {
+        refuse("--max-regress", text, "give per cent, as in 5%");
+    }
+    return percent / 100;
+}
+
+void add_baseline(CLI::App& app, BenchOptions& bench) {
+    app.add_option("--baseline", bench.baseline,
+                   "an earlier --json file: exit 1 when a row has become slower")
+        ->type_name("FILE");
+    add_text(app, "--max-regress", "P%",
+             "how much slower a row may become (default 5%); noise is allowed for on top",
+             [&](const std::string& text) { bench.max_regress = parse_percent(text); });
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Options& options) {
+    BenchOptions& bench = options.bench;
+    bench.aa = parse_aa_list("--aa", "none,grid:2");
+    CLI::App& verb = *app.add_subcommand("bench", "device against pthreads timings");
+    verb.add_option("SCENE", bench.scenes, "scene files (default: scenes/cornell-box.json)");
+    add_text(verb, "--sizes", "LIST", "pixels, N or WxH (default 100,200,300,400,500)",
+             [&](const std::string& text) { bench.sizes = parse_sizes(text); });
+    add_text(verb, "--aa", "LIST", "AA modes (default none,grid:2)",
+             [&](const std::string& text) { bench.aa = parse_aa_list("--aa", text); });
+    add_device_list(verb, bench.devices);
+    add_count(verb, "--threads", bench.threads, 1, 4096,
+              "'threads' is timed with 1 to N threads (default: all cores)");
+    add_precisions(verb, bench.precisions);
+    add_text(verb, "--schedules", "LIST", "of pthreads (default tiles,buffers)",
+             [&](const std::string& text) { bench.schedules = parse_schedules(text); });
+    add_count(verb, "--repeats", bench.repeats, 1, 1000,
+              "timed rounds after the warm-up (default 5)");
+    add_baseline(verb, bench);
+    add_result_files(verb, bench.results);
+    verb.add_flag("-q,--quiet", bench.quiet, "no progress on stderr");
+    verb.callback([&] {
+        check_result_files(options.bench.results);
+        options.verb = Verb::bench;
+    });
+}
+
+}  // namespace rt

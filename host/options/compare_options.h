@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace rt {
+
+/// `mirrorball compare`
+struct CompareOptions {
+    std::string picture, reference;
+    std::optional<double> max_rmse, max_abs, max_flip;
+    std::optional<int> max_pixels;        ///< over 1/255
+    std::string heatmap;                  ///< empty: none
+    std::optional<double> heatmap_scale;  ///< the largest difference where it is not given
+    std::string json;                     ///< empty: text; "-": JSON on stdout; else JSON to a file
+    bool clamp = false;                   ///< to 0..1, as 8-bit files do
+    bool flip = false;
+};
+
+}  // namespace rt

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/options/lists.h"
+#include "host/options/verb_options.h"
+
+namespace rt {
+
+namespace {
+
+constexpr const char* default_sweep =
+    "none,grid:2,grid:3,grid:4,grid:6,grid:8,sobol:1,sobol:4,sobol:16,sobol:64,sobol:256,"
+    "adaptive:0.1,adaptive:0.03,adaptive:0.01";
+
+/// The modes of the default sweep that this program has.
+std::vector<AaMode> default_modes() {
+    std::vector<AaMode> modes;
+    for (const std::string& part : split_list("--aa", default_sweep)) {
+        if (const auto mode = parse_aa_mode(part)) modes.push_back(*mode);
+    }
+    return modes;
+}
+
+/// Where references are kept: the XDG Base Directory rule.
+std::string reference_folder() {
+    if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) {
+        return xdg + "/mirrorball/references";
+    }
+    const std::string home = environment("HOME");
+    return home.empty() ? "" : home + "/.cache/mirrorball/references";
+}
+
+std::vector<int> parse_bounces(const std::string& text) {
+    std::vector<int> bounces;
+    for (const std::string& part : split_list("--max-bounces", text)) {
+        bounces.push_back(parse_count("--max-bounces", part, 0, 100000));
+    }
+    return bounces;
+}
+
+void add_sweep(CLI::App& app, ConvergeOptions& converge) {
+    add_text(app, "--size", "WxH|N", "pixels (default: the scene's)",
+             [&](const std::string& text) { converge.size = parse_size("--size", text); });
+    add_text(app, "--aa", "LIST", "AA modes (default " + std::string(default_sweep) + ")",
+             [&](const std::string& text) { converge.aa = parse_aa_list("--aa", text); });
+    add_device_list(app, converge.devices);
+    add_count(app, "--threads", converge.threads, 1, 4096,
+              "threads of 'threads' (default: all cores)");
+    add_precisions(app, converge.precisions);
+    add_choice<std::vector<bool>>(app, "--math", converge.fast_math,
+                                  {{"strict", {false}}, {"fast", {true}}, {"both", {false, true}}},
+                                  "strict (default), fast (OpenCL devices only) or both");
+    add_text(app, "--max-bounces", "LIST", "mirror rays after the eye ray (default: the scene's)",
+             [&](const std::string& text) { converge.max_bounces = parse_bounces(text); });
+}
+
+}  // namespace
+
+void add_converge(CLI::App& app, Options& options) {
+    ConvergeOptions& converge = options.converge;
+    converge.aa = default_modes();
+    converge.cache_folder = reference_folder();
+    CLI::App& verb = *app.add_subcommand("converge", "error against run time");
+    verb.add_option("SCENE", converge.scene, "scene file (.json)")->required();
+    add_sweep(verb, converge);
+    add_count(verb, "--repeats", converge.repeats, 5, 1000,
+              "timed rounds after the warm-up, at least 5 (default 5)");
+    add_count(verb, "--reference-samples", converge.reference_samples, 2, 4096,
+              "the reference is the mean of two sobol:N pictures in double (default 1024)");
+    add_result_files(verb, converge.results);
+    verb.add_flag("-q,--quiet", converge.quiet, "no progress on stderr");
+    verb.callback([&] {
+        check_result_files(options.converge.results);
+        options.verb = Verb::converge;
+    });
+}
+
+}  // namespace rt

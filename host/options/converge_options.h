@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/options/bench_options.h"
+#include "host/options/render_options.h"
+
+namespace rt {
+
+/// `mirrorball converge`
+struct ConvergeOptions {
+    std::string scene;
+    std::optional<PictureSize> size;  ///< default: the scene's
+    std::vector<AaMode> aa;
+    std::vector<std::string> devices{"all"};
+    int threads = 0;  ///< of the pthreads renderer; 0: all cores
+    std::vector<Precision> precisions{Precision::float32, Precision::float64};
+    std::vector<bool> fast_math{false};
+    std::vector<int> max_bounces;  ///< empty: the scene's
+    int repeats = 5;               ///< without the warm-up
+    int reference_samples = 1024;  ///< of a pixel, in each of the reference's two halves
+    std::string cache_folder;      ///< of references; empty: none
+    ResultFiles results;
+    bool quiet = false;
+};
+
+}  // namespace rt

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rt {
+
+/// Run time and error of one way to make a picture.
+struct Cost {
+    double seconds = 0, rmse = 0;
+};
+
+/// The ways that no other beats: none is both as fast and as exact, and better in one. Indices by
+/// rising seconds, so by falling error; of equals the first.
+std::vector<std::size_t> pareto_front(std::span<const Cost> costs);
+
+/// The slope of log RMSE over log seconds, by least squares: -0.5 for plain random sampling. Costs
+/// with a 0 are left out; 0 when fewer than two different times remain.
+double log_log_slope(std::span<const Cost> costs);
+
+}  // namespace rt

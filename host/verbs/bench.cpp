@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/report/bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+
+#include "host/console.h"
+#include "host/error.h"
+#include "host/render/posix_threads.h"
+#include "host/render/stopwatch.h"
+#include "host/report/baseline.h"
+#include "host/report/bench_csv.h"
+#include "host/report/bench_json.h"
+#include "host/report/bench_text.h"
+#include "host/report/result_file.h"
+#include "host/report/run_csv.h"
+#include "host/report/run_json.h"
+#include "host/report/stats_json.h"
+#include "host/scene/json_file.h"
+#include "host/scene/scene_hash.h"
+#include "host/stop_signal.h"
+#include "host/verbs/device_list.h"
+#include "host/verbs/picture_job.h"
+#include "host/verbs/timing_loop.h"
+#include "host/verbs/verbs.h"
+
+namespace rt {
+
+namespace {
+
+constexpr const char* default_scene = "scenes/cornell-box.json";
+
+struct LoadedScene {
+    std::string path;
+    Scene scene;
+    double load_seconds = 0;
+};
+
+/// A row with what it takes to time it.
+struct PlannedRow {
+    BenchCase asked;
+    TimedCase timed;
+};
+
+/// The rows of one bench, and the scenes and references they point to.
+class Plan {
+   public:
+    Plan(const BenchOptions& options, const std::string& pocl_cache)
+        : options_(options), pocl_cache_(pocl_cache), devices_(listed_devices(options.devices)) {
+        std::vector<std::string> paths = options.scenes;
+        if (paths.empty()) {
+            paths.emplace_back(default_scene);
+            say(fmt::format("no scene given: {}", default_scene));
+        }
+        for (const std::string& path : paths) {
+            const Stopwatch watch;
+            Scene scene = load_json_scene(path);
+            scenes_.push_back({path, std::move(scene), watch.seconds()});
+        }
+        say_devices_without_double();
+    }
+
+    /// Renders the references and lists the rows. False when stopped.
+    bool make(BenchResult& result) {
+        for (const LoadedScene& loaded : scenes_) {
+            for (const PictureSize& size : options_.sizes) {
+                for (const AaMode& aa : options_.aa) {
+                    RenderOptions picture = timed_options();
+                    picture.scene = loaded.path;
+                    picture.size = size;
+                    picture.aa = aa;
+                    picture.pocl_cache = pocl_cache_;
+                    if (!add_reference(loaded, picture, result)) return false;
+                    add_rows(loaded, picture);
+                }
+            }
+        }
+        return true;
+    }
+
+    std::vector<PlannedRow> rows;
+
+   private:
+    void say(const std::string& line) const {
+        if (!options_.quiet) print_message("mirrorball: " + line + "\n");
+    }
+
+    bool wants_double() const {
+        return std::find(options_.precisions.begin(), options_.precisions.end(),
+                         Precision::float64) != options_.precisions.end();
+    }
+
+    void say_devices_without_double() const {
+        for (const ListedDevice& device : devices_) {
+            if (wants_double() && !device.has_double) say(device.name + " has no double");
+        }
+    }
+
+    bool add_reference(const LoadedScene& loaded, RenderOptions picture, BenchResult& result) {
+        picture.device = "threads";
+        picture.precision = Precision::float64;
+        Scene scene = loaded.scene;
+        apply_overrides(scene, picture);
+        RenderedPicture rendered = render_picture(scene, picture);
+        if (!rendered.stats.complete()) return false;
+        rendered.stats.scene.path = loaded.path;
+        rendered.stats.phases.load = loaded.load_seconds;
+        rendered.stats.phases.total = timed_total(rendered.stats);
+        result.references.push_back(rendered.stats);
+        references_.push_back(std::move(rendered.picture));
+        return true;
+    }
+
+    void add_rows(const LoadedScene& loaded, RenderOptions picture) {
+        for (const Precision precision : options_.precisions) {
+            picture.precision = precision;
+            for (const ListedDevice& device : devices_) {
+                if (precision == Precision::float64 && !device.has_double) continue;
+                if (device.is_threads) {
+                    add_threads_rows(loaded, picture, device);
+                } else {
+                    picture.device = device.spec;
+                    add_row(loaded, picture, device, 0);
+                }
+            }
+        }
+    }
+
+    /// threads: 1 to N threads in every schedule; threads:K: K alone. In the schedule by buffers no
+    /// more threads run than a pixel has samples.
+    void add_threads_rows(const LoadedScene& loaded, RenderOptions picture,
+                          const ListedDevice& device) {
+        const int most = options_.threads > 0 ? options_.threads : available_cores();
+        const int first = device.threads > 0 ? device.threads : 1;
+        const int last = device.threads > 0 ? device.threads : most;
+        for (const Schedule schedule : options_.schedules) {
+            for (int threads = first; threads <= last; ++threads) {
+                const int running = thread_count({threads, schedule}, picture.aa->samples());
+                if (running < threads) break;
+                picture.schedule = schedule;
+                picture.device = fmt::format("threads:{}", threads);
+                add_row(loaded, picture, device, threads);
+            }
+        }
+    }
+
+    void add_row(const LoadedScene& loaded, const RenderOptions& picture,
+                 const ListedDevice& device, int threads) {
+        PlannedRow row;
+        BenchCase& asked = row.asked;
+        asked.scene_path = loaded.path;
+        asked.scene_name = loaded.scene.name;
+        asked.scene_hash = scene_hash(loaded.scene);
+        asked.width = picture.size->width;
+        asked.height = picture.size->height;
+        asked.aa = *picture.aa;
+        asked.double_precision = picture.precision == Precision::float64;
+        asked.uses_threads = device.is_threads;
+        asked.device = picture.device;
+        asked.device_name = device.name;
+        asked.threads = threads;
+        if (device.is_threads) {
+            asked.schedule = picture.schedule == Schedule::tiles ? "tiles" : "buffers";
+        }
+        row.timed.scene = &loaded.scene;
+        row.timed.reference = &references_.back();
+        row.timed.options = picture;
+        row.timed.load_seconds = loaded.load_seconds;
+        rows.push_back(std::move(row));
+    }
+
+    const BenchOptions& options_;
+    const std::string pocl_cache_;
+    const std::vector<ListedDevice> devices_;
+    std::deque<LoadedScene> scenes_;  // deques: rows point into them
+    std::deque<Picture> references_;
+};
+
+BenchResult measure(const BenchOptions& options) {
+    const FreshKernelCache kernels;
+    BenchResult result;
+    result.repeats_asked = options.repeats;
+    result.load_before = load_average();
+    Plan plan(options, kernels.folder());
+    result.interrupted = !plan.make(result);
+    std::vector<TimedCase> cases;
+    for (const PlannedRow& row : plan.rows) cases.push_back(row.timed);
+    if (!result.interrupted) {
+        result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
+    }
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        result.rows.push_back({plan.rows[i].asked, std::move(cases[i].warm_up),
+                               std::move(cases[i].repeats), cases[i].verdict, cases[i].why});
+    }
+    return result;
+}
+
+void say_bad_rows(const BenchResult& result) {
+    for (const BenchRow& row : result.rows) {
+        if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
+        print_message(fmt::format("mirrorball: {} ({}): {}: {}\n", key_of(row.asked),
+                                  row.asked.device_name, to_string(row.verdict), row.why));
+    }
+}
+
+/// Whether a row has become slower; each is named on stderr.
+bool has_regressed(const BenchResult& result, const Baseline& baseline, double max_regress) {
+    const auto found = regressions(result, baseline, max_regress);
+    for (const Regression& regression : found) {
+        print_message("mirrorball: slower: " + to_string(regression) + "\n");
+    }
+    return !found.empty();
+}
+
+}  // namespace
+
+int run_bench(const BenchOptions& options) {
+    check_result_path(options.results.json, json_start("mirrorball-bench"));
+    check_result_path(options.results.csv, run_csv_header());
+    Baseline baseline;
+    if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
+    const BenchResult result = measure(options);
+    if (!options.results.take_stdout()) print_result(bench_text(result));
+    write_result(options.results.json, json_text(bench_json(result)));
+    write_result(options.results.csv, bench_csv(result));
+    say_bad_rows(result);
+    if (result.interrupted) return 128 + stop_flag();
+    const bool slower =
+        !options.baseline.empty() && has_regressed(result, baseline, options.max_regress);
+    if (slower || any_row(result, Verdict::wrong)) return static_cast<int>(ExitCode::different);
+    return static_cast<int>(any_row(result, Verdict::failed) ? ExitCode::device : ExitCode::done);
+}
+
+}  // namespace rt

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/report/converge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/console.h"
+#include "host/error.h"
+#include "host/render/stopwatch.h"
+#include "host/report/bench.h"
+#include "host/report/converge_csv.h"
+#include "host/report/converge_json.h"
+#include "host/report/converge_text.h"
+#include "host/report/result_file.h"
+#include "host/report/run_csv.h"
+#include "host/report/run_json.h"
+#include "host/report/stats_json.h"
+#include "host/scene/json_file.h"
+#include "host/scene/scene_hash.h"
+#include "host/stop_signal.h"
+#include "host/verbs/converge_reference.h"
+#include "host/verbs/device_list.h"
+#include "host/verbs/picture_job.h"
+#include "host/verbs/timing_loop.h"
+#include "host/verbs/verbs.h"
+
+namespace rt {
+
+namespace {
+
+/// The points of one device at one precision and math, in the order of the sweep.
+void add_points(const ConvergeOptions& options, const std::vector<int>& bounces,
+                const ListedDevice& device, const ConvergeCase& of,
+                std::vector<ConvergePoint>& points) {
+    for (const int max_bounces : bounces) {
+        for (const AaMode& aa : options.aa) {
+            ConvergePoint point;
+            point.asked = of;
+            point.asked.device = device.spec;
+            point.asked.device_name = device.name;
+            point.asked.max_bounces = max_bounces;
+            point.asked.aa = aa;
+            points.push_back(std::move(point));
+        }
+    }
+}
+
+/// Devices without double have no points in it; threads have none in fast math, which is the
+/// OpenCL compiler's.
+std::vector<ConvergePoint> planned_points(const ConvergeOptions& options,
+                                          const std::vector<int>& bounces) {
+    std::vector<ConvergePoint> points;
+    for (const ListedDevice& device : listed_devices(options.devices)) {
+        for (const Precision precision : options.precisions) {
+            for (const bool fast_math : options.fast_math) {
+                ConvergeCase of;
+                of.double_precision = precision == Precision::float64;
+                of.fast_math = fast_math;
+                if (of.double_precision && !device.has_double) continue;
+                if (fast_math && device.is_threads) continue;
+                add_points(options, bounces, device, of, points);
+            }
+        }
+    }
+    return points;
+}
+
+TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options) {
+    TimedCase timed;
+    timed.options = timed_options();
+    timed.options.scene = options.scene;
+    timed.options.device = asked.device;
+    timed.options.aa = asked.aa;
+    timed.options.max_bounces = asked.max_bounces;
+    timed.options.precision = asked.double_precision ? Precision::float64 : Precision::float32;
+    timed.options.fast_math = asked.fast_math;
+    if (asked.device == "threads") timed.options.threads = options.threads;
+    timed.judge = judge_estimate;
+    return timed;
+}
+
+/// Times the points of the result against the converged picture.
+void time_points(const Scene& scene, double load_seconds, const ConvergedPicture& converged,
+                 const ConvergeOptions& options, const std::string& pocl_cache,
+                 ConvergeResult& result) {
+    std::vector<TimedCase> cases;
+    for (const ConvergePoint& point : result.points) {
+        TimedCase timed = timed_case(point.asked, options);
+        timed.scene = &scene;
+        timed.reference = &converged.picture;
+        timed.load_seconds = load_seconds;
+        timed.options.pocl_cache = pocl_cache;
+        cases.push_back(std::move(timed));
+    }
+    result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        ConvergePoint& point = result.points[i];
+        point.warm_up = std::move(cases[i].warm_up);
+        point.repeats = std::move(cases[i].repeats);
+        point.verdict = cases[i].verdict;
+        point.why = cases[i].why;
+    }
+}
+
+ConvergeResult measure(const ConvergeOptions& options) {
+    const FreshKernelCache kernels;
+    ConvergeResult result;
+    result.load_before = load_average();
+    result.repeats_asked = options.repeats;
+    const Stopwatch watch;
+    Scene scene = load_json_scene(options.scene);
+    const double load_seconds = watch.seconds();
+    if (options.size) set_image_size(scene, options.size->width, options.size->height);
+    result.scene_path = options.scene;
+    result.scene_name = scene.name;
+    result.scene_hash = scene_hash(scene);
+    result.width = scene.width;
+    result.height = scene.height;
+    std::vector<int> bounces = options.max_bounces;
+    if (bounces.empty()) bounces.push_back(scene.max_bounces);
+    result.points = planned_points(options, bounces);
+    if (result.points.empty()) {
+        throw Error(ExitCode::usage,
+                    "nothing to sweep: no device named can do that --precision "
+                    "and --math");
+    }
+    bounces.push_back(scene.max_bounces);
+    scene.max_bounces = *std::max_element(bounces.begin(), bounces.end());
+    const ConvergedPicture converged = converged_picture(scene, options);
+    result.reference = converged.about;
+    result.interrupted = !converged.complete;
+    if (converged.complete) {
+        time_points(scene, load_seconds, converged, options, kernels.folder(), result);
+    }
+    return result;
+}
+
+/// Names the points that gave no figure; the exit status they mean.
+int verdict(const ConvergeResult& result) {
+    bool wrong = false, failed = false;
+    for (const ConvergePoint& point : result.points) {
+        if (point.verdict != Verdict::wrong && point.verdict != Verdict::failed) continue;
+        (point.verdict == Verdict::wrong ? wrong : failed) = true;
+        print_message(fmt::format("mirrorball: {} {}: {}: {}\n", point.asked.device_name,
+                                  to_string(point.asked.aa), to_string(point.verdict), point.why));
+    }
+    if (result.interrupted) return 128 + stop_flag();
+    if (wrong) return static_cast<int>(ExitCode::different);
+    return static_cast<int>(failed ? ExitCode::device : ExitCode::done);
+}
+
+}  // namespace
+
+int run_converge(const ConvergeOptions& options) {
+    check_result_path(options.results.json, json_start("mirrorball-converge"));
+    check_result_path(options.results.csv, run_csv_header());
+    const ConvergeResult result = measure(options);
+    if (!options.results.take_stdout()) print_result(converge_text(result));
+    write_result(options.results.json, json_text(converge_json(result)));
+    write_result(options.results.csv, converge_csv(result));
+    return verdict(result);
+}
+
+}  // namespace rt

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/device_list.h"
+
+#include <algorithm>
+
+#include "host/console.h"
+#include "host/render/device_spec.h"
+
+namespace rt {
+
+namespace {
+
+ListedDevice listed(const ClDevice& device) {
+    return {std::to_string(device.index), device.name, false, 0, device.has_double};
+}
+
+void add_once(std::vector<ListedDevice>& list, const ListedDevice& device) {
+    const bool known = std::any_of(list.begin(), list.end(), [&](const ListedDevice& other) {
+        return other.spec == device.spec;
+    });
+    if (!known) list.push_back(device);
+}
+
+/// The OpenCL devices, asked for when first needed.
+class ClDevices {
+   public:
+    const std::vector<ClDevice>& list() {
+        if (!listed_) devices_ = list_cl_devices(problems_);
+        listed_ = true;
+        return devices_;
+    }
+    const std::vector<std::string>& problems() const { return problems_; }
+
+   private:
+    bool listed_ = false;
+    std::vector<ClDevice> devices_;
+    std::vector<std::string> problems_;
+};
+
+void add_all(std::vector<ListedDevice>& list, ClDevices& devices) {
+    add_once(list, {"threads", "threads", true, 0, true});
+    for (const ClDevice& device : devices.list()) {
+        if (device.unusable.empty()) {
+            add_once(list, listed(device));
+        } else {
+            print_message("mirrorball: " + device.name + " is left out: " + device.unusable + "\n");
+        }
+    }
+    for (const std::string& problem : devices.problems()) {
+        print_message("mirrorball: " + problem + "\n");
+    }
+}
+
+}  // namespace
+
+std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs) {
+    std::vector<ListedDevice> list;
+    ClDevices devices;
+    for (const std::string& spec : specs) {
+        DeviceChoice choice;
+        if (spec == "all") {
+            add_all(list, devices);
+        } else if (names_threads(spec, choice)) {
+            add_once(list, {spec, "threads", true, choice.threads, true});
+        } else {
+            const auto& all = devices.list();
+            add_once(list, listed(choose_device(spec, all, devices.problems()).device));
+        }
+    }
+    return list;
+}
+
+}  // namespace rt

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rt {
+
+/// A device to be measured.
+struct ListedDevice {
+    std::string spec;  ///< for --device: "threads", "threads:2", "0"
+    std::string name;  ///< "threads", or the OpenCL device's own name
+    bool is_threads = false;
+    int threads = 0;         ///< from threads:N; 0 when not given
+    bool has_double = true;  ///< whether it can render in double
+};
+
+/// The devices that specs name, each once; "all" is threads and every usable OpenCL device, with a
+/// line on stderr for one that is not usable. Throws Error (usage or device) as choose_device does.
+/// OpenCL is left alone when nothing but threads is named.
+std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs);
+
+}  // namespace rt

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/timing_loop.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "host/console.h"
+#include "host/error.h"
+#include "host/report/statistics.h"
+#include "host/stop_signal.h"
+#include "host/verbs/picture_job.h"
+
+namespace rt {
+
+namespace {
+
+/// What is wrong with the newest of a case's runs beside the picture itself: that it is not the
+/// same picture as before.
+std::string what_changed(const TimedCase& timed, const RenderStats& run) {
+    for (const std::vector<RenderStats>* runs : {&timed.warm_up, &timed.repeats}) {
+        if (runs->empty() || runs->front().image_hash == run.image_hash) continue;
+        return fmt::format("the picture changes from run to run: {}, then {}",
+                           hash_text(runs->front().image_hash), hash_text(run.image_hash));
+    }
+    return "";
+}
+
+/// Renders a case once more and keeps the run, unless it was stopped half-way.
+void render_once(TimedCase& timed, bool warm_up) {
+    Scene scene = *timed.scene;
+    apply_overrides(scene, timed.options);
+    RenderedPicture rendered = render_picture(scene, timed.options);
+    RenderStats& run = rendered.stats;
+    if (!run.complete()) return;
+    run.scene.path = timed.options.scene;
+    run.phases.load = timed.load_seconds;
+    run.phases.total = timed_total(run);
+    const Judgement judgement = timed.judge(rendered.picture, *timed.reference);
+    run.error = judgement.error;
+    timed.why = judgement.why_wrong.empty() ? what_changed(timed, run) : judgement.why_wrong;
+    (warm_up ? timed.warm_up : timed.repeats).push_back(run);
+    if (!timed.why.empty()) {
+        timed.verdict = Verdict::wrong;
+    } else if (!warm_up) {
+        timed.verdict = Verdict::right;
+    }
+}
+
+/// A device that cannot do it ends its case, not the others'.
+void try_once(TimedCase& timed, bool warm_up) {
+    try {
+        render_once(timed, warm_up);
+    } catch (const Error& error) {
+        timed.verdict = Verdict::failed;
+        const std::string what = error.what();
+        timed.why = what.substr(0, what.find('\n'));
+    }
+}
+
+}  // namespace
+
+RenderOptions timed_options() {
+    RenderOptions options;
+    options.quiet = true;
+    options.no_fallback = true;
+    return options;
+}
+
+bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
+    for (int round = 0; round <= repeats; ++round) {
+        if (!quiet) {
+            const std::string name =
+                round == 0 ? "warm-up" : fmt::format("round {} of {}", round, repeats);
+            print_message(fmt::format("mirrorball: {}, {} pictures\n", name, cases.size()));
+        }
+        for (TimedCase& timed : cases) {
+            if (stop_flag() != 0) return false;
+            if (timed.verdict == Verdict::wrong || timed.verdict == Verdict::failed) continue;
+            try_once(timed, round == 0);
+        }
+    }
+    return stop_flag() == 0;
+}
+
+double load_average() {
+    double load = 0;
+    return getloadavg(&load, 1) == 1 ? load : -1;
+}
+
+FreshKernelCache::FreshKernelCache() {
+    std::error_code error;
+    std::string name = std::filesystem::temp_directory_path(error) / "mirrorball-kernels-XXXXXX";
+    if (error || mkdtemp(name.data()) == nullptr) return;
+    folder_ = name;
+    setenv("POCL_CACHE_DIR", folder_.c_str(), 1);
+}
+
+FreshKernelCache::~FreshKernelCache() {
+    std::error_code ignored;
+    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+}
+
+}  // namespace rt

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/image/picture.h"
+#include "host/options/options.h"
+#include "host/report/bench_result.h"
+#include "host/report/picture_judge.h"
+#include "host/scene/scene.h"
+
+namespace rt {
+
+/// One way to render one picture, to be timed.
+struct TimedCase {
+    const Scene* scene = nullptr;        ///< as loaded; options override
+    const Picture* reference = nullptr;  ///< what `judge` compares with
+    RenderOptions options;
+    Judgement (*judge)(const Picture& picture, const Picture& reference) = judge_picture;
+    double load_seconds = 0;  ///< of the scene file, noted in every run
+
+    // What comes of it.
+    std::vector<RenderStats> warm_up, repeats;
+    Verdict verdict = Verdict::unfinished;
+    std::string why;  ///< what is wrong or what failed
+};
+
+/// Options of a benchmark's rendering: quiet, and failing when its device fails.
+RenderOptions timed_options();
+
+/// Renders every case once to warm up, then again `repeats` times; the rounds go over all cases
+/// (A B A B), so that a slow moment of the machine hits all alike. Every picture is judged; a case
+/// that is wrong or fails is not run again. A signal ends it after the pictures finished so far.
+/// A line on stderr for each round unless `quiet`. Whether it ran to the end.
+bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet);
+
+/// The one-minute load average; -1 where the system does not tell.
+double load_average();
+
+/// An empty kernel cache for PoCL in a folder of its own, removed at the end: the first build of
+/// each kernel is then cold and all others are warm, whatever ran before. Make it before OpenCL
+/// starts. Without effect where no folder can be made.
+class FreshKernelCache {
+   public:
+    FreshKernelCache();
+    ~FreshKernelCache();
+    FreshKernelCache(const FreshKernelCache&) = delete;
+    FreshKernelCache& operator=(const FreshKernelCache&) = delete;
+
+    const std::string& folder() const { return folder_; }  ///< may be empty
+
+   private:
+    std::string folder_;
+};
+
+}  // namespace rt

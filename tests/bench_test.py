@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: Apache-2.0
+"""bench and converge: their JSON is what the schemas say, and every figure in it follows from the
+raw runs in it, worked out anew here.
+
+usage: bench_test.py BUILD_DIR REPO_ROOT
+"""
+import csv
+import io
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import jsonschema
+
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+SCENE = str(ROOT / "scenes" / "cornell-box.json")
+PICTURE = ["flatten", "upload", "trace", "resolve", "read_back"]
+TARGETS = [1e-2, 3e-3, 1e-3, 3e-4]
+CACHE = tempfile.TemporaryDirectory(prefix="mirrorball-bench-test-")
+
+
+def run(*arguments, code=0):
+    variables = dict(os.environ, XDG_CACHE_HOME=CACHE.name)
+    result = subprocess.run([str(BUILD / "mirrorball"), *arguments], capture_output=True, cwd=ROOT,
+                            text=True, timeout=120, env=variables, check=False)
+    assert result.returncode == code, (result.returncode, result.stderr)
+    return result
+
+
+def validator(name):
+    schemas = {n: json.loads((ROOT / "docs" / f"{n}.schema.json").read_text(encoding="utf-8"))
+               for n in ["results", name]}
+    jsonschema.Draft202012Validator.check_schema(schemas[name])
+    base = "file:///docs/"
+    resolver = jsonschema.RefResolver(
+        f"{base}{name}.schema.json", schemas[name],
+        store={f"{base}{n}.schema.json": schema for n, schema in schemas.items()})
+    return jsonschema.Draft202012Validator(schemas[name], resolver=resolver)
+
+
+def picture_seconds(one):
+    return sum(one["seconds"][phase] for phase in PICTURE)
+
+
+def total_seconds(one):
+    return picture_seconds(one) + one["seconds"]["open"] + one["seconds"]["build"]
+
+
+def spread(values):
+    middle = statistics.median(values)
+    return {"median": middle, "mad": statistics.median(abs(v - middle) for v in values),
+            "min": min(values), "max": max(values)}
+
+
+class FiguresTest(unittest.TestCase):
+    def assert_close(self, found, expected, what=""):
+        self.assertAlmostEqual(found, expected, delta=1e-9 * max(1, abs(expected)), msg=what)
+
+    def assert_spread(self, found, values):
+        for name, expected in spread(values).items():
+            self.assert_close(found[name], expected, name)
+
+
+class Bench(FiguresTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.file = os.path.join(CACHE.name, "bench.json")
+        cls.csv = os.path.join(CACHE.name, "bench.csv")
+        cls.table = run("bench", SCENE, "--sizes", "16,24x20", "--repeats", "5", "--threads", "2",
+                        "--json", cls.file, "--csv", cls.csv, "-q").stdout
+        cls.result = json.loads(pathlib.Path(cls.file).read_text(encoding="utf-8"))
+
+    def base_of(self, row):
+        for schedule in [row["schedule"]] if row["schedule"] else ["tiles", "buffers"]:
+            for other in self.result["rows"]:
+                if (other["device"], other["schedule"]) == ("threads:1", schedule) and all(
+                        other[k] == row[k] for k in ["scene", "width", "height", "aa", "precision"]):
+                    return other
+        return None
+
+    def test_schema(self):
+        validator("bench").validate(self.result)
+        broken = json.loads(json.dumps(self.result))
+        del broken["rows"][0]["repeats"][0]["seconds"]["trace"]
+        self.assertFalse(validator("bench").is_valid(broken))
+
+    def test_rows_are_complete_and_right(self):
+        threads = {(r["width"], r["aa"], r["precision"], r["device"], r["schedule"])
+                   for r in self.result["rows"] if r["device_name"] == "threads"}
+        self.assertEqual(len(threads), 2 * 2 * 2 * 4 - 2 * 2)  # one buffer has work for one thread
+        for row in self.result["rows"]:
+            self.assertEqual(row["verdict"], "right", row["why"])
+            self.assertEqual((len(row["warm_up"]), len(row["repeats"])), (1, 5))
+
+    def test_medians_and_mads(self):
+        for row in self.result["rows"]:
+            figures, repeats = row["figures"], row["repeats"]
+            self.assert_spread(figures["trace"], [r["seconds"]["trace"] for r in repeats])
+            self.assert_spread(figures["total"], [total_seconds(r) for r in repeats])
+            rate = repeats[0]["rays"]["total"] / figures["trace"]["median"]
+            self.assert_close(figures["rays_per_second"] / rate, 1)
+
+    def test_speed_up_and_amdahl(self):
+        for row in self.result["rows"]:
+            base, figures = self.base_of(row), row["figures"]
+            base_total = statistics.median(total_seconds(r) for r in base["repeats"])
+            speed_up = base_total / statistics.median(total_seconds(r) for r in row["repeats"])
+            self.assert_close(figures["speed_up"], speed_up)
+            if row["device_name"] != "threads":
+                self.assertIsNone(figures["amdahl"])
+                continue
+            trace = statistics.median(r["seconds"]["trace"] for r in base["repeats"])
+            fraction = trace / base_total
+            amdahl = 1 / ((1 - fraction) + fraction / row["threads"])
+            self.assert_close(figures["parallel_fraction"], fraction)
+            self.assert_close(figures["amdahl"], amdahl)
+            self.assert_close(figures["over_amdahl"], speed_up - amdahl)
+
+    def test_table_shows_the_medians(self):
+        self.assertLessEqual(max(map(len, self.table.splitlines())), 100)
+        for row in self.result["rows"]:
+            self.assertIn(f"{row['figures']['trace']['median']:9.5f}", self.table)
+            self.assertIn(row["repeats"][0]["image"]["hash"], self.table)
+
+    def test_csv_has_a_line_per_run(self):
+        text = pathlib.Path(self.csv).read_text(encoding="utf-8")
+        lines = list(csv.DictReader(io.StringIO(text)))
+        self.assertEqual(len(lines), 6 * len(self.result["rows"]))
+        traces = sorted(float(line["trace"]) for line in lines)
+        self.assertEqual(traces, sorted(r["seconds"]["trace"] for row in self.result["rows"]
+                                        for r in row["warm_up"] + row["repeats"]))
+
+    def bench_against(self, seconds, code):
+        """A bench against this one with so many seconds more: beyond any noise, without its own."""
+        old = json.loads(json.dumps(self.result))
+        for row in old["rows"]:
+            for name in ["trace", "total"]:
+                row["figures"][name]["median"] += seconds
+                row["figures"][name]["mad"] = 0
+        path = pathlib.Path(CACHE.name) / "old.json"
+        path.write_text(json.dumps(old), encoding="utf-8")
+        return run("bench", SCENE, "--sizes", "16", "--repeats", "5", "--devices", "threads:1",
+                   "--baseline", str(path), "--max-regress", "5%", "-q", code=code)
+
+    def test_baseline(self):
+        self.assertIn("slower: ", self.bench_against(-1e6, 1).stderr)
+        self.assertEqual(self.bench_against(1e6, 0).stderr, "")
+
+    def test_a_scene_is_never_replaced_by_results(self):
+        before = pathlib.Path(SCENE).read_bytes()
+        self.assertIn("name another file", run("bench", "--json", SCENE, code=2).stderr)
+        self.assertEqual(pathlib.Path(SCENE).read_bytes(), before)
+
+    def test_wrong_usage(self):
+        for options in [["--aa", "none,mush"], ["--sizes", "0"], ["--devices", "threads:0"],
+                        ["--max-regress", "fast"], ["--json", "--csv"], ["--schedules", "x"]]:
+            run("bench", SCENE, *options, code=2)
+
+
+class Converge(FiguresTest):
+    @classmethod
+    def setUpClass(cls):
+        command = ["converge", SCENE, "--size", "16x12", "--reference-samples", "256", "-q"]
+        cls.table = run(*command, "--aa", "none,sobol:4", "--devices", "threads").stdout
+        cls.result = json.loads(run(*command, "--aa", "none,grid:4,sobol:16,adaptive:0.1",
+                                    "--max-bounces", "8,1", "--json").stdout)
+        cls.points = cls.result["points"]
+
+    def costs(self):
+        return [(statistics.median(picture_seconds(r) for r in p["repeats"]),
+                 statistics.median(r["error"]["rmse"] for r in p["repeats"])) for p in self.points]
+
+    def test_schema(self):
+        validator("converge").validate(self.result)
+        self.assertLessEqual(max(map(len, self.table.splitlines())), 100)
+
+    def test_reference_is_kept(self):
+        self.assertTrue(self.result["reference"]["from_cache"])
+        self.assertTrue(pathlib.Path(self.result["reference"]["cache_path"]).exists())
+        self.assertNotEqual(*self.result["reference"]["hashes"])
+        self.assertEqual(self.result["reference"]["floor"],
+                         self.result["reference"]["halves_rmse"] / 2)
+
+    def test_points(self):
+        for point, (_, rmse) in zip(self.points, self.costs()):
+            self.assertEqual(point["verdict"], "right", point["why"])
+            self.assertEqual(len(point["repeats"]), 5)
+            figures = point["figures"]
+            self.assert_spread(figures["seconds"], [picture_seconds(r) for r in point["repeats"]])
+            self.assert_close(figures["rmse"], rmse)
+            self.assertEqual(figures["below_floor"], rmse < self.result["reference"]["floor"])
+
+    def test_pareto_front(self):
+        costs = self.costs()
+        front = {i for i, (s, e) in enumerate(costs)
+                 if not any(t <= s and f <= e and (t, f) != (s, e) for t, f in costs)}
+        found = self.result["pareto_front"]
+        self.assertEqual({costs[i] for i in found}, {costs[i] for i in front})
+        self.assertEqual(found, sorted(found, key=lambda i: costs[i][0]))
+
+    def test_seconds_to_rmse(self):
+        costs = self.costs()
+        devices = list(dict.fromkeys(p["device"] for p in self.points))
+        self.assertEqual([(t["device"], t["rmse"]) for t in self.result["seconds_to_rmse"]],
+                         [(d, t) for d in devices for t in TARGETS])
+        for entry in self.result["seconds_to_rmse"]:
+            reached = [s for p, (s, e) in zip(self.points, costs)
+                       if p["device"] == entry["device"] and e <= entry["rmse"]]
+            self.assertEqual(entry["seconds"] is None, not reached)
+            self.assertEqual(entry["below_floor"],
+                             entry["rmse"] < self.result["reference"]["floor"])
+            if reached:
+                self.assert_close(entry["seconds"], min(reached))
+                self.assert_close(costs[entry["point"]][0], min(reached))
+
+    def test_curves_hold_every_point_once(self):
+        held = [i for curve in self.result["curves"] for i in curve["points"]]
+        self.assertEqual(sorted(held), list(range(len(self.points))))
+
+    def test_builds(self):
+        for build in self.result["builds"]:
+            same = [p for p in self.points
+                    if all(p[k] == build[k] for k in ["device", "precision", "math"])]
+            self.assert_spread(build["warm_build"],
+                               [r["seconds"]["build"] for p in same for r in p["repeats"]])
+            first = same[0]["warm_up"][0]["seconds"]
+            self.assertEqual((build["first_build"], build["first_cache"]),
+                             (first["build"], first["build_cache"]))
+
+    def test_too_few_repeats_are_refused(self):
+        run("converge", SCENE, "--repeats", "4", code=2)
+
+
+if __name__ == "__main__":
+    unittest.main()

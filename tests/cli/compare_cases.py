@@ -1,0 +1,302 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`compare`: what it measures, what it catches, what it refuses."""
+import json
+import math
+import os
+import struct
+import subprocess
+
+import jsonschema
+
+from harness import SETTINGS, TIME_LIMIT, CliTest
+from pictures import png_texts, read_pfm, read_png
+
+CYAN = (0, 255, 255)
+
+
+class CompareTest(CliTest):
+    def write_pfm(self, name, width, height, values, channels=3):
+        """values: rows from the top."""
+        row = width * channels
+        rows = [struct.pack(f"<{row}f", *values[y * row:(y + 1) * row]) for y in range(height)]
+        head = f"{'PF' if channels == 3 else 'Pf'}\n{width} {height}\n-1.0\n".encode()
+        (self.folder / name).write_bytes(head + b"".join(reversed(rows)))
+
+    def compare(self, *arguments, code=0, **more):
+        result = self.run_cli("compare", *arguments, **more)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        self.assertEqual(len(result.stderr.splitlines()), 1 if code else 0, result.stderr)
+        return result
+
+    def figures(self, *arguments, **more):
+        return json.loads(self.compare(*arguments, "--json", **more).stdout)
+
+    def cornell(self):
+        """The paper's picture, 40x30, as (values, name)."""
+        self.render("cornell-box", "--size", "40x30", "--device", "threads", "-o", "box.pfm")
+        return read_pfm(self.folder / "box.pfm")[2]
+
+
+class Figures(CompareTest):
+    def test_identical(self):
+        self.cornell()
+        text = self.compare("box.pfm", "box.pfm", "--max-rmse", "0", "--max-abs", "0",
+                            "--max-pixels", "0").stdout
+        self.assertRegex(text, r"(?m)^  identical$")
+        answer = self.figures("box.pfm", "box.pfm")
+        self.assertTrue(answer["identical"])
+        self.assertEqual((answer["error"]["rmse"], answer["error"]["psnr_db"]), (0, None))
+
+    def test_numbers(self):
+        """One channel of one of four pixels off by half."""
+        self.write_pfm("a.pfm", 2, 2, [0.5] * 7 + [1.0] + [0.5] * 4)
+        self.write_pfm("b.pfm", 2, 2, [0.5] * 12)
+        answer = self.figures("a.pfm", "b.pfm")
+        error = answer["error"]
+        self.assertAlmostEqual(error["rmse"], 0.5 / math.sqrt(12))
+        self.assertAlmostEqual(error["mean"], 0.5 / 12)
+        self.assertAlmostEqual(error["psnr_db"], 10 * math.log10(12 / 0.25))
+        self.assertAlmostEqual(error["rel_mse"], (0.5 / 0.51) ** 2 / 12)
+        self.assertEqual((error["max"], error["max_at"]), (0.5, [0, 1]))
+        self.assertEqual([error[f"pixels_over_{n}_255"] for n in (1, 2, 8)], [1, 1, 1])
+        self.assertEqual((answer["identical"], answer["passed"]), (False, True))
+
+    def test_text_has_them_all(self):
+        self.write_pfm("a.pfm", 1, 1, [0.5] * 3)
+        self.write_pfm("b.pfm", 1, 1, [0.25] * 3)
+        text = self.compare("a.pfm", "b.pfm").stdout
+        for line in ["not finite  0 pixels", "RMSE        2.5000e-01", "mean        2.5000e-01",
+                     "maximum     2.5000e-01 at 0,0", "PSNR        12.04 dB",
+                     "over 1/255  1 pixel (100.00 %)", "over 2/255", "over 8/255",
+                     "relMSE      9.2456e-01"]:
+            self.assertIn("  " + line, text)
+        self.assertNotIn("identical", text)
+
+    def test_eight_bits_against_the_film(self):
+        """Rounding to 8 bits costs half a level at most, once clamped."""
+        scene = self.write_scene(background=[3, 0.4, 0.123])
+        for name in ["film.pfm", "out.png"]:
+            self.render(scene, "--size", "8", "--device", "threads", "-o", name)
+        self.assertEqual(self.figures("out.png", "film.pfm")["error"]["max"], 2)
+        answer = self.figures("out.png", "film.pfm", "--clamp", "--max-abs", "0.5001/255")
+        self.assertTrue(answer["clamped"])
+
+    def test_formats_mix(self):
+        for name in ["a.pfm", "a.exr"]:
+            self.render("single-sphere", "--size", "16", "--device", "threads", "-o", name)
+        self.assertTrue(self.figures("a.pfm", "a.exr")["identical"])
+
+
+class Catches(CompareTest):
+    def test_one_nan(self):
+        values = self.cornell()
+        values[3 * (40 * 7 + 5) + 1] = math.nan
+        self.write_pfm("nan.pfm", 40, 30, values)
+        for pair, name in [(("nan.pfm", "box.pfm"), "A"), (("box.pfm", "nan.pfm"), "B")]:
+            result = self.compare(*pair, code=1)
+            self.assertIn(f"1 pixel of {name} not finite, the first at 5,7", result.stderr)
+            self.assertIn("not finite  1 pixel ", result.stdout)
+
+    def test_infinity_that_is_in_both(self):
+        self.write_pfm("a.pfm", 1, 1, [0, -math.inf, 0])
+        answer = self.figures("a.pfm", "a.pfm", "--clamp", code=1)
+        self.assertEqual(len(answer["breaches"]), 2)
+        self.assertFalse(answer["identical"])
+
+    def test_all_nan(self):
+        self.write_pfm("a.pfm", 2, 2, [math.nan] * 12)
+        result = self.compare("a.pfm", "a.pfm", "--max-rmse", "1", code=1)
+        self.assertIn("no pixel is finite", result.stdout)
+        self.assertIsNone(self.figures("a.pfm", "a.pfm", code=1)["error"])
+
+    def test_all_black(self):
+        values = self.cornell()
+        self.write_pfm("black.pfm", 40, 30, [0.0] * len(values))
+        result = self.compare("black.pfm", "box.pfm", "--max-rmse", "0.05", code=1)
+        self.assertIn("--max-rmse", result.stderr)
+
+    def test_shifted_by_one_pixel(self):
+        values = self.cornell()
+        rows = [values[120 * y:120 * (y + 1)] for y in range(30)]
+        right = [value for row in rows for value in row[:3] + row[:-3]]
+        down = [value for row in rows[:1] + rows[:-1] for value in row]
+        for name, shifted in [("right.pfm", right), ("down.pfm", down)]:
+            self.write_pfm(name, 40, 30, shifted)
+            for limit in [("--max-rmse", "0.01"), ("--max-abs", "0.1"), ("--max-pixels", "100")]:
+                with self.subTest(name=name, limit=limit):
+                    self.assertIn(limit[0], self.compare(name, "box.pfm", *limit, code=1).stderr)
+
+
+class Thresholds(CompareTest):
+    def setUp(self):
+        super().setUp()
+        self.write_pfm("a.pfm", 2, 1, [0.5, 0, 0, 0, 0, 0])
+        self.write_pfm("b.pfm", 2, 1, [0.0] * 6)
+
+    def test_at_the_limit_passes(self):
+        self.compare("a.pfm", "b.pfm", "--max-abs", "0.5", "--max-pixels", "1",
+                     "--max-rmse", "0.21")
+
+    def test_all_breaches_in_one_line(self):
+        result = self.compare("a.pfm", "b.pfm", "--max-abs", "0.4", "--max-pixels", "0",
+                              "--max-rmse", "2/255", code=1)
+        for name in ["RMSE 0.2041 is above --max-rmse 0.007843",
+                     "maximum 0.5 is above --max-abs 0.4",
+                     "1 pixel over 1/255, above --max-pixels 0"]:
+            self.assertIn(name, result.stderr)
+
+    def test_none_given_means_zero(self):
+        self.compare("a.pfm", "b.pfm")
+
+    def test_garbage(self):
+        for option, value in [("--max-rmse", "-1"), ("--max-rmse", "nan"), ("--max-abs", "1x"),
+                              ("--max-abs", ""), ("--max-flip", "inf"), ("--max-pixels", "-1"),
+                              ("--max-pixels", "1.5"), ("--heatmap-scale", "0"),
+                              ("--heatmap", "map.exr"), ("--heatmap", "map")]:
+            with self.subTest(option=option, value=value):
+                result = self.run_cli("compare", "a.pfm", "b.pfm", f"{option}={value}")
+                self.assert_refused(result, 2, "map" if value.startswith("map") else option)
+        self.assertEqual(self.files(), ["a.pfm", "b.pfm"])
+
+
+class Refuses(CompareTest):
+    def test_other_size(self):
+        self.write_pfm("a.pfm", 2, 1, [0.0] * 6)
+        self.write_pfm("b.pfm", 1, 2, [0.0] * 6)
+        self.assert_refused(self.run_cli("compare", "a.pfm", "b.pfm", "--heatmap", "h.png"), 3,
+                            "a.pfm is 2x1", "b.pfm is 1x2")
+        self.assertEqual(self.files(), ["a.pfm", "b.pfm"])
+
+    def test_other_channels(self):
+        self.write_pfm("a.pfm", 2, 1, [0.0] * 6)
+        self.write_pfm("b.pfm", 2, 1, [0.0] * 2, channels=1)
+        self.assert_refused(self.run_cli("compare", "a.pfm", "b.pfm"), 3, "3 channels", "of 1")
+
+    def test_what_is_no_picture(self):
+        self.write_pfm("a.pfm", 2, 1, [0.0] * 6)
+        self.write_text("b.png", "no picture")
+        for pair in [("a.pfm", "b.png"), ("b.png", "a.pfm")]:
+            self.assert_refused(self.run_cli("compare", *pair), 3, "b.png")
+        self.assert_refused(self.run_cli("compare", "a.pfm", "nowhere.png"), 3, "nowhere.png")
+        self.assert_refused(self.run_cli("compare", "a.pfm"), 2, "B")
+
+
+class Json(CompareTest):
+    def setUp(self):
+        super().setUp()
+        self.write_pfm("a.pfm", 1, 1, [0.5] * 3)
+
+    def test_to_a_file_leaves_the_text(self):
+        text = self.compare("a.pfm", "a.pfm", "--json", "out.json").stdout
+        self.assertIn("identical", text)
+        answer = json.loads((self.folder / "out.json").read_text())
+        self.assertEqual((answer["format"], answer["version"]), ("mirrorball-compare", 1))
+        self.assertEqual((answer["picture"], answer["width"], answer["channels"]), ("a.pfm", 1, 3))
+
+    def test_is_what_the_schema_says(self):
+        schema = SETTINGS["scenes"].parent / "docs" / "compare.schema.json"
+        validator = jsonschema.Draft202012Validator(json.loads(schema.read_text()))
+        self.write_pfm("b.pfm", 1, 1, [0.25] * 3)
+        self.write_pfm("nan.pfm", 1, 1, [math.nan] * 3)
+        for other, code in [("a.pfm", 0), ("b.pfm", 0), ("nan.pfm", 1)]:
+            validator.validate(self.figures("a.pfm", other, "--flip", "--heatmap", "h.png",
+                                            code=code))
+
+    def test_dash_is_stdout(self):
+        for arguments in [["--json", "-"], ["--json=-"], ["--json"]]:
+            json.loads(self.compare("a.pfm", "a.pfm", *arguments).stdout)
+
+    def test_file_that_cannot_be_written(self):
+        self.assert_refused(self.run_cli("compare", "a.pfm", "a.pfm", "--json", "no/out.json"), 4,
+                            "no/out.json")
+
+
+class HeatMap(CompareTest):
+    def setUp(self):
+        super().setUp()
+        self.write_pfm("a.pfm", 3, 2, [0.0] * 3 + [0.5, 0, 0] + [0.0] * 9 + [0, 0, math.nan])
+        self.write_pfm("b.pfm", 3, 2, [0.0] * 18)
+
+    def pixels(self, *arguments):
+        self.text = self.compare("a.pfm", "b.pfm", "--heatmap", "h.png", *arguments, code=1).stdout
+        width, height, data = read_png(self.folder / "h.png")
+        self.assertEqual((width, height), (3, 2))
+        return [tuple(data[3 * i:3 * i + 3]) for i in range(6)]
+
+    def test_black_to_yellow_and_cyan(self):
+        pixels = self.pixels()
+        self.assertEqual(pixels, [(0, 0, 4), (252, 253, 191)] + [(0, 0, 4)] * 3 + [CYAN])
+        self.assertIn("h.png: black 0, yellow 5.0000e-01, cyan not finite", self.text)
+        self.assertEqual(png_texts((self.folder / "h.png").read_bytes())["mirrorball:HeatmapScale"],
+                         "0.5")
+
+    def test_fixed_scale(self):
+        self.assertEqual(self.pixels("--heatmap-scale", "0.9")[1], (205, 64, 113))
+        self.assertEqual(self.pixels("--heatmap-scale", "0.1")[1], (252, 253, 191))
+
+    def test_of_identical_pictures(self):
+        self.compare("b.pfm", "b.pfm", "--heatmap", "h.png")
+        self.assertEqual(set(read_png(self.folder / "h.png")[2]), {0, 4})
+
+    def test_that_cannot_be_written(self):
+        result = self.run_cli("compare", "a.pfm", "b.pfm", "--heatmap", "no/h.png")
+        self.assert_refused(result, 4, "no/h.png")
+
+
+def has_flip():
+    probe = subprocess.run(["python3", "-c", "import numpy, flip_evaluator"], capture_output=True,
+                           timeout=TIME_LIMIT, check=False)
+    return probe.returncode == 0
+
+
+class Flip(CompareTest):
+    """A python3 that has not got it, one that pretends, and where it is installed, the real one."""
+
+    def setUp(self):
+        super().setUp()
+        values = self.cornell()
+        self.write_pfm("a.pfm", 40, 30, values[3:] + values[:3])
+
+    def python(self, script):
+        os.makedirs(self.folder / "bin", exist_ok=True)
+        path = self.folder / "bin" / "python3"
+        path.write_text("#!/bin/sh\n" + script)
+        path.chmod(0o755)
+        return {"PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}"}
+
+    def test_not_asked_for_starts_nothing(self):
+        env = self.python("touch started\n")
+        self.assertNotIn("FLIP", self.compare("a.pfm", "box.pfm", env=env).stdout)
+        self.assertNotIn("started", self.files())
+
+    def test_is_printed_and_checked(self):
+        env = self.python("echo flip 0.25 1.7\n")
+        text = self.compare("a.pfm", "box.pfm", "--flip", env=env).stdout
+        self.assertIn("FLIP        2.5000e-01 (flip-evaluator 1.7, 67 pixels per degree)", text)
+        self.compare("a.pfm", "box.pfm", "--max-flip", "0.25", env=env)
+        result = self.compare("a.pfm", "box.pfm", "--max-flip", "0.2", env=env, code=1)
+        self.assertIn("FLIP 0.25 is above --max-flip 0.2", result.stderr)
+
+    def test_says_so_where_it_is_missing(self):
+        env = self.python("echo missing flip_evaluator\n")
+        text = self.compare("a.pfm", "box.pfm", "--flip", env=env).stdout
+        self.assertRegex(text, "FLIP        not measured: .*no module flip_evaluator.*pip install")
+        self.assertIsNone(self.figures("a.pfm", "box.pfm", "--flip", env=env)["flip"]["mean"])
+
+    def test_threshold_is_not_passed_unmeasured(self):
+        env = self.python("echo missing numpy\n")
+        result = self.run_cli("compare", "a.pfm", "box.pfm", "--max-flip", "1", env=env)
+        self.assert_refused(result, 2, "--max-flip", "numpy")
+
+    def test_modules_in_the_current_folder_are_not_run(self):
+        self.write_text("flip_evaluator.py", "open('started', 'w')\n")
+        self.write_text("numpy.py", "open('started', 'w')\n")
+        self.compare("a.pfm", "box.pfm", "--flip")
+        self.assertNotIn("started", self.files())
+
+    def test_the_real_one(self):
+        if not has_flip():
+            self.skipTest("no flip-evaluator in the python3 of PATH")
+        self.assertLess(self.figures("box.pfm", "box.pfm", "--flip")["flip"]["mean"], 1e-6)
+        mean = self.figures("a.pfm", "box.pfm", "--flip")["flip"]["mean"]
+        self.assertTrue(0.01 < mean < 1, mean)

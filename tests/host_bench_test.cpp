@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "host/report/amdahl.h"
+#include "host/report/baseline.h"
+#include "host/report/bench.h"
+#include "host/report/converge.h"
+#include "host/report/pareto.h"
+#include "host/report/picture_judge.h"
+#include "host/report/statistics.h"
+
+namespace rt {
+namespace {
+
+TEST(Statistics, MedianIsTheMiddleOrTheMeanOfTheTwo) {
+    EXPECT_EQ(median({}), 0);
+    EXPECT_EQ(median({3}), 3);
+    EXPECT_EQ(median({9, 1, 5}), 5);
+    EXPECT_EQ(median({4, 1, 9, 2}), 3);
+}
+
+TEST(Statistics, OneOutlierMovesTheMadLittle) {
+    EXPECT_EQ(median_absolute_deviation({1, 1, 2, 2, 4, 6, 9}), 1);
+    EXPECT_EQ(median_absolute_deviation({1, 1, 2, 2, 4, 6, 900}), 1);
+    const Spread spread = spread_of({2, 1, 4});
+    EXPECT_EQ(spread.median, 2);
+    EXPECT_EQ(spread.min, 1);
+    EXPECT_EQ(spread.max, 4);
+    EXPECT_EQ(spread.noise_percent(), 50);
+}
+
+TEST(Amdahl, PredictsThePapersFigures) {
+    EXPECT_DOUBLE_EQ(parallel_fraction(9, 10), 0.9);
+    EXPECT_EQ(parallel_fraction(1, 0), 0);
+    EXPECT_DOUBLE_EQ(amdahl_speed_up(0.9, 1), 1);
+    EXPECT_DOUBLE_EQ(amdahl_speed_up(0.9, 2), 1 / 0.55);
+    EXPECT_DOUBLE_EQ(amdahl_speed_up(1, 8), 8);
+    EXPECT_DOUBLE_EQ(amdahl_speed_up(0, 8), 1);
+}
+
+TEST(Pareto, KeepsWhatNothingBeats) {
+    const std::vector<Cost> costs{{3, 0.1}, {1, 0.5}, {2, 0.6}, {4, 0.1}, {3, 0.1}, {5, 0.01}};
+    EXPECT_EQ(pareto_front(costs), (std::vector<std::size_t>{1, 0, 5}));
+    EXPECT_TRUE(pareto_front({}).empty());
+}
+
+TEST(Pareto, NaNIsOnNoFront) {
+    const std::vector<Cost> costs{{1, std::nan("")}, {2, 0.5}};
+    EXPECT_EQ(pareto_front(costs), (std::vector<std::size_t>{1}));
+}
+
+TEST(Pareto, SlopeOfRandomSamplingIsMinusAHalf) {
+    const std::vector<Cost> costs{{1, 1}, {4, 0.5}, {16, 0.25}, {0, 1}, {5, 0}};
+    EXPECT_NEAR(log_log_slope(costs), -0.5, 1e-12);
+    EXPECT_EQ(log_log_slope({}), 0);
+}
+
+/// Smooth, with an edge: a bright disc on a gradient.
+Picture test_picture(int width = 40, int height = 30) {
+    Picture picture{width, height, 3, {}};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const bool inside = (x - 20) * (x - 20) + (y - 14) * (y - 14) < 60;
+            for (int c = 0; c < 3; ++c) {
+                const float ramp = 0.2F + 0.001F * static_cast<float>(x + 2 * y + c);
+                picture.pixels.push_back(inside ? 0.9F : ramp);
+            }
+        }
+    }
+    return picture;
+}
+
+TEST(JudgePicture, RoundingsAreRight) {
+    Picture picture = test_picture();
+    for (float& value : picture.pixels) value *= 1 + 2e-7F;
+    const Judgement judgement = judge_picture(picture, test_picture());
+    EXPECT_EQ(judgement.why_wrong, "");
+    EXPECT_GT(judgement.error.rmse, 0);
+    EXPECT_LT(judgement.error.rmse, 1e-6);
+}
+
+TEST(JudgePicture, OnePixelThatARoundingDecidedIsRight) {
+    Picture picture = test_picture();
+    picture.pixels[300] = 0.7F;
+    EXPECT_EQ(judge_picture(picture, test_picture()).why_wrong, "");
+}
+
+TEST(JudgePicture, NaNPixelIsWrong) {
+    Picture picture = test_picture();
+    picture.pixels[100] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(judge_picture(picture, test_picture()).why_wrong, "1 pixels are not finite");
+    EXPECT_NE(judge_estimate(picture, test_picture()).why_wrong, "");
+}
+
+TEST(JudgePicture, InfinityIsWrongThoughItWouldClampToOne) {
+    Picture picture = test_picture(), reference = test_picture();
+    reference.pixels[100] = 1;
+    picture.pixels[100] = std::numeric_limits<float>::infinity();
+    EXPECT_NE(judge_picture(picture, reference).why_wrong, "");
+}
+
+TEST(JudgePicture, AllBlackIsWrongUnlessItShouldBe) {
+    Picture black = test_picture();
+    for (float& value : black.pixels) value = 0;
+    EXPECT_EQ(judge_picture(black, test_picture()).why_wrong, "the picture is all black");
+    EXPECT_EQ(judge_picture(black, black).why_wrong, "");
+}
+
+TEST(JudgePicture, ShiftByOnePixelIsWrong) {
+    const Picture reference = test_picture();
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}}) {
+        Picture shifted = reference;
+        for (int y = 1; y < 29; ++y) {
+            for (int x = 1; x < 39; ++x) {
+                for (int c = 0; c < 3; ++c) {
+                    shifted.pixels[static_cast<std::size_t>((y * 40 + x) * 3 + c)] =
+                        reference
+                            .pixels[static_cast<std::size_t>(((y - dy) * 40 + x - dx) * 3 + c)];
+                }
+            }
+        }
+        EXPECT_NE(judge_picture(shifted, reference).why_wrong.find("shifted"), std::string::npos)
+            << dx << "," << dy;
+    }
+}
+
+TEST(JudgePicture, SmoothPictureShiftedByOneIsWrongToo) {
+    Picture reference{64, 8, 3, {}}, shifted{64, 8, 3, {}};
+    for (int i = 0; i < 64 * 8; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            reference.pixels.push_back(0.0005F * static_cast<float>(i % 64));
+            shifted.pixels.push_back(0.0005F * static_cast<float>(i % 64 + 1));
+        }
+    }
+    EXPECT_NE(judge_picture(shifted, reference).why_wrong.find("shifted"), std::string::npos);
+}
+
+TEST(JudgePicture, OtherSizeAndAGeneralDarkeningAreWrong) {
+    EXPECT_NE(judge_picture(test_picture(40, 29), test_picture()).why_wrong, "");
+    Picture darker = test_picture();
+    for (float& value : darker.pixels) value -= 0.001F;
+    EXPECT_NE(judge_picture(darker, test_picture()).why_wrong, "");
+}
+
+TEST(Baseline, SlowerMeansBeyondTheShareAndBeyondTheNoise) {
+    const Spread before{1.0, 0.01, 0.9, 1.1};
+    EXPECT_FALSE(is_slower(before, {1.04, 0.0, 1, 1}, 0.05));
+    EXPECT_TRUE(is_slower(before, {1.10, 0.01, 1, 1}, 0.05));
+    EXPECT_FALSE(is_slower(before, {1.10, 0.03, 1, 1}, 0.05));
+    EXPECT_FALSE(is_slower(before, {0.50, 0.0, 1, 1}, 0.05));
+}
+
+RenderStats run_of(double trace, double build, int threads) {
+    RenderStats run;
+    run.phases.renderer.trace = trace;
+    run.phases.renderer.build = build;
+    run.device.threads = threads;
+    return run;
+}
+
+BenchRow threads_row(int threads, const std::vector<double>& traces) {
+    BenchRow row;
+    row.asked.uses_threads = true;
+    row.asked.threads = threads;
+    row.asked.device = "threads:" + std::to_string(threads);
+    row.asked.schedule = "tiles";
+    row.verdict = Verdict::right;
+    row.warm_up.push_back(run_of(100, 1, threads));
+    for (const double trace : traces) row.repeats.push_back(run_of(trace, 1, threads));
+    return row;
+}
+
+TEST(Bench, SpeedUpAndAmdahlAreOfMediansWithoutTheWarmUp) {
+    BenchResult result;
+    result.rows = {threads_row(1, {9, 9, 20}), threads_row(2, {4.5, 4, 7})};
+    const auto figures = figures_of(result, result.rows[1]);
+    ASSERT_TRUE(figures && figures->speed_up && figures->amdahl);
+    EXPECT_DOUBLE_EQ(*figures->parallel_fraction, 0.9);
+    EXPECT_DOUBLE_EQ(*figures->speed_up, 10 / 5.5);
+    EXPECT_DOUBLE_EQ(*figures->amdahl, 1 / 0.55);
+    EXPECT_NEAR(*figures->over_amdahl, 0, 1e-12);
+}
+
+TEST(Bench, WrongRowHasNoTimingAndIsNoBase) {
+    BenchResult result;
+    result.rows = {threads_row(1, {9}), threads_row(2, {4})};
+    result.rows[0].verdict = Verdict::wrong;
+    EXPECT_FALSE(figures_of(result, result.rows[0]));
+    EXPECT_FALSE(figures_of(result, result.rows[1])->speed_up);
+}
+
+TEST(Bench, RegressionsAreFoundByKey) {
+    BenchResult result;
+    result.rows = {threads_row(1, {9, 9, 9}), threads_row(2, {4, 4, 4})};
+    Baseline baseline;
+    baseline[key_of(result.rows[0].asked)] = {{9, 0, 9, 9}, {10, 0, 10, 10}};
+    EXPECT_TRUE(regressions(result, baseline, 0.05).empty());
+    baseline[key_of(result.rows[1].asked)] = {{3, 0, 3, 3}, {4, 0, 4, 4}};
+    ASSERT_EQ(regressions(result, baseline, 0.05).size(), 1U);
+    EXPECT_EQ(regressions(result, baseline, 0.05)[0].key, key_of(result.rows[1].asked));
+    EXPECT_ANY_THROW(regressions(result, {}, 0.05));
+}
+
+TEST(Converge, TargetBelowTheFloorIsNotDecided) {
+    ConvergeResult result;
+    result.reference.halves_rmse = 4e-3;
+    ConvergePoint point;
+    point.asked.device = "threads";
+    point.verdict = Verdict::right;
+    for (int i = 0; i < 5; ++i) {
+        point.repeats.push_back(run_of(0.5, 0.25, 2));
+        point.repeats.back().error.emplace().rmse = 1e-3;
+    }
+    result.points = {point};
+    const auto times = target_times(result);
+    ASSERT_EQ(times.size(), 4U);
+    EXPECT_DOUBLE_EQ(times[0].seconds, 0.5);
+    EXPECT_FALSE(times[0].below_floor);
+    EXPECT_TRUE(times[2].below_floor);
+    EXPECT_TRUE(figures_of(result, point)->below_floor);
+}
+
+}  // namespace
+}  // namespace rt

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of `compare` against numbers worked by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "host/report/error_json.h"
+#include "host/report/error_text.h"
+#include "host/report/flip.h"
+#include "host/report/heatmap.h"
+#include "host/report/image_error.h"
+
+namespace {
+
+using namespace rt;
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// A row of pixels.
+Picture row(int channels, std::vector<float> values) {
+    const int width = static_cast<int>(values.size()) / channels;
+    return {width, 1, channels, std::move(values)};
+}
+
+TEST(ImageError, RelativeMseDividesByTheReference) {
+    // (0.5 / 0.51)^2 and (0.25 / 0.26)^2, over four values; turned round, (0.5 / 1.01)^2 and so on.
+    const Picture a = row(1, {1, 0.5f, 0.75f, 0}), b = row(1, {0.5f, 0.25f, 0.75f, 0});
+    EXPECT_NEAR(image_error(a, b).rel_mse, (0.961168781 + 0.924556213) / 4, 1e-9);
+    EXPECT_NEAR(image_error(b, a).rel_mse, (0.245074012 + 0.240292195) / 4, 1e-9);
+}
+
+TEST(ImageError, RelativeMseOfBlackIsKeptFinite) {
+    EXPECT_NEAR(image_error(row(1, {0.01f}), row(1, {0})).rel_mse, 1, 1e-6);
+}
+
+TEST(ImageError, CountsPixelsOverLevels) {
+    const auto level = [](double levels) { return static_cast<float>(levels / 255); };
+    const Picture a = row(3, {level(0.9), 0, 0, 0, level(1.1), 0, 0, 0, level(2.1),  //
+                              level(7.9), 0, 0, level(8.1), level(9), 0});
+    const ImageError error = image_error(a, row(3, std::vector<float>(15)));
+    EXPECT_EQ(error.over_1, 4u);
+    EXPECT_EQ(error.over_2, 3u);
+    EXPECT_EQ(error.over_8, 1u);
+}
+
+TEST(ImageError, NeighbouringLevelsOfAnEightBitPictureAreNotOverOne) {
+    for (int apart : {1, 2, 8}) {
+        for (int level = 0; level + apart < 256; ++level) {
+            const ImageError error =
+                image_error(row(1, {static_cast<float>(level) / 255.0f}),
+                            row(1, {static_cast<float>(level + apart) / 255.0f}));
+            EXPECT_EQ(error.over_1, apart > 1 ? 1u : 0u) << level;
+            EXPECT_EQ(error.over_2, apart > 2 ? 1u : 0u) << level;
+            EXPECT_EQ(error.over_8, 0u) << level;
+        }
+    }
+}
+
+TEST(ImageError, InfinitiesThatAgreeAreNotFiniteAllTheSame) {
+    const ImageError error = image_error(row(1, {infinity, 0.5f}), row(1, {infinity, 0.25f}));
+    EXPECT_EQ(error.non_finite, 1u);
+    EXPECT_EQ(error.rmse, 0.25);
+    EXPECT_EQ(error.max_x, 1);
+}
+
+TEST(ErrorTable, SaysThatNothingCouldBeCompared) {
+    const ImageError error = image_error(row(1, {nan}), row(1, {nan}));
+    EXPECT_EQ(error_table(error, 1),
+              "  not finite  1 pixel (100.00 %)\n  no pixel is finite in both pictures\n");
+}
+
+TEST(ErrorJson, HasEveryFigure) {
+    const auto json = error_json(image_error(row(1, {0.5f, 0}), row(1, {0, 0})));
+    EXPECT_EQ(json.at("max_at"), nlohmann::ordered_json({0, 0}));
+    EXPECT_EQ(json.at("rel_mse"), 1250);
+    EXPECT_EQ(json.at("pixels_over_2_255"), 1);
+}
+
+double lightness(const std::array<float, 3>& colour) {
+    return 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+}
+
+TEST(HeatColour, RisesInLightness) {
+    for (int i = 0; i < 255; ++i) {
+        EXPECT_LT(lightness(heat_colour(i / 255.0)), lightness(heat_colour((i + 1) / 255.0))) << i;
+    }
+}
+
+TEST(HeatColour, EndsWhereMagmaEnds) {
+    using Colour = std::array<float, 3>;
+    EXPECT_EQ(heat_colour(0), (Colour{0, 0, 4 / 255.0f}));
+    EXPECT_EQ(heat_colour(1), (Colour{252 / 255.0f, 253 / 255.0f, 191 / 255.0f}));
+    EXPECT_EQ(heat_colour(7), heat_colour(1));
+    EXPECT_EQ(heat_colour(-1), heat_colour(0));
+}
+
+Picture colours(const std::vector<std::array<float, 3>>& list) {
+    Picture picture{static_cast<int>(list.size()), 1, 3, {}};
+    for (const auto& colour : list) {
+        picture.pixels.insert(picture.pixels.end(), colour.begin(), colour.end());
+    }
+    return picture;
+}
+
+TEST(HeatMap, ShowsTheLargestChannelAndWhatIsNotFinite) {
+    const Picture a = row(3, {0, 0, 0, 0, 0.5f, 0.25f, 1, 0, 0, nan, 0, 0, 0, 0, -infinity});
+    const Picture map = heat_map(a, row(3, std::vector<float>(15)), 0.5);
+    EXPECT_EQ(map.width, 5);
+    EXPECT_EQ(map.pixels, colours({heat_colour(0), heat_colour(1), heat_colour(1),
+                                   non_finite_colour, non_finite_colour})
+                              .pixels);
+}
+
+TEST(HeatMap, OfEqualPicturesIsBlack) {
+    const Picture grey = row(1, {0.5f, 0.25f});
+    EXPECT_EQ(heat_map(grey, grey, 0).pixels, colours({heat_colour(0), heat_colour(0)}).pixels);
+}
+
+/// A folder with a python3 of ours, and PATH set to it.
+class Flip : public testing::Test {
+   protected:
+    Flip() : path_(std::getenv("PATH")) {
+        std::string name = (std::filesystem::temp_directory_path() / "mirrorball-XXXXXX").string();
+        folder_ = ::mkdtemp(name.data());
+        ::setenv("PATH", folder_.c_str(), 1);
+    }
+    ~Flip() override {
+        ::setenv("PATH", path_.c_str(), 1);
+        std::filesystem::remove_all(folder_);
+    }
+
+    FlipResult with_python(const std::string& script) const {
+        const auto file = folder_ / "python3";
+        std::ofstream(file) << "#!/bin/sh\n" << script;
+        std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+        return measure_flip(row(1, {0.25f, 2}), row(1, {-1, 0.5f}));
+    }
+
+    std::string path_;
+    std::filesystem::path folder_;
+};
+
+TEST_F(Flip, IsTheLastLine) {
+    const FlipResult result = with_python("echo noise; echo; echo flip 0.125 1.7\n");
+    EXPECT_EQ(result.mean, 0.125);
+    EXPECT_EQ(result.note, "flip-evaluator 1.7, 67 pixels per degree");
+}
+
+TEST_F(Flip, GetsTheReferenceFirstClampedInThreeChannels) {
+    // 0, 0.5 and 0.25, 1, each three times, as little-endian floats.
+    const std::string zero = "00000000", half = "0000003f", quarter = "0000803e", one = "0000803f";
+    std::string expected;
+    for (const auto& value : {zero, half, quarter, one}) expected += value + value + value;
+    const FlipResult result = with_python(
+        "bytes=$(/usr/bin/od -An -v -tx1 | /usr/bin/tr -d ' \\n')\n[ \"$bytes $3 $4\" = \"" +
+        expected + " 2 1\" ] && echo flip 0.5 1.7 || echo $bytes $3 $4\n");
+    EXPECT_EQ(result.mean, 0.5) << result.note;
+}
+
+TEST_F(Flip, SaysWhatIsMissing) {
+    const FlipResult result = with_python("echo missing numpy\n");
+    EXPECT_FALSE(result.mean);
+    EXPECT_NE(result.note.find("module numpy"), std::string::npos) << result.note;
+    EXPECT_NE(result.note.find("pip install flip-evaluator"), std::string::npos) << result.note;
+}
+
+TEST_F(Flip, SaysThatThereIsNoPython) {
+    const FlipResult result = measure_flip(row(1, {0}), row(1, {0}));
+    EXPECT_FALSE(result.mean);
+    EXPECT_NE(result.note.find("no python3 in PATH"), std::string::npos) << result.note;
+}
+
+TEST_F(Flip, TellsOfAFailure) {
+    for (const char* script : {"echo boom >&2; exit 1\n", "kill -9 $$\n", "echo flip x 1\n"}) {
+        const FlipResult result = with_python(script);
+        EXPECT_FALSE(result.mean);
+        EXPECT_NE(result.note.find("failed: "), std::string::npos) << result.note;
+    }
+}
+
+}  // namespace

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// kernels/sampling.cl: bits against the words of their definitions, Sobol's points by the property
+// that defines a (0, 2)-sequence, filters against their formulas in long double; and bit for bit
+// against host/trace.
+#include <bitset>
+#include <set>
+
+#include "host/trace/sampling.h"
+#include "tests/kernel_runner.h"
+#include "tests/test_random.h"
+
+namespace rt {
+
+namespace {
+
+using Word = std::uint32_t;
+
+std::vector<Word> random_words(std::size_t count) {
+    Random random(7);
+    std::vector<Word> words{0, 1, 0x80000000u, 0xffffffffu};
+    while (words.size() < count) words.push_back(static_cast<Word>(random.uniform(0, 0x1p32)));
+    return words;
+}
+
+/// Whether 2^bits points have one in each of the 2^bits boxes of every shape 2^-a by 2^-(bits-a).
+template <typename T>
+bool is_net(const std::vector<T>& x, const std::vector<T>& y, int bits) {
+    for (int a = 0; a <= bits; ++a) {
+        std::set<std::pair<int, int>> boxes;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            boxes.insert({static_cast<int>(std::ldexp(x[i], a)),
+                          static_cast<int>(std::ldexp(y[i], bits - a))});
+        }
+        if (boxes.size() != x.size()) return false;
+    }
+    return true;
+}
+
+/// Mitchell and Netravali's cubic as they write it, B = C = 1/3.
+long double cubic(long double d) {
+    const long double b = 1.0L / 3, c = 1.0L / 3;
+    if (d < 1) {
+        return ((12 - 9 * b - 6 * c) * d * d * d + (-18 + 12 * b + 6 * c) * d * d + 6 - 2 * b) / 6;
+    }
+    return ((-b - 6 * c) * d * d * d + (6 * b + 30 * c) * d * d + (-12 * b - 48 * c) * d + 8 * b +
+            24 * c) /
+           6;
+}
+
+template <typename T>
+typename Flat<T>::Frame frame_with(int grid, int samples, int filter) {
+    typename Flat<T>::Frame frame{};
+    frame.width = 640;
+    frame.height = 480;
+    frame.grid = grid;
+    frame.samples = samples;
+    frame.filter = filter;
+    frame.seed = 3;
+    return frame;
+}
+
+KERNEL_SUITE(ReverseBits);
+TYPED_TEST(ReverseBits, AreTheWordBackwards) {
+    const auto words = random_words(4000);
+    const auto device = run<TypeParam, Word>("reverse_bits", words.size(), words);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        std::string text = std::bitset<32>(words[i]).to_string();
+        std::reverse(text.begin(), text.end());
+        ASSERT_EQ(device[i], std::bitset<32>(text).to_ulong());
+        ASSERT_EQ(device[i], trace::reverse_bits(words[i]));
+    }
+}
+
+KERNEL_SUITE(HashBits);
+TYPED_TEST(HashBits, EveryInputBitMovesAboutHalfOfTheOutput) {
+    const auto words = random_words(2000);
+    const auto hashes = run<TypeParam, Word>("hash_bits", words.size(), words);
+    for (int bit = 0; bit < 32; ++bit) {
+        auto flipped = words;
+        for (Word& word : flipped) word ^= Word{1} << bit;
+        const auto others = run<TypeParam, Word>("hash_bits", words.size(), flipped);
+        double moved = 0;
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            ASSERT_EQ(hashes[i], trace::hash_bits(words[i]));
+            moved += static_cast<double>(std::bitset<32>(hashes[i] ^ others[i]).count());
+        }
+        EXPECT_NEAR(moved / static_cast<double>(words.size()), 16, 0.5) << "bit " << bit;
+    }
+}
+
+KERNEL_SUITE(OwenScramble);
+TYPED_TEST(OwenScramble, KeepsCommonPrefixesAndNothingMore) {
+    const auto words = random_words(4000);
+    const std::vector<Word> seeds(words.size(), 0x12345678u);
+    const auto device = run<TypeParam, Word>("owen_scramble", words.size(), words, seeds);
+    for (int bits = 1; bits < 32; ++bits) {
+        auto others = words;
+        for (Word& word : others) word ^= Word{1} << (31 - bits);
+        const auto scrambled = run<TypeParam, Word>("owen_scramble", words.size(), others, seeds);
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            const Word difference = device[i] ^ scrambled[i];
+            ASSERT_EQ(std::countl_zero(difference), bits);
+        }
+    }
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        ASSERT_EQ(device[i], trace::owen_scramble(words[i], seeds[i]));
+    }
+}
+
+KERNEL_SUITE(SobolPosition);
+TYPED_TEST(SobolPosition, AreANetInEveryElementaryInterval) {
+    for (const Word seed : {0u, 1u, 77u, 0xdeadbeefu}) {
+        for (const int bits : {2, 4, 6, 8}) {
+            std::vector<Word> k(std::size_t{1} << bits);
+            for (std::size_t i = 0; i < k.size(); ++i) k[i] = static_cast<Word>(i);
+            const std::vector<Word> seeds(k.size(), seed);
+            const auto [x, y] =
+                run<TypeParam, TypeParam, TypeParam>("sobol_position", k.size(), seeds, k);
+            EXPECT_TRUE(is_net(x, y, bits)) << "seed " << seed << ", 2^" << bits;
+            for (std::size_t i = 0; i < k.size(); ++i) {
+                const auto twin = trace::sobol_position<TypeParam>(seed, k[i]);
+                ASSERT_EQ(x[i], twin.x);
+                ASSERT_EQ(y[i], twin.y);
+            }
+        }
+    }
+}
+
+TYPED_TEST(SobolPosition, SecondDimensionIsPascalsTriangleModTwo) {
+    std::vector<Word> powers;
+    for (int i = 0; i < 32; ++i) powers.push_back(Word{1} << i);
+    const auto columns = run<TypeParam, Word>("sobol_second", powers.size(), powers);
+    for (unsigned column = 0; column < 32; ++column) {
+        for (unsigned row = 0; row < 32; ++row) {
+            // binomial(column, row) is odd when row's bits are among column's (Lucas 1878)
+            const bool odd = (row & ~column) == 0;
+            EXPECT_EQ((columns[column] >> (31 - row) & 1u) != 0, odd);
+        }
+    }
+}
+
+KERNEL_SUITE(UnitFromBits);
+TYPED_TEST(UnitFromBits, IsTheMiddleOfItsCell) {
+    const auto words = random_words(4000);
+    const auto device = run<TypeParam, TypeParam>("unit_from_bits", words.size(), words);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        ASSERT_EQ(double(device[i]), (std::floor(words[i] / 1048576.0) + 0.5) / 4096);
+    }
+}
+
+KERNEL_SUITE(FilterWeight);
+TYPED_TEST(FilterWeight, FollowsItsFormula) {
+    using T = TypeParam;
+    using Index = typename Flat<T>::Index;
+    const double u = double(Flat<T>::roundoff);
+    for (const Index filter : {1, 2, 3}) {
+        const double radius = double(trace::filter_radius<T>(filter));
+        std::vector<T> d;
+        for (int i = -1000; i <= 1000; ++i) d.push_back(static_cast<T>(radius * i / 1000));
+        const std::vector<Index> filters(d.size(), filter);
+        const auto device = run<T, T>("filter_weight", d.size(), filters, d);
+        EXPECT_EQ((run<T, T>("filter_radius", 1, std::vector<Index>{filter}))[0], T(radius));
+        for (std::size_t i = 0; i < d.size(); ++i) {
+            const long double x = std::fabs(static_cast<long double>(d[i]));
+            const long double exact = filter == 1   ? 1 - x
+                                      : filter == 2 ? std::exp(-2 * x * x) - std::exp(-4.5L)
+                                                    : 2 * cubic(x);
+            // The cubic's terms, up to 16, cancel at the rim.
+            ASSERT_NEAR(double(device[i]), double(exact), 32 * u) << filter << " at " << d[i];
+            ASSERT_EQ(device[i], trace::filter_weight<T>(filter, d[i]));
+        }
+    }
+}
+
+KERNEL_SUITE(SamplePosition);
+TYPED_TEST(SamplePosition, StaysInTheFootprintAndHasTheTwinsBits) {
+    using T = TypeParam;
+    using Index = typename Flat<T>::Index;
+    Random random(5);
+    for (const auto& [grid, samples] : {std::pair{3, 9}, std::pair{0, 16}}) {
+        for (const int filter : {0, 1, 2, 3}) {
+            const auto frame = frame_with<T>(grid, samples, filter);
+            std::vector<Index> x, y, k;
+            for (int i = 0; i < 5000; ++i) {
+                x.push_back(static_cast<Index>(random.uniform(0, 65536)));
+                y.push_back(static_cast<Index>(random.uniform(0, 65536)));
+                k.push_back(static_cast<Index>(random.uniform(0, samples)));
+            }
+            const auto [unit_x, unit_y, sample_x, sample_y, weight] =
+                run<T, T, T, T, T, T>("sample", x.size(), std::vector{frame}, x, y, k);
+            const T radius = trace::filter_radius<T>(filter);
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                ASSERT_TRUE(unit_x[i] > 0 && unit_x[i] < 1 && unit_y[i] > 0 && unit_y[i] < 1);
+                ASSERT_LE(std::fabs(sample_x[i] - T(0.5)), radius);
+                const auto twin = trace::sample_position<T>(frame, x[i], y[i], k[i]);
+                ASSERT_EQ(sample_x[i], twin.x);
+                ASSERT_EQ(sample_y[i], twin.y);
+                ASSERT_EQ(weight[i], trace::sample_weight<T>(frame, x[i], y[i], k[i]));
+                ASSERT_TRUE(filter != 0 || weight[i] == T(1));
+            }
+        }
+    }
+}
+
+KERNEL_SUITE(GridPosition);
+TYPED_TEST(GridPosition, IsExactForPowersOfTwo) {
+    using Index = typename Flat<TypeParam>::Index;
+    std::vector<Index> grid, k;
+    for (const Index n : {1, 2, 4, 64}) {
+        for (Index i = 0; i < n * n; ++i) {
+            grid.push_back(n);
+            k.push_back(i);
+        }
+    }
+    const auto [x, y] = run<TypeParam, TypeParam, TypeParam>("grid_position", grid.size(), grid, k);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        ASSERT_EQ(double(x[i]), (double(k[i] % grid[i]) + 0.5) / double(grid[i]));
+        ASSERT_EQ(double(y[i]), (double(k[i] / grid[i]) + 0.5) / double(grid[i]));
+    }
+}
+
+}  // namespace
+
+}  // namespace rt
