@@ -24,6 +24,8 @@ int run(int argc, char** argv, double seconds_before_main) {
             return rt::run_bench(options.bench);
         case rt::Verb::converge:
             return rt::run_converge(options.converge);
+        case rt::Verb::report:
+            return rt::run_report(options.report);
         case rt::Verb::devices:
             return rt::run_devices(options.devices);
         case rt::Verb::scene:

@@ -7,6 +7,7 @@
 #include "host/options/compare_options.h"
 #include "host/options/converge_options.h"
 #include "host/options/render_options.h"
+#include "host/options/report_options.h"
 
 namespace rt {
 
@@ -22,7 +23,7 @@ struct SceneOptions {
     bool json = false;
 };
 
-enum class Verb { none, render, bench, converge, devices, scene, compare };
+enum class Verb { none, render, bench, converge, devices, scene, compare, report };
 
 struct Options {
     Verb verb = Verb::none;
@@ -30,6 +31,7 @@ struct Options {
     BenchOptions bench;
     ConvergeOptions converge;
     CompareOptions compare;
+    ReportOptions report;
     DevicesOptions devices;
     SceneOptions scene;
     std::string text;  ///< help or version, to be printed instead of doing anything

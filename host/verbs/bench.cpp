@@ -22,6 +22,7 @@
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"
 #include "host/verbs/device_list.h"
+#include "host/verbs/measure.h"
 #include "host/verbs/picture_job.h"
 #include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"
@@ -178,25 +179,6 @@ class Plan {
     std::deque<Picture> references_;
 };
 
-BenchResult measure(const BenchOptions& options) {
-    const FreshKernelCache kernels;
-    BenchResult result;
-    result.repeats_asked = options.repeats;
-    result.load_before = load_average();
-    Plan plan(options, kernels.folder());
-    result.interrupted = !plan.make(result);
-    std::vector<TimedCase> cases;
-    for (const PlannedRow& row : plan.rows) cases.push_back(row.timed);
-    if (!result.interrupted) {
-        result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
-    }
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        result.rows.push_back({plan.rows[i].asked, std::move(cases[i].warm_up),
-                               std::move(cases[i].repeats), cases[i].verdict, cases[i].why});
-    }
-    return result;
-}
-
 void say_bad_rows(const BenchResult& result) {
     for (const BenchRow& row : result.rows) {
         if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
@@ -216,12 +198,31 @@ bool has_regressed(const BenchResult& result, const Baseline& baseline, double m
 
 }  // namespace
 
+BenchResult measure_bench(const BenchOptions& options, const std::string& pocl_cache) {
+    BenchResult result;
+    result.repeats_asked = options.repeats;
+    result.load_before = load_average();
+    Plan plan(options, pocl_cache);
+    result.interrupted = !plan.make(result);
+    std::vector<TimedCase> cases;
+    for (const PlannedRow& row : plan.rows) cases.push_back(row.timed);
+    if (!result.interrupted) {
+        result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
+    }
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        result.rows.push_back({plan.rows[i].asked, std::move(cases[i].warm_up),
+                               std::move(cases[i].repeats), cases[i].verdict, cases[i].why});
+    }
+    return result;
+}
+
 int run_bench(const BenchOptions& options) {
     check_result_path(options.results.json, json_start("mirrorball-bench"));
     check_result_path(options.results.csv, run_csv_header());
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
-    const BenchResult result = measure(options);
+    const FreshKernelCache kernels;
+    const BenchResult result = measure_bench(options, kernels.folder());
     if (!options.results.take_stdout()) print_result(bench_text(result));
     write_result(options.results.json, json_text(bench_json(result)));
     write_result(options.results.csv, bench_csv(result));

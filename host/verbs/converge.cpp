@@ -21,6 +21,7 @@
 #include "host/stop_signal.h"
 #include "host/verbs/converge_reference.h"
 #include "host/verbs/device_list.h"
+#include "host/verbs/measure.h"
 #include "host/verbs/picture_job.h"
 #include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"
@@ -103,8 +104,23 @@ void time_points(const Scene& scene, double load_seconds, const ConvergedPicture
     }
 }
 
-ConvergeResult measure(const ConvergeOptions& options) {
-    const FreshKernelCache kernels;
+/// Names the points that gave no figure; the exit status they mean.
+int verdict(const ConvergeResult& result) {
+    bool wrong = false, failed = false;
+    for (const ConvergePoint& point : result.points) {
+        if (point.verdict != Verdict::wrong && point.verdict != Verdict::failed) continue;
+        (point.verdict == Verdict::wrong ? wrong : failed) = true;
+        print_message(fmt::format("mirrorball: {} {}: {}: {}\n", point.asked.device_name,
+                                  to_string(point.asked.aa), to_string(point.verdict), point.why));
+    }
+    if (result.interrupted) return 128 + stop_flag();
+    if (wrong) return static_cast<int>(ExitCode::different);
+    return static_cast<int>(failed ? ExitCode::device : ExitCode::done);
+}
+
+}  // namespace
+
+ConvergeResult measure_converge(const ConvergeOptions& options, const std::string& pocl_cache) {
     ConvergeResult result;
     result.load_before = load_average();
     result.repeats_asked = options.repeats;
@@ -131,31 +147,16 @@ ConvergeResult measure(const ConvergeOptions& options) {
     result.reference = converged.about;
     result.interrupted = !converged.complete;
     if (converged.complete) {
-        time_points(scene, load_seconds, converged, options, kernels.folder(), result);
+        time_points(scene, load_seconds, converged, options, pocl_cache, result);
     }
     return result;
 }
 
-/// Names the points that gave no figure; the exit status they mean.
-int verdict(const ConvergeResult& result) {
-    bool wrong = false, failed = false;
-    for (const ConvergePoint& point : result.points) {
-        if (point.verdict != Verdict::wrong && point.verdict != Verdict::failed) continue;
-        (point.verdict == Verdict::wrong ? wrong : failed) = true;
-        print_message(fmt::format("mirrorball: {} {}: {}: {}\n", point.asked.device_name,
-                                  to_string(point.asked.aa), to_string(point.verdict), point.why));
-    }
-    if (result.interrupted) return 128 + stop_flag();
-    if (wrong) return static_cast<int>(ExitCode::different);
-    return static_cast<int>(failed ? ExitCode::device : ExitCode::done);
-}
-
-}  // namespace
-
 int run_converge(const ConvergeOptions& options) {
     check_result_path(options.results.json, json_start("mirrorball-converge"));
     check_result_path(options.results.csv, run_csv_header());
-    const ConvergeResult result = measure(options);
+    const FreshKernelCache kernels;
+    const ConvergeResult result = measure_converge(options, kernels.folder());
     if (!options.results.take_stdout()) print_result(converge_text(result));
     write_result(options.results.json, json_text(converge_json(result)));
     write_result(options.results.csv, converge_csv(result));

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/options/render_options.h"
+
+namespace rt {
+
+/// `mirrorball report`
+struct ReportOptions {
+    std::vector<std::string> scenes;
+    std::string output;               ///< the page
+    std::optional<PictureSize> size;  ///< default: the scene's
+    std::vector<std::string> devices{"all"};
+    int repeats = 5;     ///< without the warm-up
+    bool quick = false;  ///< fewer settings and a coarser reference: to see the page, not to quote
+    std::string cache_folder;  ///< of converged references; empty: none
+    bool quiet = false;
+};
+
+}  // namespace rt

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rt {
+
+/// Text as HTML shows it, in an element or in a quoted attribute: & < > " ' are escaped, control
+/// characters and bytes that are not UTF-8 become U+FFFD.
+std::string html_text(std::string_view text);
+
+/// "name="value"" with a space before it; the value is escaped.
+std::string html_attribute(const char* name, std::string_view value);
+
+/// A PNG file as the address of an image within the page.
+std::string png_data_uri(std::span<const std::byte> png);
+
+/// Data within the page: <script type="application/json" id="...">. Whatever the texts in it say,
+/// they cannot end the element.
+std::string json_block(const std::string& id, const nlohmann::ordered_json& json);
+
+/// One cell of a table. Texts are escaped.
+struct HtmlCell {
+    std::string text;
+    std::string source;  ///< where the number comes from: "bench#/runs/3"; empty: nowhere
+    bool strong = false;
+};
+
+/// A table with a caption and heads for columns and, in the first cell of each row, rows.
+struct HtmlTable {
+    std::string caption;
+    std::vector<std::string> heads;
+    std::vector<std::vector<HtmlCell>> rows;
+};
+
+std::string html_table(const HtmlTable& table);
+
+}  // namespace rt

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/image/picture.h"
+#include "host/report/bench_result.h"
+#include "host/report/converge_result.h"
+#include "host/report/render_stats.h"
+
+namespace rt {
+
+/// A picture in the page, with how it came to be; its stats hold the error against the reference,
+/// values clamped to [0,1].
+struct ReportPicture {
+    Picture picture;
+    RenderStats stats;
+};
+
+/// One scene rendered turn by turn with the kernels it needs and with everything compiled in.
+struct FeatureTrial {
+    std::vector<RenderStats> lean, full;
+    std::optional<RenderStats> lean_cold, full_cold;  ///< the first of each, kernels built anew
+};
+
+/// All that the page tells about one scene.
+struct ReportScene {
+    ReportPicture plain, smooth;  ///< one sample a pixel; anti-aliased
+    Picture reference;            ///< converged, in double, clamped to [0,1]
+    BenchResult bench;
+    ConvergeResult converge;
+    nlohmann::ordered_json bench_json, converge_json;
+    std::optional<FeatureTrial> trial;  ///< empty without an OpenCL device
+};
+
+/// All that the page tells.
+struct Report {
+    std::vector<ReportScene> scenes;
+    nlohmann::ordered_json environment;
+    std::vector<std::string> commands;  ///< that make this page, and its parts, again
+    std::string date;                   ///< of the machine's clock, for people
+};
+
+}  // namespace rt

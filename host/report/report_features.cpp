@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/flatten/features.h"
+#include "host/report/html.h"
+#include "host/report/plot_axis.h"
+#include "host/report/report_labels.h"
+#include "host/report/report_sections.h"
+#include "host/report/statistics.h"
+
+namespace rt {
+
+namespace {
+
+double build_seconds(const RenderStats& run) { return run.phases.renderer.build; }
+
+std::string names_text(const Features& features, bool used) {
+    std::string text;
+    for (const std::string& name : names_of(features, used)) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text.empty() ? "nothing" : text;
+}
+
+std::string build_text(const std::vector<RenderStats>& runs) {
+    return fmt::format("{} ({})", duration_text(spread_of(runs, build_seconds).median),
+                       to_string(runs.front().phases.renderer.build_cache));
+}
+
+std::string cold_text(const std::optional<RenderStats>& run) {
+    return run ? duration_text(build_seconds(*run)) : "not measured";
+}
+
+/// The ratio of two medians with its noise: relative deviations add in square.
+std::string ratio_text(const Spread& lean, const Spread& full) {
+    const double ratio = lean.median > 0 ? full.median / lean.median : 0;
+    const double noise = std::hypot(lean.noise_percent(), full.noise_percent());
+    const bool is_told = std::fabs(ratio - 1) * 100 > noise;
+    return fmt::format("Compiled with everything, tracing takes {} ± {} % times as long{}.",
+                       significant(ratio, 3), significant(noise, 2),
+                       is_told ? "" : ": no difference beyond the noise");
+}
+
+std::string trial_html(const FeatureTrial& trial, const std::string& source) {
+    const Spread lean = spread_of(trial.lean, trace_seconds);
+    const Spread full = spread_of(trial.full, trace_seconds);
+    const bool same = trial.lean.front().image_hash == trial.full.front().image_hash;
+    HtmlTable table{
+        fmt::format("On {}, {} x {} pixels, {}: medians of {} repeats, turn by turn",
+                    device_label(trial.lean.front()), trial.lean.front().width,
+                    trial.lean.front().height, to_string(trial.lean.front().aa), trial.lean.size()),
+        {"kernels compiled with", "trace", "build, from cache", "build, compiled anew"},
+        {}};
+    table.rows.push_back({{"what the scene needs", source + "/auto"},
+                          {spread_text(lean), ""},
+                          {build_text(trial.lean), ""},
+                          {cold_text(trial.lean_cold), ""}});
+    table.rows.push_back({{"everything", source + "/all"},
+                          {spread_text(full), ""},
+                          {build_text(trial.full), ""},
+                          {cold_text(trial.full_cold), ""}});
+    return html_table(table) +
+           fmt::format("<p{}>{} The pictures are {}.</p>\n", html_attribute("data-source", source),
+                       html_text(ratio_text(lean, full)),
+                       same ? "the same, bit for bit" : "<strong>not the same</strong>");
+}
+
+}  // namespace
+
+std::string features_section(const ReportScene& scene, std::size_t index) {
+    const RenderStats& stats = scene.plain.stats;
+    const std::string source = fmt::format("features-{}#", index);
+    std::string html = "<h3>What the scene needs, and what was left out</h3>\n";
+    HtmlTable table{"Features of the kernels", {"feature", "compiled", "in the scene"}, {}};
+    const auto row = [&](bool Features::*flag, const char* name, std::size_t count) {
+        const bool used = stats.features.*flag;
+        table.rows.push_back({{name, ""},
+                              {used ? "used" : "left out", ""},
+                              {count > 0 ? std::to_string(count) : "none", ""}});
+    };
+    row(&Features::spheres, "spheres", stats.scene.spheres);
+    row(&Features::triangles, "triangles", stats.scene.triangles);
+    row(&Features::vertex_normals, "vertex normals", stats.scene.smooth_triangles);
+    row(&Features::lights, "lights", stats.scene.lights);
+    table.rows.push_back(
+        {{"mirrors", ""},
+         {stats.features.mirrors ? "used" : "left out", ""},
+         {stats.features.mirrors ? fmt::format("up to {} bounces", stats.max_bounces) : "none",
+          ""}});
+    html += html_table(table);
+    html += fmt::format(
+        "<p>The flattened scene is {} bytes in {}. A feature left out is not "
+        "compiled, and its array is not allocated: it is a null argument of the "
+        "kernel.</p>\n",
+        stats.scene.bytes, stats.double_precision ? "double" : "float");
+    if (names_of(stats.features, false).empty()) {
+        html +=
+            "<p>This scene needs everything; there is nothing to leave out, so the two rows "
+            "below are the same kernels and their difference is noise.</p>\n";
+    } else {
+        html += "<p>Left out: " + html_text(names_text(stats.features, false)) + ".</p>\n";
+    }
+    if (!scene.trial) return html + "<p>Without an OpenCL device nothing is compiled.</p>\n";
+    return html + trial_html(*scene.trial, source);
+}
+
+}  // namespace rt

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/report/report_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/report/html.h"
+#include "host/report/plot_axis.h"
+#include "host/report/report_labels.h"
+#include "host/report/report_rows.h"
+#include "host/report/report_sections.h"
+#include "host/report/report_style.h"
+#include "host/report/run_json.h"
+#include "host/report/stats_json.h"
+
+namespace rt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string scene_name(const ReportScene& scene) {
+    const SceneStats& stats = scene.plain.stats.scene;
+    return stats.name.empty() ? stats.path : stats.name;
+}
+
+std::string head(const Report& report) {
+    std::string names;
+    for (const ReportScene& scene : report.scenes) {
+        names += (names.empty() ? "" : ", ") + scene_name(scene);
+    }
+    return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+           "<meta name=\"color-scheme\" content=\"light dark\">\n"
+           "<link rel=\"icon\" href=\"data:,\">\n<title>mirrorball report: " +
+           html_text(names) + "</title>\n<style>" + report_style + "</style>\n</head>\n";
+}
+
+std::string tile(const std::string& term, const std::string& value, const std::string& more,
+                 const std::string& source) {
+    return fmt::format("<div><dt>{}</dt><dd{}>{}<small>{}</small></dd></div>\n", html_text(term),
+                       source.empty() ? "" : html_attribute("data-source", source),
+                       html_text(value), html_text(more));
+}
+
+/// The few numbers to take away: the fastest device, its rays, its gain, and how exact it is.
+std::string glance(const Report& report, std::size_t index) {
+    const ReportScene& scene = report.scenes[index];
+    const std::vector<PlacedRow> rows = largest_rows(rows_of(scene.bench, index));
+    const auto fastest =
+        std::min_element(rows.begin(), rows.end(), [](const PlacedRow& a, const PlacedRow& b) {
+            return a.figures->trace.median < b.figures->trace.median;
+        });
+    if (fastest == rows.end()) return "";
+    const BenchFigures& figures = *fastest->figures;
+    const BenchCase& asked = fastest->row->asked;
+    const std::string on = "on " + device_label(*fastest->row);
+    std::string html = "<dl class=\"glance\">\n";
+    html +=
+        tile("Fastest anti-aliased trace", duration_text(figures.trace.median),
+             fmt::format("± {} %, {}, {} x {}, {}", significant(figures.trace.noise_percent(), 2),
+                         on, asked.width, asked.height, to_string(asked.aa)),
+             fastest->source);
+    html += tile("Rays per second", significant(figures.rays_per_second * 1e-6, 3) + " million",
+                 on + ", all kinds of ray", fastest->source);
+    if (figures.speed_up) {
+        html += tile("Against one thread", significant(*figures.speed_up, 3) + " times",
+                     "total time, " + on, fastest->source);
+    }
+    const auto& rounding = fastest->row->repeats.front().error;
+    if (rounding) {
+        html += tile("Off by rounding", "RMSE " + scientific_text(rounding->rmse),
+                     "float against double, same samples", fastest->source);
+    }
+    html += tile("Off by sampling", "RMSE " + scientific_text(scene.smooth.stats.error->rmse),
+                 fmt::format("{}; plain: {}", to_string(scene.smooth.stats.aa),
+                             scientific_text(scene.plain.stats.error->rmse)),
+                 fmt::format("pictures-{}#/smooth/error", index));
+    return html + "</dl>\n";
+}
+
+std::string scene_html(const Report& report, std::size_t index) {
+    const ReportScene& scene = report.scenes[index];
+    const SceneStats& stats = scene.plain.stats.scene;
+    return fmt::format(
+               "<section id=\"scene-{}\" aria-labelledby=\"scene-{}-head\">\n"
+               "<h2 id=\"scene-{}-head\">{}</h2>\n"
+               "<p class=\"note\">{}: {} spheres, {} triangles, {} lights; {} x {} pixels, up to "
+               "{} mirror bounces; scene hash <code>{}</code></p>\n",
+               index, index, index, html_text(scene_name(scene)), html_text(stats.path),
+               stats.spheres, stats.triangles, stats.lights, scene.plain.stats.width,
+               scene.plain.stats.height, scene.plain.stats.max_bounces, hash_text(stats.hash)) +
+           glance(report, index) + pictures_section(scene, index) + timing_section(scene, index) +
+           error_time_section(scene, index) + features_section(scene, index) + "</section>\n";
+}
+
+std::string text_of(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string environment_html(const Report& report) {
+    HtmlTable table{"The machine and the program behind every number", {"what", "value"}, {}};
+    for (const auto& [key, value] : report.environment.items()) {
+        table.rows.push_back({{key, ""}, {text_of(value), "environment#/" + key}});
+    }
+    std::vector<std::string> devices;
+    for (const BenchRow& row : report.scenes.front().bench.rows) {
+        if (row.repeats.empty() || row.asked.uses_threads) continue;
+        const DeviceStats& device = row.repeats.front().device;
+        const std::string text = fmt::format("{}, {}, driver {}, a work item a {}", device.name,
+                                             device.platform, device.driver, device.launch);
+        if (std::find(devices.begin(), devices.end(), text) != devices.end()) continue;
+        devices.push_back(text);
+        table.rows.push_back({{"OpenCL device", ""}, {text, ""}});
+    }
+    table.rows.push_back({{"made on", ""}, {report.date, ""}});
+    return "<h2 id=\"machine\">Environment</h2>\n<div class=\"facts\">" + html_table(table) +
+           "</div>\n";
+}
+
+std::string commands_html(const Report& report) {
+    std::string text;
+    for (const std::string& command : report.commands) text += command + "\n";
+    return "<h2 id=\"commands\">Make it again</h2>\n<p>The first line makes this page; the others "
+           "make its parts.</p>\n<pre tabindex=\"0\"><code>" +
+           html_text(text) + "</code></pre>\n";
+}
+
+std::string navigation(const Report& report) {
+    std::string html = "<nav aria-label=\"Sections\"><ul>\n";
+    for (std::size_t i = 0; i < report.scenes.size(); ++i) {
+        html += fmt::format("<li><a href=\"#scene-{}\">{}</a></li>\n", i,
+                            html_text(scene_name(report.scenes[i])));
+    }
+    return html +
+           "<li><a href=\"#machine\">Environment</a></li>\n"
+           "<li><a href=\"#commands\">Make it again</a></li>\n"
+           "<li><a href=\"#data\">Raw data</a></li>\n</ul></nav>\n";
+}
+
+Json trial_json(const FeatureTrial& trial) {
+    Json json{{"auto", runs_json(trial.lean)}, {"all", runs_json(trial.full)}};
+    if (trial.lean_cold) json["auto_cold"] = stats_json(*trial.lean_cold);
+    if (trial.full_cold) json["all_cold"] = stats_json(*trial.full_cold);
+    return json;
+}
+
+std::string data_html(const Report& report) {
+    std::string html =
+        "<h2 id=\"data\">Raw data</h2>\n<p>Every number above comes from the repeats kept in this "
+        "page as JSON, in <code>script</code> elements of type <code>application/json</code>. An "
+        "element's <code>data-source</code> says which: <code>bench-0#/rows/3</code> is row 3 "
+        "of the block <code>bench-0</code>.</p>\n" +
+        json_block("environment", report.environment);
+    for (std::size_t i = 0; i < report.scenes.size(); ++i) {
+        const ReportScene& scene = report.scenes[i];
+        html += json_block(
+            fmt::format("pictures-{}", i),
+            {{"plain", stats_json(scene.plain.stats)}, {"smooth", stats_json(scene.smooth.stats)}});
+        html += json_block(fmt::format("bench-{}", i), scene.bench_json);
+        html += json_block(fmt::format("converge-{}", i), scene.converge_json);
+        if (scene.trial)
+            html += json_block(fmt::format("features-{}", i), trial_json(*scene.trial));
+    }
+    return html;
+}
+
+}  // namespace
+
+std::string report_page(const Report& report) {
+    std::string html = head(report) +
+                       "<body>\n<header>\n<h1>How it renders, how fast, how exactly</h1>\n"
+                       "<p class=\"lead\">A mirrorball report: pictures, run times and errors, "
+                       "measured on one machine in one go.</p>\n" +
+                       navigation(report) + "</header>\n<main>\n";
+    for (std::size_t i = 0; i < report.scenes.size(); ++i) html += scene_html(report, i);
+    return html + environment_html(report) + commands_html(report) + data_html(report) +
+           "</main>\n<footer>Made by " + html_text(text_of(report.environment["program"])) + ", " +
+           html_text(report.date) +
+           ". Nothing in this page comes from elsewhere, and no script "
+           "runs.</footer>\n</body>\n</html>\n";
+}
+
+}  // namespace rt

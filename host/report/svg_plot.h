@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/report/plot_axis.h"
+
+namespace rt {
+
+/// A measured point: the value drawn, and the range of the repeats' noise along the axis that was
+/// measured (equal ends along the other).
+struct PlotPoint {
+    double x = 0, y = 0;
+    double x_low = 0, x_high = 0;
+    double y_low = 0, y_high = 0;
+    std::string label;                   ///< beside the point; empty: none
+    std::string title;                   ///< said when pointed at: what it is, with numbers
+    std::string source;                  ///< where the value comes from, for data-source
+    std::optional<double> x_with_build;  ///< where x would be with kernels built anew
+};
+
+/// Points of one kind, joined by a line.
+struct PlotCurve {
+    std::string label;
+    int color = 0;  ///< of plot_styles; so that curves of one kind may share it
+    int shape = 0;  ///< of plot_styles: dashes and marker, for eyes that see no colour
+    std::vector<PlotPoint> points;
+    bool is_prediction = false;  ///< a thin line without markers
+};
+
+struct Plot {
+    std::string id;     ///< unique in the page
+    std::string title;  ///< one line, for those who cannot see it; also the first of the alt text
+    std::string description;
+    Axis x, y;
+    std::vector<PlotCurve> curves;
+    std::vector<PlotPoint> front;  ///< a step line: the least y to be had for x or less
+    std::string front_label = "nothing found is both faster and closer";
+    std::optional<double> floor;  ///< below this y nothing can be told
+    std::string floor_label;
+};
+
+inline constexpr int plot_styles = 8;
+
+/// The plot as inline SVG. Colours and dashes are the page's: classes s0 to s7 and
+/// d0 to d7.
+std::string svg_plot(const Plot& plot);
+
+/// The curves' names with a piece of line and a marker each, as an HTML list.
+std::string plot_legend(const Plot& plot);
+
+}  // namespace rt

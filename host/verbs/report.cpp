@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <span>
+
+#include "host/console.h"
+#include "host/error.h"
+#include "host/image/atomic_file.h"
+#include "host/report/bench.h"
+#include "host/report/bench_json.h"
+#include "host/report/converge_json.h"
+#include "host/report/report_page.h"
+#include "host/report/result_file.h"
+#include "host/report/stats_json.h"
+#include "host/scene/json_file.h"
+#include "host/stop_signal.h"
+#include "host/verbs/converge_reference.h"
+#include "host/verbs/device_list.h"
+#include "host/verbs/measure.h"
+#include "host/verbs/picture_job.h"
+#include "host/verbs/report_settings.h"
+#include "host/verbs/timing_loop.h"
+#include "host/verbs/verbs.h"
+
+namespace rt {
+
+namespace {
+
+constexpr const char* page_start = "<!DOCTYPE html>";
+
+/// A signal has stopped the measurements: there is no page of half of them.
+struct Stopped {};
+
+/// Measures one scene for the page.
+class SceneStudy {
+   public:
+    SceneStudy(const ReportOptions& options, const std::string& path, const std::string& kernels)
+        : options_(options), path_(path), kernels_(kernels), scene_(load_json_scene(path)) {
+        if (options.size) set_image_size(scene_, options.size->width, options.size->height);
+        if (to_string(scene_.aa) == "none") scene_.aa = grid_aa(2);
+    }
+
+    ReportScene run() {
+        ReportScene study;
+        say("timings");
+        study.bench = measure_bench(bench_settings(options_, path_, scene_), kernels_);
+        stop_if(study.bench.interrupted);
+        say("error against run time");
+        const ConvergeOptions sweep = converge_settings(options_, path_, scene_);
+        study.converge = measure_converge(sweep, kernels_);
+        stop_if(study.converge.interrupted);
+        const ConvergedPicture converged = converged_picture(scene_, sweep);
+        stop_if(!converged.complete);
+        study.reference = clamped(converged.picture);
+        say("pictures, and what leaving features out saves");
+        study.plain = picture(grid_aa(1), study.reference);
+        study.smooth = picture(scene_.aa, study.reference);
+        study.trial = trial(study);
+        study.bench_json = bench_json(study.bench);
+        study.converge_json = converge_json(study.converge);
+        return study;
+    }
+
+   private:
+    void say(const char* what) const {
+        if (!options_.quiet) print_message(fmt::format("{}: {}\n", path_, what));
+    }
+
+    static void stop_if(bool interrupted) {
+        if (interrupted || stop_flag() != 0) throw Stopped{};
+    }
+
+    RenderOptions picture_options(const AaMode& aa) const {
+        RenderOptions options = timed_options();
+        options.scene = path_;
+        options.aa = aa;
+        options.device = device().spec;
+        options.pocl_cache = kernels_;
+        return options;
+    }
+
+    /// The first OpenCL device named, else the first at all.
+    ListedDevice device() const {
+        const std::vector<ListedDevice> devices = listed_devices(options_.devices);
+        const auto opencl = std::find_if(devices.begin(), devices.end(),
+                                         [](const ListedDevice& d) { return !d.is_threads; });
+        return opencl == devices.end() ? devices.front() : *opencl;
+    }
+
+    ReportPicture picture(const AaMode& aa, const Picture& reference) const {
+        Scene scene = scene_;
+        const RenderOptions options = picture_options(aa);
+        apply_overrides(scene, options);
+        RenderedPicture rendered = render_picture(scene, options);
+        stop_if(!rendered.stats.complete());
+        rendered.stats.scene.path = path_;
+        rendered.stats.error = image_error(clamped(rendered.picture), reference);
+        return {std::move(rendered.picture), std::move(rendered.stats)};
+    }
+
+    std::optional<FeatureTrial> trial(const ReportScene& study) const {
+        if (device().is_threads) return std::nullopt;
+        std::vector<TimedCase> cases(2);
+        for (TimedCase& timed : cases) {
+            timed.scene = &scene_;
+            timed.reference = &study.reference;
+            timed.judge = judge_estimate;
+            timed.options = picture_options(scene_.aa);
+        }
+        cases[1].options.all_features = true;
+        stop_if(!run_rounds(cases, std::max(options_.repeats, 9), true));
+        if (cases[0].repeats.empty() || cases[1].repeats.empty()) return std::nullopt;
+        return FeatureTrial{cases[0].repeats, cases[1].repeats, cold_build(study.bench),
+                            cold_of(cases[1].warm_up)};
+    }
+
+    /// The run that compiled the kernels this scene needs: the first in float on OpenCL.
+    static std::optional<RenderStats> cold_build(const BenchResult& bench) {
+        for (const BenchRow& row : bench.rows) {
+            if (row.asked.uses_threads || row.asked.double_precision) continue;
+            if (auto cold = cold_of(row.warm_up)) return cold;
+        }
+        return std::nullopt;
+    }
+
+    static std::optional<RenderStats> cold_of(const std::vector<RenderStats>& runs) {
+        for (const RenderStats& run : runs) {
+            if (run.phases.renderer.build_cache == BuildCache::cold) return run;
+        }
+        return std::nullopt;
+    }
+
+    const ReportOptions& options_;
+    const std::string path_, kernels_;
+    Scene scene_;
+};
+
+std::string today() {
+    const time_t now = time(nullptr);
+    tm utc{};
+    char text[32] = "";
+    gmtime_r(&now, &utc);
+    strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &utc);
+    return text;
+}
+
+/// 1 when a picture is wrong, and no figure hides it.
+int verdict(const Report& report) {
+    const bool wrong =
+        std::any_of(report.scenes.begin(), report.scenes.end(), [](const ReportScene& scene) {
+            return any_row(scene.bench, Verdict::wrong) ||
+                   std::any_of(scene.converge.points.begin(), scene.converge.points.end(),
+                               [](const ConvergePoint& p) { return p.verdict == Verdict::wrong; });
+        });
+    return static_cast<int>(wrong ? ExitCode::different : ExitCode::done);
+}
+
+}  // namespace
+
+int run_report(const ReportOptions& options) {
+    check_result_path(options.output, page_start);
+    for (const std::string& path : options.scenes) load_json_scene(path);
+    const FreshKernelCache kernels;
+    Report report;
+    report.date = today();
+    report.commands = report_commands(options);
+    try {
+        for (const std::string& path : options.scenes) {
+            report.scenes.push_back(SceneStudy(options, path, kernels.folder()).run());
+        }
+    } catch (const Stopped&) {
+        print_message("mirrorball: stopped; no page written\n");
+        return 128 + stop_flag();
+    }
+    report.environment = environment_json();
+    const std::string page = report_page(report);
+    write_file_atomically(options.output, std::as_bytes(std::span(page)));
+    if (!options.quiet) {
+        print_message(fmt::format("{}: {} kB\n", options.output, (page.size() + 999) / 1000));
+    }
+    return verdict(report);
+}
+
+}  // namespace rt

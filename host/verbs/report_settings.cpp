@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/report_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rt {
+
+namespace {
+
+constexpr const char* full_sweep = "none,grid:2,grid:4,sobol:4,sobol:16,adaptive:0.1,adaptive:0.03";
+constexpr const char* quick_sweep = "none,grid:2,grid:3,sobol:4";
+constexpr int full_reference = 64, quick_reference = 32;
+
+std::vector<AaMode> modes_of(std::string sweep) {
+    std::vector<AaMode> modes;
+    sweep += ',';
+    for (std::size_t at = 0; at < sweep.size();) {
+        const std::size_t end = sweep.find(',', at);
+        if (const auto mode = parse_aa_mode(sweep.substr(at, end - at))) modes.push_back(*mode);
+        at = end + 1;
+    }
+    return modes;
+}
+
+/// A word as a POSIX shell reads it back.
+std::string shell_word(const std::string& word) {
+    const auto is_plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::string_view("-_./:,=+%@").find(c) != std::string::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    return quoted + "'";
+}
+
+std::string joined(const std::vector<std::string>& words, const char* separator) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+    return text;
+}
+
+std::string size_text(const ReportOptions& options) {
+    return options.size ? fmt::format(" --size {}x{}", options.size->width, options.size->height)
+                        : "";
+}
+
+}  // namespace
+
+BenchOptions bench_settings(const ReportOptions& options, const std::string& path,
+                            const Scene& scene) {
+    BenchOptions bench;
+    bench.scenes = {path};
+    bench.sizes.clear();
+    for (const int fifths : options.quick ? std::vector{2, 5} : std::vector{1, 2, 3, 4, 5}) {
+        bench.sizes.push_back(
+            {std::max(1, scene.width * fifths / 5), std::max(1, scene.height * fifths / 5)});
+    }
+    bench.aa = {grid_aa(1), scene.aa};
+    bench.devices = options.devices;
+    bench.precisions = {Precision::float32};
+    bench.repeats = options.repeats;
+    bench.quiet = options.quiet;
+    return bench;
+}
+
+ConvergeOptions converge_settings(const ReportOptions& options, const std::string& path,
+                                  const Scene& scene) {
+    ConvergeOptions converge;
+    converge.scene = path;
+    converge.size = PictureSize{scene.width, scene.height};
+    converge.aa = modes_of(options.quick ? quick_sweep : full_sweep);
+    converge.devices = options.devices;
+    converge.repeats = options.repeats;
+    converge.reference_samples = options.quick ? quick_reference : full_reference;
+    converge.cache_folder = options.cache_folder;
+    converge.quiet = options.quiet;
+    return converge;
+}
+
+std::vector<std::string> report_commands(const ReportOptions& options) {
+    std::string scenes;
+    for (const std::string& scene : options.scenes) scenes += " " + shell_word(scene);
+    const std::string rest = fmt::format(" --devices {} --repeats {}",
+                                         shell_word(joined(options.devices, ",")), options.repeats);
+    std::vector<std::string> commands{fmt::format("mirrorball report{} -o {}{}{}{}", scenes,
+                                                  shell_word(options.output), size_text(options),
+                                                  rest, options.quick ? " --quick" : "")};
+    for (const std::string& path : options.scenes) {
+        const std::string scene = shell_word(path);
+        commands.push_back(fmt::format("mirrorball render {}{} --aa none -o plain.png --stats",
+                                       scene, size_text(options)));
+        commands.push_back(
+            fmt::format("mirrorball render {}{} -o smooth.png --stats", scene, size_text(options)));
+        commands.push_back(fmt::format("mirrorball render {}{} --features all --stats", scene,
+                                       size_text(options)));
+        commands.push_back(
+            fmt::format("mirrorball bench {} --precision float --json -{}", scene, rest));
+        commands.push_back(
+            fmt::format("mirrorball converge {}{} --aa {} --reference-samples {}{} --json -", scene,
+                        size_text(options), options.quick ? quick_sweep : full_sweep,
+                        options.quick ? quick_reference : full_reference, rest));
+    }
+    return commands;
+}
+
+}  // namespace rt

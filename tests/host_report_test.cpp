@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "host/image/picture_io.h"
+#include "host/report/html.h"
+#include "host/report/plot_axis.h"
+#include "host/report/report_page.h"
+#include "host/report/svg_bars.h"
+#include "host/report/svg_plot.h"
+
+namespace {
+
+using rt::Axis;
+using rt::AxisUnit;
+
+/// Passes when the text holds the piece.
+testing::AssertionResult holds(const std::string& text, const std::string& piece) {
+    if (text.find(piece) != std::string::npos) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "no '" << piece << "' in: " << text;
+}
+
+std::vector<std::string> labels(const std::vector<rt::Tick>& ticks) {
+    std::vector<std::string> texts;
+    for (const rt::Tick& tick : ticks) {
+        if (!tick.label.empty()) texts.push_back(tick.label);
+    }
+    return texts;
+}
+
+std::vector<double> values(const std::vector<rt::Tick>& ticks) {
+    std::vector<double> numbers;
+    for (const rt::Tick& tick : ticks) numbers.push_back(tick.value);
+    return numbers;
+}
+
+TEST(AxisTicks, OneDecadeHasTwoAndFive) {
+    const Axis axis{"", 1e-3, 1e-2, true, AxisUnit::seconds};
+    EXPECT_EQ(labels(rt::axis_ticks(axis, 8)),
+              (std::vector<std::string>{"1 ms", "2 ms", "5 ms", "10 ms"}));
+}
+
+TEST(AxisTicks, ManyDecadesHaveTheirPowersOnly) {
+    const Axis axis{"", 1e-5, 1, true, AxisUnit::power};
+    EXPECT_EQ(labels(rt::axis_ticks(axis, 8)),
+              (std::vector<std::string>{"10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰"}));
+}
+
+TEST(AxisTicks, StayInside) {
+    for (const bool logarithmic : {false, true}) {
+        const Axis axis{"", 0.37, 41, logarithmic, AxisUnit::plain};
+        const auto ticks = values(rt::axis_ticks(axis, 8));
+        ASSERT_FALSE(ticks.empty());
+        EXPECT_GE(ticks.front(), 0.37);
+        EXPECT_LE(ticks.back(), 41);
+        EXPECT_TRUE(std::is_sorted(ticks.begin(), ticks.end()));
+    }
+}
+
+TEST(AxisTicks, LinearStepsAreRound) {
+    EXPECT_EQ(labels(rt::axis_ticks({"", 0, 4.2, false, AxisUnit::plain}, 5)),
+              (std::vector<std::string>{"0", "1", "2", "3", "4"}));
+    EXPECT_EQ(labels(rt::axis_ticks({"", 0, 1, false, AxisUnit::plain}, 5)),
+              (std::vector<std::string>{"0", "0.2", "0.4", "0.6", "0.8", "1"}));
+}
+
+TEST(AxisAround, LeavesOutWhatALogarithmCannotShow) {
+    const Axis axis = rt::axis_around("", {0, -1, 1e-3, 1e-1}, true, AxisUnit::power);
+    EXPECT_LT(axis.low, 1e-3);
+    EXPECT_GT(axis.low, 1e-4);
+    EXPECT_GT(axis.high, 1e-1);
+    const Axis empty = rt::axis_around("", {}, true, AxisUnit::power);
+    EXPECT_LT(empty.low, empty.high);
+}
+
+TEST(AxisScale, MapsEndsAndDecades) {
+    const rt::AxisScale logarithmic({"", 1, 100, true, AxisUnit::plain}, 50, 250);
+    EXPECT_DOUBLE_EQ(logarithmic.at(1), 50);
+    EXPECT_DOUBLE_EQ(logarithmic.at(10), 150);
+    EXPECT_DOUBLE_EQ(logarithmic.at(100), 250);
+    EXPECT_DOUBLE_EQ(logarithmic.at(0), 50);
+    const rt::AxisScale downwards({"", 0, 4, false, AxisUnit::plain}, 300, 100);
+    EXPECT_DOUBLE_EQ(downwards.at(1), 250);
+}
+
+TEST(NumberText, KeepsItsDigits) {
+    EXPECT_EQ(rt::significant(1234.4, 3), "1234");
+    EXPECT_EQ(rt::significant(9.996, 3), "10.0");
+    EXPECT_EQ(rt::significant(0.0499, 2), "0.050");
+    EXPECT_EQ(rt::significant(0, 3), "0");
+    EXPECT_EQ(rt::duration_text(0.01234), "12.3 ms");
+    EXPECT_EQ(rt::duration_text(0.9996), "1.00 s");
+    EXPECT_EQ(rt::duration_text(42e-6, 2), "42 µs");
+    EXPECT_EQ(rt::scientific_text(3.44e-5), "3.4·10⁻⁵");
+    EXPECT_EQ(rt::scientific_text(0), "0");
+}
+
+TEST(HtmlText, EscapesWhatHtmlMeans) {
+    EXPECT_EQ(rt::html_text("<b a=\"x\" c='y'>&amp;"),
+              "&lt;b a=&quot;x&quot; c=&#39;y&#39;&gt;&amp;amp;");
+}
+
+TEST(HtmlText, ReplacesWhatIsNoText) {
+    EXPECT_EQ(rt::html_text("a\x01\xff\xc3z\xed\xa0\x80"), "a���z���");
+    EXPECT_EQ(rt::html_text("Öl ⁻ 🙂"), "Öl ⁻ 🙂");
+}
+
+TEST(JsonBlock, CannotBeEndedByItsTexts) {
+    const std::string html = rt::json_block("x", {{"name", "</script><!--<script>&"}});
+    EXPECT_TRUE(holds(html, R"("\u003c/script>\u003c!--\u003cscript>\u0026")"));
+    EXPECT_EQ(html.find("</script>"), html.rfind("</script>"));
+}
+
+TEST(PngDataUri, IsBase64) {
+    const auto uri = [](std::string_view bytes) {
+        return rt::png_data_uri(std::as_bytes(std::span(bytes)));
+    };
+    EXPECT_EQ(uri("Man"), "data:image/png;base64,TWFu");
+    EXPECT_EQ(uri("Ma"), "data:image/png;base64,TWE=");
+    EXPECT_EQ(uri("M"), "data:image/png;base64,TQ==");
+}
+
+TEST(EncodePng, IsAPng) {
+    const rt::Picture picture{1, 1, 3, {1, 0, 0}};
+    const auto png = rt::encode_png(picture, rt::Encoding::display);
+    ASSERT_GT(png.size(), 8u);
+    EXPECT_EQ(std::to_integer<char>(png[1]), 'P');
+}
+
+rt::PlotPoint point(double x, double y) {
+    rt::PlotPoint point;
+    point.x = point.x_low = point.x_high = x;
+    point.y = point.y_low = point.y_high = y;
+    return point;
+}
+
+rt::Plot small_plot() {
+    rt::Plot plot;
+    plot.id = "p";
+    plot.title = "Error & time";
+    plot.x = {"time", 1, 100, true, AxisUnit::seconds};
+    plot.y = {"error", 0, 10, false, AxisUnit::plain};
+    plot.curves.push_back({"<curve>", 0, 1, {point(1, 10), point(10, 5), point(100, 0)}, false});
+    plot.curves[0].points[1].source = "bench#/rows/1";
+    return plot;
+}
+
+TEST(SvgPlot, DrawsTheData) {
+    // The frame is 72 to 604 across and 34 to 344 down.
+    const std::string svg = rt::svg_plot(small_plot());
+    EXPECT_TRUE(holds(svg, "M72.0 34.0L338.0 189.0L604.0 344.0"));
+    EXPECT_TRUE(holds(svg, "data-source=\"bench#/rows/1\""));
+    EXPECT_TRUE(holds(svg, "Error &amp; time</title>"));
+    EXPECT_TRUE(holds(rt::plot_legend(small_plot()), "&lt;curve&gt;"));
+}
+
+TEST(SvgPlot, FrontStepsDownAndGoesOn) {
+    rt::Plot plot = small_plot();
+    plot.front = {point(1, 10), point(10, 5)};
+    plot.floor = 1;
+    const std::string svg = rt::svg_plot(plot);
+    EXPECT_TRUE(holds(svg, "M72.0 34.0H338.0V189.0H604.0"));
+    EXPECT_TRUE(holds(svg, "class=\"floor\" x=\"72.0\" y=\"313.0\""));
+}
+
+TEST(SvgBars, AreAsLongAsTheirSeconds) {
+    const rt::BarChart chart{"b", "t", "d", {{"x", "", {{"trace", 3, 5}, {"load", 1, 0}}}}};
+    const std::string svg = rt::svg_bars(chart);
+    EXPECT_TRUE(holds(svg, "width=\"381.00\""));
+    EXPECT_TRUE(holds(svg, "width=\"127.00\""));
+    EXPECT_TRUE(holds(svg, "4.00 s"));
+}
+
+rt::ReportPicture tiny_picture(const std::string& name) {
+    rt::ReportPicture shot;
+    shot.picture = {16, 16, 3, std::vector<float>(16 * 16 * 3, 0.5f)};
+    shot.stats.scene.name = shot.stats.scene.path = name;
+    shot.stats.region = {0, 0, 16, 16};
+    shot.stats.error = rt::image_error(shot.picture, shot.picture);
+    return shot;
+}
+
+TEST(ReportPage, EscapesTheScenesNames) {
+    const std::string evil = "</title></script><script>alert('x')</script>\"><img src=x>";
+    rt::Report report;
+    const rt::ReportPicture shot = tiny_picture(evil);
+    rt::ReportScene scene{shot, shot, shot.picture, {}, {}, {{"name", evil}}, {}, std::nullopt};
+    report.scenes.push_back(scene);
+    report.environment = {{"program", evil}};
+    report.commands = {"mirrorball report " + evil};
+    const std::string page = rt::report_page(report);
+    EXPECT_FALSE(holds(page, "<script>"));
+    EXPECT_FALSE(holds(page, "<img src=x"));
+    EXPECT_TRUE(holds(page, "&lt;img src=x&gt;"));
+}
+
+}  // namespace
