@@ -72,6 +72,19 @@ TYPED_TEST(ReverseBits, AreTheWordBackwards) {
     }
 }
 
+KERNEL_SUITE(SwapBits);
+TYPED_TEST(SwapBits, ExchangesNeighbouringBytes) {
+    const auto words = random_words(1000);
+    const std::vector<Word> masks(words.size(), 0x00ff00ffu), shifts(words.size(), 8);
+    const auto device = run<TypeParam, Word>("swap_bits", words.size(), words, masks, shifts);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const Word v = words[i];
+        const Word expected = (v & 0xff) * 0x100u + (v >> 8 & 0xff) +
+                              (v >> 16 & 0xff) * 0x1000000u + (v >> 24) * 0x10000u;
+        ASSERT_EQ(device[i], expected);
+    }
+}
+
 KERNEL_SUITE(HashBits);
 TYPED_TEST(HashBits, EveryInputBitMovesAboutHalfOfTheOutput) {
     const auto words = random_words(2000);

@@ -246,6 +246,24 @@ TYPED_TEST(BlendedNormal, IsTheFacesWhereTheBlendVanishes) {
         run<TypeParam, Packed3<TypeParam>>("blended_normal", 2, normals, faces, u, v), faces));
 }
 
+KERNEL_SUITE(IsOnEdge);
+TYPED_TEST(IsOnEdge, IsWithin64RoundoffsOfATrianglesEdge) {
+    using T = TypeParam;
+    Random random(8);
+    const auto scene = crowd<T>(random);
+    const Index<T> triangle = scene.frame.sphere_count;
+    const T in = T(65) * Flat<T>::roundoff, on = T(63) * Flat<T>::roundoff;
+    const T third = T(1) / T(3);
+    const std::vector<Hit<T>> hits{{1, third, third, triangle, 0},     {1, in, third, triangle, 0},
+                                   {1, on, third, triangle, 0},        {1, third, 0, triangle, 0},
+                                   {1, T(0.25), T(0.75), triangle, 0}, {1, 0, 0, 0, 0}};
+    const auto device = run<T, Index<T>>("is_on_edge", hits.size(), scene, hits);
+    EXPECT_EQ(device, (std::vector<Index<T>>{0, 0, 1, 1, 1, 0}));
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        EXPECT_EQ(device[i] != 0, trace::is_on_edge(view(scene), hits[i]));
+    }
+}
+
 KERNEL_SUITE(SurfaceAt);
 TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceBackedOffATie) {
     Random random(7);
@@ -259,7 +277,8 @@ TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceBackedOffATie) {
         run<TypeParam, ProbeSurface<TypeParam>>("surface_at", rays.size(), scene, rays, hits);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!std::isfinite(hits[i].t)) continue;
-        const Quad back = hits[i].tied ? Quad(-8) * own[i].offset : Quad(0);
+        const bool touches = hits[i].tied != 0 || trace::is_on_edge(view(scene), hits[i]);
+        const Quad back = touches ? Quad(-8) * own[i].offset : Quad(0);
         const Quad3 expected = exact(own[i].point) + back * exact(rays[i].dir);
         ASSERT_LE(vector_error<TypeParam>(moved[i].point, expected, 8), 1) << i;
     }

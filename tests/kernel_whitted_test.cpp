@@ -198,6 +198,44 @@ TYPED_TEST(TraceSample, HasTheTwinsBitsInAMirrorCrowd) {
     EXPECT_GT(all.shadow, 4000u);
 }
 
+/// The weighed mean of a pixel's samples, in quad.
+template <typename T>
+Quad3 mean_of_samples(const FlatScene<T>& scene, Index<T> x, Index<T> y) {
+    Quad3 sum{0, 0, 0};
+    Quad total = 0;
+    for (Index<T> k = 0; k < scene.frame.samples; ++k) {
+        RayCounts ignored;
+        const Quad weight = trace::sample_weight<T>(scene.frame, x, y, k);
+        const auto sample = pack(trace::trace_sample(view(scene), x, y, k, ignored));
+        sum = sum + weight * exact(sample);
+        total += weight;
+    }
+    return Quad(1) / total * sum;
+}
+
+KERNEL_SUITE(TracePixel);
+TYPED_TEST(TracePixel, IsTheWeighedMeanOfItsSamples) {
+    using T = TypeParam;
+    auto scene = mirror_crowd<T>();
+    for (const int filter : {0, 1, 2, 3}) {
+        scene.frame.filter = filter;
+        scene.frame.grid = filter % 2 == 0 ? 0 : 4;
+        scene.frame.samples = 16;
+        std::vector<Index<T>> x, y;
+        for (Index<T> i = 0; i < 400; ++i) {
+            x.push_back(i * 7 % scene.frame.width);
+            y.push_back(i * 3 % scene.frame.height);
+        }
+        const auto colors = run<T, Packed3<T>>("trace_pixel", x.size(), scene, x, y);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Quad3 mean = mean_of_samples(scene, x[i], y[i]);
+            ASSERT_NEAR(double(colors[i].x), double(mean.x), 32 * double(Flat<T>::roundoff)) << i;
+            ASSERT_NEAR(double(colors[i].y), double(mean.y), 32 * double(Flat<T>::roundoff)) << i;
+            ASSERT_NEAR(double(colors[i].z), double(mean.z), 32 * double(Flat<T>::roundoff)) << i;
+        }
+    }
+}
+
 }  // namespace
 
 }  // namespace rt

@@ -327,6 +327,14 @@ __kernel void probe_primitive_surface(PROBE_ITEMS, PROBE_SCENE, __global const P
     out[i] = pack_surface(primitive_surface(&scene, &ray, &hit));
 }
 
+__kernel void probe_is_on_edge(PROBE_ITEMS, PROBE_SCENE, __global const Hit* hits,
+                               __global Index* out) {
+    PROBE_ITEM;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Hit hit = hits[i];
+    out[i] = is_on_edge(&scene, &hit);
+}
+
 __kernel void probe_surface_at(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                __global const Hit* hits, __global ProbeSurface* out) {
     PROBE_ITEM;
@@ -432,6 +440,12 @@ __kernel void probe_add_counts(PROBE_ITEMS, __global const RayCounts* a,
 __kernel void probe_reverse_bits(PROBE_ITEMS, __global const uint* v, __global uint* out) {
     PROBE_ITEM;
     out[i] = reverse_bits(v[i]);
+}
+
+__kernel void probe_swap_bits(PROBE_ITEMS, __global const uint* v, __global const uint* mask,
+                              __global const uint* shift, __global uint* out) {
+    PROBE_ITEM;
+    out[i] = swap_bits(v[i], mask[i], shift[i]);
 }
 
 __kernel void probe_hash_bits(PROBE_ITEMS, __global const uint* v, __global uint* out) {
