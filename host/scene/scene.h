@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -53,8 +54,10 @@ struct Scene {
     struct Material {
         std::string name;
         glm::dvec3 ambient{0}, diffuse{0}, specular{0}, mirror{0};
-        double shininess = 1;    ///< exponent of the Blinn lobe, >= 0
-        bool two_sided = false;  ///< turn normals towards the viewer
+        glm::dvec3 transmission{0};  ///< what passes through, per channel
+        double shininess = 1;        ///< exponent of the Blinn lobe, >= 0
+        double ior = 1;              ///< index of refraction behind the surface, > 0
+        bool two_sided = false;      ///< turn normals towards the viewer
     };
 
     /// A point light without fall-off.
@@ -77,6 +80,28 @@ struct Scene {
         int material = 0;
     };
 
+    /// The side of a cone's frustum, open at both ends; a cylinder where the radii are equal.
+    struct Cone {
+        glm::dvec3 base{0}, apex{0, 1, 0};        ///< centres of the two rims, apart
+        double base_radius = 1, apex_radius = 0;  ///< >= 0, one of them > 0
+        int material = 0;                         ///< index into Scene::materials
+    };
+
+    /// Triangles that share vertices. Faces are counterclockwise seen from the front.
+    struct Mesh {
+        using Face = std::array<std::uint32_t, 3>;
+
+        std::vector<glm::dvec3> positions;
+        std::vector<glm::dvec3> normals;  ///< unit; empty for a flat mesh
+        std::vector<Face> faces;          ///< indices into positions
+        std::vector<Face> face_normals;   ///< indices into normals, one row a face, or no rows
+        /// Indices into Scene::materials: one a face, or a single one for all.
+        std::vector<int> face_materials;
+
+        /// A face without vertex normals has this in its row of face_normals.
+        static constexpr std::uint32_t no_normal = 0xffffffff;
+    };
+
     std::string name;
     Camera camera;
     int width = 500, height = 500;  ///< pixels
@@ -89,7 +114,9 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Material> materials;
     std::vector<Sphere> spheres;
+    std::vector<Cone> cones;
     std::vector<Triangle> triangles;
+    std::vector<Mesh> meshes;
 };
 
 /// The window that this camera's field of view spans on a picture of this many pixels.

@@ -34,7 +34,9 @@ void add(Hasher& hasher, const Scene::Material& material) {
     add(hasher, material.diffuse);
     add(hasher, material.specular);
     add(hasher, material.mirror);
+    add(hasher, material.transmission);
     hasher.add(material.shininess);
+    hasher.add(material.ior);
     hasher.add(material.two_sided);
 }
 
@@ -58,10 +60,34 @@ void add(Hasher& hasher, const Scene::Triangle& triangle) {
     hasher.add(triangle.material);
 }
 
+void add(Hasher& hasher, const Scene::Cone& cone) {
+    add(hasher, cone.base);
+    add(hasher, cone.apex);
+    hasher.add(cone.base_radius);
+    hasher.add(cone.apex_radius);
+    hasher.add(cone.material);
+}
+
+void add(Hasher& hasher, const Scene::Mesh::Face& face) {
+    for (const std::uint32_t index : face) hasher.add(index);
+}
+
+void add(Hasher& hasher, int index) { hasher.add(index); }
+
+void add(Hasher& hasher, const Scene::Mesh& mesh);
+
 template <typename Item>
 void add_all(Hasher& hasher, const std::vector<Item>& items) {
     hasher.add(items.size());
     for (const Item& item : items) add(hasher, item);
+}
+
+void add(Hasher& hasher, const Scene::Mesh& mesh) {
+    add_all(hasher, mesh.positions);
+    add_all(hasher, mesh.normals);
+    add_all(hasher, mesh.faces);
+    add_all(hasher, mesh.face_normals);
+    add_all(hasher, mesh.face_materials);
 }
 
 }  // namespace
@@ -74,7 +100,9 @@ std::uint64_t scene_hash(const Scene& scene) {
     add_all(hasher, scene.lights);
     add_all(hasher, scene.materials);
     add_all(hasher, scene.spheres);
+    add_all(hasher, scene.cones);
     add_all(hasher, scene.triangles);
+    add_all(hasher, scene.meshes);
     return hasher.value();
 }
 
