@@ -24,6 +24,17 @@ typedef struct {
     Index pad[3];
 } Sphere;
 
+// The side of a cone's frustum, open at both ends; a cylinder where the slope is 0.
+typedef struct {
+    Packed3 base;
+    Real base_radius;
+    Packed3 axis;  // unit, from the base to the other rim
+    Real length;
+    Real slope;  // what the radius grows by along a unit of the axis
+    Index material;
+    Index pad[2];
+} Cone;
+
 typedef struct {
     Packed3 p0;
     Index material;
@@ -50,17 +61,30 @@ typedef struct {
     Packed3 diffuse;
     Index two_sided;
     Packed3 specular;
-    Real pad0;
+    Real ior;  // index of refraction behind the surface
     Packed3 mirror;
+    Real pad0;
+    Packed3 transmission;
     Real pad1;
 } Material;
 
 typedef struct {
     Packed3 position;
-    Real pad0;
+    Index first_caster;  // of its triangles in the caster list
     Packed3 intensity;
-    Real pad1;
+    Index caster_count;
 } Light;
+
+// A node of a bounding volume hierarchy over one kind of primitive. Leaves hold primitives
+// first.. (count of them, at least 1); inner nodes (count 0) hold two nodes, first and first + 1.
+// Roots lie at odd places and pairs at even ones, so that a pair fills a cache line; node 0 is
+// none.
+typedef struct {
+    Packed3 low;
+    Index first;
+    Packed3 high;
+    Index count;
+} BvhNode;
 
 // What stays the same for a whole picture. A sample at (x, y) pixels from the lower left corner
 // starts at sx * origin_dx + sy * origin_dy and goes along direction + sx * direction_dx
@@ -83,6 +107,10 @@ typedef struct {
     Index samples;  // of a pixel
     Index filter;   // RT_FILTER_...
     Index seed;     // of the Sobol samples
+    Index cone_count;
+    Index sphere_root;  // the node that holds all spheres, or 0: test each of them
+    Index cone_root;
+    Index triangle_root;
     Index pad;
 } Frame;
 
@@ -106,9 +134,11 @@ enum { RT_FILTER_BOX = 0, RT_FILTER_TENT = 1, RT_FILTER_GAUSSIAN = 2, RT_FILTER_
 RT_STATIC_ASSERT(sizeof(Packed3) == 3 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Index) == sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Sphere) == 8 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Cone) == 12 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Triangle) == 16 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(VertexNormals) == 12 * sizeof(Real));
-RT_STATIC_ASSERT(sizeof(Material) == 16 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Material) == 20 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Light) == 8 * sizeof(Real));
-RT_STATIC_ASSERT(sizeof(Frame) == 32 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(BvhNode) == 8 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Frame) == 36 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Tile) == 8 * sizeof(Real));

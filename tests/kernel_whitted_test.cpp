@@ -152,7 +152,8 @@ FlatScene<T> mirror_crowd() {
     const auto any = [&] { return round_to<T>(random.unit_vector()); };
     const auto color = [&] { return round_to<T>(random.in_cube(0.5) + glm::dvec3(0.5)); };
     for (Index<T> i = 0; i < 5; ++i) {
-        scene.materials.push_back({color(), T(5 << i), color(), i % 2, color(), 0, color(), 0});
+        scene.materials.push_back(
+            {color(), T(5 << i), color(), i % 2, color(), 1, color(), 0, {}, 0});
         scene.vertex_normals.push_back({any(), 0, any(), 0, any(), 0});
         scene.triangles[static_cast<std::size_t>(i)].smooth = i;
     }

@@ -94,7 +94,9 @@ typename Flat<T>::Material flatten_material(const Scene::Material& material) {
     flat.diffuse = pack<T>(material.diffuse);
     flat.two_sided = material.two_sided ? 1 : 0;
     flat.specular = pack<T>(material.specular);
+    flat.ior = static_cast<T>(material.ior);
     flat.mirror = pack<T>(material.mirror);
+    flat.transmission = pack<T>(material.transmission);
     return flat;
 }
 

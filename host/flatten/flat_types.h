@@ -17,11 +17,13 @@ namespace rt::f32 {
 #undef RT_REAL
 #undef RT_INDEX
 static_assert(offsetof(Sphere, material) == 16);
+static_assert(offsetof(Cone, material) == 36);
 static_assert(offsetof(Triangle, plane) == 60);
 static_assert(offsetof(VertexNormals, n2) == 32);
-static_assert(offsetof(Material, mirror) == 48);
-static_assert(offsetof(Light, intensity) == 16);
-static_assert(offsetof(Frame, pad) == 124);
+static_assert(offsetof(Material, transmission) == 64);
+static_assert(offsetof(Light, caster_count) == 28);
+static_assert(offsetof(BvhNode, count) == 28);
+static_assert(offsetof(Frame, pad) == 140);
 static_assert(offsetof(Tile, film_width) == 20);
 }  // namespace rt::f32
 
@@ -47,10 +49,12 @@ struct Flat<float> {
     using Index = f32::Index;
     using Packed3 = f32::Packed3;
     using Sphere = f32::Sphere;
+    using Cone = f32::Cone;
     using Triangle = f32::Triangle;
     using VertexNormals = f32::VertexNormals;
     using Material = f32::Material;
     using Light = f32::Light;
+    using BvhNode = f32::BvhNode;
     using Frame = f32::Frame;
     using Tile = f32::Tile;
     using RayCounts = f32::RayCounts;
@@ -63,10 +67,12 @@ struct Flat<double> {
     using Index = f64::Index;
     using Packed3 = f64::Packed3;
     using Sphere = f64::Sphere;
+    using Cone = f64::Cone;
     using Triangle = f64::Triangle;
     using VertexNormals = f64::VertexNormals;
     using Material = f64::Material;
     using Light = f64::Light;
+    using BvhNode = f64::BvhNode;
     using Frame = f64::Frame;
     using Tile = f64::Tile;
     using RayCounts = f64::RayCounts;
