@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "host/render/posix_threads.h"
+#include "host/parallel.h"
 #include "host/report/error_json.h"
 #include "host/version.h"
 

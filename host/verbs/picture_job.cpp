@@ -9,7 +9,7 @@
 #include "host/error.h"
 #include "host/render/cl_renderer.h"
 #include "host/render/device_spec.h"
-#include "host/render/memory_limit.h"
+#include "host/memory_limit.h"
 #include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "host/report/progress.h"
