@@ -11,7 +11,6 @@
 
 #include "kernels/intersect.cl"
 
-#define RT_STACK_SIZE 64
 #define RT_FAR ((Real)1 + (Real)6 * (Real)RT_ROUNDOFF)
 
 typedef struct {
@@ -19,7 +18,7 @@ typedef struct {
     real3 inverse;                  // of the direction
     Index whole;                    // primitives of the kind in hand, when it has no hierarchy
     Index size;                     // of the stack
-    Index stack[RT_STACK_SIZE];     // nodes to visit
+    Index stack[RT_BVH_STACK];      // nodes to visit
 } Traversal;
 
 Traversal begin_traversal(const Ray* ray) {

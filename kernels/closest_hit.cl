@@ -23,8 +23,12 @@ typedef struct {
     bool is_listing;  // look for the first listed, not for the nearest
 } Search;
 
+// What a primitive was listed under: hierarchies reorder them.
 Index listed_number(const SceneView* scene, Index prim) {
-    return RT_HAS_HIERARCHY && scene->listed != 0 ? scene->listed[prim] : prim;
+    if (!RT_HAS_HIERARCHY) return prim;
+    bool reordered =
+        (scene->frame.sphere_root | scene->frame.cone_root | scene->frame.triangle_root) != 0;
+    return reordered ? scene->listed[prim] : prim;
 }
 
 // Takes note of primitive prim, which the lines of some lanes meet at t (behind the origin,
@@ -133,19 +137,22 @@ Mask blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* trave
     return blocked;
 }
 
-// Triangles without a hierarchy come from the light's list of those that can cast a shadow.
+// Triangles without a hierarchy come from the light's list of those that can cast a shadow, where
+// it has one.
 Mask blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals t_max,
-                          __global const Light* light) {
+                          Index first_caster, Index caster_count) {
     Mask blocked = RT_NO_LANES;
-    bool listed = !RT_HAS_HIERARCHY || scene->frame.triangle_root == 0;
+    bool is_brute = !RT_HAS_HIERARCHY || scene->frame.triangle_root == 0;
+    bool listed = is_brute && caster_count != scene->frame.triangle_count;
+    if (is_brute && caster_count == 0) return blocked;
     RayShear shear = make_shear(ray, t_max > (Reals)0);
     Index first, end;
-    enter_kind(traversal, scene->frame.triangle_root, light->caster_count);
+    enter_kind(traversal, scene->frame.triangle_root, caster_count);
     while (next_range(traversal, scene->nodes, t_max, &first, &end)) {
         for (Index axes = shear.axes; axes != 0; axes >>= 2) {
             Index axis = (axes & 3) - 1;
             for (Index i = first; i < end; ++i) {
-                Index index = listed ? scene->casters[light->first_caster + i] : i;
+                Index index = listed ? scene->casters[first_caster + i] : i;
                 Reals t, u, v;
                 Mask met = intersect_triangle(&shear, axis, &scene->triangles[index], &t, &u, &v);
                 if (!any_lane(met)) continue;
@@ -161,8 +168,9 @@ Mask blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
     return blocked;
 }
 
-// Whether anything lies on the rays to the light in (0, t_max].
-Mask any_hit(const SceneView* scene, const Ray* ray, __global const Light* light) {
+// Whether anything lies on the rays in (0, t_max]. The triangles to test, where they have no
+// hierarchy: caster_count of the list of casters from first_caster on, or all of them.
+Mask any_hit(const SceneView* scene, const Ray* ray, Index first_caster, Index caster_count) {
     Mask blocked = RT_NO_LANES;
     Reals t_max = ray->t_max;
     Traversal traversal = begin_traversal(ray);
@@ -171,7 +179,7 @@ Mask any_hit(const SceneView* scene, const Ray* ray, __global const Light* light
         t_max = blocked ? (Reals)-1 : t_max;
     }
     if (RT_HAS_TRIANGLES && any_lane(t_max > (Reals)0)) {
-        blocked |= blocked_by_triangles(scene, ray, &traversal, t_max, light);
+        blocked |= blocked_by_triangles(scene, ray, &traversal, t_max, first_caster, caster_count);
     }
     return blocked;
 }

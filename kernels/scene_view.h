@@ -15,7 +15,7 @@ typedef struct {
     __global const Material* materials;
     __global const Light* lights;
     __global const BvhNode* nodes;
-    __global const Index* listed;   // the number each primitive was listed under; null: its own
+    __global const Index* listed;   // with hierarchies: the number each primitive was listed under
     __global const Index* casters;  // of each light's shadows: triangles
     Frame frame;
 } SceneView;

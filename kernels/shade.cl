@@ -41,7 +41,7 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const F
     Reals end = distance * (Reals)((Real)1 - (Real)16 * (Real)RT_ROUNDOFF);
     shadow.t_max = lit ? end : (Reals)-1;
     counts->shadow += lit & 1;
-    lit &= !any_hit(scene, &shadow, light);
+    lit &= !any_hit(scene, &shadow, light->first_caster, light->caster_count);
     if (!any_lane(lit)) return none;
     real3 reflected = scale3(cosine, finish->diffuse);
     Mask shiny = lit & !is_black(finish->specular);

@@ -35,7 +35,7 @@ typedef struct {
 } ProbeSurface;
 
 typedef struct {
-    Index axis;
+    Index kx, ky, kz;
     Real origin_x, origin_y, origin_z;
     Real sx, sy, sz;
 } ProbeShear;
@@ -259,7 +259,15 @@ __kernel void probe_make_shear(PROBE_ITEMS, __global const ProbeRay* rays,
     PROBE_ITEM;
     Ray ray = unpack_ray(rays[i]);
     RayShear s = make_shear(&ray, RT_ALL_LANES);
-    ProbeShear packed = {s.axis, s.origin.x, s.origin.y, s.origin.z, s.sx, s.sy, s.sz};
+    ProbeShear packed = {next_axis(s.axis),
+                         next_axis(next_axis(s.axis)),
+                         s.axis,
+                         s.origin.x,
+                         s.origin.y,
+                         s.origin.z,
+                         s.sx,
+                         s.sy,
+                         s.sz};
     out[i] = packed;
 }
 
@@ -288,6 +296,26 @@ __kernel void probe_intersect_triangle(PROBE_ITEMS, __global const ProbeRay* ray
 
 // closest_hit.cl
 
+// Distance to primitive prims[i] alone.
+__kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
+                                        __global const Index* prims, __global ProbeHit* out) {
+    PROBE_ITEM;
+    Ray ray = unpack_ray(rays[i]);
+    RayShear shear = make_shear(&ray, RT_ALL_LANES);
+    ProbeHit hit = {-1, 0, 0, prims[i], 0};
+    Real t, u, v;
+    Index triangle = prims[i] - frame->sphere_count;
+    if (triangle < 0) {
+        __global const Sphere* sphere = &spheres[prims[i]];
+        if (intersect_sphere(&ray, load3(sphere->center), sphere->radius, ray.from == prims[i], &t))
+            hit.t = t;
+    } else if (ray.from != prims[i] &&
+               intersect_triangle(&shear, shear.axis, &triangles[triangle], &t, &u, &v)) {
+        hit.t = t;
+    }
+    out[i] = hit;
+}
+
 __kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                 __global ProbeHit* out) {
     PROBE_ITEM;
@@ -296,13 +324,12 @@ __kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRa
     out[i] = pack_hit(closest_hit(&scene, &ray, RT_ALL_LANES));
 }
 
-// On the way to light 0.
 __kernel void probe_any_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                             __global Index* out) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     Ray ray = unpack_ray(rays[i]);
-    out[i] = any_hit(&scene, &ray, &lights[0]);
+    out[i] = any_hit(&scene, &ray, 0, frame->triangle_count);
 }
 
 // surface.cl
