@@ -79,20 +79,21 @@ Reals twice_atanh(Reals z) {
     return fma(twice * w, atanh_tail(w), twice);
 }
 
-// log(1 - s) for 0 <= s <= 0.2
-Reals log_one_minus(Reals s) { return -twice_atanh(s / ((Reals)2 - s)); }
-
-// log(x) for 0 < x <= 1, subnormal x included
-Reals log_unit(Reals x) {
-    Mask subnormal = x < (Reals)RT_MIN_NORMAL;
+// log(cosine) for 0 < cosine <= 1, subnormal ones included; from gap = 1 - cosine where the cosine
+// is above 13/16. Both are a multiple of log(2) and 2 atanh of a ratio.
+Reals log_cosine(Reals cosine, Reals gap) {
+    Mask subnormal = cosine < (Reals)RT_MIN_NORMAL;
     Indices shift = subnormal ? (Indices)(RT_MANTISSA_BITS + 1) : (Indices)0;
-    x = subnormal ? x * power_of_two((Indices)(RT_MANTISSA_BITS + 1)) : x;
+    Reals x = subnormal ? cosine * power_of_two((Indices)(RT_MANTISSA_BITS + 1)) : cosine;
     Reals m = mantissa_of(x);
     Mask large = m > (Reals)RT_SQRT2;
     m = large ? m * (Reals)0.5 : m;
     Indices exponent = exponent_of(x) - shift + (large ? (Indices)1 : (Indices)0);
-    Reals k = RT_TO_REALS(exponent);
-    Reals log_m = twice_atanh((m - (Reals)1) / (m + (Reals)1));
+    Mask near = cosine > (Reals)0.8125;
+    Reals k = near ? (Reals)0 : RT_TO_REALS(exponent);
+    Reals above = near ? -gap : m - (Reals)1;
+    Reals below = near ? (Reals)2 - gap : m + (Reals)1;
+    Reals log_m = twice_atanh(above / below);
     return fma(k, (Reals)RT_LN2_HIGH, fma(k, (Reals)RT_LN2_LOW, log_m));
 }
 
@@ -109,12 +110,9 @@ Reals exp_negative(Reals y) {
 
 // max(0, n.h)^exponent for unit n and h; half_gap is |n - h|^2 / 2. 0^0 is 1.
 Reals blinn_lobe(Reals n_dot_h, Reals half_gap, Reals exponent) {
-    Mask near = n_dot_h > (Reals)0.8125;
-    Mask far = (n_dot_h > (Reals)0) & !near;
-    Reals log_cosine = (Reals)0;
-    if (any_lane(near)) log_cosine = near ? log_one_minus(half_gap) : log_cosine;
-    if (any_lane(far)) log_cosine = far ? log_unit(n_dot_h) : log_cosine;
-    Reals lobe = near | far ? exp_negative(exponent * log_cosine) : (Reals)0;
+    Mask lit = n_dot_h > (Reals)0;
+    Reals lobe = exp_negative(exponent * log_cosine(n_dot_h, half_gap));
+    lobe = lit ? lobe : (Reals)0;
     return exponent == (Reals)0 ? (Reals)1 : lobe;
 }
 

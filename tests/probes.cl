@@ -134,8 +134,6 @@ PROBE_UNARY(mantissa_of)
 PROBE_UNARY(atanh_tail)
 PROBE_UNARY(exp_series)
 PROBE_UNARY(twice_atanh)
-PROBE_UNARY(log_one_minus)
-PROBE_UNARY(log_unit)
 PROBE_UNARY(exp_negative)
 
 // bits.cl, power.cl
@@ -154,6 +152,12 @@ __kernel void probe_one_ulp_towards(PROBE_ITEMS, __global const Real* x,
                                     __global const Real* direction, __global Real* out) {
     PROBE_ITEM;
     out[i] = one_ulp_towards(x[i], direction[i]);
+}
+
+__kernel void probe_log_cosine(PROBE_ITEMS, __global const Real* cosine, __global const Real* gap,
+                               __global Real* out) {
+    PROBE_ITEM;
+    out[i] = log_cosine(cosine[i], gap[i]);
 }
 
 __kernel void probe_blinn_lobe(PROBE_ITEMS, __global const Real* n_dot_h,
