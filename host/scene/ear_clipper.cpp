@@ -113,28 +113,35 @@ bool EarClipper::is_strictly_convex() const {
     return reversals == 2;
 }
 
+/// Sweeps over the edges by their low x, each against those that begin before it ends.
 bool EarClipper::edges_cross() {
+    struct Edge {
+        glm::dvec2 a, b, low, high;
+    };
+    std::vector<Edge> edges;
+    edges.reserve(count_);
     for (Index i = start_, seen = 0; seen < count_; i = next_[i], ++seen) {
         const glm::dvec2 a = points_[i], b = points_[next_[i]];
         const auto [low, high] = box_of(a, b);
-        work_ -= count_ - seen;
-        if (work_ < 0) return true;
-        for (Index j = next_[next_[i]], tested = seen + 2; tested < count_;
-             j = next_[j], ++tested) {
-            const glm::dvec2 c = points_[j], d = points_[next_[j]];
-            const auto [other_low, other_high] = box_of(c, d);
-            if (other_high.x < low.x || other_low.x > high.x || other_high.y < low.y ||
-                other_low.y > high.y) {
-                continue;
-            }
-            if (properly_cross(a, b, c, d)) return true;
+        edges.push_back({a, b, low, high});
+    }
+    std::sort(edges.begin(), edges.end(),
+              [](const Edge& e, const Edge& f) { return e.low.x < f.low.x; });
+    for (std::size_t i = 0; i < edges.size() && work_ >= 0; ++i) {
+        const Edge& e = edges[i];
+        for (std::size_t j = i + 1; j < edges.size() && edges[j].low.x <= e.high.x; ++j) {
+            const Edge& f = edges[j];
+            --work_;
+            if (f.high.y < e.low.y || f.low.y > e.high.y) continue;
+            if (properly_cross(e.a, e.b, f.a, f.b)) return true;
         }
     }
-    return false;
+    return work_ < 0;
 }
 
 /// If any corner lies in a triangle of three neighbours, then one does whose turn is not to the
-/// left. Corners at the same place are looked at as well: the polygon pinches there.
+/// left. Corners at the same place are looked at as well: the polygon pinches there. All stay in
+/// the order of x.
 void EarClipper::find_obstacles() {
     std::vector<Index> order;
     for (Index i = 0; i < alive_.size(); ++i) {
@@ -203,9 +210,15 @@ void EarClipper::cut(Index corner) {
 }
 
 bool EarClipper::is_ear(Index corner, bool strict) {
-    work_ -= static_cast<std::int64_t>(obstacles_.size());
-    return std::none_of(obstacles_.begin(), obstacles_.end(),
-                        [&](Index other) { return blocks(other, corner, strict); });
+    const auto [low, high] =
+        std::minmax({points_[previous_[corner]].x, points_[corner].x, points_[next_[corner]].x});
+    auto other = std::lower_bound(obstacles_.begin(), obstacles_.end(), low,
+                                  [&](Index i, double x) { return points_[i].x < x; });
+    for (; other != obstacles_.end() && points_[*other].x <= high; ++other) {
+        --work_;
+        if (blocks(*other, corner, strict)) return false;
+    }
+    return true;
 }
 
 bool EarClipper::blocks(Index other, Index corner, bool strict) const {

@@ -52,16 +52,35 @@ int exact_orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     return sum.sign_of();
 }
 
+/// The same where the differences are exact.
+int exact_orientation(double ax, double ay, double bx, double by) {
+    ExactSum sum;
+    sum.add_product(ax, by);
+    sum.add_product(-ay, bx);
+    return sum.sign_of();
+}
+
+/// Whether a - b was rounded (Knuth's two-sum).
+bool is_rounded(double a, double b, double difference) {
+    const double back = a - difference;
+    return (a - (difference + back)) + (back - b) != 0;
+}
+
 }  // namespace
 
 int orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-    const double left = (a.x - c.x) * (b.y - c.y);
-    const double right = (a.y - c.y) * (b.x - c.x);
+    const double ax = a.x - c.x, ay = a.y - c.y, bx = b.x - c.x, by = b.y - c.y;
+    const double left = ax * by, right = ay * bx;
     const double bound =
         2 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right));
     const double area = left - right;
     if (std::abs(area) > bound) return sign(area);
-    return exact_orientation(a, b, c);
+    if ((ax == 0 || by == 0) && (ay == 0 || bx == 0)) return 0;
+    if (is_rounded(a.x, c.x, ax) || is_rounded(a.y, c.y, ay) || is_rounded(b.x, c.x, bx) ||
+        is_rounded(b.y, c.y, by)) {
+        return exact_orientation(a, b, c);
+    }
+    return exact_orientation(ax, ay, bx, by);
 }
 
 }  // namespace rt

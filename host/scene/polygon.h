@@ -21,7 +21,7 @@ enum class PolygonFault {
 inline constexpr double max_polygon_bend = 0.05;
 
 /// Comparisons that triangulating the polygons of a file may take, so that no file takes for ever.
-inline constexpr std::int64_t max_polygon_work = std::int64_t{1} << 31;
+inline constexpr std::int64_t max_polygon_work = std::int64_t{1} << 28;
 
 /// Splits a polygon, convex or not, into triangles by clipping ears: rows of indices into
 /// `corners`, counterclockwise where the polygon is. Corners may repeat and lie on edges, and an
