@@ -4,17 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <vector>
 
 #include "host/error.h"
 #include "host/scene/geometry_checks.h"
+#include "host/scene/nff_fill.h"
+#include "host/scene/nff_polygon.h"
 #include "host/scene/nff_tokens.h"
 #include "host/scene/nff_view.h"
-#include "host/scene/polygon.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/text_file.h"
 #include "host/scene/words.h"
@@ -35,9 +33,6 @@ bool is_entity(std::string_view word) {
     return std::ranges::find(entities, word) != std::end(entities);
 }
 
-/// The numbers after an f.
-using Fill = std::array<double, 8>;
-
 class NffReader {
    public:
     NffReader(Mistakes& mistakes, const std::string& file_name)
@@ -55,6 +50,7 @@ class NffReader {
         }
         if (!view_) mistakes_.add(0, "the file has no view; add v with from, at, up and angle");
         mistakes_.throw_if_any();
+        scene_.materials = fills_.take();
         set_light();
         return std::move(scene_);
     }
@@ -62,7 +58,7 @@ class NffReader {
    private:
     bool read_entity() {
         const NffToken word = tokens_.take();
-        if (word.text == "f") return read_fill();
+        if (word.text == "f") return fills_.read(tokens_);
         if (word.text == "s") return read_sphere();
         if (word.text == "c") return read_cone();
         if (word.text == "p") return read_polygon(word, false);
@@ -130,49 +126,8 @@ class NffReader {
         return true;
     }
 
-    bool read_fill() {
-        constexpr const char* names[] = {"red", "green", "blue", "Kd", "Ks", "Shine", "T", "ior"};
-        tokens_.expect("f red green blue Kd Ks Shine T ior");
-        Fill fill{};
-        std::size_t last = 0;
-        for (std::size_t i = 0; i < fill.size(); ++i) {
-            last = tokens_.peek().offset;
-            const auto number = tokens_.read_not_negative(names[i]);
-            if (!number) return false;
-            fill[i] = *number;
-        }
-        if (fill[6] > 0 && fill[7] == 0) {
-            mistakes_.add(last,
-                          "ior is 0 where T is not; write an index above 0, 1 to go straight");
-            return true;
-        }
-        use(fill);
-        return true;
-    }
-
-    /// Makes a material of the fill, unless there is one already, and uses it from here on.
-    void use(const Fill& fill) {
-        const auto next = static_cast<int>(scene_.materials.size());
-        const auto [known, is_new] = fills_.try_emplace(fill, next);
-        material_ = known->second;
-        if (!is_new) return;
-        const auto [red, green, blue, kd, ks, shine, t, ior] = fill;
-        Scene::Material material;
-        material.name = fmt::format("f{}", next + 1);
-        material.diffuse = glm::dvec3(red, green, blue) * kd;
-        material.ambient = material.diffuse;
-        material.specular = material.mirror = glm::dvec3(ks, ks, ks);
-        material.shininess = shine;
-        material.transmission = glm::dvec3(t, t, t);
-        material.ior = t > 0 ? ior : 1;
-        material.two_sided = true;
-        scene_.materials.push_back(material);
-    }
-
-    /// What is used now; white and matt before the first f.
-    int material() {
-        if (material_ < 0) use({1, 1, 1, 1, 0, 0, 0, 1});
-        return material_;
+    bool read_polygon(const NffToken& word, bool is_patch) {
+        return polygons_.read(tokens_, word.offset, is_patch, fills_, scene_.triangles);
     }
 
     bool read_sphere() {
@@ -183,7 +138,7 @@ class NffReader {
         const auto radius = tokens_.read_number("radius");
         if (!radius) return false;
         if (*radius == 0) mistakes_.add(offset, "radius is 0; write a larger one");
-        scene_.spheres.push_back({*center, std::abs(*radius), material()});
+        scene_.spheres.push_back({*center, std::abs(*radius), fills_.current()});
         return true;
     }
 
@@ -199,82 +154,14 @@ class NffReader {
         if (nearly_same_point(*base, *apex)) {
             mistakes_.add(apex_offset, "apex is the same point as base; move one of them");
         }
-        if (*base_radius * *apex_radius < 0) {
-            mistakes_.add(offset, "one radius is negative and one is not; make both alike");
+        if (std::min(*base_radius, *apex_radius) < 0 && std::max(*base_radius, *apex_radius) > 0) {
+            mistakes_.add(offset, "one radius is negative and one is above 0; make both alike");
         } else if (*base_radius == 0 && *apex_radius == 0) {
             mistakes_.add(offset, "both radii are 0; make one of them larger");
         }
         scene_.cones.push_back(
-            {*base, *apex, std::abs(*base_radius), std::abs(*apex_radius), material()});
+            {*base, *apex, std::abs(*base_radius), std::abs(*apex_radius), fills_.current()});
         return true;
-    }
-
-    bool read_polygon(const NffToken& word, bool is_patch) {
-        tokens_.expect(is_patch ? "pp count, and so often x y z nx ny nz"
-                                : "p count, and so often x y z");
-        const auto count = read_corner_count(is_patch ? 12 : 6);
-        if (!count) return false;
-        corners_.clear();
-        normals_.clear();
-        for (int i = 0; i < *count; ++i) {
-            const auto corner = tokens_.read_vec3("vertex");
-            if (!corner) return false;
-            corners_.push_back(*corner);
-            if (is_patch && !read_normal()) return false;
-        }
-        add_polygon(word);
-        return true;
-    }
-
-    /// A count is refused before anything is made of it when the rest of the file cannot hold so
-    /// many vertices of at least so many bytes.
-    std::optional<int> read_corner_count(std::size_t vertex_bytes) {
-        const std::size_t offset = tokens_.peek().offset;
-        const auto count = tokens_.read_integer("vertex count", 3, 1 << 30);
-        if (!count) return std::nullopt;
-        const std::size_t most = (tokens_.bytes_left() + 1) / vertex_bytes;
-        if (static_cast<std::size_t>(*count) <= most) return count;
-        mistakes_.add(offset,
-                      fmt::format("vertex count is {}, and the rest of the file is too short "
-                                  "for so many; write how many follow",
-                                  *count));
-        return std::nullopt;
-    }
-
-    bool read_normal() {
-        const std::size_t offset = tokens_.peek().offset;
-        const auto normal = tokens_.read_vec3("normal");
-        if (!normal) return false;
-        const auto unit = unit_direction(*normal);
-        if (!unit) mistakes_.add(offset, "a vertex normal is zero; give it a direction");
-        normals_.push_back(unit.value_or(glm::dvec3(0, 0, 1)));
-        return true;
-    }
-
-    void add_polygon(const NffToken& word) {
-        const PolygonFault fault = triangulate(corners_, polygon_work_, faces_);
-        if (fault == PolygonFault::zero_area) return;
-        if (fault != PolygonFault::none) return note_polygon(word, fault);
-        for (const auto& [a, b, c] : faces_) {
-            Scene::Triangle triangle;
-            triangle.vertices = {corners_[a], corners_[b], corners_[c]};
-            if (zero_area(triangle.vertices)) continue;
-            if (!normals_.empty()) triangle.normals = {normals_[a], normals_[b], normals_[c]};
-            triangle.material = material();
-            scene_.triangles.push_back(triangle);
-        }
-    }
-
-    void note_polygon(const NffToken& word, PolygonFault fault) {
-        if (fault == PolygonFault::too_intricate) {
-            throw Error(ExitCode::limit,
-                        mistakes_.place(word.offset) +
-                            ": the file's polygons are too intricate; split those with thousands "
-                            "of vertices");
-        }
-        mistakes_.add(word.offset, fault == PolygonFault::bent
-                                       ? "the polygon is not flat; split it into triangles"
-                                       : "the polygon crosses itself; split it where it does");
     }
 
     void check_size() const {
@@ -301,11 +188,8 @@ class NffReader {
     NffTokens tokens_;
     Scene scene_;
     std::optional<std::size_t> view_, background_;  ///< where they stand
-    std::map<Fill, int> fills_;
-    int material_ = -1;  ///< of the primitives to come; -1: the file has named none
-    std::vector<glm::dvec3> corners_, normals_;  ///< of the polygon at hand
-    std::vector<std::array<std::uint32_t, 3>> faces_;
-    std::int64_t polygon_work_ = max_polygon_work;
+    NffFills fills_{mistakes_};
+    NffPolygons polygons_{mistakes_};
 };
 
 }  // namespace

@@ -80,15 +80,20 @@ std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners, glm::dvec
 PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
                          std::vector<std::array<std::uint32_t, 3>>& triangles) {
     triangles.clear();
-    if (corners.size() < 3 || on_one_line(corners)) return PolygonFault::zero_area;
     if (corners.size() == 3) {
+        if (zero_area({corners[0], corners[1], corners[2]})) return PolygonFault::zero_area;
         triangles.push_back({0, 1, 2});
         return PolygonFault::none;
     }
+    if (corners.size() < 3 || on_one_line(corners)) return PolygonFault::zero_area;
     const Plane plane = plane_of(corners);
     if (plane.bend > max_polygon_bend) return PolygonFault::bent;
     if (largest(plane.normal) == 0) return PolygonFault::crosses_itself;
-    return EarClipper(flattened(corners, plane.normal), work, triangles).run();
+    const PolygonFault fault = EarClipper(flattened(corners, plane.normal), work, triangles).run();
+    std::erase_if(triangles, [&](const auto& triangle) {
+        return zero_area({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
+    });
+    return fault;
 }
 
 }  // namespace rt

@@ -25,8 +25,9 @@ inline constexpr std::int64_t max_polygon_work = std::int64_t{1} << 28;
 
 /// Splits a polygon, convex or not, into triangles by clipping ears: rows of indices into
 /// `corners`, counterclockwise where the polygon is. Corners may repeat and lie on edges, and an
-/// edge may run along another one, as where a slit joins a hole to the outside. `work` is what is
-/// left of the budget. `triangles` is replaced, and holds nothing of use when there is a fault.
+/// edge may run along another one, as where a slit joins a hole to the outside. No triangle is of
+/// zero_area. `work` is what is left of the budget. `triangles` is replaced, and holds nothing of
+/// use when there is a fault.
 PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
                          std::vector<std::array<std::uint32_t, 3>>& triangles);
 
