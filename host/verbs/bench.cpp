@@ -8,7 +8,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
-#include "host/render/posix_threads.h"
+#include "host/parallel.h"
 #include "host/render/stopwatch.h"
 #include "host/report/baseline.h"
 #include "host/report/bench_csv.h"

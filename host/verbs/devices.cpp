@@ -5,7 +5,7 @@
 
 #include "host/console.h"
 #include "host/render/cl_device.h"
-#include "host/render/posix_threads.h"
+#include "host/parallel.h"
 #include "host/report/stats_json.h"
 #include "host/verbs/verbs.h"
 
