@@ -168,9 +168,9 @@ TYPED_TEST(FirstListedHit, IsTheLowestIndexWithinReach) {
         ASSERT_EQ(hits[i].prim, all.first_within(i, rays[i].t_max)) << i;
     }
     EXPECT_TRUE(same_bits<TypeParam>(hits, for_each_item(rays.size(), [&](std::size_t i) {
-                                         const auto ray = unpack(rays[i]);
-                                         return trace::first_listed_hit(
-                                             view(scene), ray, trace::make_shear(ray), ray.t_max);
+                                         const trace::PreparedRay<TypeParam> ray(unpack(rays[i]));
+                                         return trace::first_listed_hit(view(scene), ray,
+                                                                        rays[i].t_max);
                                      })));
 }
 

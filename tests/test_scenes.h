@@ -16,16 +16,16 @@ using Index = typename Flat<T>::Index;
 
 template <typename T>
 trace::SceneView<T> view(const FlatScene<T>& scene) {
-    return {scene.spheres.data(),   scene.triangles.data(), scene.vertex_normals.data(),
-            scene.materials.data(), scene.lights.data(),    scene.frame};
+    return trace::view_of(scene);
 }
 
-/// Sets the frame's counts.
+/// Sets the frame's counts; all triangles cast shadows.
 template <typename T>
 void count_primitives(FlatScene<T>& scene) {
     scene.frame.sphere_count = static_cast<Index<T>>(scene.spheres.size());
     scene.frame.triangle_count = static_cast<Index<T>>(scene.triangles.size());
     scene.frame.light_count = static_cast<Index<T>>(scene.lights.size());
+    for (auto& light : scene.lights) light.caster_count = scene.frame.triangle_count;
 }
 
 /// Balls and triangles about the origin, some of them twice.
