@@ -355,6 +355,7 @@ class Flattener {
         features.spheres = !flat_.spheres.empty();
         features.triangles = !flat_.triangles.empty();
         features.vertex_normals = !flat_.vertex_normals.empty();
+        features.hierarchy = !flat_.nodes.empty();
         features.lights = !flat_.lights.empty();
         features.mirrors =
             scene_.max_bounces > 0 && std::any_of(worn_.begin(), worn_.end(), is_mirror);

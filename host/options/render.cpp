@@ -94,6 +94,10 @@ void add_device_options(CLI::App& app, RenderOptions& render) {
     add_choice<Launch>(app, "--launch", render.launch,
                        {{"pixel", Launch::pixel}, {"sample", Launch::sample}},
                        "what an OpenCL work item is (default: pixel on CPUs, sample elsewhere)");
+    add_choice<int>(app, "--lanes", render.lanes,
+                    {{"auto", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}},
+                    "rays an OpenCL work item traces side by side (default: a CPU's vector width, "
+                    "else 1)");
     add_choice<Schedule>(app, "--schedule", render.schedule,
                          {{"tiles", Schedule::tiles}, {"buffers", Schedule::buffers}},
                          "pthreads: shared tiles (default), or a thread per sample buffer");

@@ -33,6 +33,7 @@ struct RenderOptions {
     Precision precision = Precision::float32;
     bool fast_math = false;
     Launch launch = Launch::automatic;
+    int lanes = 0;  ///< rays of a packet on OpenCL devices; 0: as suits the device
     Schedule schedule = Schedule::tiles;
     int threads = 0;  ///< 0: all cores
     bool all_features = false;

@@ -71,6 +71,7 @@ Json device_json(const DeviceStats& device) {
         json["platform"] = device.platform;
         json["driver"] = device.driver;
         json["launch"] = device.launch;
+        json["lanes"] = device.lanes;
     } else {
         json["threads"] = device.threads;
         json["schedule"] = device.schedule;
