@@ -8,6 +8,7 @@
 #include "host/options/converge_options.h"
 #include "host/options/render_options.h"
 #include "host/options/report_options.h"
+#include "host/options/stress_options.h"
 
 namespace rt {
 
@@ -23,7 +24,7 @@ struct SceneOptions {
     bool json = false;
 };
 
-enum class Verb { none, render, bench, converge, devices, scene, compare, report };
+enum class Verb { none, render, bench, converge, devices, scene, compare, report, stress };
 
 struct Options {
     Verb verb = Verb::none;
@@ -32,6 +33,7 @@ struct Options {
     ConvergeOptions converge;
     CompareOptions compare;
     ReportOptions report;
+    StressOptions stress;
     DevicesOptions devices;
     SceneOptions scene;
     std::string text;  ///< help or version, to be printed instead of doing anything
