@@ -125,14 +125,13 @@ Quad exact_distance(const trace::Ray<T>& ray, const typename Flat<T>::Sphere& sp
     return near > 0 ? near : (-b + root) / a;
 }
 
-/// The far side for a ray that starts on, or within rounding of, the sphere.
+/// The far side for a ray from this point of the sphere, put onto it exactly.
 template <typename T>
-Quad far_side(const trace::Ray<T>& ray, const typename Flat<T>::Sphere& sphere) {
+Quad far_side(const trace::Surface<T>& start, const Vec3<T>& dir,
+              const typename Flat<T>::Sphere& sphere) {
     const auto wide = [](const auto& v) { return Wide3<Quad>{Quad(v.x), Quad(v.y), Quad(v.z)}; };
-    const Wide3<Quad> f = wide(ray.origin) - wide(sphere.center), d = wide(ray.dir);
-    const Quad radius = sphere.radius;
-    const Quad a = dot(d, d), b = dot(f, d);
-    return (-b + stress::square_root(b * b - a * (dot(f, f) - radius * radius))) / a;
+    const Wide3<Quad> out = unit(wide(start.normal));
+    return Quad(-2) * Quad(sphere.radius) * dot(out, unit(wide(dir)));
 }
 
 /// A direction at this angle over the plane of the normal.
@@ -150,7 +149,8 @@ double relative_error(double found, Quad exact) {
 }
 
 template <typename T>
-void leave_sphere(const trace::SceneView<T>& view, Dice& dice, RayFigures& figures) {
+void leave_sphere(const trace::SceneView<T>& view, double shallowest, Dice& dice,
+                  RayFigures& figures) {
     const auto& sphere = view.spheres[0];
     const glm::dvec3 center = in_double(sphere.center);
     const glm::dvec3 target = center + double(sphere.radius) * dice.direction();
@@ -163,7 +163,7 @@ void leave_sphere(const trace::SceneView<T>& view, Dice& dice, RayFigures& figur
     const double steepest = std::numbers::pi / 2;
     const double angle =
         outwards ? (dice.index(3) == 0 ? dice.uniform(0.1, steepest) : dice.log_uniform(1e-6, 0.1))
-                 : -dice.log_uniform(1e-3, steepest);
+                 : -dice.log_uniform(shallowest, steepest);
     const glm::dvec3 dir = at_angle(dice, normal, angle);
     trace::Ray<T> ray = make_ray<T>(surface.point, dir);
     ray.origin = trace::offset_origin(surface, ray.dir);
@@ -175,7 +175,7 @@ void leave_sphere(const trace::SceneView<T>& view, Dice& dice, RayFigures& figur
         return;
     }
     const double error =
-        again.prim == 0 ? relative_error(double(again.t), far_side(ray, sphere)) : 1.0;
+        again.prim == 0 ? relative_error(double(again.t), far_side(surface, ray.dir, sphere)) : 1.0;
     figures.failures += error <= 1e-3 ? 0 : 1;
     if (again.prim == 0) figures.max_error = std::max(figures.max_error, error);
 }
@@ -204,11 +204,12 @@ RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays) {
 }
 
 template <typename T>
-RayFigures count_leaving_failures(const Scene& scene, std::uint64_t rays) {
+RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays) {
     const FlatScene<T> flat = flatten<T>(scene);
     const trace::SceneView<T> view = view_of(flat);
-    return many_rays(rays,
-                     [&](Dice& dice, RayFigures& figures) { leave_sphere(view, dice, figures); });
+    return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
+        leave_sphere(view, shallowest, dice, figures);
+    });
 }
 
 template <typename T>
@@ -234,8 +235,8 @@ RayFigures count_sphere_failures(const Scene& scene, std::uint64_t rays) {
 
 template RayFigures count_leaks<float>(const Scene&, RayAim, std::uint64_t);
 template RayFigures count_leaks<double>(const Scene&, RayAim, std::uint64_t);
-template RayFigures count_leaving_failures<float>(const Scene&, std::uint64_t);
-template RayFigures count_leaving_failures<double>(const Scene&, std::uint64_t);
+template RayFigures count_leaving_failures<float>(const Scene&, double, std::uint64_t);
+template RayFigures count_leaving_failures<double>(const Scene&, double, std::uint64_t);
 template RayFigures count_sphere_failures<float>(const Scene&, std::uint64_t);
 template RayFigures count_sphere_failures<double>(const Scene&, std::uint64_t);
 

@@ -18,10 +18,10 @@ template <typename T>
 RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays);
 
 /// Rays from the eye to the scene's first sphere, and on from there: outwards, from steep to 1e-6
-/// rad over the surface, which must not hit it again; inwards, to 1e-3 rad, which must find its far
-/// side within 0.1 %.
+/// rad over the surface, which must not hit it again; inwards, to `shallowest` rad, which must find
+/// its far side within 0.1 %.
 template <typename T>
-RayFigures count_leaving_failures(const Scene& scene, std::uint64_t rays);
+RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays);
 
 /// Rays from the eye past the scene's first sphere, within 1.5 times its apparent radius. A failure
 /// is one that hits or misses where quad arithmetic on the same rounded numbers says otherwise; the
