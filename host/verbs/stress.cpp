@@ -14,6 +14,7 @@
 #include "host/scene/json_file.h"
 #include "host/stop_signal.h"
 #include "host/stress/naive_tracer.h"
+#include "host/verbs/measure.h"
 #include "host/verbs/picture_job.h"
 #include "host/verbs/stress_run.h"
 #include "host/verbs/timing_loop.h"
@@ -48,6 +49,10 @@ std::optional<StressCost> measure_cost() {
     return StressCost{cost_scene, median(robust), median(naive)};
 }
 
+std::vector<StressFamily> families_for(const StressOptions& options) {
+    return chosen_families(all_stress_families(), options.cases, options.except, options.quick);
+}
+
 void make_folder(const std::string& folder) {
     std::error_code error;
     if (!folder.empty()) std::filesystem::create_directories(folder, error);
@@ -59,17 +64,21 @@ void make_folder(const std::string& folder) {
 
 }  // namespace
 
+StressResult measure_stress(const StressOptions& options) {
+    StressResult result = run_stress_cases(families_for(options), options);
+    if (options.naive && !result.interrupted) result.cost = measure_cost();
+    return result;
+}
+
 int run_stress(const StressOptions& options) {
-    const std::vector<StressFamily> families =
-        chosen_families(all_stress_families(), options.cases, options.except, options.quick);
+    const std::vector<StressFamily> families = families_for(options);
     if (options.list) {
         print_result(stress_list(families));
         return 0;
     }
     check_result_path(options.json, json_start("mirrorball-stress"));
     make_folder(options.output);
-    StressResult result = run_stress_cases(families, options);
-    if (options.naive && !result.interrupted) result.cost = measure_cost();
+    const StressResult result = measure_stress(options);
     if (options.json != "-") print_result(stress_text(result, options.verbose));
     write_result(options.json, options.json.empty() ? "" : json_text(stress_json(result)));
     if (result.interrupted) return 128 + stop_flag();
