@@ -6,6 +6,9 @@
 #include <set>
 
 #include "host/error.h"
+#include "host/report/report_sections.h"
+#include "host/report/stress_json.h"
+#include "host/report/stress_text.h"
 #include "host/stress/judge.h"
 #include "host/stress/meshes.h"
 #include "host/stress/naive_tracer.h"
@@ -259,6 +262,59 @@ TEST(StressVerdict, OneRowOrOneDisagreementBreaksIt) {
     EXPECT_TRUE(result.passed());
     one.disagreement = "devices differ";
     EXPECT_FALSE(result.passed());
+}
+
+/// Two cases on threads, the second wrong, and textbook formulas beside each.
+StressResult small_result() {
+    StressResult result;
+    StressFamily family{"scale-2", "scale", "absolute epsilons", {}};
+    result.families.push_back({family.name, family.parameter, family.why, {}});
+    for (const double value : {1.0, 16.0}) {
+        StressCaseResult one;
+        one.label = std::to_string(static_cast<int>(value));
+        one.value = value;
+        StressRow row;
+        row.renderer = row.device = "threads";
+        row.figures.max_error = value * 1e-5;
+        row.why = value > 1 ? "off by 0.00016" : "";
+        one.rows.push_back(row);
+        row.renderer = "naive, t > 1e-3";
+        row.device = "";
+        row.naive = true;
+        row.judged = false;
+        row.figures.wrong = 123;
+        one.rows.push_back(row);
+        result.families[0].cases.push_back(one);
+    }
+    result.cost = StressCost{"box", 0.3, 0.2};
+    return result;
+}
+
+TEST(StressTable, NamesWhatIsBroken) {
+    const std::string text = stress_text(small_result(), false);
+    EXPECT_NE(text.find("\n    FAIL scale-2/16, threads float: off by 0.00016\n"),
+              std::string::npos);
+    EXPECT_EQ(text.find("scale-2/1,"), std::string::npos);
+    EXPECT_NE(text.find("box: 1.50"), std::string::npos);
+    EXPECT_NE(text.find("FAIL: 1 of 1 families"), std::string::npos);
+    EXPECT_NE(stress_text(small_result(), true).find("naive, t > 1e-3 float"), std::string::npos);
+}
+
+TEST(StressJson, SaysTheSame) {
+    const auto json = stress_json(small_result());
+    EXPECT_FALSE(json["passed"].get<bool>());
+    EXPECT_EQ(json["families"][0]["cases"][1]["rows"][0]["verdict"], "fail");
+    EXPECT_EQ(json["families"][0]["cases"][1]["rows"][1]["verdict"], "not judged");
+    EXPECT_TRUE(json["families"][0]["cases"][0]["bar"]["wrong_at_edges"].is_null());
+    EXPECT_DOUBLE_EQ(json["cost"]["ratio"].get<double>(), 1.5);
+}
+
+TEST(StressSection, ShowsVerdictsAndCurves) {
+    const std::string html = stress_section(small_result());
+    EXPECT_NE(html.find("falls short"), std::string::npos);
+    EXPECT_NE(html.find("123 wrong"), std::string::npos);
+    EXPECT_NE(html.find("stress-scale-2-title"), std::string::npos);
+    EXPECT_NE(html.find("stress#/families/0/cases/1/rows/0"), std::string::npos);
 }
 
 // The naive tracer
