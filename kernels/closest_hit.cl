@@ -87,7 +87,7 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
 }
 
 void search_all(const SceneView* scene, const Ray* ray, const RayShear* shear, Search* search) {
-    Traversal traversal = begin_traversal(ray);
+    Traversal traversal = begin_traversal(ray, search->limit > (Reals)0);
     if (RT_HAS_SPHERES) search_spheres(scene, ray, &traversal, search);
     if (RT_HAS_TRIANGLES) search_triangles(scene, ray, shear, &traversal, search);
 }
@@ -173,7 +173,7 @@ Mask blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
 Mask any_hit(const SceneView* scene, const Ray* ray, Index first_caster, Index caster_count) {
     Mask blocked = RT_NO_LANES;
     Reals t_max = ray->t_max;
-    Traversal traversal = begin_traversal(ray);
+    Traversal traversal = begin_traversal(ray, t_max > (Reals)0);
     if (RT_HAS_SPHERES) {
         blocked |= blocked_by_spheres(scene, ray, &traversal, t_max);
         t_max = blocked ? (Reals)-1 : t_max;

@@ -5,25 +5,24 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 
+#include "host/scene/image_limits.h"
 #include "host/scene/json_camera.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/json_shapes.h"
+#include "host/scene/scene_file.h"
 #include "host/scene/text_file.h"
 #include "host/scene/words.h"
 
 namespace rt {
 namespace {
 
-constexpr int max_image_side = 65536;
-constexpr int max_image_pixels = 1 << 28;
 constexpr int max_max_bounces = 100000;
 
-constexpr std::string_view scene_keys[] = {"$schema",     "name",       "camera",        "image",
-                                           "max_bounces", "background", "ambient_light", "lights",
-                                           "materials",   "spheres",    "triangles"};
+constexpr std::string_view scene_keys[] = {
+    "$schema",       "name",   "camera",    "image",   "max_bounces", "background",
+    "ambient_light", "lights", "materials", "spheres", "cones",       "triangles"};
 constexpr std::string_view image_keys[] = {"width", "height", "aa"};
 
 std::optional<AaMode> read_aa(const JsonValue& value, std::string_view name, Mistakes& mistakes) {
@@ -73,18 +72,14 @@ void read_objects(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) 
               [&](const JsonValue& item) { return read_light(item, mistakes); });
     read_list(reader, "spheres", scene.spheres, mistakes,
               [&](const JsonValue& item) { return read_sphere(item, materials, mistakes); });
+    read_list(reader, "cones", scene.cones, mistakes,
+              [&](const JsonValue& item) { return read_cone(item, materials, mistakes); });
     read_list(reader, "triangles", scene.triangles, mistakes,
               [&](const JsonValue& item) { return read_triangle(item, materials, mistakes); });
     scene.materials = materials.take();
 }
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
-
-std::string name_from(const std::string& file_name) {
-    std::string name = std::filesystem::path(file_name).stem().string();
-    std::replace_if(name.begin(), name.end(), is_control, '?');
-    return name;
-}
 
 void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
     if (const JsonValue* schema = reader.find("$schema")) read_string(*schema, "$schema", mistakes);
@@ -127,7 +122,7 @@ Scene parse_json_scene(std::string_view text, const std::string& file_name) {
     const JsonValue root = parse_json(mistakes);
     Scene scene = read_scene(root, mistakes);
     mistakes.throw_if_any();
-    if (scene.name.empty()) scene.name = name_from(file_name);
+    if (scene.name.empty()) scene.name = name_of_file(file_name);
     set_image_size(scene, scene.width, scene.height);
     return scene;
 }

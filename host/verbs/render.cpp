@@ -10,7 +10,7 @@
 #include "host/report/image_error.h"
 #include "host/report/stats_json.h"
 #include "host/report/stats_text.h"
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
 #include "host/verbs/picture_job.h"
 #include "host/verbs/verbs.h"
@@ -90,7 +90,7 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     const Stopwatch total;
     if (!options.output.empty()) check_picture_path(options.output);
     Stopwatch watch;
-    Scene scene = load_json_scene(options.scene);
+    Scene scene = load_scene(options.scene, options.light);
     apply_overrides(scene, options);
     const double load_seconds = watch.lap();
     const std::optional<Picture> reference = load_reference(options, scene);

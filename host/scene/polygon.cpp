@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "host/scene/ear_clipper.h"
+#include "host/scene/geometry_checks.h"
+
+namespace rt {
+namespace {
+
+double largest(glm::dvec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+bool on_one_line(std::span<const glm::dvec3> corners) {
+    const glm::dvec3 start = corners[0];
+    const glm::dvec3 end = *std::max_element(
+        corners.begin(), corners.end(),
+        [&](glm::dvec3 a, glm::dvec3 b) { return largest(a - start) < largest(b - start); });
+    return std::all_of(corners.begin(), corners.end(), [&](glm::dvec3 corner) {
+        return zero_area({start, end, corner});
+    });
+}
+
+/// The plane that a polygon lies in, more or less.
+struct Plane {
+    glm::dvec3 normal{0};  ///< as long as twice the area, seen at an extent of 1
+    double bend = 0;       ///< the largest distance from it, as a share of the extent
+};
+
+/// The normal is Newell's (Sutherland, Sproull and Schumacker 1974).
+Plane plane_of(std::span<const glm::dvec3> corners) {
+    double extent = 0;
+    for (const glm::dvec3& corner : corners)
+        extent = std::max(extent, largest(corner - corners[0]));
+    const auto scaled = [&](const glm::dvec3& corner) { return (corner - corners[0]) / extent; };
+    Plane plane;
+    glm::dvec3 middle{0};
+    glm::dvec3 before = scaled(corners.back());
+    for (const glm::dvec3& corner : corners) {
+        const glm::dvec3 p = scaled(corner);
+        plane.normal += glm::cross(before, p);
+        middle += p / static_cast<double>(corners.size());
+        before = p;
+    }
+    const auto unit = unit_direction(plane.normal);
+    if (!unit) return plane;
+    for (const glm::dvec3& corner : corners) {
+        plane.bend = std::max(plane.bend, std::abs(glm::dot(scaled(corner) - middle, *unit)));
+    }
+    return plane;
+}
+
+/// The polygon seen along the axis nearest to its normal, running counterclockwise. Its
+/// coordinates are those of the corners, by powers of two: nothing is rounded.
+std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners, glm::dvec3 normal) {
+    int axis = 0;
+    if (std::abs(normal.y) > std::abs(normal[axis])) axis = 1;
+    if (std::abs(normal.z) > std::abs(normal[axis])) axis = 2;
+    int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    if (normal[axis] < 0) std::swap(u, v);
+    double size = 0;
+    for (const glm::dvec3& corner : corners) {
+        size = std::max({size, std::abs(corner[u]), std::abs(corner[v])});
+    }
+    int exponent = 0;
+    std::frexp(size, &exponent);
+    std::vector<glm::dvec2> flat;
+    flat.reserve(corners.size());
+    for (const glm::dvec3& corner : corners) {
+        flat.emplace_back(std::ldexp(corner[u], -exponent), std::ldexp(corner[v], -exponent));
+    }
+    return flat;
+}
+
+}  // namespace
+
+PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
+                         std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    triangles.clear();
+    if (corners.size() == 3) {
+        if (zero_area({corners[0], corners[1], corners[2]})) return PolygonFault::zero_area;
+        triangles.push_back({0, 1, 2});
+        return PolygonFault::none;
+    }
+    if (corners.size() < 3 || on_one_line(corners)) return PolygonFault::zero_area;
+    const Plane plane = plane_of(corners);
+    if (plane.bend > max_polygon_bend) return PolygonFault::bent;
+    if (largest(plane.normal) == 0) return PolygonFault::crosses_itself;
+    const PolygonFault fault = EarClipper(flattened(corners, plane.normal), work, triangles).run();
+    std::erase_if(triangles, [&](const auto& triangle) {
+        return zero_area({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
+    });
+    return fault;
+}
+
+}  // namespace rt
