@@ -19,9 +19,11 @@ template <typename T>
 struct PreparedRay {
     Ray<T> ray;
     RayShear<T> shear;
-    BoxRay<T> box;
+    BoxRay<T> box;  ///< only where the scene has hierarchies
 
-    explicit PreparedRay(const Ray<T>& r) : ray(r), shear(make_shear(r)), box(make_box_ray(r)) {}
+    PreparedRay(const SceneView<T>& scene, const Ray<T>& r) : ray(r), shear(make_shear(r)) {
+        if (scene.order) box = make_box_ray(r);
+    }
 };
 
 /// Distance to primitive `prim`, or -1 (or NaN) where it is missed.
@@ -39,8 +41,8 @@ T intersect_primitive(const SceneView<T>& scene, const Ray<T>& ray, const RayShe
 /// Calls visit(i) for spheres 0 <= i < sphere_count, at least those that the ray may hit no further
 /// away than `limit`, until a call returns true; that is returned.
 template <typename T, typename Visit>
-bool visit_spheres(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
-                   const Visit& visit) {
+RT_INLINE bool visit_spheres(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
+                             const Visit& visit) {
     if (scene.frame.sphere_root != 0) {
         return visit_leaves(scene, ray.box, scene.frame.sphere_root, limit, visit);
     }
@@ -52,8 +54,8 @@ bool visit_spheres(const SceneView<T>& scene, const PreparedRay<T>& ray, const T
 
 /// The same for triangles.
 template <typename T, typename Visit>
-bool visit_triangles(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
-                     const Visit& visit) {
+RT_INLINE bool visit_triangles(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
+                               const Visit& visit) {
     if (scene.frame.triangle_root != 0) {
         return visit_leaves(scene, ray.box, scene.frame.triangle_root, limit, visit);
     }
@@ -65,8 +67,8 @@ bool visit_triangles(const SceneView<T>& scene, const PreparedRay<T>& ray, const
 
 /// Calls visit(prim, t, u, v) for the hits with 0 < t <= limit, in no particular order.
 template <typename T, typename Visit>
-void visit_hits(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
-                const Visit& visit) {
+RT_INLINE void visit_hits(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
+                          const Visit& visit) {
     using Index = typename Flat<T>::Index;
     visit_spheres(scene, ray, limit, [&](Index i) {
         const auto& sphere = scene.spheres[i];
@@ -103,7 +105,7 @@ Hit<T> first_listed_hit(const SceneView<T>& scene, const PreparedRay<T>& ray, T 
 
 template <typename T>
 Hit<T> closest_hit(const SceneView<T>& scene, const Ray<T>& r) {
-    const PreparedRay<T> ray(r);
+    const PreparedRay<T> ray(scene, r);
     Hit<T> best{std::numeric_limits<T>::infinity(), 0, 0, Flat<T>::none, 0};
     T limit = best.t;   // best.t * tie_factor: beyond, nothing matters
     T second = best.t;  // the second smallest distance, if within the limit
@@ -121,7 +123,7 @@ Hit<T> closest_hit(const SceneView<T>& scene, const Ray<T>& r) {
 }
 
 template <typename T>
-bool any_sphere_hit(const SceneView<T>& scene, const PreparedRay<T>& ray) {
+RT_INLINE bool any_sphere_hit(const SceneView<T>& scene, const PreparedRay<T>& ray) {
     return visit_spheres(scene, ray, ray.ray.t_max, [&](typename Flat<T>::Index i) {
         const auto& sphere = scene.spheres[i];
         const T t =
@@ -132,8 +134,8 @@ bool any_sphere_hit(const SceneView<T>& scene, const PreparedRay<T>& ray) {
 
 /// Whether the ray hits triangle i, other than the one it leaves, in (0, t_max].
 template <typename T>
-bool hits_triangle(const SceneView<T>& scene, const PreparedRay<T>& ray,
-                   typename Flat<T>::Index i) {
+RT_INLINE bool hits_triangle(const SceneView<T>& scene, const PreparedRay<T>& ray,
+                             typename Flat<T>::Index i) {
     if (i == ray.ray.from - first_triangle(scene.frame)) return false;
     T u, v;
     const T t = intersect_triangle(ray.shear, scene.triangles[i], u, v);
@@ -143,7 +145,7 @@ bool hits_triangle(const SceneView<T>& scene, const PreparedRay<T>& ray,
 /// Whether anything lies on the ray in (0, t_max].
 template <typename T>
 bool any_hit(const SceneView<T>& scene, const Ray<T>& r) {
-    const PreparedRay<T> ray(r);
+    const PreparedRay<T> ray(scene, r);
     return any_sphere_hit(scene, ray) ||
            visit_triangles(scene, ray, ray.ray.t_max,
                            [&](typename Flat<T>::Index i) { return hits_triangle(scene, ray, i); });
@@ -153,7 +155,7 @@ bool any_hit(const SceneView<T>& scene, const Ray<T>& r) {
 template <typename T>
 bool any_hit(const SceneView<T>& scene, const Ray<T>& r, const typename Flat<T>::Light& light) {
     if (light.caster_count == scene.frame.triangle_count) return any_hit(scene, r);
-    const PreparedRay<T> ray(r);
+    const PreparedRay<T> ray(scene, r);
     if (any_sphere_hit(scene, ray)) return true;
     for (typename Flat<T>::Index k = 0; k < light.caster_count; ++k) {
         if (hits_triangle(scene, ray, scene.casters[light.first_caster + k])) return true;
