@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "host/render/posix_threads.h"
+#include "host/parallel.h"
 #include "host/render/stopwatch.h"
 
 namespace rt {

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstddef>
 
-#include "host/render/posix_threads.h"
+#include "host/parallel.h"
 
 namespace rt {
 

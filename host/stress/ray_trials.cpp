@@ -10,7 +10,7 @@
 #include <random>
 
 #include "host/flatten/flat_scene.h"
-#include "host/render/posix_threads.h"
+#include "host/parallel.h"
 #include "host/stress/wide_real.h"
 #include "host/trace/surface.h"
 #include "host/trace/whitted.h"
@@ -21,19 +21,6 @@ namespace {
 
 using stress::Quad;
 using stress::Wide3;
-
-/// The one place here that knows how the tracer is handed a scene.
-template <typename T>
-trace::SceneView<T> view_of(const FlatScene<T>& scene) {
-    trace::SceneView<T> view{};
-    view.spheres = scene.spheres.data();
-    view.triangles = scene.triangles.data();
-    view.vertex_normals = scene.vertex_normals.data();
-    view.materials = scene.materials.data();
-    view.lights = scene.lights.data();
-    view.frame = scene.frame;
-    return view;
-}
 
 class Dice {
    public:
@@ -185,7 +172,7 @@ void leave_sphere(const trace::SceneView<T>& view, double shallowest, Dice& dice
 template <typename T>
 RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays) {
     const FlatScene<T> flat = flatten<T>(mesh);
-    const trace::SceneView<T> view = view_of(flat);
+    const trace::SceneView<T> view = trace::view_of(flat);
     const Bounds bounds = bounds_of(flat);
     return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
         const auto& triangle = flat.triangles[dice.index(flat.triangles.size())];
@@ -206,7 +193,7 @@ RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays) {
 template <typename T>
 RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays) {
     const FlatScene<T> flat = flatten<T>(scene);
-    const trace::SceneView<T> view = view_of(flat);
+    const trace::SceneView<T> view = trace::view_of(flat);
     return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
         leave_sphere(view, shallowest, dice, figures);
     });
@@ -215,7 +202,7 @@ RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::ui
 template <typename T>
 RayFigures count_sphere_failures(const Scene& scene, std::uint64_t rays) {
     const FlatScene<T> flat = flatten<T>(scene);
-    const trace::SceneView<T> view = view_of(flat);
+    const trace::SceneView<T> view = trace::view_of(flat);
     const auto& sphere = flat.spheres[0];
     return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
         const double reach = 1.5 * double(sphere.radius) * dice.uniform(0, 1);
