@@ -20,7 +20,8 @@ Ray camera_ray(const Frame* frame, Indices x, Indices y, Indices k) {
     ray.dir = normalize3(add_scaled(across, sy, load3(frame->direction_dy)));
     ray.origin = add_scaled(scale3(sx, load3(frame->origin_dx)), sy, load3(frame->origin_dy));
     ray.t_max = (Reals)INFINITY;
-    ray.from = (Indices)RT_NONE;
+    ray.chord = (Reals)0;
+    ray.from = (Indices)(frame->eye_on_surface != 0 ? RT_EYE : RT_NONE);
     return ray;
 }
 

@@ -60,8 +60,7 @@ void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal
         for (Index prim = first; prim < end; ++prim) {
             __global const Sphere* sphere = &scene->spheres[prim];
             Reals t;
-            Mask met = intersect_sphere(ray, load3(sphere->center), (Reals)sphere->radius,
-                                        ray->from == prim, &t);
+            Mask met = intersect_sphere(ray, sphere, prim, &t);
             if (any_lane(met)) offer_hit(scene, search, met, t, (Reals)0, (Reals)0, prim);
         }
     }
@@ -80,6 +79,9 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
                 if (!any_lane(met)) continue;
                 Index prim = scene->frame.sphere_count + i;
                 met &= (shear->axis == axis) & (ray->from != prim);
+                if (RT_HAS_EYE_ON_SURFACE && scene->triangles[i].plane == (Real)0) {
+                    met &= ray->from != RT_EYE;
+                }
                 offer_hit(scene, search, met, t, u, v, prim);
             }
         }
@@ -116,6 +118,14 @@ Hit closest_hit(const SceneView* scene, const Ray* ray, Mask live) {
     return search.hit;
 }
 
+// Where a ray to a light ends on the sphere rather than being blocked by it: the light lies on the
+// sphere, within the rounding of its nearer root.
+Mask ends_on_sphere(const Ray* ray, __global const Sphere* sphere, Reals t, Reals t_max) {
+    Reals b = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
+    Reals slack = (Reals)((Real)8 * (Real)RT_ROUNDOFF * sphere->radius * sphere->radius);
+    return (t < b) & ((t_max - t) * (b - t) <= slack);
+}
+
 Mask blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals t_max) {
     Mask blocked = RT_NO_LANES;
     Index first, end;
@@ -124,10 +134,11 @@ Mask blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* trave
         for (Index prim = first; prim < end; ++prim) {
             __global const Sphere* sphere = &scene->spheres[prim];
             Reals t;
-            Mask met = intersect_sphere(ray, load3(sphere->center), (Reals)sphere->radius,
-                                        ray->from == prim, &t);
+            Mask met = intersect_sphere(ray, sphere, prim, &t);
             if (!any_lane(met)) continue;
             met &= (t > (Reals)0) & (t <= t_max);
+            if (!any_lane(met)) continue;
+            met &= !ends_on_sphere(ray, sphere, t, t_max);
             if (!any_lane(met)) continue;
             blocked |= met;
             t_max = met ? (Reals)-1 : t_max;

@@ -9,6 +9,12 @@
 #ifndef RT_HAS_SPHERES
 #define RT_HAS_SPHERES 1
 #endif
+#ifndef RT_HAS_HUGE_SPHERES
+#define RT_HAS_HUGE_SPHERES 1
+#endif
+#ifndef RT_HAS_EYE_ON_SURFACE
+#define RT_HAS_EYE_ON_SURFACE 1
+#endif
 #ifndef RT_HAS_TRIANGLES
 #define RT_HAS_TRIANGLES 1
 #endif

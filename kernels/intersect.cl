@@ -4,32 +4,78 @@
 //
 // Spheres: the discriminant comes from the point of closest approach, D = r^2 - |f + b d|^2, which
 // keeps small distant spheres (Haines, Gunther and Akenine-Moller, Ray Tracing Gems 7). A ray that
-// leaves the sphere it starts on solves the equation with c = 0, exactly.
+// leaves the sphere it starts on carries its chord with it, made from the normal there: origin -
+// center has rounded away what matters on a small sphere far from the eye.
 //
 // Triangles: sheared into the ray's frame (Woop, Benthin and Wald 2013), the three edge functions
 // by difference_of_products. They depend on two vertices and the ray alone and their signs are
 // right, so neighbours agree about a shared edge: nothing leaks, whatever the compiler contracts. A
-// ray through a shared edge hits both neighbours; closest_hit settles the tie.
+// ray through a shared edge hits both neighbours; closest_hit settles the tie. The distance is the
+// edge functions' mean of the vertices'; on a triangle much larger than the distance that would be
+// a small difference of large numbers, so there it comes from the plane.
 #ifndef RT_INTERSECT_CL
 #define RT_INTERSECT_CL
 
 #include "kernels/math.cl"
 #include "kernels/scene_view.h"
 
-// Whether the rays' lines meet the sphere, and at which distance t: the nearer one in front of the
-// origin, else the farther one. `leaving`: the origin lies on this very sphere.
-Mask intersect_sphere(const Ray* ray, real3 center, Reals radius, Mask leaving, Reals* t) {
+Reals min_of(Reals a, Reals b) { return a < b ? a : b; }
+Reals max_of(Reals a, Reals b) { return a > b ? a : b; }
+
+// A huge sphere by the constant term of its quadratic, |origin|^2 - 2 origin.center + power: the
+// host made the power, |center|^2 - radius^2, in double, and near the surface origin - center would
+// round away the height above it.
+Mask intersect_huge_sphere(const Ray* ray, __global const Sphere* sphere, Reals* t) {
+    real3 center = load3(sphere->center);
+    Reals squared_radius = (Reals)(sphere->radius * sphere->radius);
+    Reals c = (dot3(ray->origin, ray->origin) - (Reals)2 * dot3(ray->origin, center)) +
+              (Reals)sphere->power;
     real3 f = sub3(ray->origin, center);
     Reals b = -dot3(f, ray->dir);
     real3 l = add_scaled(f, b, ray->dir);
-    Reals discriminant = radius * radius - dot3(l, l);
+    Reals discriminant = squared_radius > b * b ? fma(b, b, -c) : squared_radius - dot3(l, l);
+    Reals s = sqrt(discriminant);
+    Reals q = b < (Reals)0 ? b - s : b + s;
+    Reals other = q == (Reals)0 ? q : c / q;
+    Reals near = min_of(q, other);
+    *t = near > (Reals)0 ? near : max_of(q, other);
+    return discriminant >= (Reals)0;
+}
+
+// The lanes whose rays start on the sphere, and how far they run inside it.
+Mask leaves_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Reals* chord) {
+    Mask leaving = ray->from == prim;
+    *chord = ray->chord;
+    if (RT_HAS_EYE_ON_SURFACE && sphere->touches_eye != 0) {
+        Mask from_eye = ray->from == RT_EYE;
+        Reals inward = (Reals)2 * dot3(load3(sphere->center), ray->dir);
+        *chord = from_eye ? inward : *chord;
+        leaving |= from_eye;
+    }
+    return leaving;
+}
+
+// Whether the rays' lines meet sphere number prim, and at which distance t: the nearer one in front
+// of the origin, else the farther one. From the sphere they start on, the far end of the chord.
+Mask intersect_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Reals* t) {
+    Reals chord;
+    Mask leaving = leaves_sphere(ray, sphere, prim, &chord);
+    if (RT_HAS_HUGE_SPHERES && sphere->is_huge != 0) {
+        Mask met = intersect_huge_sphere(ray, sphere, t);
+        *t = leaving ? chord : *t;
+        return met | leaving;
+    }
+    real3 f = sub3(ray->origin, load3(sphere->center));
+    Reals b = -dot3(f, ray->dir);
+    real3 l = add_scaled(f, b, ray->dir);
+    Reals discriminant = (Reals)(sphere->radius * sphere->radius) - dot3(l, l);
     Mask met = discriminant >= (Reals)0;
     met |= leaving;
     if (!any_lane(met)) return met;
     Reals s = sqrt(discriminant);
     Reals near = b - s;
     Reals nearest = near > (Reals)0 ? near : b + s;
-    *t = leaving ? (Reals)2 * b : nearest;
+    *t = leaving ? chord : nearest;
     return met;
 }
 
@@ -91,8 +137,17 @@ real3 shear_vertex(const RayShear* shear, Index z, __global const Packed3* verte
                  fma(-shear->sy, depth, p[y] - shear->origin.y), depth);
 }
 
-Reals min_of(Reals a, Reals b) { return a < b ? a : b; }
-Reals max_of(Reals a, Reals b) { return a > b ? a : b; }
+// Distance along the rays whose axis is z to the triangle's plane; NaN or infinite where they run
+// in it.
+Reals plane_distance(const RayShear* shear, Index z, __global const Triangle* triangle) {
+    __global const Real* n = &triangle->normal.x;
+    Index x = z == 2 ? 0 : z + 1;
+    Index y = x == 2 ? 0 : x + 1;
+    Reals height = fma((Reals)n[z], shear->origin.z,
+                       fma((Reals)n[y], shear->origin.y, n[x] * shear->origin.x));
+    Reals slope = fma((Reals)n[x], shear->sx, fma((Reals)n[y], shear->sy, (Reals)n[z]));
+    return (triangle->plane - height) * shear->sz / slope;
+}
 
 // Whether the lines of the rays whose axis is z meet the triangle, at which distance t, and the
 // weights u and v of its second and third vertex there.
@@ -114,6 +169,9 @@ Mask intersect_triangle(const RayShear* shear, Index z, __global const Triangle*
     *v = wc * inverse;
     *t = fma(wa, a.z, fma(wb, b.z, wc * c.z)) * shear->sz * inverse;
     inside &= determinant != (Reals)0;
+    Reals reach = max_of(max_of(fabs(a.z), fabs(b.z)), fabs(c.z)) * fabs(shear->sz);
+    Mask is_far = inside & (reach > (Reals)8 * fabs(*t));
+    if (any_lane(is_far)) *t = is_far ? plane_distance(shear, z, triangle) : *t;
     return inside;
 }
 

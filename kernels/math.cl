@@ -42,6 +42,10 @@ real3 add_scaled(real3 a, Reals s, real3 b) {
     return make3(fma(s, b.x, a.x), fma(s, b.y, a.y), fma(s, b.z, a.z));
 }
 
+// Infinite components become the largest number, so that times 0 they are 0.
+Reals limited(Reals x) { return x < (Reals)RT_LARGEST ? x : (Reals)RT_LARGEST; }
+real3 limit3(real3 v) { return make3(limited(v.x), limited(v.y), limited(v.z)); }
+
 Reals length3(real3 v) { return sqrt(dot3(v, v)); }
 
 real3 normalize3(real3 v) { return scale3((Reals)1 / length3(v), v); }

@@ -25,6 +25,7 @@ typedef struct {
     real3 origin;
     real3 dir;     // unit
     Reals t_max;   // hits lie in (0, t_max]; a negative one switches the lane off
+    Reals chord;   // from a sphere: distance to where the ray leaves it, else not used
     Indices from;  // the primitive the origin lies on, or RT_NONE
 } Ray;
 

@@ -31,10 +31,8 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const F
     Mask lit = live & (dot3(surface->geometric, to_light) > (Reals)0);
     if (!any_lane(lit)) return none;
     Reals distance = length3(to_light);
-    Ray shadow;
-    shadow.origin = origin;
-    shadow.dir = scale3((Reals)1 / distance, to_light);
-    shadow.from = prim;
+    real3 dir = scale3((Reals)1 / distance, to_light);
+    Ray shadow = leave_surface(surface, origin, dir, prim);
     Reals cosine = dot3(surface->normal, shadow.dir);
     lit &= cosine > (Reals)0;
     if (!any_lane(lit)) return none;

@@ -21,7 +21,9 @@ typedef struct {
     Packed3 center;
     Real radius;
     Index material;
-    Index pad[3];
+    Index is_huge;      // far larger than its distance: kernels/intersect.cl
+    Real power;         // of the eye: |center|^2 - radius^2, made in double
+    Index touches_eye;  // the eye lies on it
 } Sphere;
 
 // The side of a cone's frustum, open at both ends; a cylinder where the slope is 0.
@@ -43,7 +45,7 @@ typedef struct {
     Packed3 p2;
     Real offset;     // bound on how far a barycentric hit point lies off the plane
     Packed3 normal;  // unit, made in double from the unrounded vertices
-    Real plane;      // dot(normal, p0), likewise
+    Real plane;      // dot(normal, p0), likewise; 0 where the eye lies in the plane
 } Triangle;
 
 typedef struct {
@@ -111,7 +113,7 @@ typedef struct {
     Index sphere_root;  // the node that holds all spheres, or 0: test each of them
     Index cone_root;
     Index triangle_root;
-    Index pad;
+    Index eye_on_surface;  // 1: the eye of a perspective camera lies on a sphere or in a plane
 } Frame;
 
 // The pixels of one launch: picture columns x.., rows y.. counted from the top; its first pixel
@@ -127,6 +129,9 @@ typedef struct {
 } RayCounts;
 
 enum { RT_NONE = -1 };
+
+// What a ray leaves that starts at an eye on some surface (Frame::eye_on_surface).
+enum { RT_EYE = -2 };
 
 // Nodes that a traversal has put aside, at most: what a stack must hold.
 enum { RT_BVH_STACK = 64 };

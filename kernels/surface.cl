@@ -24,6 +24,7 @@ typedef struct {
     real3 normal;     // shading normal, unit: interpolated where the triangle has vertex normals
     real3 geometric;  // geometric normal, unit, on the shading normal's side
     Reals offset;     // bound on the distance between point and surface
+    Reals diameter;   // of a sphere, negative where the geometric normal points inwards; else 0
     Indices material;
 } Surface;
 
@@ -35,6 +36,15 @@ Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
     surface.point = add_scaled(center, (Reals)sphere->radius, surface.normal);
     Reals spread = dot3(abs3(surface.normal), abs3(surface.point));
     surface.offset = (Real)RT_ROUNDOFF * fma((Reals)5, (Reals)sphere->radius, spread);
+    if (RT_HAS_HUGE_SPHERES && sphere->is_huge != 0) {
+        surface.point = add_scaled(ray->origin, t, ray->dir);
+        surface.normal = normalize3(sub3(surface.point, center));
+        surface.geometric = surface.normal;
+        real3 error =
+            add_scaled(scale3((Reals)4, abs3(ray->origin)), (Reals)6, abs3(surface.point));
+        surface.offset = (Real)RT_ROUNDOFF * dot3(abs3(surface.normal), error);
+    }
+    surface.diameter = (Reals)((Real)2 * sphere->radius);
     surface.material = (Indices)sphere->material;
     return surface;
 }
@@ -48,6 +58,18 @@ real3 blended_normal(__global const VertexNormals* normals, real3 face, Reals u,
     return select3(squared > (Reals)1e-12, scale3((Reals)1 / sqrt(squared), blend), face);
 }
 
+Real max_number(Real a, Real b) { return a > b ? a : b; }
+
+Real largest_of(Packed3 p) {
+    Real xy = max_number(fabs(p.x), fabs(p.y));
+    return max_number(xy, fabs(p.z));
+}
+
+Real largest_coordinate(__global const Triangle* triangle) {
+    return max_number(max_number(largest_of(triangle->p0), largest_of(triangle->p1)),
+                      largest_of(triangle->p2));
+}
+
 Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle* triangle,
                          __global const VertexNormals* vertex_normals) {
     real3 normal = load3(triangle->normal);
@@ -56,16 +78,18 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
     surface.point = add_scaled(p0, hit->u, sub3(load3(triangle->p1), p0));
     surface.point = add_scaled(surface.point, hit->v, sub3(load3(triangle->p2), p0));
     surface.offset = (Reals)triangle->offset;
-    Reals reach = (Real)RT_ROUNDOFF * (length3(ray->origin) + hit->t);
-    Mask is_large = triangle->offset > (Reals)64 * reach;
+    Reals distance = length3(ray->origin) + hit->t;
+    Mask is_large = largest_coordinate(triangle) > (Reals)8 * distance;
     if (any_lane(is_large)) {
         real3 along = add_scaled(ray->origin, hit->t, ray->dir);
         real3 projected = add_scaled(along, triangle->plane - dot3(normal, along), normal);
         surface.point = select3(is_large, projected, surface.point);
-        surface.offset = is_large ? (Reals)16 * reach : surface.offset;
+        surface.offset =
+            is_large ? (Reals)((Real)16 * (Real)RT_ROUNDOFF) * distance : surface.offset;
     }
     surface.normal = normal;
     surface.geometric = normal;
+    surface.diameter = (Reals)0;
     surface.material = (Indices)triangle->material;
     if (RT_HAS_VERTEX_NORMALS && triangle->smooth != RT_NONE) {
         __global const VertexNormals* normals = &vertex_normals[triangle->smooth];
@@ -91,6 +115,7 @@ Surface select_surface(Mask mask, Surface yes, Surface no) {
     chosen.normal = select3(mask, yes.normal, no.normal);
     chosen.geometric = select3(mask, yes.geometric, no.geometric);
     chosen.offset = mask ? yes.offset : no.offset;
+    chosen.diameter = mask ? yes.diameter : no.diameter;
     chosen.material = mask ? yes.material : no.material;
     return chosen;
 }
@@ -133,6 +158,17 @@ real3 offset_origin(const Surface* surface, real3 side) {
     real3 p = add3(surface->point, step);
     return make3(one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),
                  one_ulp_towards(p.z, step.z));
+}
+
+// A ray that leaves the surface of primitive prim in the unit direction dir, from `origin`.
+Ray leave_surface(const Surface* surface, real3 origin, real3 dir, Indices prim) {
+    Ray ray;
+    ray.origin = origin;
+    ray.dir = dir;
+    ray.t_max = (Reals)INFINITY;
+    ray.chord = -surface->diameter * dot3(surface->geometric, dir);
+    ray.from = prim;
+    return ray;
 }
 
 #endif

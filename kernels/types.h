@@ -26,12 +26,14 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #define RT_REAL double
 #define RT_INDEX long
-#define RT_ROUNDOFF 0x1p-53          // half an ulp of 1
+#define RT_ROUNDOFF 0x1p-53  // half an ulp of 1
+#define RT_LARGEST DBL_MAX
 #define RT_LEAST_DIRECTION 0x1p-523  // over it, no position overflows (host/flatten)
 #else
 #define RT_REAL float
 #define RT_INDEX int
 #define RT_ROUNDOFF 0x1p-24f
+#define RT_LARGEST FLT_MAX
 #define RT_LEAST_DIRECTION 0x1p-67f
 #endif
 

@@ -12,18 +12,14 @@
 // The mirror ray at a surface. Where a blended normal would send it under the surface, it is
 // reflected about the geometric normal instead.
 Ray mirror_ray(const Surface* surface, real3 dir, Indices prim) {
-    Ray ray;
-    ray.dir = reflect3(dir, surface->normal);
+    real3 mirrored = reflect3(dir, surface->normal);
     if (RT_HAS_VERTEX_NORMALS) {
         Reals arriving = dot3(dir, surface->geometric);
-        Mask leaves = dot3(ray.dir, surface->geometric) * arriving < (Reals)0;
-        ray.dir = select3(leaves, ray.dir, reflect3(dir, surface->geometric));
+        Mask leaves = dot3(mirrored, surface->geometric) * arriving < (Reals)0;
+        mirrored = select3(leaves, mirrored, reflect3(dir, surface->geometric));
     }
-    ray.dir = normalize3(ray.dir);
-    ray.origin = offset_origin(surface, ray.dir);
-    ray.t_max = (Reals)INFINITY;
-    ray.from = prim;
-    return ray;
+    mirrored = normalize3(mirrored);
+    return leave_surface(surface, offset_origin(surface, mirrored), mirrored, prim);
 }
 
 // The colours seen along the rays of the live lanes.
@@ -44,11 +40,12 @@ real3 trace_path(const SceneView* scene, Ray ray, Mask live, PacketCounts* count
         Mask turned = (finish.two_sided != 0) & (dot3(surface.geometric, ray.dir) > (Reals)0);
         surface.normal = select3(turned, negate3(surface.normal), surface.normal);
         surface.geometric = select3(turned, negate3(surface.geometric), surface.geometric);
+        surface.diameter = turned ? -surface.diameter : surface.diameter;
         real3 to_eye = negate3(ray.dir);
         real3 local_light = shade(scene, &surface, &finish, to_eye, hit.prim, live, counts);
         color = select3(live, add3(color, mul3(throughput, local_light)), color);
         if (!RT_HAS_MIRRORS || bounce >= scene->frame.max_bounces) return color;
-        throughput = mul3(throughput, finish.mirror);
+        throughput = limit3(mul3(throughput, finish.mirror));
         live &= !is_black(throughput);
         if (!any_lane(live)) return color;
         ray = mirror_ray(&surface, ray.dir, hit.prim);

@@ -31,6 +31,18 @@ Scene scene_needing(const Features& features) {
         scene.triangles = {{{{{-3, -1, 3}, {3, -1, 3}, {0, -1, -6}}}, {}, 0},
                            {{{{-1, -1, -1}, {-0.2, -1, 0.2}, {-0.8, 1, 0}}}, {}, 0}};
     }
+    if (features.huge_spheres) scene.spheres.push_back({{0, -1e5 - 2, 0}, 1e5, 0});
+    if (features.eye_on_surface && features.spheres) {
+        scene.spheres.push_back({{0, 0.5, 3.25}, 0.25, 0});
+    } else if (features.eye_on_surface) {
+        scene.triangles.push_back({{{{-2, 0.5, 0}, {2, 0.5, 0}, {0, 0.5, -2}}}, {}, 0});
+    }
+    for (int i = 0; features.hierarchy && i < 40; ++i) {
+        const double x = -2 + 0.1 * i, y = -0.8 + 0.03 * (i % 7);
+        if (features.spheres) scene.spheres.push_back({{x, y, 0.5}, 0.04, 0});
+        if (features.triangles)
+            scene.triangles.push_back({{{{x, y, 0}, {x + 0.1, y, 0}, {x, y + 0.3, 0.1}}}, {}, 0});
+    }
     if (features.vertex_normals) {
         scene.triangles[1].normals = {{{-0.6, 0, 0.8}, {0.6, 0, 0.8}, {0, 0.6, 0.8}}};
     }
@@ -45,6 +57,11 @@ std::vector<Features> all_combinations() {
             features.*feature_names[i].flag = (bits >> i & 1) != 0;
         }
         const bool any_shape = features.spheres || features.triangles;
+        if (features.huge_spheres && !features.spheres) continue;
+        if ((features.eye_on_surface || features.hierarchy) && !any_shape) continue;
+        // Those that change no other feature's code: alone, and all together.
+        const int rare = features.huge_spheres + features.eye_on_surface + features.hierarchy;
+        if (rare == 2 || (rare == 3 && !(features.lights && features.mirrors))) continue;
         if (features.vertex_normals && !features.triangles) continue;
         if ((features.lights || features.mirrors) && !any_shape) continue;
         combinations.push_back(features);

@@ -26,20 +26,19 @@ template <typename T>
 struct SphereCases {
     std::vector<ProbeRay<T>> rays;
     std::vector<Sphere<T>> spheres;
-    std::vector<Index<T>> leaving;
 
+    /// With `on_it`, the ray leaves that very sphere.
     void add(const ProbeRay<T>& ray, const Sphere<T>& sphere, bool on_it = false) {
         rays.push_back(ray);
+        if (on_it) rays.back().from = static_cast<Index<T>>(spheres.size());
         spheres.push_back(sphere);
-        leaving.push_back(on_it ? 1 : 0);
     }
     std::vector<T> device() const {
-        return run<T, T>("intersect_sphere", rays.size(), rays, spheres, leaving);
+        return run<T, T>("intersect_sphere", rays.size(), rays, spheres);
     }
     std::vector<T> twin() const {
         return for_each_item(rays.size(), [&](std::size_t i) {
-            return trace::intersect_sphere(unpack(rays[i]), trace::load3(spheres[i].center),
-                                           spheres[i].radius, leaving[i] != 0);
+            return trace::intersect_sphere(unpack(rays[i]), spheres[i], static_cast<Index<T>>(i));
         });
     }
 };
@@ -127,32 +126,64 @@ TYPED_TEST(IntersectSphere, BehindOrPastItIsNoHit) {
     cases.add(make_ray<TypeParam>({0, 3, 0}, {1, 0, 0}), make_sphere<TypeParam>({5, 0, 0}, 1));
     for (const TypeParam t : cases.device()) EXPECT_LT(t, 0);
 }
-TYPED_TEST(IntersectSphere, LeavingSolvesWithTheOriginOnIt) {
+TYPED_TEST(IntersectSphere, LeavingItRunsAlongTheChord) {
+    SphereCases<TypeParam> cases;
+    auto ray = make_ray<TypeParam>({3, 4, 0}, {-1, 0, 0});
+    ray.chord = 6;
+    cases.add(ray, make_sphere<TypeParam>({0, 0, 0}, 5), true);
+    ray.chord = -6;
+    cases.add(ray, make_sphere<TypeParam>({0, 0, 0}, 5), true);
+    EXPECT_EQ(cases.device(), (std::vector<TypeParam>{6, -6}));
+    EXPECT_EQ(cases.twin(), cases.device());
+}
+TYPED_TEST(IntersectSphere, AnEyeOnItSeesTheFarSideOrNothing) {
     Random random(5);
     SphereCases<TypeParam> cases;
-    // (3, 4, 0) lies on the sphere of radius 5: across along -x it is 6, outwards nothing.
-    cases.add(make_ray<TypeParam>({3, 4, 0}, {-1, 0, 0}), make_sphere<TypeParam>({0, 0, 0}, 5),
-              true);
-    cases.add(make_ray<TypeParam>({3, 4, 0}, {1, 0, 0}), make_sphere<TypeParam>({0, 0, 0}, 5),
-              true);
-    cases.add(make_ray<TypeParam>({3, 4, 0}, {0, 0, 1}), make_sphere<TypeParam>({0, 0, 0}, 5),
-              true);
-    for (std::size_t i = 3; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const double r = random.log_uniform(1e-6, 1e6);
-        const glm::dvec3 n = random.unit_vector();
-        cases.add(make_ray<TypeParam>(r * n, random.unit_vector()),
-                  make_sphere<TypeParam>({0, 0, 0}, r), true);
+        auto sphere = make_sphere<TypeParam>(r * random.unit_vector(), r);
+        sphere.touches_eye = 1;
+        auto ray = make_ray<TypeParam>({0, 0, 0}, random.unit_vector());
+        ray.from = Flat<TypeParam>::eye;
+        cases.add(ray, sphere);
     }
     const auto t = cases.device();
-    EXPECT_EQ(t[0], 6);
-    EXPECT_LT(t[1], 0);
-    EXPECT_EQ(t[2], 0);
     WorstError worst;
-    for (std::size_t i = 3; i < count; ++i) {
-        const Quad chord = -2 * dot(exact(cases.rays[i].origin), exact(cases.rays[i].dir));
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad chord = 2 * dot(exact(cases.spheres[i].center), exact(cases.rays[i].dir));
         worst.add(error_in_roundoffs(t[i], chord, cases.spheres[i].radius));
     }
     worst.expect_at_most(5);
+    EXPECT_TRUE(same_bits<TypeParam>(t, cases.twin()));
+}
+TYPED_TEST(IntersectSphere, OfAHugeOneIsWhereTheExactGroundLies) {
+    // The eye stands 1 to 10 above a ball of radius 1e3 to 1e7 and looks down at more than 3
+    // degrees. The power is of the exact ball; the centre is rounded, which moves the ground by
+    // less than the bar.
+    Random random(7);
+    SphereCases<TypeParam> cases;
+    std::vector<Quad> expected;
+    while (expected.size() < count) {
+        const double r = random.log_uniform(1e3, 1e7), height = random.uniform(1, 10);
+        const glm::dvec3 center(0, -(r + height), 0);
+        glm::dvec3 dir = random.unit_vector();
+        dir.y = -std::abs(dir.y);
+        if (dir.y > -0.05) continue;
+        auto sphere = make_sphere<TypeParam>(center, r);
+        sphere.is_huge = 1;
+        sphere.power = static_cast<TypeParam>(height * (2 * r + height));
+        const auto ray = make_ray<TypeParam>({0, 0, 0}, dir);
+        const Quad3 d = exact(ray.dir);
+        const Quad squared = dot(d, d), b = d.y * Quad(center.y) / squared;
+        const Quad c = Quad(height) * (2 * Quad(r) + height) / squared;
+        if (b * b < 4 * c) continue;  // over the horizon, or nearly
+        expected.push_back(c / (b + square_root(b * b - c)));
+        cases.add(ray, sphere);
+    }
+    const auto t = cases.device();
+    WorstError worst;
+    for (std::size_t i = 0; i < count; ++i) worst.add(relative_error(t[i], expected[i]));
+    worst.expect_at_most(60);
     EXPECT_TRUE(same_bits<TypeParam>(t, cases.twin()));
 }
 TYPED_TEST(IntersectSphere, HasTheTwinsBitsOnAnyNumbers) {
@@ -160,8 +191,9 @@ TYPED_TEST(IntersectSphere, HasTheTwinsBitsOnAnyNumbers) {
     SphereCases<TypeParam> cases;
     for (std::size_t i = 0; i < count; ++i) {
         const auto origin = random.any_vector<TypeParam>(), dir = random.any_vector<TypeParam>();
-        cases.add({origin, 1, dir, 0},
-                  {random.any_vector<TypeParam>(), random.any_number<TypeParam>(), 0, {}},
+        cases.add({origin, 1, dir, Flat<TypeParam>::eye, random.any_number<TypeParam>()},
+                  {random.any_vector<TypeParam>(), random.any_number<TypeParam>(), 0,
+                   random.index(2), random.any_number<TypeParam>(), random.index(2)},
                   random.index(4) == 0);
     }
     EXPECT_TRUE(same_bits<TypeParam>(cases.device(), cases.twin()));
@@ -212,7 +244,7 @@ TYPED_TEST(MakeShear, AndShearVertexHaveTheTwinsBits) {
     Random random(8);
     const auto rays = many(count, [&] {
         return ProbeRay<TypeParam>{random.any_vector<TypeParam>(), 1,
-                                   random.any_vector<TypeParam>(), 0};
+                                   random.any_vector<TypeParam>(), 0, 0};
     });
     const auto vertices = many(count, [&] { return random.any_vector<TypeParam>(); });
     const auto shear = [&](std::size_t i) { return trace::make_shear(unpack(rays[i])); };

@@ -68,6 +68,7 @@ TYPED_TEST(IntersectPrimitive, CountsSpheresFirstAndSkipsTheTriangleItLeaves) {
     rays[2].from = 1;
     rays[3].from = 0;
     rays[3].origin = {0, 0, -4};
+    rays[3].chord = 2;
     const std::vector<Index<TypeParam>> prims{0, 1, 1, 0};
     const auto hits = run<TypeParam, Hit<TypeParam>>("intersect_primitive", 4, scene, rays, prims);
     EXPECT_EQ(hits[0].t, 4);
@@ -163,10 +164,13 @@ TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
     const auto scene = crowd<TypeParam>(random);
     auto rays = rays_about<TypeParam>(random, 20000);
     const AllHits<TypeParam> all(scene, rays);
-    // Half the rays end exactly on the nearest surface, or one number before it.
+    // Half the rays end exactly on the nearest triangle or well behind the nearest ball (on it, the
+    // light is on it), or one number before.
     for (std::size_t i = 0; i < rays.size(); i += 2) {
-        rays[i].t_max = all.nearest(i);
-        if (i % 4 == 0) rays[i].t_max = std::nextafter(rays[i].t_max, TypeParam(0));
+        const auto prim = all.first_within(i, all.nearest(i));
+        const bool is_ball = prim < static_cast<Index<TypeParam>>(scene.spheres.size());
+        rays[i].t_max = all.nearest(i) * (is_ball ? TypeParam(1.01) : TypeParam(1));
+        if (i % 4 == 0) rays[i].t_max = std::nextafter(all.nearest(i), TypeParam(0));
     }
     const auto found = run<TypeParam, Index<TypeParam>>("any_hit", rays.size(), scene, rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -174,6 +178,24 @@ TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
             << i;
         ASSERT_EQ(trace::any_hit(view(scene), unpack(rays[i])), found[i] != 0) << i;
     }
+}
+TYPED_TEST(AnyHit, IsNotBlockedByTheBallItsLightLiesOn) {
+    // Lights all over a ball, seen from points outside on their side of it.
+    Random random(11);
+    FlatScene<TypeParam> scene{};
+    scene.spheres = {make_sphere<TypeParam>({0, 0, 0}, 1)};
+    count_primitives(scene);
+    const auto rays = many(20000, [&] {
+        const glm::dvec3 light = random.unit_vector();
+        const glm::dvec3 aside = glm::cross(light, random.unit_vector());
+        const glm::dvec3 from = (1 + random.log_uniform(1e-3, 10)) * light + 0.01 * aside;
+        auto ray = make_ray<TypeParam>(from, light - from);
+        ray.t_max = static_cast<TypeParam>(glm::length(light - from)) *
+                    (1 - 16 * Flat<TypeParam>::roundoff);
+        return ray;
+    });
+    const auto found = run<TypeParam, Index<TypeParam>>("any_hit", rays.size(), scene, rays);
+    EXPECT_EQ(std::count(found.begin(), found.end(), Index<TypeParam>(1)), 0);
 }
 TYPED_TEST(AnyHit, FindsNothingInAnEmptyScene) {
     const FlatScene<TypeParam> scene{};

@@ -51,8 +51,7 @@ struct BallHits {
             const glm::dvec3 target = center + r * random.uniform(0, 1) * random.unit_vector();
             const auto ray = make_ray<T>(origin, target - origin);
             const auto sphere = make_sphere<T>(center, r);
-            const T distance = trace::intersect_sphere(unpack(ray), trace::load3(sphere.center),
-                                                       sphere.radius, false);
+            const T distance = trace::intersect_sphere(unpack(ray), sphere, 0);
             if (!(distance > 0)) continue;
             rays.push_back(ray);
             spheres.push_back(sphere);
@@ -289,6 +288,27 @@ TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceBackedOffATie) {
     };
     EXPECT_TRUE(same_bits<TypeParam>(own, twin(trace::primitive_surface<TypeParam>)));
     EXPECT_TRUE(same_bits<TypeParam>(moved, twin(trace::surface_at<TypeParam>)));
+}
+
+KERNEL_SUITE(LeaveSurface);
+TYPED_TEST(LeaveSurface, CarriesTheChordOfItsSphere) {
+    Random random(21);
+    const BallHits<TypeParam> hits(random);
+    const auto surfaces = hits.surfaces();
+    const std::vector<Index<TypeParam>> prims(surfaces.size(), 3);
+    const auto rays = run<TypeParam, ProbeRay<TypeParam>>("leave_surface", surfaces.size(),
+                                                          surfaces, hits.sides, hits.sides, prims);
+    WorstError worst;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Quad radius = hits.spheres[i].radius;
+        const Quad chord = -2 * radius * dot(exact(surfaces[i].normal), exact(hits.sides[i]));
+        worst.add(error_in_roundoffs(rays[i].chord, chord, hits.spheres[i].radius));
+        ASSERT_EQ(rays[i].from, 3);
+        const auto twin = trace::leave_surface(unpack(surfaces[i]), trace::load3(hits.sides[i]),
+                                               trace::load3(hits.sides[i]), prims[i]);
+        ASSERT_TRUE(same_bits<TypeParam>(std::vector{rays[i]}, std::vector{pack(twin)}));
+    }
+    worst.expect_at_most(5);
 }
 
 }  // namespace

@@ -193,7 +193,8 @@ TYPED_TEST(IntersectTriangle, HasTheTwinsBitsOnAnyNumbers) {
         triangle.p0 = random.any_vector<TypeParam>();
         triangle.p1 = random.any_vector<TypeParam>();
         triangle.p2 = random.any_vector<TypeParam>();
-        cases.add({random.any_vector<TypeParam>(), 1, random.any_vector<TypeParam>(), 0}, triangle);
+        cases.add({random.any_vector<TypeParam>(), 1, random.any_vector<TypeParam>(), 0, 0},
+                  triangle);
     }
     EXPECT_TRUE(same_bits<TypeParam>(cases.device(), cases.twin()));
 }

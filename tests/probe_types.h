@@ -20,6 +20,7 @@ struct ProbeRay {
     T t_max;
     Packed3<T> dir;
     typename Flat<T>::Index from;
+    T chord;
 };
 
 template <typename T>
@@ -29,7 +30,7 @@ struct ProbeSurface {
     Packed3<T> normal;
     typename Flat<T>::Index material;
     Packed3<T> geometric;
-    T pad;
+    T diameter;
 };
 
 template <typename T>
@@ -44,20 +45,24 @@ Packed3<T> round_to(const glm::dvec3& v) {
 
 template <typename T>
 ProbeRay<T> pack(const trace::Ray<T>& ray) {
-    return {pack(ray.origin), ray.t_max, pack(ray.dir), ray.from};
+    return {pack(ray.origin), ray.t_max, pack(ray.dir), ray.from, ray.chord};
 }
 template <typename T>
 trace::Ray<T> unpack(const ProbeRay<T>& ray) {
-    return {trace::load3(ray.origin), trace::load3(ray.dir), ray.t_max, ray.from};
+    return {trace::load3(ray.origin), trace::load3(ray.dir), ray.t_max, ray.from, ray.chord};
 }
 
 template <typename T>
 ProbeSurface<T> pack(const trace::Surface<T>& s) {
-    return {pack(s.point), s.offset, pack(s.normal), s.material, pack(s.geometric), 0};
+    return {pack(s.point), s.offset, pack(s.normal), s.material, pack(s.geometric), s.diameter};
 }
 template <typename T>
 trace::Surface<T> unpack(const ProbeSurface<T>& s) {
-    return {trace::load3(s.point), trace::load3(s.normal), trace::load3(s.geometric), s.offset,
+    return {trace::load3(s.point),
+            trace::load3(s.normal),
+            trace::load3(s.geometric),
+            s.offset,
+            s.diameter,
             s.material};
 }
 
@@ -66,7 +71,7 @@ template <typename T>
 ProbeRay<T> make_ray(const glm::dvec3& origin, const glm::dvec3& dir) {
     const double size = std::sqrt(dir.x * dir.x + dir.y * dir.y + dir.z * dir.z);
     return {round_to<T>(origin), std::numeric_limits<T>::infinity(), round_to<T>(dir / size),
-            Flat<T>::none};
+            Flat<T>::none, 0};
 }
 
 /// `count` values from make().

@@ -23,6 +23,7 @@ typedef struct {
     Real t_max;
     Packed3 dir;
     Index from;
+    Real chord;
 } ProbeRay;
 
 typedef struct {
@@ -31,7 +32,7 @@ typedef struct {
     Packed3 normal;
     Index material;
     Packed3 geometric;
-    Real pad;
+    Real diameter;
 } ProbeSurface;
 
 typedef struct {
@@ -60,6 +61,7 @@ Ray unpack_ray(ProbeRay packed) {
     ray.dir = load3(packed.dir);
     ray.t_max = packed.t_max;
     ray.from = packed.from;
+    ray.chord = packed.chord;
     return ray;
 }
 
@@ -84,7 +86,7 @@ Finish probe_finish(const SceneView* scene, const Surface* surface) {
 }
 
 ProbeRay pack_ray(Ray ray) {
-    ProbeRay packed = {pack(ray.origin), ray.t_max, pack(ray.dir), ray.from};
+    ProbeRay packed = {pack(ray.origin), ray.t_max, pack(ray.dir), ray.from, ray.chord};
     return packed;
 }
 
@@ -95,12 +97,13 @@ Surface unpack_surface(ProbeSurface packed) {
     surface.geometric = load3(packed.geometric);
     surface.offset = packed.offset;
     surface.material = packed.material;
+    surface.diameter = packed.diameter;
     return surface;
 }
 
 ProbeSurface pack_surface(Surface s) {
     ProbeSurface packed = {pack(s.point), s.offset,          pack(s.normal),
-                           s.material,    pack(s.geometric), 0};
+                           s.material,    pack(s.geometric), s.diameter};
     return packed;
 }
 
@@ -242,14 +245,11 @@ __kernel void probe_camera_ray(PROBE_ITEMS, __global const Frame* frame, __globa
 }
 
 __kernel void probe_intersect_sphere(PROBE_ITEMS, __global const ProbeRay* rays,
-                                     __global const Sphere* spheres, __global const Index* leaving,
-                                     __global Real* out) {
+                                     __global const Sphere* spheres, __global Real* out) {
     PROBE_ITEM;
     Ray ray = unpack_ray(rays[i]);
     Real t;
-    Mask met =
-        intersect_sphere(&ray, load3(spheres[i].center), spheres[i].radius, leaving[i] != 0, &t);
-    out[i] = met ? t : -1;
+    out[i] = intersect_sphere(&ray, &spheres[i], (Index)i, &t) ? t : -1;
 }
 
 __kernel void probe_component3(PROBE_ITEMS, __global const Packed3* v, __global const Index* k,
@@ -310,9 +310,7 @@ __kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const
     Real t, u, v;
     Index triangle = prims[i] - frame->sphere_count;
     if (triangle < 0) {
-        __global const Sphere* sphere = &spheres[prims[i]];
-        if (intersect_sphere(&ray, load3(sphere->center), sphere->radius, ray.from == prims[i], &t))
-            hit.t = t;
+        if (intersect_sphere(&ray, &spheres[prims[i]], prims[i], &t)) hit.t = t;
     } else if (ray.from != prims[i] &&
                intersect_triangle(&shear, shear.axis, &triangles[triangle], &t, &u, &v)) {
         hit.t = t;
@@ -395,6 +393,14 @@ __kernel void probe_offset_origin(PROBE_ITEMS, __global const ProbeSurface* surf
     PROBE_ITEM;
     Surface surface = unpack_surface(surfaces[i]);
     out[i] = pack(offset_origin(&surface, load3(sides[i])));
+}
+
+__kernel void probe_leave_surface(PROBE_ITEMS, __global const ProbeSurface* surfaces,
+                                  __global const Packed3* origins, __global const Packed3* dirs,
+                                  __global const Index* prims, __global ProbeRay* out) {
+    PROBE_ITEM;
+    Surface surface = unpack_surface(surfaces[i]);
+    out[i] = pack_ray(leave_surface(&surface, load3(origins[i]), load3(dirs[i]), prims[i]));
 }
 
 // shade.cl

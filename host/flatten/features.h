@@ -11,6 +11,8 @@ namespace rt {
 /// combination is built and rendered by a test.
 struct Features {
     bool spheres = true;
+    bool huge_spheres = true;    ///< far larger than their distance; implies spheres
+    bool eye_on_surface = true;  ///< the eye lies on a sphere or in a triangle's plane
     bool triangles = true;
     bool vertex_normals = true;  ///< implies triangles
     bool hierarchy = true;       ///< some kind of primitive is found through boxes
@@ -27,8 +29,10 @@ struct FeatureName {
     const char* macro;
 };
 
-inline constexpr std::array<FeatureName, 6> feature_names{{
+inline constexpr std::array<FeatureName, 8> feature_names{{
     {&Features::spheres, "spheres", "RT_HAS_SPHERES"},
+    {&Features::huge_spheres, "huge spheres", "RT_HAS_HUGE_SPHERES"},
+    {&Features::eye_on_surface, "eye on a surface", "RT_HAS_EYE_ON_SURFACE"},
     {&Features::triangles, "triangles", "RT_HAS_TRIANGLES"},
     {&Features::vertex_normals, "vertex normals", "RT_HAS_VERTEX_NORMALS"},
     {&Features::hierarchy, "hierarchy", "RT_HAS_HIERARCHY"},

@@ -158,6 +158,7 @@ class Flattener {
         flat_.frame.cone_count = static_cast<Index>(flat_.cones.size());
         flat_.frame.triangle_count = static_cast<Index>(flat_.triangles.size());
         flat_.frame.light_count = static_cast<Index>(flat_.lights.size());
+        flat_.frame.eye_on_surface = eye_is_on_surface() ? 1 : 0;
         number_primitives();
         set_features();
         return std::move(flat_);
@@ -223,6 +224,14 @@ class Flattener {
             ordered[i] = primitives[static_cast<std::size_t>(listed[i])];
         });
         primitives = std::move(ordered);
+    }
+
+    bool eye_is_on_surface() const {
+        if (!view_.is_perspective) return false;
+        return std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
+                           [](const auto& sphere) { return sphere.touches_eye != 0; }) ||
+               std::any_of(flat_.triangles.begin(), flat_.triangles.end(),
+                           [](const auto& triangle) { return triangle.plane == T(0); });
     }
 
     void flatten_spheres() {
@@ -353,6 +362,9 @@ class Flattener {
     void set_features() {
         Features& features = flat_.features;
         features.spheres = !flat_.spheres.empty();
+        features.huge_spheres = std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
+                                            [](const auto& sphere) { return sphere.is_huge != 0; });
+        features.eye_on_surface = flat_.frame.eye_on_surface != 0;
         features.triangles = !flat_.triangles.empty();
         features.vertex_normals = !flat_.vertex_normals.empty();
         features.hierarchy = !flat_.nodes.empty();

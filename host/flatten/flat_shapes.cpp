@@ -17,6 +17,15 @@ namespace {
 template <typename T>
 constexpr double farthest = sizeof(T) == sizeof(float) ? 0x1p60 : 0x1p500;
 
+/// A sphere this large in the renderer's frame, where distances are about 1, and the eye within a
+/// radius of its surface: intersect_huge_sphere of kernels/intersect.cl.
+constexpr double huge_radius = 32;
+
+/// How far a point may be off for having been moved to the eye's frame.
+double recentring_error(const ViewFrame& view, const glm::dvec3& scene_point) {
+    return 0x1p-52 * view.scale * (glm::length(scene_point) + glm::length(view.eye));
+}
+
 /// How far a barycentric point may lie off the plane: 4 u extent + 6 u |vertex| per axis, seen
 /// along the normal (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8.5; measured in
 /// docs/numerics.md).
@@ -49,7 +58,17 @@ template <typename T>
 typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphere& sphere) {
     typename Flat<T>::Sphere flat{};
     flat.center = pack_position<T>(view, sphere.center);
-    flat.radius = static_cast<T>(sphere.radius * view.scale);
+    const double radius = sphere.radius * view.scale;
+    const glm::dvec3 center = view.to_view(sphere.center);
+    const double distance = glm::length(center);
+    flat.radius = static_cast<T>(radius);
+    flat.is_huge = radius > huge_radius && std::abs(distance - radius) < radius ? 1 : 0;
+    flat.power = static_cast<T>((distance - radius) * (distance + radius));
+    flat.touches_eye =
+        view.is_perspective && std::abs(distance - radius) <=
+                                   1e-14 * radius + recentring_error(view, sphere.center)
+            ? 1
+            : 0;
     flat.material = sphere.material;
     return flat;
 }
@@ -84,7 +103,11 @@ typename Flat<T>::Triangle flatten_triangle(const ViewFrame& view,
     flat.smooth = Flat<T>::none;
     flat.offset = static_cast<T>(barycentric_offset<T>(a, b, c, normal));
     flat.normal = pack<T>(normal);
-    flat.plane = static_cast<T>(glm::dot(normal, a));
+    const double plane = glm::dot(normal, a);
+    const double size = std::max({glm::length(a), glm::length(b), glm::length(c)});
+    const bool touches_eye =
+        view.is_perspective && std::abs(plane) <= 1e-14 * size + recentring_error(view, corners[0]);
+    flat.plane = touches_eye ? T(0) : static_cast<T>(plane);
     return flat;
 }
 

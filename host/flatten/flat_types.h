@@ -23,7 +23,7 @@ static_assert(offsetof(VertexNormals, n2) == 32);
 static_assert(offsetof(Material, transmission) == 64);
 static_assert(offsetof(Light, caster_count) == 28);
 static_assert(offsetof(BvhNode, count) == 28);
-static_assert(offsetof(Frame, pad) == 140);
+static_assert(offsetof(Frame, eye_on_surface) == 140);
 static_assert(offsetof(Tile, film_width) == 20);
 }  // namespace rt::f32
 
@@ -59,6 +59,7 @@ struct Flat<float> {
     using Tile = f32::Tile;
     using RayCounts = f32::RayCounts;
     static constexpr Index none = f32::RT_NONE;
+    static constexpr Index eye = f32::RT_EYE;
     static constexpr float roundoff = 0x1p-24f;  ///< half an ulp of 1
 };
 
@@ -77,6 +78,7 @@ struct Flat<double> {
     using Tile = f64::Tile;
     using RayCounts = f64::RayCounts;
     static constexpr Index none = f64::RT_NONE;
+    static constexpr Index eye = f64::RT_EYE;
     static constexpr double roundoff = 0x1p-53;
 };
 

@@ -37,6 +37,12 @@ double farthest_rim(const Scene::Cone& cone, const glm::dvec3& eye) {
                      cone.apex_radius});
 }
 
+/// To the sphere's surface, and not 0 where the eye lies on it.
+double surface_distance(const Scene::Sphere& sphere, const glm::dvec3& eye) {
+    const double distance = std::abs(length_of(sphere.center - eye) - sphere.radius);
+    return std::max(distance, 0x1p-30 * sphere.radius);
+}
+
 /// How many distances lie in [2^k, 2^(k + 1)), for every k.
 class Octaves {
    public:
@@ -68,7 +74,7 @@ Octaves distance_octaves(const Scene& scene, const TriangleList& triangles, cons
                          int threads) {
     Octaves octaves;
     for (const auto& sphere : scene.spheres) {
-        octaves.add(std::max(length_of(sphere.center - eye), sphere.radius));
+        octaves.add(surface_distance(sphere, eye));
     }
     for (const auto& cone : scene.cones) octaves.add(farthest_rim(cone, eye));
     constexpr std::size_t run = 1 << 15;
@@ -92,7 +98,8 @@ ViewFrame make_view_frame(const Scene& scene, const TriangleList& triangles, int
     frame.forward = unit(camera.at - camera.from);
     frame.right = unit(glm::cross(frame.forward, unit(camera.up)));
     frame.up = glm::cross(frame.right, frame.forward);
-    if (camera.projection == Scene::Projection::orthographic) {
+    frame.is_perspective = camera.projection == Scene::Projection::perspective;
+    if (!frame.is_perspective) {
         const Scene::Window window = camera_window(camera, scene.width, scene.height);
         frame.eye += frame.right * (0.5 * (window.left + window.right)) +
                      frame.up * (0.5 * (window.bottom + window.top));

@@ -155,6 +155,7 @@ void leave_sphere(const trace::SceneView<T>& view, double shallowest, Dice& dice
     trace::Ray<T> ray = make_ray<T>(surface.point, dir);
     ray.origin = trace::offset_origin(surface, ray.dir);
     ray.from = 0;
+    ray.chord = -surface.diameter * trace::dot3(surface.geometric, ray.dir);
     const trace::Hit<T> again = trace::closest_hit(view, ray);
     ++figures.rays;
     if (outwards) {

@@ -22,7 +22,7 @@ Ray<T> camera_ray(const typename Flat<T>::Frame& frame, typename Flat<T>::Index 
     ray.dir = normalize3(add_scaled(across, sy, load3(frame.direction_dy)));
     ray.origin = add_scaled(sx * load3(frame.origin_dx), sy, load3(frame.origin_dy));
     ray.t_max = std::numeric_limits<T>::infinity();
-    ray.from = Flat<T>::none;
+    ray.from = frame.eye_on_surface != 0 ? Flat<T>::eye : Flat<T>::none;
     return ray;
 }
 

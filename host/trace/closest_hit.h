@@ -31,8 +31,7 @@ template <typename T>
 T intersect_primitive(const SceneView<T>& scene, const Ray<T>& ray, const RayShear<T>& shear,
                       typename Flat<T>::Index prim, T& u, T& v) {
     if (prim < scene.frame.sphere_count) {
-        const auto& sphere = scene.spheres[prim];
-        return intersect_sphere(ray, load3(sphere.center), sphere.radius, prim == ray.from);
+        return intersect_sphere(ray, scene.spheres[prim], prim);
     }
     if (prim == ray.from) return T(-1);
     return intersect_triangle(shear, scene.triangles[prim - first_triangle(scene.frame)], u, v);
@@ -71,16 +70,16 @@ RT_INLINE void visit_hits(const SceneView<T>& scene, const PreparedRay<T>& ray, 
                           const Visit& visit) {
     using Index = typename Flat<T>::Index;
     visit_spheres(scene, ray, limit, [&](Index i) {
-        const auto& sphere = scene.spheres[i];
-        const T t =
-            intersect_sphere(ray.ray, load3(sphere.center), sphere.radius, i == ray.ray.from);
+        const T t = intersect_sphere(ray.ray, scene.spheres[i], i);
         if (t > T(0) && t <= limit) visit(i, t, T(0), T(0));
         return false;
     });
     const Index first = first_triangle(scene.frame);
     const Index from = ray.ray.from - first;
+    const bool from_eye = ray.ray.from == Flat<T>::eye;
     visit_triangles(scene, ray, limit, [&](Index i) {
         if (i == from) return false;
+        if (from_eye && scene.triangles[i].plane == T(0)) return false;
         T u, v;
         const T t = intersect_triangle(ray.shear, scene.triangles[i], u, v);
         if (t > T(0) && t <= limit) visit(first + i, t, u, v);
@@ -122,13 +121,20 @@ Hit<T> closest_hit(const SceneView<T>& scene, const Ray<T>& r) {
     return best;
 }
 
+/// Whether a ray to a light ends on the sphere rather than being blocked by it at t: the light lies
+/// on the sphere, within the rounding of its nearer root.
+template <typename T>
+bool ends_on_sphere(const Ray<T>& ray, const typename Flat<T>::Sphere& sphere, T t) {
+    const T b = dot3(load3(sphere.center) - ray.origin, ray.dir);
+    const T slack = T(8) * Flat<T>::roundoff * sphere.radius * sphere.radius;
+    return t < b && (ray.t_max - t) * (b - t) <= slack;
+}
+
 template <typename T>
 RT_INLINE bool any_sphere_hit(const SceneView<T>& scene, const PreparedRay<T>& ray) {
     return visit_spheres(scene, ray, ray.ray.t_max, [&](typename Flat<T>::Index i) {
-        const auto& sphere = scene.spheres[i];
-        const T t =
-            intersect_sphere(ray.ray, load3(sphere.center), sphere.radius, i == ray.ray.from);
-        return t > T(0) && t <= ray.ray.t_max;
+        const T t = intersect_sphere(ray.ray, scene.spheres[i], i);
+        return t > T(0) && t <= ray.ray.t_max && !ends_on_sphere(ray.ray, scene.spheres[i], t);
     });
 }
 

@@ -7,14 +7,48 @@
 // Twin of kernels/intersect.cl: one ray against one primitive; the method is described there.
 namespace rt::trace {
 
-/// Distance along the ray to the sphere, or -1. `leaving`: the origin lies on this very sphere.
 template <typename T>
-RT_INLINE T intersect_sphere(const Ray<T>& ray, const Vec3<T>& center, T radius, bool leaving) {
+RT_INLINE T min_of(T a, T b) {
+    return a < b ? a : b;
+}
+
+template <typename T>
+RT_INLINE T max_of(T a, T b) {
+    return a > b ? a : b;
+}
+
+/// A huge sphere by the constant term of its quadratic, |origin|^2 - 2 origin.center + power.
+template <typename T>
+T intersect_huge_sphere(const Ray<T>& ray, const typename Flat<T>::Sphere& sphere) {
+    const Vec3<T> center = load3(sphere.center);
+    const T squared_radius = sphere.radius * sphere.radius;
+    const T c = (dot3(ray.origin, ray.origin) - T(2) * dot3(ray.origin, center)) + sphere.power;
     const Vec3<T> f = ray.origin - center;
     const T b = -dot3(f, ray.dir);
-    if (leaving) return T(2) * b;
     const Vec3<T> l = add_scaled(f, b, ray.dir);
-    const T discriminant = radius * radius - dot3(l, l);
+    const T discriminant =
+        squared_radius > b * b ? std::fma(b, b, -c) : squared_radius - dot3(l, l);
+    if (!(discriminant >= T(0))) return T(-1);
+    const T s = std::sqrt(discriminant);
+    const T q = b < T(0) ? b - s : b + s;
+    const T other = q == T(0) ? q : c / q;
+    const T near = min_of(q, other);
+    return near > T(0) ? near : max_of(q, other);
+}
+
+/// Distance along the ray to sphere number prim, or -1: to the nearer end in front of the origin,
+/// else to the farther one. From the sphere it starts on, to the far end of its chord.
+template <typename T>
+RT_INLINE T intersect_sphere(const Ray<T>& ray, const typename Flat<T>::Sphere& sphere,
+                             typename Flat<T>::Index prim) {
+    const Vec3<T> center = load3(sphere.center);
+    if (ray.from == prim) return ray.chord;
+    if (sphere.touches_eye != 0 && ray.from == Flat<T>::eye) return T(2) * dot3(center, ray.dir);
+    if (sphere.is_huge != 0) return intersect_huge_sphere(ray, sphere);
+    const Vec3<T> f = ray.origin - center;
+    const T b = -dot3(f, ray.dir);
+    const Vec3<T> l = add_scaled(f, b, ray.dir);
+    const T discriminant = sphere.radius * sphere.radius - dot3(l, l);
     if (!(discriminant >= T(0))) return T(-1);
     const T s = std::sqrt(discriminant);
     const T near = b - s;
@@ -59,14 +93,14 @@ RT_INLINE Vec3<T> shear_vertex(const RayShear<T>& shear, const typename Flat<T>:
             std::fma(-shear.sy, z, p[shear.ky] - shear.origin_y), z};
 }
 
+/// Distance along the ray to the triangle's plane; NaN or infinite where it runs in it.
 template <typename T>
-RT_INLINE T min_of(T a, T b) {
-    return a < b ? a : b;
-}
-
-template <typename T>
-RT_INLINE T max_of(T a, T b) {
-    return a > b ? a : b;
+T plane_distance(const RayShear<T>& shear, const typename Flat<T>::Triangle& triangle) {
+    const T* n = &triangle.normal.x;
+    const T height = std::fma(n[shear.kz], shear.origin_z,
+                              std::fma(n[shear.ky], shear.origin_y, n[shear.kx] * shear.origin_x));
+    const T slope = std::fma(n[shear.kx], shear.sx, std::fma(n[shear.ky], shear.sy, n[shear.kz]));
+    return (triangle.plane - height) * shear.sz / slope;
 }
 
 /// Distance along the ray to the triangle, or -1; u and v are set on a hit.
@@ -87,7 +121,10 @@ RT_INLINE T intersect_triangle(const RayShear<T>& shear, const typename Flat<T>:
     const T inverse = T(1) / determinant;
     u = wb * inverse;
     v = wc * inverse;
-    return std::fma(wa, a.z, std::fma(wb, b.z, wc * c.z)) * shear.sz * inverse;
+    const T t = std::fma(wa, a.z, std::fma(wb, b.z, wc * c.z)) * shear.sz * inverse;
+    const T reach =
+        max_of(max_of(std::fabs(a.z), std::fabs(b.z)), std::fabs(c.z)) * std::fabs(shear.sz);
+    return reach > T(8) * std::fabs(t) ? plane_distance(shear, triangle) : t;
 }
 
 }  // namespace rt::trace

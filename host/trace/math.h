@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "host/flatten/flat_types.h"
 
@@ -55,6 +56,14 @@ RT_INLINE T difference_of_products(T a, T b, T c, T d) {
 template <typename T>
 RT_INLINE Vec3<T> reflect3(const Vec3<T>& d, const Vec3<T>& n) {
     return add_scaled(d, T(-2) * dot3(d, n), n);
+}
+
+/// Infinite components become the largest number, so that times 0 they are 0.
+template <typename T>
+Vec3<T> limit3(const Vec3<T>& v) {
+    constexpr T largest = std::numeric_limits<T>::max();
+    return {v.x < largest ? v.x : largest, v.y < largest ? v.y : largest,
+            v.z < largest ? v.z : largest};
 }
 
 }  // namespace rt::trace

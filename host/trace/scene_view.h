@@ -49,6 +49,7 @@ struct Ray {
     Vec3<T> dir;                   ///< unit
     T t_max;                       ///< hits lie in (0, t_max]
     typename Flat<T>::Index from;  ///< the primitive the origin lies on, or none
+    T chord = 0;                   ///< from a sphere: distance to where the ray leaves it
 };
 
 template <typename T>

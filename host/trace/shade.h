@@ -35,11 +35,8 @@ Vec3<T> light_contribution(const SceneView<T>& scene, const Surface<T>& surface,
     const Vec3<T> to_light = load3(light.position) - origin;
     if (!(dot3(surface.geometric, to_light) > T(0))) return none;
     const T distance = length3(to_light);
-    Ray<T> shadow;
-    shadow.origin = origin;
-    shadow.dir = to_light * (T(1) / distance);
+    Ray<T> shadow = leave_surface(surface, origin, to_light * (T(1) / distance), prim);
     shadow.t_max = distance * (T(1) - T(16) * Flat<T>::roundoff);
-    shadow.from = prim;
     const T cosine = dot3(surface.normal, shadow.dir);
     if (!(cosine > T(0))) return none;
     counts.shadow += 1;

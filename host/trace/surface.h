@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "host/trace/bits.h"
 #include "host/trace/math.h"
 #include "host/trace/scene_view.h"
@@ -14,6 +17,7 @@ struct Surface {
     Vec3<T> normal;     ///< shading normal, unit: interpolated where there are vertex normals
     Vec3<T> geometric;  ///< geometric normal, unit, on the shading normal's side
     T offset;           ///< bound on the distance between point and surface
+    T diameter;         ///< of a sphere, negative where the geometric normal points inwards; else 0
     typename Flat<T>::Index material;
 };
 
@@ -26,6 +30,14 @@ Surface<T> sphere_surface(const Ray<T>& ray, T t, const typename Flat<T>::Sphere
     surface.point = add_scaled(center, sphere.radius, surface.normal);
     const T spread = dot3(abs3(surface.normal), abs3(surface.point));
     surface.offset = Flat<T>::roundoff * std::fma(T(5), sphere.radius, spread);
+    if (sphere.is_huge != 0) {
+        surface.point = add_scaled(ray.origin, t, ray.dir);
+        surface.normal = normalize3(surface.point - center);
+        surface.geometric = surface.normal;
+        const Vec3<T> error = add_scaled(T(4) * abs3(ray.origin), T(6), abs3(surface.point));
+        surface.offset = Flat<T>::roundoff * dot3(abs3(surface.normal), error);
+    }
+    surface.diameter = T(2) * sphere.radius;
     surface.material = sphere.material;
     return surface;
 }
@@ -42,6 +54,15 @@ Vec3<T> blended_normal(const typename Flat<T>::VertexNormals& normals, const Vec
 }
 
 template <typename T>
+T largest_coordinate(const typename Flat<T>::Triangle& triangle) {
+    T largest = 0;
+    for (const auto& p : {triangle.p0, triangle.p1, triangle.p2}) {
+        for (const T x : {p.x, p.y, p.z}) largest = std::max(largest, std::fabs(x));
+    }
+    return largest;
+}
+
+template <typename T>
 Surface<T> triangle_surface(const Ray<T>& ray, const Hit<T>& hit,
                             const typename Flat<T>::Triangle& triangle,
                             const typename Flat<T>::VertexNormals* vertex_normals) {
@@ -51,14 +72,15 @@ Surface<T> triangle_surface(const Ray<T>& ray, const Hit<T>& hit,
     surface.point = add_scaled(p0, hit.u, load3(triangle.p1) - p0);
     surface.point = add_scaled(surface.point, hit.v, load3(triangle.p2) - p0);
     surface.offset = triangle.offset;
-    const T reach = Flat<T>::roundoff * (length3(ray.origin) + hit.t);
-    if (triangle.offset > T(64) * reach) {
+    const T distance = length3(ray.origin) + hit.t;
+    if (largest_coordinate<T>(triangle) > T(8) * distance) {
         const Vec3<T> along = add_scaled(ray.origin, hit.t, ray.dir);
         surface.point = add_scaled(along, triangle.plane - dot3(normal, along), normal);
-        surface.offset = T(16) * reach;
+        surface.offset = T(16) * Flat<T>::roundoff * distance;
     }
     surface.normal = normal;
     surface.geometric = normal;
+    surface.diameter = 0;
     surface.material = triangle.material;
     if (triangle.smooth != Flat<T>::none) {
         surface.normal = blended_normal(vertex_normals[triangle.smooth], normal, hit.u, hit.v);
@@ -102,6 +124,14 @@ Vec3<T> offset_origin(const Surface<T>& surface, const Vec3<T>& side) {
     const Vec3<T> p = surface.point + step;
     return {one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),
             one_ulp_towards(p.z, step.z)};
+}
+
+/// A ray that leaves the surface of primitive prim in the unit direction dir, from `origin`.
+template <typename T>
+Ray<T> leave_surface(const Surface<T>& surface, const Vec3<T>& origin, const Vec3<T>& dir,
+                     typename Flat<T>::Index prim) {
+    return {origin, dir, std::numeric_limits<T>::infinity(), prim,
+            -surface.diameter * dot3(surface.geometric, dir)};
 }
 
 }  // namespace rt::trace

@@ -11,17 +11,13 @@ namespace rt::trace {
 /// reflected about the geometric normal instead.
 template <typename T>
 Ray<T> mirror_ray(const Surface<T>& surface, const Vec3<T>& dir, typename Flat<T>::Index prim) {
-    Ray<T> ray;
-    ray.dir = reflect3(dir, surface.normal);
+    Vec3<T> mirrored = reflect3(dir, surface.normal);
     const T arriving = dot3(dir, surface.geometric);
-    if (!(dot3(ray.dir, surface.geometric) * arriving < T(0))) {
-        ray.dir = reflect3(dir, surface.geometric);
+    if (!(dot3(mirrored, surface.geometric) * arriving < T(0))) {
+        mirrored = reflect3(dir, surface.geometric);
     }
-    ray.dir = normalize3(ray.dir);
-    ray.origin = offset_origin(surface, ray.dir);
-    ray.t_max = std::numeric_limits<T>::infinity();
-    ray.from = prim;
-    return ray;
+    mirrored = normalize3(mirrored);
+    return leave_surface(surface, offset_origin(surface, mirrored), mirrored, prim);
 }
 
 template <typename T>
@@ -38,10 +34,11 @@ Vec3<T> trace_path(const SceneView<T>& scene, Ray<T> ray, RayCounts& counts) {
         if (material.two_sided != 0 && dot3(surface.geometric, ray.dir) > T(0)) {
             surface.normal = -surface.normal;
             surface.geometric = -surface.geometric;
+            surface.diameter = -surface.diameter;
         }
         color += throughput * shade(scene, surface, material, -ray.dir, hit.prim, counts);
         if (bounce >= scene.frame.max_bounces) return color;
-        throughput = throughput * load3(material.mirror);
+        throughput = limit3(throughput * load3(material.mirror));
         if (is_black(throughput)) return color;
         ray = mirror_ray(surface, ray.dir, hit.prim);
         counts.mirror += 1;
