@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
+#include <utility>
 
 #include "host/scene/json_camera.h"
 #include "host/scene/json_document.h"
+#include "host/scene/json_meshes.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/json_shapes.h"
+#include "host/scene/model_name.h"
 #include "host/scene/text_file.h"
 #include "host/scene/words.h"
 
@@ -23,7 +25,7 @@ constexpr int max_max_bounces = 100000;
 
 constexpr std::string_view scene_keys[] = {"$schema",     "name",       "camera",        "image",
                                            "max_bounces", "background", "ambient_light", "lights",
-                                           "materials",   "spheres",    "triangles"};
+                                           "materials",   "spheres",    "triangles",     "meshes"};
 constexpr std::string_view image_keys[] = {"width", "height", "aa"};
 
 std::optional<AaMode> read_aa(const JsonValue& value, std::string_view name, Mistakes& mistakes) {
@@ -67,7 +69,15 @@ void read_list(const ObjectReader& reader, std::string_view key, std::vector<T>&
     for (const JsonValue& item : *items) target.push_back(read(item));
 }
 
-void read_objects(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
+/// A scene but for its meshes, which wait until all else is known to be right.
+struct SceneText {
+    Scene scene;
+    std::vector<MeshRequest> meshes;
+};
+
+void read_objects(const ObjectReader& reader, const SceneFolder& folder, SceneText& text,
+                  Mistakes& mistakes) {
+    Scene& scene = text.scene;
     MaterialTable materials(reader.find("materials"), mistakes);
     read_list(reader, "lights", scene.lights, mistakes,
               [&](const JsonValue& item) { return read_light(item, mistakes); });
@@ -75,16 +85,12 @@ void read_objects(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) 
               [&](const JsonValue& item) { return read_sphere(item, materials, mistakes); });
     read_list(reader, "triangles", scene.triangles, mistakes,
               [&](const JsonValue& item) { return read_triangle(item, materials, mistakes); });
+    read_list(reader, "meshes", text.meshes, mistakes,
+              [&](const JsonValue& item) { return read_mesh(item, materials, folder, mistakes); });
     scene.materials = materials.take();
 }
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
-
-std::string name_from(const std::string& file_name) {
-    std::string name = std::filesystem::path(file_name).stem().string();
-    std::replace_if(name.begin(), name.end(), is_control, '?');
-    return name;
-}
 
 void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
     if (const JsonValue* schema = reader.find("$schema")) read_string(*schema, "$schema", mistakes);
@@ -98,10 +104,11 @@ void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
     }
 }
 
-Scene read_scene(const JsonValue& root, Mistakes& mistakes) {
-    Scene scene;
+SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes& mistakes) {
+    SceneText text;
+    Scene& scene = text.scene;
     const ObjectReader reader(root, "the scene", scene_keys, mistakes);
-    if (!reader.is_object()) return scene;
+    if (!reader.is_object()) return text;
     read_name(reader, scene, mistakes);
     constexpr std::string_view example =
         "\"camera\": {\"from\": [0, 0, 5], \"at\": [0, 0, 0], \"fov_degrees\": 60}";
@@ -112,8 +119,8 @@ Scene read_scene(const JsonValue& root, Mistakes& mistakes) {
     reader.optional("max_bounces", scene.max_bounces, read_bounces);
     reader.optional("background", scene.background, read_colour);
     reader.optional("ambient_light", scene.ambient_light, read_colour);
-    read_objects(reader, scene, mistakes);
-    return scene;
+    read_objects(reader, folder, text, mistakes);
+    return text;
 }
 
 }  // namespace
@@ -125,11 +132,15 @@ Scene load_json_scene(const std::string& path) {
 Scene parse_json_scene(std::string_view text, const std::string& file_name) {
     Mistakes mistakes(text, file_name);
     const JsonValue root = parse_json(mistakes);
-    Scene scene = read_scene(root, mistakes);
+    const SceneFolder folder = SceneFolder::of(file_name);
+    SceneText read = read_scene(root, folder, mistakes);
     mistakes.throw_if_any();
-    if (scene.name.empty()) scene.name = name_from(file_name);
+    Scene& scene = read.scene;
+    load_meshes(read.meshes, folder, scene, mistakes);
+    mistakes.throw_if_any();
+    if (scene.name.empty()) scene.name = scene_name_of(file_name);
     set_image_size(scene, scene.width, scene.height);
-    return scene;
+    return std::move(scene);
 }
 
 }  // namespace rt

@@ -18,7 +18,7 @@
 #include "host/report/run_csv.h"
 #include "host/report/run_json.h"
 #include "host/report/stats_json.h"
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"
 #include "host/verbs/device_list.h"
@@ -57,7 +57,7 @@ class Plan {
         }
         for (const std::string& path : paths) {
             const Stopwatch watch;
-            Scene scene = load_json_scene(path);
+            Scene scene = load_scene_file(path);
             scenes_.push_back({path, std::move(scene), watch.seconds()});
         }
         say_devices_without_double();

@@ -16,7 +16,7 @@
 #include "host/report/run_csv.h"
 #include "host/report/run_json.h"
 #include "host/report/stats_json.h"
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"
 #include "host/verbs/converge_reference.h"
@@ -125,7 +125,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options, const std::strin
     result.load_before = load_average();
     result.repeats_asked = options.repeats;
     const Stopwatch watch;
-    Scene scene = load_json_scene(options.scene);
+    Scene scene = load_scene_file(options.scene);
     const double load_seconds = watch.seconds();
     if (options.size) set_image_size(scene, options.size->width, options.size->height);
     result.scene_path = options.scene;

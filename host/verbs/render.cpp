@@ -10,7 +10,7 @@
 #include "host/report/image_error.h"
 #include "host/report/stats_json.h"
 #include "host/report/stats_text.h"
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
 #include "host/verbs/picture_job.h"
 #include "host/verbs/verbs.h"
@@ -39,6 +39,10 @@ void print_results(const RenderStats& stats, const RenderOptions& options) {
     if (options.stats == StatsFormat::text) return print_result(stats_text(stats));
     if (!options.quiet) print_message(summary_line(stats) + "\n");
     if (stats.error) print_result(error_line(*stats.error) + "\n");
+}
+
+void print_notes(const Scene& scene) {
+    for (const std::string& note : scene.notes) print_message("mirrorball: " + note + "\n");
 }
 
 /// Says what is wrong with the values of a picture; whether anything is.
@@ -90,7 +94,8 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     const Stopwatch total;
     if (!options.output.empty()) check_picture_path(options.output);
     Stopwatch watch;
-    Scene scene = load_json_scene(options.scene);
+    Scene scene = load_scene_file(options.scene);
+    if (!options.quiet) print_notes(scene);
     apply_overrides(scene, options);
     const double load_seconds = watch.lap();
     const std::optional<Picture> reference = load_reference(options, scene);

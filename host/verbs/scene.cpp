@@ -9,7 +9,7 @@
 #include "host/flatten/flat_scene.h"
 #include "host/report/render_stats.h"
 #include "host/report/stats_json.h"
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/verbs/verbs.h"
 
@@ -32,12 +32,15 @@ Json info_json(const std::string& path, const Scene& scene, const FlatScene<floa
             {"spheres", scene.spheres.size()},
             {"triangles", scene.triangles.size()},
             {"smooth_triangles", flat.vertex_normals.size()},
+            {"meshes", scene.meshes.size()},
+            {"mesh_triangles", triangle_count(scene) - scene.triangles.size()},
             {"lights", scene.lights.size()},
             {"lights_used", flat.lights.size()},
             {"materials", scene.materials.size()},
             {"flat_bytes", flat.bytes()},
             {"features_used", names_of(flat.features, true)},
-            {"features_left_out", names_of(flat.features, false)}};
+            {"features_left_out", names_of(flat.features, false)},
+            {"notes", scene.notes}};
 }
 
 std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
@@ -50,6 +53,10 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
         scene.name, hash_text(scene_hash(scene)), scene.width, scene.height, to_string(scene.aa),
         scene.max_bounces, scene.spheres.size(), scene.triangles.size(), flat.vertex_normals.size(),
         scene.materials.size(), scene.lights.size(), flat.bytes());
+    if (!scene.meshes.empty()) {
+        text += fmt::format("  meshes     {} of {} triangles\n", scene.meshes.size(),
+                            triangle_count(scene) - scene.triangles.size());
+    }
     for (const FeatureName& feature : feature_names) {
         const bool used = flat.features.*feature.flag;
         text += fmt::format("  {:<10} {}\n", used ? "needs" : "leaves out", feature.name);
@@ -58,11 +65,12 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
         text += fmt::format("  leaves out {} lights that shine on nothing\n",
                             scene.lights.size() - flat.lights.size());
     }
+    for (const std::string& note : scene.notes) text += fmt::format("  note       {}\n", note);
     return text;
 }
 
 int show_info(const SceneOptions& options) {
-    const Scene scene = load_json_scene(options.scene);
+    const Scene scene = load_scene_file(options.scene);
     const FlatScene<float> flat = flatten<float>(scene);
     print_result(options.json ? json_text(info_json(options.scene, scene, flat))
                               : info_text(scene, flat));
@@ -83,7 +91,7 @@ Json check_json(const std::string& path, const std::string& mistakes) {
 int check_scene(const SceneOptions& options) {
     std::string mistakes;
     try {
-        flatten<float>(load_json_scene(options.scene));
+        flatten<float>(load_scene_file(options.scene));
     } catch (const Error& error) {
         if (!options.json || error.exit_code() != ExitCode::input) throw;
         mistakes = error.what();
