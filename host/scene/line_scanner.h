@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "host/scene/mistakes.h"
+#include "host/scene/utf8.h"
 
 namespace rt {
 
@@ -16,7 +17,11 @@ namespace rt {
 class LineScanner {
    public:
     explicit LineScanner(std::string_view text, std::size_t start = 0)
-        : begin_(text.data()), at_(begin_ + start), end_(begin_ + text.size()) {}
+        : begin_(text.data()), at_(begin_ + start), end_(begin_ + text.size()) {
+        if (start == 0 && text.starts_with(utf8_byte_order_mark)) {
+            at_ += utf8_byte_order_mark.size();
+        }
+    }
 
     /// Where the next character stands in the text.
     std::size_t offset() const { return static_cast<std::size_t>(at_ - begin_); }

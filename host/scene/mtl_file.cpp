@@ -172,12 +172,13 @@ class MtlReader {
     void read_illum(Mtl& mtl) {
         const bool there = scanner_.word_follows();
         const std::size_t offset = scanner_.offset();
+        LineScanner ahead = scanner_;
         const auto number = there ? scanner_.integer() : std::nullopt;
         if (number && *number >= 0 && *number <= 10) {
             mtl.illum = static_cast<int>(*number);
             return require_end("illum");
         }
-        const std::string found = there ? in_quotes(scanner_.word()) : "missing";
+        const std::string found = there ? in_quotes(ahead.word()) : "missing";
         mistakes_.add(offset, fmt::format("illum is {}; write a whole number from 0 to 10", found));
     }
 
