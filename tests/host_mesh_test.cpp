@@ -85,7 +85,7 @@ void load_anything(const fs::path& path) {
     if (path.extension() == ".mtl") {
         parse_mtl(read_text_file(path.string(), 1000), path.string());
     } else {
-        load_scene_file(path.string());
+        load_scene(path.string());
     }
 }
 
@@ -609,7 +609,7 @@ TEST_F(ModelFiles, MeshesStandInAJsonScene) {
         {"file": "b.PLY", "material": "red",
          "transform": [0, -1, 0, 5,  1, 0, 0, 6,  0, 0, 1, 7,  0, 0, 0, 1]},
         {"file": "models/a.obj", "material": "grey"})"));
-    const Scene scene = load_scene_file(path);
+    const Scene scene = load_scene(path);
     ASSERT_EQ(scene.meshes.size(), 3u);
     EXPECT_EQ(scene.meshes[0].positions[2], glm::dvec3(3, 4, 3));
     EXPECT_EQ(scene.meshes[1].positions, (Positions{{5, 6, 7}, {5, 7, 7}, {4, 6, 7}}));
@@ -624,7 +624,7 @@ TEST_F(ModelFiles, MeshesStandInAJsonScene) {
 TEST_F(ModelFiles, ObjWithoutMaterialsNeedsOneFromTheScene) {
     write("a.obj", square + "f 1 2 3\n");
     const std::string path = write("scene.json", scene_with(R"({"file": "a.obj"})"));
-    const Refusal refusal = refusal_of([&] { load_scene_file(path); });
+    const Refusal refusal = refusal_of([&] { load_scene(path); });
     EXPECT_EQ(refusal.exit_code, ExitCode::input);
     EXPECT_TRUE(refusal.message.starts_with(path + ":3:"));
     EXPECT_NE(refusal.message.find("a mesh has no \"material\""), std::string::npos);
@@ -634,7 +634,7 @@ TEST_F(ModelFiles, AMaterialOfTheSceneMakesLibrariesNeedless) {
     write("a.obj", "mtllib nowhere.mtl\nusemtl x\n" + square + "f 1 2 3\n");
     const std::string path =
         write("scene.json", scene_with(R"({"file": "a.obj", "material": "red"})"));
-    EXPECT_EQ(load_scene_file(path).meshes[0].face_materials, std::vector<int>{1});
+    EXPECT_EQ(load_scene(path).meshes[0].face_materials, std::vector<int>{1});
 }
 
 TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
@@ -645,7 +645,7 @@ TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
     for (const std::string name : {"link.ply", "up/secret.ply"}) {
         const std::string path = write(
             "scene/scene.json", scene_with(R"({"material": "red", "file": ")" + name + "\"}"));
-        const Refusal refusal = refusal_of([&] { load_scene_file(path); });
+        const Refusal refusal = refusal_of([&] { load_scene(path); });
         EXPECT_EQ(refusal.exit_code, ExitCode::input);
         EXPECT_NE(refusal.message.find("lies outside of the scene's folder"), std::string::npos);
     }
@@ -653,7 +653,7 @@ TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
     write("scene/inside.ply", ply_triangle);
     const std::string path =
         write("scene/scene.json", scene_with(R"({"material": "red", "file": "alias.ply"})"));
-    EXPECT_EQ(triangle_count(load_scene_file(path)), 1u);
+    EXPECT_EQ(triangle_count(load_scene(path)), 1u);
 }
 
 TEST_F(ModelFiles, PipesAndFoldersDoNotHang) {
@@ -662,9 +662,9 @@ TEST_F(ModelFiles, PipesAndFoldersDoNotHang) {
     for (const std::string name : {"pipe.ply", "folder.ply"}) {
         const std::string path =
             write("scene.json", scene_with(R"({"material": "red", "file": ")" + name + "\"}"));
-        const Refusal refusal = refusal_of([&] { load_scene_file(path); });
+        const Refusal refusal = refusal_of([&] { load_scene(path); });
         EXPECT_NE(refusal.message.find("is not a regular file"), std::string::npos);
-        const Refusal alone = refusal_of([&] { load_scene_file((folder_ / name).string()); });
+        const Refusal alone = refusal_of([&] { load_scene((folder_ / name).string()); });
         EXPECT_EQ(alone.exit_code, ExitCode::input);
     }
 }
@@ -672,13 +672,13 @@ TEST_F(ModelFiles, PipesAndFoldersDoNotHang) {
 TEST_F(ModelFiles, FileAboveTheSizeCapIsOverTheLimit) {
     const std::string path = write("large.ply", ply_triangle);
     fs::resize_file(path, max_model_bytes + 1);  // sparse: takes no room
-    const Refusal refusal = refusal_of([&] { load_scene_file(path); });
+    const Refusal refusal = refusal_of([&] { load_scene(path); });
     EXPECT_EQ(refusal.exit_code, ExitCode::limit);
 }
 
 TEST_F(ModelFiles, DegenerateTrianglesAreANoteNotAMistake) {
     const std::string path = write("a.obj", square + "f 1 2 3\nf 1 1 2\nf 2 2 2\n");
-    const Scene scene = load_scene_file(path);
+    const Scene scene = load_scene(path);
     EXPECT_EQ(triangle_count(scene), 1u);
     ASSERT_EQ(scene.notes.size(), 1u);
     EXPECT_EQ(scene.notes[0], path + ": 2 triangles without area left out");
@@ -686,7 +686,7 @@ TEST_F(ModelFiles, DegenerateTrianglesAreANoteNotAMistake) {
 
 TEST_F(ModelFiles, AModelAloneFillsThePicture) {
     const std::string path = write("shape.ply", ply_triangle);
-    const Scene scene = load_scene_file(path);
+    const Scene scene = load_scene(path);
     EXPECT_EQ(scene.name, "shape");
     EXPECT_EQ(scene.lights.size(), 2u);
     ASSERT_EQ(scene.materials.size(), 1u);
@@ -703,7 +703,7 @@ TEST_F(ModelFiles, AModelAloneFillsThePicture) {
 TEST_F(ModelFiles, AnObjAloneFindsItsLibraryBesideIt) {
     write("sub/a.mtl", "newmtl blue\nKd 0 0 1\nKs 0.5\nillum 3\n");
     const Scene scene =
-        load_scene_file(write("sub/a.obj", "mtllib a.mtl\nusemtl blue\n" + square + "f 1 2 3\n"));
+        load_scene(write("sub/a.obj", "mtllib a.mtl\nusemtl blue\n" + square + "f 1 2 3\n"));
     ASSERT_EQ(scene.materials.size(), 1u);
     EXPECT_EQ(scene.materials[0].mirror, glm::dvec3(0.5));
 }

@@ -12,7 +12,7 @@
 #include "host/scene/json_meshes.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/json_shapes.h"
-#include "host/scene/model_name.h"
+#include "host/scene/scene_file.h"
 #include "host/scene/text_file.h"
 #include "host/scene/words.h"
 
@@ -138,7 +138,7 @@ Scene parse_json_scene(std::string_view text, const std::string& file_name) {
     Scene& scene = read.scene;
     load_meshes(read.meshes, folder, scene, mistakes);
     mistakes.throw_if_any();
-    if (scene.name.empty()) scene.name = scene_name_of(file_name);
+    if (scene.name.empty()) scene.name = name_of_file(file_name);
     set_image_size(scene, scene.width, scene.height);
     return std::move(scene);
 }

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-
 #include "host/scene/utf8.h"
 
 namespace rt {
@@ -26,12 +23,6 @@ std::string model_name(std::string_view bytes) {
             name += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
         }
     }
-    return name;
-}
-
-std::string scene_name_of(const std::string& file_name) {
-    std::string name = std::filesystem::path(file_name).stem().string();
-    std::replace_if(name.begin(), name.end(), is_control, '?');
     return name;
 }
 

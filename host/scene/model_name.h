@@ -10,7 +10,4 @@ namespace rt {
 /// or holds control characters, those bytes become "\xNN".
 std::string model_name(std::string_view bytes);
 
-/// What a scene is called that gives itself no name: its file's name without the ending.
-std::string scene_name_of(const std::string& file_name);
-
 }  // namespace rt

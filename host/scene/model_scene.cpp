@@ -9,8 +9,8 @@
 #include "host/error.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/model_file.h"
-#include "host/scene/model_name.h"
 #include "host/scene/obj_materials.h"
+#include "host/scene/scene_file.h"
 
 namespace rt {
 namespace {
@@ -63,7 +63,7 @@ std::vector<Scene::Light> lamps(const Ball& ball) {
 Scene make_model_scene(Model model, const std::string& path) {
     const Ball ball = bounding_ball(model.mesh);
     Scene scene;
-    scene.name = scene_name_of(path);
+    scene.name = name_of_file(path);
     scene.camera = framing_camera(ball);
     if (nearly_same_point(scene.camera.from, scene.camera.at)) {
         throw Error(ExitCode::input, path +

@@ -7,8 +7,12 @@
 
 namespace rt {
 
-/// Reads a scene of any kind we know, by the ending of its name: .obj and .ply are models,
-/// anything else is mirrorball's JSON. Throws Error as their readers do.
-Scene load_scene_file(const std::string& path);
+/// Reads a scene file in the format that its ending names: .obj and .ply are models alone, all
+/// else is .json. Throws Error: ExitCode::input for a file that is missing, unreadable, not
+/// regular, or wrong; ExitCode::limit for one that is too large.
+Scene load_scene(const std::string& path);
+
+/// A scene's name where the file gives none: that of the file, without its ending.
+std::string name_of_file(const std::string& path);
 
 }  // namespace rt

@@ -57,7 +57,7 @@ class Plan {
         }
         for (const std::string& path : paths) {
             const Stopwatch watch;
-            Scene scene = load_scene_file(path);
+            Scene scene = load_scene(path);
             scenes_.push_back({path, std::move(scene), watch.seconds()});
         }
         say_devices_without_double();

@@ -125,7 +125,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options, const std::strin
     result.load_before = load_average();
     result.repeats_asked = options.repeats;
     const Stopwatch watch;
-    Scene scene = load_scene_file(options.scene);
+    Scene scene = load_scene(options.scene);
     const double load_seconds = watch.seconds();
     if (options.size) set_image_size(scene, options.size->width, options.size->height);
     result.scene_path = options.scene;

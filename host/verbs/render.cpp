@@ -94,7 +94,7 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     const Stopwatch total;
     if (!options.output.empty()) check_picture_path(options.output);
     Stopwatch watch;
-    Scene scene = load_scene_file(options.scene);
+    Scene scene = load_scene(options.scene);
     if (!options.quiet) print_notes(scene);
     apply_overrides(scene, options);
     const double load_seconds = watch.lap();

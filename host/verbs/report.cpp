@@ -37,7 +37,7 @@ struct Stopped {};
 class SceneStudy {
    public:
     SceneStudy(const ReportOptions& options, const std::string& path, const std::string& kernels)
-        : options_(options), path_(path), kernels_(kernels), scene_(load_scene_file(path)) {
+        : options_(options), path_(path), kernels_(kernels), scene_(load_scene(path)) {
         if (options.size) set_image_size(scene_, options.size->width, options.size->height);
         if (to_string(scene_.aa) == "none") scene_.aa = grid_aa(2);
     }
@@ -161,7 +161,7 @@ int verdict(const Report& report) {
 
 int run_report(const ReportOptions& options) {
     check_result_path(options.output, page_start);
-    for (const std::string& path : options.scenes) load_scene_file(path);
+    for (const std::string& path : options.scenes) load_scene(path);
     const FreshKernelCache kernels;
     Report report;
     report.date = today();

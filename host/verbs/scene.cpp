@@ -70,7 +70,7 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
 }
 
 int show_info(const SceneOptions& options) {
-    const Scene scene = load_scene_file(options.scene);
+    const Scene scene = load_scene(options.scene);
     const FlatScene<float> flat = flatten<float>(scene);
     print_result(options.json ? json_text(info_json(options.scene, scene, flat))
                               : info_text(scene, flat));
@@ -91,7 +91,7 @@ Json check_json(const std::string& path, const std::string& mistakes) {
 int check_scene(const SceneOptions& options) {
     std::string mistakes;
     try {
-        flatten<float>(load_scene_file(options.scene));
+        flatten<float>(load_scene(options.scene));
     } catch (const Error& error) {
         if (!options.json || error.exit_code() != ExitCode::input) throw;
         mistakes = error.what();
