@@ -4,6 +4,7 @@
 // Build with clang++ -fsanitize=fuzzer,address,undefined; seeds: tests/models/ and
 // tests/scenes_bad/.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -19,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string library(text.substr(std::min(end + mark.size(), text.size())));
     const auto open = [&](const std::string& name) {
         if (name.size() > 8) return rt::LibraryFile{{}, {}, "no such file"};
-        return rt::LibraryFile{name, library, {}};
+        return rt::LibraryFile{"fuzz.mtl", library, {}};
     };
     rt::fuzz::try_model([&] { return rt::parse_obj(text.substr(0, end), "fuzz.obj", open); });
     return 0;
