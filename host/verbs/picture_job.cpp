@@ -53,7 +53,7 @@ SceneStats scene_stats(const Scene& scene) {
     stats.name = scene.name;
     stats.hash = scene_hash(scene);
     stats.spheres = scene.spheres.size();
-    stats.triangles = scene.triangles.size();
+    stats.triangles = triangle_count(scene);
     stats.smooth_triangles = static_cast<std::size_t>(std::count_if(
         scene.triangles.begin(), scene.triangles.end(),
         [](const Scene::Triangle& triangle) { return triangle.normals.has_value(); }));
