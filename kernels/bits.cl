@@ -5,42 +5,43 @@
 #ifndef RT_BITS_CL
 #define RT_BITS_CL
 
-#include "kernels/types.h"
+#include "kernels/lanes.h"
 
 #ifdef RT_DOUBLE
-#define RT_AS_INDEX as_long
-#define RT_AS_REAL as_double
 #define RT_MANTISSA_BITS 52
 #define RT_EXPONENT_BIAS 1023
 #define RT_MIN_NORMAL 0x1p-1022
 #define RT_INDEX_ONE 1L
 #else
-#define RT_AS_INDEX as_int
-#define RT_AS_REAL as_float
 #define RT_MANTISSA_BITS 23
 #define RT_EXPONENT_BIAS 127
 #define RT_MIN_NORMAL 0x1p-126f
 #define RT_INDEX_ONE 1
 #endif
 
-// x = mantissa_of(x) * 2^exponent_of(x) for normal x > 0; the mantissa is in [1, 2).
-Index exponent_of(Real x) { return (RT_AS_INDEX(x) >> RT_MANTISSA_BITS) - RT_EXPONENT_BIAS; }
+#define RT_AS_INDICES RT_JOIN(as_, RT_LANES_OF(RT_INDEX))
+#define RT_AS_REALS RT_JOIN(as_, RT_LANES_OF(RT_REAL))
 
-Real mantissa_of(Real x) {
-    Index fraction = RT_AS_INDEX(x) & ((RT_INDEX_ONE << RT_MANTISSA_BITS) - 1);
-    return RT_AS_REAL(fraction | ((Index)RT_EXPONENT_BIAS << RT_MANTISSA_BITS));
+// x = mantissa_of(x) * 2^exponent_of(x) for normal x > 0; the mantissa is in [1, 2).
+Indices exponent_of(Reals x) { return (RT_AS_INDICES(x) >> RT_MANTISSA_BITS) - RT_EXPONENT_BIAS; }
+
+Reals mantissa_of(Reals x) {
+    Indices fraction = RT_AS_INDICES(x) & ((RT_INDEX_ONE << RT_MANTISSA_BITS) - 1);
+    return RT_AS_REALS(fraction | ((Index)RT_EXPONENT_BIAS << RT_MANTISSA_BITS));
 }
 
 // 2^k for a normal result
-Real power_of_two(Index k) { return RT_AS_REAL((k + RT_EXPONENT_BIAS) << RT_MANTISSA_BITS); }
+Reals power_of_two(Indices k) { return RT_AS_REALS((k + RT_EXPONENT_BIAS) << RT_MANTISSA_BITS); }
 
 // The next number above x (direction > 0), below it (direction < 0), or x (direction == 0).
-Real one_ulp_towards(Real x, Real direction) {
-    if (direction == (Real)0) return x;
-    if (x == (Real)0)
-        return direction > (Real)0 ? RT_AS_REAL(RT_INDEX_ONE) : -RT_AS_REAL(RT_INDEX_ONE);
-    bool away_from_zero = (x > (Real)0) == (direction > (Real)0);
-    return RT_AS_REAL(RT_AS_INDEX(x) + (away_from_zero ? 1 : -1));
+Reals one_ulp_towards(Reals x, Reals direction) {
+    Mask up = direction > (Reals)0;
+    Mask away_from_zero = (x > (Reals)0) == up;
+    Indices bits = RT_AS_INDICES(x) + (away_from_zero ? (Indices)1 : (Indices)-1);
+    Reals smallest = RT_AS_REALS((Indices)1);
+    Reals from_zero = up ? smallest : -smallest;
+    Reals moved = x == (Reals)0 ? from_zero : RT_AS_REALS(bits);
+    return direction == (Reals)0 ? x : moved;
 }
 
 #endif

@@ -11,16 +11,16 @@
 #include "kernels/scene_view.h"
 
 // The ray through sample k of pixel (x, y), x to the right and y up.
-Ray camera_ray(const Frame* frame, Index x, Index y, Index k) {
+Ray camera_ray(const Frame* frame, Indices x, Indices y, Indices k) {
     Position offset = sample_position(frame, x, y, k);
-    Real sx = (Real)2 * ((Real)x + offset.x) - (Real)frame->width;
-    Real sy = (Real)2 * ((Real)y + offset.y) - (Real)frame->height;
+    Reals sx = (Reals)2 * (RT_TO_REALS(x) + offset.x) - (Real)frame->width;
+    Reals sy = (Reals)2 * (RT_TO_REALS(y) + offset.y) - (Real)frame->height;
     real3 across = add_scaled(load3(frame->direction), sx, load3(frame->direction_dx));
     Ray ray;
     ray.dir = normalize3(add_scaled(across, sy, load3(frame->direction_dy)));
     ray.origin = add_scaled(scale3(sx, load3(frame->origin_dx)), sy, load3(frame->origin_dy));
-    ray.t_max = INFINITY;
-    ray.from = RT_NONE;
+    ray.t_max = (Reals)INFINITY;
+    ray.from = (Indices)RT_NONE;
     return ray;
 }
 

@@ -1,82 +1,187 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One ray against the scene, every primitive in turn.
+// Rays against the scene: each kind of primitive in turn, through its hierarchy where it has one.
 //
-// Ties: surfaces within 32 half-ulps of the nearest one are one surface, and the lowest index among
+// Ties: surfaces within 32 half-ulps of the nearest one are one surface, and the first listed among
 // them is hit. That set does not depend on the order of the tests, so neither does the picture: a
-// first pass finds the two smallest distances, and only when they lie that close a second pass
-// looks for the lowest index. Rays through the shared edges of the paper's box do it (they project
+// first pass finds the two smallest distances, and only where they lie that close a second pass
+// looks for the first listed. Rays through the shared edges of the paper's box do it (they project
 // onto the picture's diagonals); hardly any other ray does.
 #ifndef RT_CLOSEST_HIT_CL
 #define RT_CLOSEST_HIT_CL
 
-#include "kernels/intersect.cl"
+#include "kernels/bvh.cl"
 
 #define RT_TIE ((Real)1 + (Real)32 * (Real)RT_ROUNDOFF)
 
-// Distance to primitive `prim`, or -1 (or NaN) where it is missed.
-Real intersect_primitive(const SceneView* scene, const Ray* ray, const RayShear* shear, Index prim,
-                         Real* u, Real* v) {
-    if (RT_HAS_SPHERES && prim < scene->frame.sphere_count) {
-        __global const Sphere* sphere = &scene->spheres[prim];
-        return intersect_sphere(ray, load3(sphere->center), sphere->radius, prim == ray->from);
-    }
-    if (RT_HAS_TRIANGLES && prim != ray->from) {
-        Index index = prim - scene->frame.sphere_count;
-        return intersect_triangle(shear, &scene->triangles[index], u, v);
-    }
-    return (Real)-1;
+// What a pass over the primitives has found.
+typedef struct {
+    Hit hit;
+    Reals second;     // nearest: the next distance after hit.t
+    Indices number;   // listing: what the hit was listed under
+    Reals limit;      // hits further away do not count; negative: the lane is off
+    bool is_listing;  // look for the first listed, not for the nearest
+} Search;
+
+// What a primitive was listed under: hierarchies reorder them.
+Index listed_number(const SceneView* scene, Index prim) {
+    if (!RT_HAS_HIERARCHY) return prim;
+    bool reordered =
+        (scene->frame.sphere_root | scene->frame.cone_root | scene->frame.triangle_root) != 0;
+    return reordered ? scene->listed[prim] : prim;
 }
 
-// The lowest-numbered primitive hit no further away than t_max; there is one.
-Hit first_listed_hit(const SceneView* scene, const Ray* ray, const RayShear* shear, Real t_max) {
-    Index count = scene->frame.sphere_count + scene->frame.triangle_count;
-    Hit hit = {0, 0, 0, RT_NONE, 1};
-    for (Index prim = 0; prim < count; ++prim) {
-        hit.t = intersect_primitive(scene, ray, shear, prim, &hit.u, &hit.v);
-        if (hit.t > (Real)0 && hit.t <= t_max) {
-            hit.prim = prim;
-            return hit;
+// Takes note of primitive prim, which the lines of some lanes meet at t (behind the origin,
+// or NaN, perhaps).
+void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Reals u, Reals v,
+               Index prim) {
+    Mask met = lanes & (t > (Reals)0) & (t <= search->limit);
+    if (!any_lane(met)) return;
+    Mask better = met & (t < search->hit.t);
+    if (search->is_listing) {
+        Index number = listed_number(scene, prim);
+        better = met & (number < search->number);
+        search->number = better ? (Indices)number : search->number;
+    } else {
+        Reals runner_up = t < search->second ? t : search->second;
+        search->second = better ? search->hit.t : (met ? runner_up : search->second);
+        search->limit = better ? t * RT_TIE : search->limit;
+    }
+    search->hit.t = better ? t : search->hit.t;
+    search->hit.u = better ? u : search->hit.u;
+    search->hit.v = better ? v : search->hit.v;
+    search->hit.prim = better ? (Indices)prim : search->hit.prim;
+}
+
+void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal, Search* search) {
+    Index first, end;
+    enter_kind(traversal, scene->frame.sphere_root, scene->frame.sphere_count);
+    while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
+        for (Index prim = first; prim < end; ++prim) {
+            __global const Sphere* sphere = &scene->spheres[prim];
+            Reals t;
+            Mask met = intersect_sphere(ray, load3(sphere->center), (Reals)sphere->radius,
+                                        ray->from == prim, &t);
+            if (any_lane(met)) offer_hit(scene, search, met, t, (Reals)0, (Reals)0, prim);
         }
     }
-    return hit;
 }
 
-Hit closest_hit(const SceneView* scene, const Ray* ray) {
-    Index count = scene->frame.sphere_count + scene->frame.triangle_count;
-    RayShear shear = make_shear(ray);
-    Hit best = {INFINITY, 0, 0, RT_NONE, 0};
-    Real second = INFINITY;
-    for (Index prim = 0; prim < count; ++prim) {
-        Real u = 0, v = 0;
-        Real t = intersect_primitive(scene, ray, &shear, prim, &u, &v);
-        if (t > (Real)0 && t < second) {
-            if (t < best.t) {
-                second = best.t;
-                best.t = t;
-                best.u = u;
-                best.v = v;
-                best.prim = prim;
-            } else {
-                second = t;
+void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* shear,
+                      Traversal* traversal, Search* search) {
+    Index first, end;
+    enter_kind(traversal, scene->frame.triangle_root, scene->frame.triangle_count);
+    while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
+        for (Index axes = shear->axes; axes != 0; axes >>= 2) {
+            Index axis = (axes & 3) - 1;
+            for (Index i = first; i < end; ++i) {
+                Reals t, u, v;
+                Mask met = intersect_triangle(shear, axis, &scene->triangles[i], &t, &u, &v);
+                if (!any_lane(met)) continue;
+                Index prim = scene->frame.sphere_count + i;
+                met &= (shear->axis == axis) & (ray->from != prim);
+                offer_hit(scene, search, met, t, u, v, prim);
             }
         }
     }
-    Real tie = best.t * RT_TIE;
-    if (best.prim != RT_NONE && second <= tie) return first_listed_hit(scene, ray, &shear, tie);
-    return best;
 }
 
-// Whether anything lies on the ray in (0, t_max].
-bool any_hit(const SceneView* scene, const Ray* ray) {
-    Index count = scene->frame.sphere_count + scene->frame.triangle_count;
-    RayShear shear = make_shear(ray);
-    for (Index prim = 0; prim < count; ++prim) {
-        Real u, v;
-        Real t = intersect_primitive(scene, ray, &shear, prim, &u, &v);
-        if (t > (Real)0 && t <= ray->t_max) return true;
+void search_all(const SceneView* scene, const Ray* ray, const RayShear* shear, Search* search) {
+    Traversal traversal = begin_traversal(ray, search->limit > (Reals)0);
+    if (RT_HAS_SPHERES) search_spheres(scene, ray, &traversal, search);
+    if (RT_HAS_TRIANGLES) search_triangles(scene, ray, shear, &traversal, search);
+}
+
+// The nearest hits of the rays in the live lanes.
+Hit closest_hit(const SceneView* scene, const Ray* ray, Mask live) {
+    RayShear shear = make_shear(ray, live);
+    Search search;
+    search.hit.t = live ? (Reals)INFINITY : (Reals)-1;
+    search.hit.u = search.hit.v = (Reals)0;
+    search.hit.prim = (Indices)RT_NONE;
+    search.second = (Reals)INFINITY;
+    search.number = (Indices)RT_MAX_INDEX;
+    search.limit = search.hit.t;
+    search.is_listing = false;
+    Mask tied = RT_NO_LANES;
+    for (;;) {
+        search_all(scene, ray, &shear, &search);
+        Reals tie = search.hit.t * RT_TIE;
+        if (!search.is_listing) tied = (search.hit.prim != RT_NONE) & (search.second <= tie);
+        if (search.is_listing || !any_lane(tied)) break;
+        search.limit = tied ? tie : (Reals)-1;
+        search.is_listing = true;
     }
-    return false;
+    search.hit.tied = tied;
+    return search.hit;
+}
+
+Mask blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals t_max) {
+    Mask blocked = RT_NO_LANES;
+    Index first, end;
+    enter_kind(traversal, scene->frame.sphere_root, scene->frame.sphere_count);
+    while (next_range(traversal, scene->nodes, t_max, &first, &end)) {
+        for (Index prim = first; prim < end; ++prim) {
+            __global const Sphere* sphere = &scene->spheres[prim];
+            Reals t;
+            Mask met = intersect_sphere(ray, load3(sphere->center), (Reals)sphere->radius,
+                                        ray->from == prim, &t);
+            if (!any_lane(met)) continue;
+            met &= (t > (Reals)0) & (t <= t_max);
+            if (!any_lane(met)) continue;
+            blocked |= met;
+            t_max = met ? (Reals)-1 : t_max;
+            if (!any_lane(t_max > (Reals)0)) return blocked;
+        }
+    }
+    return blocked;
+}
+
+// Triangles without a hierarchy come from the light's list of those that can cast a shadow, where
+// it has one.
+Mask blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals t_max,
+                          Index first_caster, Index caster_count) {
+    Mask blocked = RT_NO_LANES;
+    bool is_brute = !RT_HAS_HIERARCHY || scene->frame.triangle_root == 0;
+    bool listed = is_brute && caster_count != scene->frame.triangle_count;
+    if (is_brute && caster_count == 0) return blocked;
+    RayShear shear = make_shear(ray, t_max > (Reals)0);
+    Index first, end;
+    enter_kind(traversal, scene->frame.triangle_root, caster_count);
+    while (next_range(traversal, scene->nodes, t_max, &first, &end)) {
+        for (Index axes = shear.axes; axes != 0; axes >>= 2) {
+            Index axis = (axes & 3) - 1;
+            for (Index i = first; i < end; ++i) {
+                Index index = listed ? scene->casters[first_caster + i] : i;
+                Reals t, u, v;
+                Mask met = intersect_triangle(&shear, axis, &scene->triangles[index], &t, &u, &v);
+                if (!any_lane(met)) continue;
+                Index prim = scene->frame.sphere_count + index;
+                met &= (t > (Reals)0) & (t <= t_max) & (shear.axis == axis) & (ray->from != prim);
+                if (!any_lane(met)) continue;
+                blocked |= met;
+                t_max = met ? (Reals)-1 : t_max;
+                if (!any_lane(t_max > (Reals)0)) return blocked;
+            }
+        }
+    }
+    return blocked;
+}
+
+// Whether anything lies on the rays in (0, t_max]. The triangles to test, where they have no
+// hierarchy: caster_count of the list of casters from first_caster on, or all of them.
+Mask any_hit(const SceneView* scene, const Ray* ray, Index first_caster, Index caster_count) {
+    Mask blocked = RT_NO_LANES;
+    Reals t_max = ray->t_max;
+    Traversal traversal = begin_traversal(ray, t_max > (Reals)0);
+    if (RT_HAS_SPHERES) {
+        blocked |= blocked_by_spheres(scene, ray, &traversal, t_max);
+        t_max = blocked ? (Reals)-1 : t_max;
+    }
+    if (RT_HAS_TRIANGLES && any_lane(t_max > (Reals)0)) {
+        blocked |= blocked_by_triangles(scene, ray, &traversal, t_max, first_caster, caster_count);
+    }
+    return blocked;
 }
 
 #endif

@@ -15,6 +15,9 @@
 #ifndef RT_HAS_VERTEX_NORMALS
 #define RT_HAS_VERTEX_NORMALS 1
 #endif
+#ifndef RT_HAS_HIERARCHY
+#define RT_HAS_HIERARCHY 1
+#endif
 #ifndef RT_HAS_LIGHTS
 #define RT_HAS_LIGHTS 1
 #endif

@@ -16,67 +16,105 @@
 #include "kernels/math.cl"
 #include "kernels/scene_view.h"
 
-// Distance along the ray to the sphere, or -1. `leaving`: the origin lies on this very sphere.
-Real intersect_sphere(const Ray* ray, real3 center, Real radius, bool leaving) {
+// Whether the rays' lines meet the sphere, and at which distance t: the nearer one in front of the
+// origin, else the farther one. `leaving`: the origin lies on this very sphere.
+Mask intersect_sphere(const Ray* ray, real3 center, Reals radius, Mask leaving, Reals* t) {
     real3 f = sub3(ray->origin, center);
-    Real b = -dot3(f, ray->dir);
-    if (leaving) return (Real)2 * b;
+    Reals b = -dot3(f, ray->dir);
     real3 l = add_scaled(f, b, ray->dir);
-    Real discriminant = radius * radius - dot3(l, l);
-    if (!(discriminant >= (Real)0)) return (Real)-1;
-    Real s = sqrt(discriminant);
-    Real near = b - s;
-    return near > (Real)0 ? near : b + s;
+    Reals discriminant = radius * radius - dot3(l, l);
+    Mask met = discriminant >= (Reals)0;
+    met |= leaving;
+    if (!any_lane(met)) return met;
+    Reals s = sqrt(discriminant);
+    Reals near = b - s;
+    Reals nearest = near > (Reals)0 ? near : b + s;
+    *t = leaving ? (Reals)2 * b : nearest;
+    return met;
 }
 
-// The ray's frame: axis z is where its direction is largest, x and y the next two in turn.
+// The rays' frames: axis z is where a ray's direction is largest, x and y the next two in turn.
 typedef struct {
-    Index kx, ky, kz;
-    Real origin_x, origin_y, origin_z;
-    Real sx, sy, sz;
+    real3 origin;  // its components in that order
+    Reals sx, sy, sz;
+    Indices axis;  // the scene's axis that is z
+    Index axes;    // which of them the packet's rays use: (axis + 1), two bits each
 } RayShear;
 
-Real component3(real3 v, Index k) { return k == 0 ? v.x : (k == 1 ? v.y : v.z); }
+Reals component3(real3 v, Indices k) {
+    return k == (Indices)0 ? v.x : (k == (Indices)1 ? v.y : v.z);
+}
 
-RayShear make_shear(const Ray* ray) {
-    real3 a = abs3(ray->dir);
+Indices next_axis(Indices k) { return k == (Indices)2 ? (Indices)0 : k + 1; }
+
+Indices largest_axis(real3 v) {
+    real3 a = abs3(v);
+    Indices y_or_z = a.y > a.z ? (Indices)1 : (Indices)2;
+    Indices x_or_z = a.x > a.z ? (Indices)0 : (Indices)2;
+    return a.x > a.y ? x_or_z : y_or_z;
+}
+
+Index used_axes(Indices axis, Mask live) {
+#if RT_LANES == 1
+    return axis + 1;
+#else
+    Index axes = 0;
+    for (Index k = 0; k < 3; ++k) {
+        if (any_lane(live & (axis == k))) axes = axes << 2 | (k + 1);
+    }
+    return axes;
+#endif
+}
+
+RayShear make_shear(const Ray* ray, Mask live) {
     RayShear shear;
-    shear.kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
-    shear.kx = shear.kz == 2 ? 0 : shear.kz + 1;
-    shear.ky = shear.kx == 2 ? 0 : shear.kx + 1;
-    shear.origin_x = component3(ray->origin, shear.kx);
-    shear.origin_y = component3(ray->origin, shear.ky);
-    shear.origin_z = component3(ray->origin, shear.kz);
-    shear.sz = (Real)1 / component3(ray->dir, shear.kz);
-    shear.sx = component3(ray->dir, shear.kx) * shear.sz;
-    shear.sy = component3(ray->dir, shear.ky) * shear.sz;
+    Indices z = largest_axis(ray->dir);
+    Indices x = next_axis(z);
+    Indices y = next_axis(x);
+    shear.origin =
+        make3(component3(ray->origin, x), component3(ray->origin, y), component3(ray->origin, z));
+    shear.sz = (Reals)1 / component3(ray->dir, z);
+    shear.sx = component3(ray->dir, x) * shear.sz;
+    shear.sy = component3(ray->dir, y) * shear.sz;
+    shear.axis = z;
+    shear.axes = used_axes(z, live);
     return shear;
 }
 
-// The vertex in the ray's frame. Its components are picked as they are loaded.
-real3 shear_vertex(const RayShear* shear, __global const Packed3* vertex) {
+// The vertex in the frame of the rays along axis z. Its components are picked as they are loaded.
+real3 shear_vertex(const RayShear* shear, Index z, __global const Packed3* vertex) {
     __global const Real* p = &vertex->x;
-    Real z = p[shear->kz] - shear->origin_z;
-    return make3(fma(-shear->sx, z, p[shear->kx] - shear->origin_x),
-                 fma(-shear->sy, z, p[shear->ky] - shear->origin_y), z);
+    Index x = z == 2 ? 0 : z + 1;
+    Index y = x == 2 ? 0 : x + 1;
+    Reals depth = p[z] - shear->origin.z;
+    return make3(fma(-shear->sx, depth, p[x] - shear->origin.x),
+                 fma(-shear->sy, depth, p[y] - shear->origin.y), depth);
 }
 
-// Distance along the ray to the triangle, or -1; u and v are set on a hit.
-Real intersect_triangle(const RayShear* shear, __global const Triangle* triangle, Real* u,
-                        Real* v) {
-    real3 a = shear_vertex(shear, &triangle->p0);
-    real3 b = shear_vertex(shear, &triangle->p1);
-    real3 c = shear_vertex(shear, &triangle->p2);
-    Real wa = difference_of_products(c.x, b.y, c.y, b.x);
-    Real wb = difference_of_products(a.x, c.y, a.y, c.x);
-    Real wc = difference_of_products(b.x, a.y, b.y, a.x);
-    if ((wa < 0 || wb < 0 || wc < 0) && (wa > 0 || wb > 0 || wc > 0)) return (Real)-1;
-    Real determinant = wa + wb + wc;
-    if (determinant == (Real)0) return (Real)-1;
-    Real inverse = (Real)1 / determinant;
+Reals min_of(Reals a, Reals b) { return a < b ? a : b; }
+Reals max_of(Reals a, Reals b) { return a > b ? a : b; }
+
+// Whether the lines of the rays whose axis is z meet the triangle, at which distance t, and the
+// weights u and v of its second and third vertex there.
+Mask intersect_triangle(const RayShear* shear, Index z, __global const Triangle* triangle, Reals* t,
+                        Reals* u, Reals* v) {
+    real3 a = shear_vertex(shear, z, &triangle->p0);
+    real3 b = shear_vertex(shear, z, &triangle->p1);
+    real3 c = shear_vertex(shear, z, &triangle->p2);
+    Reals wa = difference_of_products(c.x, b.y, c.y, b.x);
+    Reals wb = difference_of_products(a.x, c.y, a.y, c.x);
+    Reals wc = difference_of_products(b.x, a.y, b.y, a.x);
+    Mask front = min_of(wa, min_of(wb, wc)) >= (Reals)0;
+    Mask back = max_of(wa, max_of(wb, wc)) <= (Reals)0;
+    Mask inside = front | back;
+    if (!any_lane(inside)) return inside;
+    Reals determinant = wa + wb + wc;
+    Reals inverse = (Reals)1 / determinant;
     *u = wb * inverse;
     *v = wc * inverse;
-    return fma(wa, a.z, fma(wb, b.z, wc * c.z)) * shear->sz * inverse;
+    *t = fma(wa, a.z, fma(wb, b.z, wc * c.z)) * shear->sz * inverse;
+    inside &= determinant != (Reals)0;
+    return inside;
 }
 
 #endif

@@ -6,14 +6,19 @@
 #ifndef RT_MATH_CL
 #define RT_MATH_CL
 
-#include "kernels/types.h"
+#include "kernels/lanes.h"
 
-real3 make3(Real x, Real y, Real z) {
+real3 make3(Reals x, Reals y, Reals z) {
     real3 v = {x, y, z};
     return v;
 }
 
-real3 load3(Packed3 p) { return make3(p.x, p.y, p.z); }
+// The same vector in every lane.
+real3 load3(Packed3 p) { return make3((Reals)p.x, (Reals)p.y, (Reals)p.z); }
+
+real3 select3(Mask mask, real3 yes, real3 no) {
+    return make3(mask ? yes.x : no.x, mask ? yes.y : no.y, mask ? yes.z : no.z);
+}
 
 real3 add3(real3 a, real3 b) { return make3(a.x + b.x, a.y + b.y, a.z + b.z); }
 
@@ -22,33 +27,33 @@ real3 sub3(real3 a, real3 b) { return make3(a.x - b.x, a.y - b.y, a.z - b.z); }
 // Component by component: light times reflectance.
 real3 mul3(real3 a, real3 b) { return make3(a.x * b.x, a.y * b.y, a.z * b.z); }
 
-real3 scale3(Real s, real3 v) { return make3(s * v.x, s * v.y, s * v.z); }
+real3 scale3(Reals s, real3 v) { return make3(s * v.x, s * v.y, s * v.z); }
 
-real3 divide3(real3 v, Real s) { return make3(v.x / s, v.y / s, v.z / s); }
+real3 divide3(real3 v, Reals s) { return make3(v.x / s, v.y / s, v.z / s); }
 
 real3 negate3(real3 v) { return make3(-v.x, -v.y, -v.z); }
 
 real3 abs3(real3 v) { return make3(fabs(v.x), fabs(v.y), fabs(v.z)); }
 
-Real dot3(real3 a, real3 b) { return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x)); }
+Reals dot3(real3 a, real3 b) { return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x)); }
 
 // a + s * b
-real3 add_scaled(real3 a, Real s, real3 b) {
+real3 add_scaled(real3 a, Reals s, real3 b) {
     return make3(fma(s, b.x, a.x), fma(s, b.y, a.y), fma(s, b.z, a.z));
 }
 
-Real length3(real3 v) { return sqrt(dot3(v, v)); }
+Reals length3(real3 v) { return sqrt(dot3(v, v)); }
 
-real3 normalize3(real3 v) { return scale3((Real)1 / length3(v), v); }
+real3 normalize3(real3 v) { return scale3((Reals)1 / length3(v), v); }
 
 // a b - c d with an error below 1.5 ulp and hence the right sign (Kahan; Jeannerod, Louvet and
 // Muller 2013), whatever cancels.
-Real difference_of_products(Real a, Real b, Real c, Real d) {
-    Real cd = c * d;
+Reals difference_of_products(Reals a, Reals b, Reals c, Reals d) {
+    Reals cd = c * d;
     return fma(a, b, -cd) + fma(-c, d, cd);
 }
 
 // The mirror direction of d (towards the surface) about the unit normal n.
-real3 reflect3(real3 d, real3 n) { return add_scaled(d, (Real)-2 * dot3(d, n), n); }
+real3 reflect3(real3 d, real3 n) { return add_scaled(d, (Reals)-2 * dot3(d, n), n); }
 
 #endif

@@ -17,35 +17,35 @@
 #define RT_SQRT2 1.4142135623730951
 
 // (atanh(z) / z - 1) / z^2 for z^2 = w <= 0.03
-Real atanh_tail(Real w) {
-    Real p = 1.0 / 23.0;
-    p = fma(p, w, 1.0 / 21.0);
-    p = fma(p, w, 1.0 / 19.0);
-    p = fma(p, w, 1.0 / 17.0);
-    p = fma(p, w, 1.0 / 15.0);
-    p = fma(p, w, 1.0 / 13.0);
-    p = fma(p, w, 1.0 / 11.0);
-    p = fma(p, w, 1.0 / 9.0);
-    p = fma(p, w, 1.0 / 7.0);
-    p = fma(p, w, 1.0 / 5.0);
-    return fma(p, w, 1.0 / 3.0);
+Reals atanh_tail(Reals w) {
+    Reals p = 1.0 / 23.0;
+    p = fma(p, w, (Reals)(1.0 / 21.0));
+    p = fma(p, w, (Reals)(1.0 / 19.0));
+    p = fma(p, w, (Reals)(1.0 / 17.0));
+    p = fma(p, w, (Reals)(1.0 / 15.0));
+    p = fma(p, w, (Reals)(1.0 / 13.0));
+    p = fma(p, w, (Reals)(1.0 / 11.0));
+    p = fma(p, w, (Reals)(1.0 / 9.0));
+    p = fma(p, w, (Reals)(1.0 / 7.0));
+    p = fma(p, w, (Reals)(1.0 / 5.0));
+    return fma(p, w, (Reals)(1.0 / 3.0));
 }
 
 // exp(r) for |r| <= ln(2) / 2
-Real exp_series(Real r) {
-    Real p = 1.0 / 6227020800.0;
-    p = fma(p, r, 1.0 / 479001600.0);
-    p = fma(p, r, 1.0 / 39916800.0);
-    p = fma(p, r, 1.0 / 3628800.0);
-    p = fma(p, r, 1.0 / 362880.0);
-    p = fma(p, r, 1.0 / 40320.0);
-    p = fma(p, r, 1.0 / 5040.0);
-    p = fma(p, r, 1.0 / 720.0);
-    p = fma(p, r, 1.0 / 120.0);
-    p = fma(p, r, 1.0 / 24.0);
-    p = fma(p, r, 1.0 / 6.0);
-    p = fma(p, r, 0.5);
-    return fma(fma(p, r, 1.0), r, 1.0);
+Reals exp_series(Reals r) {
+    Reals p = 1.0 / 6227020800.0;
+    p = fma(p, r, (Reals)(1.0 / 479001600.0));
+    p = fma(p, r, (Reals)(1.0 / 39916800.0));
+    p = fma(p, r, (Reals)(1.0 / 3628800.0));
+    p = fma(p, r, (Reals)(1.0 / 362880.0));
+    p = fma(p, r, (Reals)(1.0 / 40320.0));
+    p = fma(p, r, (Reals)(1.0 / 5040.0));
+    p = fma(p, r, (Reals)(1.0 / 720.0));
+    p = fma(p, r, (Reals)(1.0 / 120.0));
+    p = fma(p, r, (Reals)(1.0 / 24.0));
+    p = fma(p, r, (Reals)(1.0 / 6.0));
+    p = fma(p, r, (Reals)(0.5));
+    return fma(fma(p, r, (Reals)1), r, (Reals)1);
 }
 #else
 #define RT_EXP_LOWEST -87.0f
@@ -54,67 +54,66 @@ Real exp_series(Real r) {
 #define RT_LN2_LOW 0x1.7f7d1cp-20f
 #define RT_SQRT2 1.41421356f
 
-Real atanh_tail(Real w) {
-    Real p = 1.0f / 9.0f;
-    p = fma(p, w, 1.0f / 7.0f);
-    p = fma(p, w, 1.0f / 5.0f);
-    return fma(p, w, 1.0f / 3.0f);
+Reals atanh_tail(Reals w) {
+    Reals p = 1.0f / 9.0f;
+    p = fma(p, w, (Reals)(1.0f / 7.0f));
+    p = fma(p, w, (Reals)(1.0f / 5.0f));
+    return fma(p, w, (Reals)(1.0f / 3.0f));
 }
 
-Real exp_series(Real r) {
-    Real p = 1.0f / 5040.0f;
-    p = fma(p, r, 1.0f / 720.0f);
-    p = fma(p, r, 1.0f / 120.0f);
-    p = fma(p, r, 1.0f / 24.0f);
-    p = fma(p, r, 1.0f / 6.0f);
-    p = fma(p, r, 0.5f);
-    return fma(fma(p, r, 1.0f), r, 1.0f);
+Reals exp_series(Reals r) {
+    Reals p = 1.0f / 5040.0f;
+    p = fma(p, r, (Reals)(1.0f / 720.0f));
+    p = fma(p, r, (Reals)(1.0f / 120.0f));
+    p = fma(p, r, (Reals)(1.0f / 24.0f));
+    p = fma(p, r, (Reals)(1.0f / 6.0f));
+    p = fma(p, r, (Reals)(0.5f));
+    return fma(fma(p, r, (Reals)1), r, (Reals)1);
 }
 #endif
 
 // 2 atanh(z) for |z| <= 0.172
-Real twice_atanh(Real z) {
-    Real w = z * z;
-    Real twice = (Real)2 * z;
+Reals twice_atanh(Reals z) {
+    Reals w = z * z;
+    Reals twice = (Reals)2 * z;
     return fma(twice * w, atanh_tail(w), twice);
 }
 
-// log(1 - s) for 0 <= s <= 0.2
-Real log_one_minus(Real s) { return -twice_atanh(s / ((Real)2 - s)); }
-
-// log(x) for 0 < x <= 1, subnormal x included
-Real log_unit(Real x) {
-    Index shift = 0;
-    if (x < (Real)RT_MIN_NORMAL) {
-        shift = RT_MANTISSA_BITS + 1;
-        x *= power_of_two(shift);
-    }
-    Index exponent = exponent_of(x) - shift;
-    Real m = mantissa_of(x);
-    if (m > (Real)RT_SQRT2) {
-        m *= (Real)0.5;
-        exponent += 1;
-    }
-    Real k = (Real)exponent;
-    Real log_m = twice_atanh((m - (Real)1) / (m + (Real)1));
-    return fma(k, (Real)RT_LN2_HIGH, fma(k, (Real)RT_LN2_LOW, log_m));
+// log(cosine) for 0 < cosine <= 1, subnormal ones included; from gap = 1 - cosine where the cosine
+// is above 13/16. Both are a multiple of log(2) and 2 atanh of a ratio.
+Reals log_cosine(Reals cosine, Reals gap) {
+    Mask subnormal = cosine < (Reals)RT_MIN_NORMAL;
+    Indices shift = subnormal ? (Indices)(RT_MANTISSA_BITS + 1) : (Indices)0;
+    Reals x = subnormal ? cosine * power_of_two((Indices)(RT_MANTISSA_BITS + 1)) : cosine;
+    Reals m = mantissa_of(x);
+    Mask large = m > (Reals)RT_SQRT2;
+    m = large ? m * (Reals)0.5 : m;
+    Indices exponent = exponent_of(x) - shift + (large ? (Indices)1 : (Indices)0);
+    Mask near = cosine > (Reals)0.8125;
+    Reals k = near ? (Reals)0 : RT_TO_REALS(exponent);
+    Reals above = near ? -gap : m - (Reals)1;
+    Reals below = near ? (Reals)2 - gap : m + (Reals)1;
+    Reals log_m = twice_atanh(above / below);
+    return fma(k, (Reals)RT_LN2_HIGH, fma(k, (Reals)RT_LN2_LOW, log_m));
 }
 
 // exp(y) for y <= 0; 0 where the result would not be a normal number
-Real exp_negative(Real y) {
-    if (!(y > (Real)RT_EXP_LOWEST)) return (Real)0;
-    Index k = (Index)(y * (Real)RT_LOG2_E - (Real)0.5);
-    Real r = fma((Real)-k, (Real)RT_LN2_HIGH, y);
-    r = fma((Real)-k, (Real)RT_LN2_LOW, r);
-    return exp_series(r) * power_of_two(k);
+Reals exp_negative(Reals y) {
+    Mask normal = y > (Reals)RT_EXP_LOWEST;
+    y = normal ? y : (Reals)0;
+    Indices k = RT_TO_INDICES(y * (Reals)RT_LOG2_E - (Reals)0.5);
+    Reals minus_k = RT_TO_REALS(-k);
+    Reals r = fma(minus_k, (Reals)RT_LN2_HIGH, y);
+    r = fma(minus_k, (Reals)RT_LN2_LOW, r);
+    return normal ? exp_series(r) * power_of_two(k) : (Reals)0;
 }
 
 // max(0, n.h)^exponent for unit n and h; half_gap is |n - h|^2 / 2. 0^0 is 1.
-Real blinn_lobe(Real n_dot_h, Real half_gap, Real exponent) {
-    if (exponent == (Real)0) return (Real)1;
-    if (!(n_dot_h > (Real)0)) return (Real)0;
-    Real log_cosine = n_dot_h > (Real)0.8125 ? log_one_minus(half_gap) : log_unit(n_dot_h);
-    return exp_negative(exponent * log_cosine);
+Reals blinn_lobe(Reals n_dot_h, Reals half_gap, Reals exponent) {
+    Mask lit = n_dot_h > (Reals)0;
+    Reals lobe = exp_negative(exponent * log_cosine(n_dot_h, half_gap));
+    lobe = lit ? lobe : (Reals)0;
+    return exponent == (Reals)0 ? (Reals)1 : lobe;
 }
 
 #endif

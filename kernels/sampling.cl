@@ -17,24 +17,24 @@
 #include "kernels/scene_view.h"
 
 // v with the bits under mask and those `shift` above them exchanged.
-uint swap_bits(uint v, uint mask, uint shift) {
-    uint difference = ((v >> shift) ^ v) & mask;
+Uints swap_bits(Uints v, Uints mask, Uints shift) {
+    Uints difference = ((v >> shift) ^ v) & mask;
     return v ^ difference ^ (difference << shift);
 }
 
 // Bits in reverse order. By exclusive ors, since compilers make an intrinsic of the usual ands and
 // ors, which Oclgrind does not know.
-uint reverse_bits(uint v) {
-    v = swap_bits(v, 0x55555555u, 1);
-    v = swap_bits(v, 0x33333333u, 2);
-    v = swap_bits(v, 0x0f0f0f0fu, 4);
-    v = swap_bits(v, 0x00ff00ffu, 8);
-    return swap_bits(v, 0x0000ffffu, 16);
+Uints reverse_bits(Uints v) {
+    v = swap_bits(v, (Uints)0x55555555u, (Uints)1);
+    v = swap_bits(v, (Uints)0x33333333u, (Uints)2);
+    v = swap_bits(v, (Uints)0x0f0f0f0fu, (Uints)4);
+    v = swap_bits(v, (Uints)0x00ff00ffu, (Uints)8);
+    return swap_bits(v, (Uints)0x0000ffffu, (Uints)16);
 }
 
 // A hash in which every bit of the input moves about half the bits of the output (Wellons'
 // triple32).
-uint hash_bits(uint v) {
+Uints hash_bits(Uints v) {
     v ^= v >> 17;
     v *= 0xed5ad4bbu;
     v ^= v >> 11;
@@ -45,7 +45,7 @@ uint hash_bits(uint v) {
 }
 
 // Owen's nested uniform scramble of the bits of v.
-uint owen_scramble(uint v, uint seed) {
+Uints owen_scramble(Uints v, Uints seed) {
     v = reverse_bits(v);
     v += seed;
     v ^= v * 0x6c50b47cu;
@@ -56,41 +56,48 @@ uint owen_scramble(uint v, uint seed) {
 }
 
 // The second dimension of Sobol's sequence; the first is reverse_bits.
-uint sobol_second(uint index) {
-    uint result = 0;
-    for (uint direction = 0x80000000u; index != 0; index >>= 1, direction ^= direction >> 1) {
-        if (index & 1u) result ^= direction;
+Uints sobol_second(Uints index) {
+    Uints result = 0;
+    uint direction = 0x80000000u;
+    for (int bit = 0; bit < 32; ++bit, direction ^= direction >> 1) {
+        result ^= direction * ((index >> (uint)bit) & 1u);
     }
     return result;
 }
 
 typedef struct {
-    Real x, y;
+    Reals x, y;
 } Position;
 
 // The 12 leading bits as a number in the middle of its 4096th of (0, 1).
-Real unit_from_bits(uint bits) { return ((Real)(bits >> 20) + (Real)0.5) * (Real)0x1p-12f; }
+Reals unit_from_bits(Uints bits) {
+    return (RT_TO_REALS(bits >> 20) + (Reals)0.5) * (Reals)0x1p-12f;
+}
 
-Position sobol_position(uint seed, uint k) {
-    uint index = owen_scramble(k, hash_bits(seed));
+Position sobol_position(Uints seed, Uints k) {
+    Uints index = owen_scramble(k, hash_bits(seed));
     Position position;
     position.x = unit_from_bits(owen_scramble(reverse_bits(index), hash_bits(seed ^ 0x9e3779b9u)));
     position.y = unit_from_bits(owen_scramble(sobol_second(index), hash_bits(seed ^ 0x85ebca6bu)));
     return position;
 }
 
-Position grid_position(Index grid, Index k) {
+// The row comes from a division of Reals, exact for these numbers: that of integers is slow.
+Position grid_position(Index grid, Indices k) {
+    Reals side = (Reals)(Real)grid;
+    Indices row = RT_TO_INDICES((RT_TO_REALS(k) + (Reals)0.5) / side);
     Position position;
-    position.x = ((Real)(k % grid) + (Real)0.5) / (Real)grid;
-    position.y = ((Real)(k / grid) + (Real)0.5) / (Real)grid;
+    position.x = (RT_TO_REALS(k - row * grid) + (Reals)0.5) / side;
+    position.y = (RT_TO_REALS(row) + (Reals)0.5) / side;
     return position;
 }
 
 // Sample k of pixel (x, y) in the unit square.
-Position unit_position(const Frame* frame, Index x, Index y, Index k) {
+Position unit_position(const Frame* frame, Indices x, Indices y, Indices k) {
     if (frame->grid != 0) return grid_position(frame->grid, k);
-    uint pixel = (uint)y * 65536u + (uint)x;
-    return sobol_position(hash_bits(pixel ^ hash_bits((uint)frame->seed)), (uint)k);
+    Uints pixel = RT_TO_UINTS(y) * 65536u + RT_TO_UINTS(x);
+    Uints seed = hash_bits((Uints)(uint)frame->seed);
+    return sobol_position(hash_bits(pixel ^ seed), RT_TO_UINTS(k));
 }
 
 // Half the side of a filter's footprint, in pixels.
@@ -101,38 +108,40 @@ Real filter_radius(Index filter) {
 }
 
 // Twice the cubic: only ratios of weights count.
-Real mitchell_weight(Real d) {
+Reals mitchell_weight(Reals d) {
     Real third = (Real)1 / (Real)3;
-    if (d < (Real)1)
-        return fma(fma((Real)7 * third, d, (Real)-4), d * d, (Real)16 * third / (Real)3);
-    Real cubic = fma((Real)-7 * third / (Real)3, d, (Real)4);
-    return fma(fma(cubic, d, (Real)-20 * third), d, (Real)32 * third / (Real)3);
+    Reals inner = fma((Reals)((Real)7 * third), d, (Reals)-4);
+    inner = fma(inner, d * d, (Reals)((Real)16 * third / (Real)3));
+    Reals outer = fma((Reals)((Real)-7 * third / (Real)3), d, (Reals)4);
+    outer = fma(outer, d, (Reals)((Real)-20 * third));
+    outer = fma(outer, d, (Reals)((Real)32 * third / (Real)3));
+    return d < (Reals)1 ? inner : outer;
 }
 
 // The filter's weight at distance d from the pixel's centre along one axis.
-Real filter_weight(Index filter, Real d) {
+Reals filter_weight(Index filter, Reals d) {
     d = fabs(d);
-    if (filter == RT_FILTER_TENT) return (Real)1 - d;
+    if (filter == RT_FILTER_TENT) return (Reals)1 - d;
     if (filter == RT_FILTER_MITCHELL) return mitchell_weight(d);
-    return exp_negative((Real)-2 * d * d) - exp_negative((Real)-4.5f);
+    return exp_negative((Reals)-2 * d * d) - exp_negative((Reals)-4.5f);
 }
 
 // Sample k of pixel (x, y), in pixels from the pixel's lower left corner.
-Position sample_position(const Frame* frame, Index x, Index y, Index k) {
+Position sample_position(const Frame* frame, Indices x, Indices y, Indices k) {
     Position position = unit_position(frame, x, y, k);
     if (frame->filter == RT_FILTER_BOX) return position;
-    Real side = (Real)2 * filter_radius(frame->filter);
-    position.x = fma(position.x - (Real)0.5f, side, (Real)0.5f);
-    position.y = fma(position.y - (Real)0.5f, side, (Real)0.5f);
+    Reals side = (Reals)((Real)2 * filter_radius(frame->filter));
+    position.x = fma(position.x - (Reals)0.5f, side, (Reals)0.5f);
+    position.y = fma(position.y - (Reals)0.5f, side, (Reals)0.5f);
     return position;
 }
 
 // What sample k of pixel (x, y) counts; 1 under the box filter.
-Real sample_weight(const Frame* frame, Index x, Index y, Index k) {
-    if (frame->filter == RT_FILTER_BOX) return (Real)1;
+Reals sample_weight(const Frame* frame, Indices x, Indices y, Indices k) {
+    if (frame->filter == RT_FILTER_BOX) return (Reals)1;
     Position position = sample_position(frame, x, y, k);
-    return filter_weight(frame->filter, position.x - (Real)0.5f) *
-           filter_weight(frame->filter, position.y - (Real)0.5f);
+    return filter_weight(frame->filter, position.x - (Reals)0.5f) *
+           filter_weight(frame->filter, position.y - (Reals)0.5f);
 }
 
 #endif

@@ -6,7 +6,7 @@
 #define RT_SCENE_VIEW_H
 
 #include "kernels/features.h"
-#include "kernels/types.h"
+#include "kernels/lanes.h"
 
 typedef struct {
     __global const Sphere* spheres;
@@ -14,21 +14,29 @@ typedef struct {
     __global const VertexNormals* vertex_normals;
     __global const Material* materials;
     __global const Light* lights;
+    __global const BvhNode* nodes;
+    __global const Index* listed;   // with hierarchies: the number each primitive was listed under
+    __global const Index* casters;  // of each light's shadows: triangles
     Frame frame;
 } SceneView;
 
 // Primitives are numbered spheres first, then triangles.
 typedef struct {
     real3 origin;
-    real3 dir;   // unit
-    Real t_max;  // hits lie in (0, t_max]
-    Index from;  // the primitive the origin lies on, or RT_NONE
+    real3 dir;     // unit
+    Reals t_max;   // hits lie in (0, t_max]; a negative one switches the lane off
+    Indices from;  // the primitive the origin lies on, or RT_NONE
 } Ray;
 
 typedef struct {
-    Real t, u, v;  // u, v: weights of a triangle's second and third vertex
-    Index prim;    // RT_NONE: a miss
-    Index tied;    // 1 where several surfaces meet within rounding
+    Reals t, u, v;  // u, v: weights of a triangle's second and third vertex
+    Indices prim;   // RT_NONE: a miss
+    Mask tied;      // several surfaces meet within rounding
 } Hit;
+
+// Rays traced by each lane.
+typedef struct {
+    Indices shadow, mirror;
+} PacketCounts;
 
 #endif

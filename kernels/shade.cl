@@ -8,57 +8,58 @@
 #define RT_SHADE_CL
 
 #include "kernels/closest_hit.cl"
+#include "kernels/material.cl"
 #include "kernels/power.cl"
 #include "kernels/surface.cl"
 
-bool is_black(real3 color) {
-    return color.x == (Real)0 && color.y == (Real)0 && color.z == (Real)0;
-}
-
 // max(0, n.h)^p with h halfway between the unit directions to the light and to the eye.
-Real specular_lobe(real3 normal, real3 to_light, real3 to_eye, Real shininess) {
+Reals specular_lobe(real3 normal, real3 to_light, real3 to_eye, Reals shininess) {
     real3 sum = add3(to_light, to_eye);
-    Real squared = dot3(sum, sum);
-    if (!(squared > (Real)0)) return (Real)0;
-    real3 half_vector = scale3((Real)1 / sqrt(squared), sum);
+    Reals squared = dot3(sum, sum);
+    real3 half_vector = scale3((Reals)1 / sqrt(squared), sum);
     real3 gap = sub3(normal, half_vector);
-    return blinn_lobe(dot3(normal, half_vector), (Real)0.5 * dot3(gap, gap), shininess);
+    Reals lobe = blinn_lobe(dot3(normal, half_vector), (Reals)0.5 * dot3(gap, gap), shininess);
+    return squared > (Reals)0 ? lobe : (Reals)0;
 }
 
-// What one light adds at the surface; `origin` is where shadow rays start.
-real3 light_contribution(const SceneView* scene, const Surface* surface,
-                         __global const Material* material, __global const Light* light,
-                         real3 origin, real3 to_eye, Index prim, RayCounts* counts) {
-    const real3 none = {0, 0, 0};
+// What one light adds at the surfaces of the live lanes; `origin` is where shadow rays start.
+real3 light_contribution(const SceneView* scene, const Surface* surface, const Finish* finish,
+                         __global const Light* light, real3 origin, real3 to_eye, Indices prim,
+                         Mask live, PacketCounts* counts) {
+    const real3 none = make3((Reals)0, (Reals)0, (Reals)0);
     real3 to_light = sub3(load3(light->position), origin);
-    if (!(dot3(surface->geometric, to_light) > (Real)0)) return none;
-    Real distance = length3(to_light);
+    Mask lit = live & (dot3(surface->geometric, to_light) > (Reals)0);
+    if (!any_lane(lit)) return none;
+    Reals distance = length3(to_light);
     Ray shadow;
     shadow.origin = origin;
-    shadow.dir = scale3((Real)1 / distance, to_light);
-    shadow.t_max = distance * ((Real)1 - (Real)16 * (Real)RT_ROUNDOFF);
+    shadow.dir = scale3((Reals)1 / distance, to_light);
     shadow.from = prim;
-    Real cosine = dot3(surface->normal, shadow.dir);
-    if (!(cosine > (Real)0)) return none;
-    counts->shadow += 1;
-    if (any_hit(scene, &shadow)) return none;
-    real3 reflected = scale3(cosine, load3(material->diffuse));
-    real3 specular = load3(material->specular);
-    if (!is_black(specular)) {
-        Real lobe = specular_lobe(surface->normal, shadow.dir, to_eye, material->shininess);
-        reflected = add_scaled(reflected, lobe, specular);
+    Reals cosine = dot3(surface->normal, shadow.dir);
+    lit &= cosine > (Reals)0;
+    if (!any_lane(lit)) return none;
+    Reals end = distance * (Reals)((Real)1 - (Real)16 * (Real)RT_ROUNDOFF);
+    shadow.t_max = lit ? end : (Reals)-1;
+    counts->shadow += lit & 1;
+    lit &= !any_hit(scene, &shadow, light->first_caster, light->caster_count);
+    if (!any_lane(lit)) return none;
+    real3 reflected = scale3(cosine, finish->diffuse);
+    Mask shiny = lit & !is_black(finish->specular);
+    if (any_lane(shiny)) {
+        Reals lobe = specular_lobe(surface->normal, shadow.dir, to_eye, finish->shininess);
+        reflected = select3(shiny, add_scaled(reflected, lobe, finish->specular), reflected);
     }
-    return mul3(load3(light->intensity), reflected);
+    return select3(lit, mul3(load3(light->intensity), reflected), none);
 }
 
-real3 shade(const SceneView* scene, const Surface* surface, __global const Material* material,
-            real3 to_eye, Index prim, RayCounts* counts) {
-    real3 color = mul3(load3(material->ambient), load3(scene->frame.ambient_light));
+real3 shade(const SceneView* scene, const Surface* surface, const Finish* finish, real3 to_eye,
+            Indices prim, Mask live, PacketCounts* counts) {
+    real3 color = mul3(finish->ambient, load3(scene->frame.ambient_light));
     if (RT_HAS_LIGHTS) {
         real3 origin = offset_origin(surface, surface->geometric);
         for (Index i = 0; i < scene->frame.light_count; ++i) {
-            color = add3(color, light_contribution(scene, surface, material, &scene->lights[i],
-                                                   origin, to_eye, prim, counts));
+            color = add3(color, light_contribution(scene, surface, finish, &scene->lights[i],
+                                                   origin, to_eye, prim, live, counts));
         }
     }
     return color;

@@ -128,6 +128,9 @@ typedef struct {
 
 enum { RT_NONE = -1 };
 
+// Nodes that a traversal has put aside, at most: what a stack must hold.
+enum { RT_BVH_STACK = 64 };
+
 // Reconstruction filters (kernels/sampling.cl).
 enum { RT_FILTER_BOX = 0, RT_FILTER_TENT = 1, RT_FILTER_GAUSSIAN = 2, RT_FILTER_MITCHELL = 3 };
 

@@ -23,29 +23,29 @@ typedef struct {
     real3 point;
     real3 normal;     // shading normal, unit: interpolated where the triangle has vertex normals
     real3 geometric;  // geometric normal, unit, on the shading normal's side
-    Real offset;      // bound on the distance between point and surface
-    Index material;
+    Reals offset;     // bound on the distance between point and surface
+    Indices material;
 } Surface;
 
-Surface sphere_surface(const Ray* ray, Real t, __global const Sphere* sphere) {
+Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
     real3 center = load3(sphere->center);
     Surface surface;
     surface.normal = normalize3(add_scaled(sub3(ray->origin, center), t, ray->dir));
     surface.geometric = surface.normal;
-    surface.point = add_scaled(center, sphere->radius, surface.normal);
-    Real spread = dot3(abs3(surface.normal), abs3(surface.point));
-    surface.offset = (Real)RT_ROUNDOFF * fma((Real)5, sphere->radius, spread);
-    surface.material = sphere->material;
+    surface.point = add_scaled(center, (Reals)sphere->radius, surface.normal);
+    Reals spread = dot3(abs3(surface.normal), abs3(surface.point));
+    surface.offset = (Real)RT_ROUNDOFF * fma((Reals)5, (Reals)sphere->radius, spread);
+    surface.material = (Indices)sphere->material;
     return surface;
 }
 
 // The normal blended from the vertices, or the face's own where the blend vanishes.
-real3 blended_normal(__global const VertexNormals* normals, real3 face, Real u, Real v) {
-    real3 blend = scale3((Real)1 - u - v, load3(normals->n0));
+real3 blended_normal(__global const VertexNormals* normals, real3 face, Reals u, Reals v) {
+    real3 blend = scale3((Reals)1 - u - v, load3(normals->n0));
     blend = add_scaled(blend, u, load3(normals->n1));
     blend = add_scaled(blend, v, load3(normals->n2));
-    Real squared = dot3(blend, blend);
-    return squared > (Real)1e-12 ? scale3((Real)1 / sqrt(squared), blend) : face;
+    Reals squared = dot3(blend, blend);
+    return select3(squared > (Reals)1e-12, scale3((Reals)1 / sqrt(squared), blend), face);
 }
 
 Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle* triangle,
@@ -55,52 +55,81 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
     Surface surface;
     surface.point = add_scaled(p0, hit->u, sub3(load3(triangle->p1), p0));
     surface.point = add_scaled(surface.point, hit->v, sub3(load3(triangle->p2), p0));
-    surface.offset = triangle->offset;
-    Real reach = (Real)RT_ROUNDOFF * (length3(ray->origin) + hit->t);
-    if (triangle->offset > (Real)64 * reach) {
+    surface.offset = (Reals)triangle->offset;
+    Reals reach = (Real)RT_ROUNDOFF * (length3(ray->origin) + hit->t);
+    Mask is_large = triangle->offset > (Reals)64 * reach;
+    if (any_lane(is_large)) {
         real3 along = add_scaled(ray->origin, hit->t, ray->dir);
-        surface.point = add_scaled(along, triangle->plane - dot3(normal, along), normal);
-        surface.offset = (Real)16 * reach;
+        real3 projected = add_scaled(along, triangle->plane - dot3(normal, along), normal);
+        surface.point = select3(is_large, projected, surface.point);
+        surface.offset = is_large ? (Reals)16 * reach : surface.offset;
     }
     surface.normal = normal;
     surface.geometric = normal;
-    surface.material = triangle->material;
+    surface.material = (Indices)triangle->material;
     if (RT_HAS_VERTEX_NORMALS && triangle->smooth != RT_NONE) {
         __global const VertexNormals* normals = &vertex_normals[triangle->smooth];
         surface.normal = blended_normal(normals, normal, hit->u, hit->v);
-        if (dot3(surface.normal, normal) < (Real)0) surface.geometric = negate3(normal);
+        Mask turned = dot3(surface.normal, normal) < (Reals)0;
+        surface.geometric = select3(turned, negate3(normal), normal);
     }
     return surface;
 }
 
-Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit) {
-    if (RT_HAS_SPHERES && hit->prim < scene->frame.sphere_count) {
-        return sphere_surface(ray, hit->t, &scene->spheres[hit->prim]);
+// The surface of one primitive in the lanes that hit it.
+Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Index prim) {
+    if (RT_HAS_SPHERES && prim < scene->frame.sphere_count) {
+        return sphere_surface(ray, hit->t, &scene->spheres[prim]);
     }
-    Index index = hit->prim - scene->frame.sphere_count;
+    Index index = prim - scene->frame.sphere_count;
     return triangle_surface(ray, hit, &scene->triangles[index], scene->vertex_normals);
 }
 
-// Whether a triangle was hit within rounding of its edge, where a neighbour may begin.
-bool is_on_edge(const SceneView* scene, const Hit* hit) {
-    if (hit->prim < scene->frame.sphere_count) return false;
-    Real rim = (Real)64 * (Real)RT_ROUNDOFF;
-    return hit->u < rim || hit->v < rim || (Real)1 - hit->u - hit->v < rim;
+Surface select_surface(Mask mask, Surface yes, Surface no) {
+    Surface chosen;
+    chosen.point = select3(mask, yes.point, no.point);
+    chosen.normal = select3(mask, yes.normal, no.normal);
+    chosen.geometric = select3(mask, yes.geometric, no.geometric);
+    chosen.offset = mask ? yes.offset : no.offset;
+    chosen.material = mask ? yes.material : no.material;
+    return chosen;
 }
 
-// The hit's surface, its point moved clear of the other surfaces it touches.
-Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit) {
-    Surface surface = primitive_surface(scene, ray, hit);
-    if (hit->tied != 0 || is_on_edge(scene, hit)) {
-        surface.point = add_scaled(surface.point, (Real)-8 * surface.offset, ray->dir);
+// Every live lane's surface: one primitive after the other, for all the lanes that hit it.
+Surface hit_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
+    Surface surface;
+    surface.material = (Indices)0;
+    for (Mask left = live; any_lane(left);) {
+        Index prim = least_lane(left, hit->prim);
+        Mask lanes = left & (hit->prim == prim);
+        left &= !lanes;
+        surface = select_surface(lanes, primitive_surface(scene, ray, hit, prim), surface);
+    }
+    return surface;
+}
+
+// Where a triangle was hit within rounding of its edge, where a neighbour may begin.
+Mask is_on_edge(const SceneView* scene, const Hit* hit) {
+    Reals rim = (Reals)((Real)64 * (Real)RT_ROUNDOFF);
+    Mask at_rim = (hit->u < rim) | (hit->v < rim) | ((Reals)1 - hit->u - hit->v < rim);
+    return at_rim & (hit->prim >= scene->frame.sphere_count);
+}
+
+// The hits' surfaces, their points moved clear of other surfaces they touch.
+Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
+    Surface surface = hit_surface(scene, ray, hit, live);
+    Mask touching = live & (hit->tied | is_on_edge(scene, hit));
+    if (any_lane(touching)) {
+        real3 moved = add_scaled(surface.point, (Reals)-8 * surface.offset, ray->dir);
+        surface.point = select3(touching, moved, surface.point);
     }
     return surface;
 }
 
 // Where a ray starts that leaves the surface on the side that `side` points to.
 real3 offset_origin(const Surface* surface, real3 side) {
-    Real distance = dot3(surface->geometric, side) < (Real)0 ? -surface->offset : surface->offset;
-    real3 step = scale3(distance, surface->geometric);
+    Mask behind = dot3(surface->geometric, side) < (Reals)0;
+    real3 step = scale3(behind ? -surface->offset : surface->offset, surface->geometric);
     real3 p = add3(surface->point, step);
     return make3(one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),
                  one_ulp_towards(p.z, step.z));

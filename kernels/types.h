@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The types of a program: Real is float, or double with -DRT_DOUBLE=1; real3 lives in registers,
-// memory holds Packed3. real3 is three scalars, not the built-in vector: Intel's CPU compiler gets
-// the built-in one wrong when it vectorises across work items (components land in the next pixel).
-// Contraction is off for the whole program: with + - * / sqrt and
-// explicit fma alone, every device rounds the same way and the picture has one set of bits
-// (docs/design.md, "Strict arithmetic"). -DRT_FAST_MATH=1 lets the compiler contract.
+// The types of a program. Real is float, or double with -DRT_DOUBLE=1. A work item traces a packet
+// of RT_LANES rays, one a lane: Real and Index are one number for all of them, Reals and Indices
+// one a lane, Mask says which lanes something holds for. With one lane (GPUs) they are scalars.
+// real3 lives in registers, memory holds Packed3. real3 is three numbers, not the built-in vector:
+// Intel's CPU compiler gets the built-in one wrong when it vectorises across work items
+// (components land in the next pixel).
+// Contraction is off for the whole program: with + - * / sqrt and explicit fma alone, every device
+// and every lane rounds the same way and the picture has one set of bits (docs/design.md, "Strict
+// arithmetic"). -DRT_FAST_MATH=1 lets the compiler contract.
 #ifndef RT_TYPES_H
 #define RT_TYPES_H
 
@@ -23,17 +26,43 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #define RT_REAL double
 #define RT_INDEX long
-#define RT_ROUNDOFF 0x1p-53  // half an ulp of 1
+#define RT_ROUNDOFF 0x1p-53          // half an ulp of 1
+#define RT_LEAST_DIRECTION 0x1p-523  // over it, no position overflows (host/flatten)
 #else
 #define RT_REAL float
 #define RT_INDEX int
 #define RT_ROUNDOFF 0x1p-24f
+#define RT_LEAST_DIRECTION 0x1p-67f
+#endif
+
+#ifndef RT_LANES
+#define RT_LANES 1
+#endif
+#if RT_LANES == 1
+#define RT_LANES_OF(type) type
+#else
+#define RT_LANES_OF(type) RT_JOIN(type, RT_LANES)
 #endif
 
 #include "kernels/shared.h"
 
+typedef RT_LANES_OF(RT_REAL) Reals;
+typedef RT_LANES_OF(RT_INDEX) Indices;
+typedef RT_LANES_OF(uint) Uints;
+
+// What a comparison of Reals gives: 1 or 0, with several lanes -1 or 0. Combined by & | !, taken
+// apart by lanes.h, and chosen by as in `mask ? a : b`.
+#if RT_LANES == 1
+typedef int Mask;
+#define RT_ALL_LANES ((Mask)1)
+#else
+typedef Indices Mask;
+#define RT_ALL_LANES ((Mask)-1)
+#endif
+#define RT_NO_LANES ((Mask)0)
+
 typedef struct {
-    Real x, y, z;
+    Reals x, y, z;
 } real3;
 
 #endif

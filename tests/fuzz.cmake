@@ -20,3 +20,5 @@ foreach(model obj ply)
     add_fuzz_target(fuzz_${model}_scene mirrorball_render
         ${CMAKE_SOURCE_DIR}/tests/models ${CMAKE_SOURCE_DIR}/tests/scenes_bad)
 endforeach()
+add_fuzz_target(fuzz_nff_scene mirrorball_render
+    ${CMAKE_SOURCE_DIR}/tests/scenes_nff ${CMAKE_SOURCE_DIR}/tests/scenes_bad)

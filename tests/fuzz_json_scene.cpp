@@ -28,6 +28,11 @@ void check_scene(const rt::Scene& scene) {
     for (const rt::Scene::Sphere& sphere : scene.spheres) {
         require(sphere.radius > 0 && sphere.material >= 0 && sphere.material < materials);
     }
+    for (const rt::Scene::Cone& cone : scene.cones) {
+        require(cone.base_radius >= 0 && cone.apex_radius >= 0 && cone.base != cone.apex);
+        require(cone.base_radius + cone.apex_radius > 0);
+        require(cone.material >= 0 && cone.material < materials);
+    }
     for (const rt::Scene::Triangle& triangle : scene.triangles) {
         require(triangle.material >= 0 && triangle.material < materials);
     }

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,12 @@
 #include "host/scene/affine.h"
 #include "host/scene/beneath.h"
 #include "host/scene/json_file.h"
+#include "host/scene/mesh_builder.h"
 #include "host/scene/mesh_finish.h"
 #include "host/scene/model_file.h"
 #include "host/scene/mtl_file.h"
 #include "host/scene/obj_file.h"
 #include "host/scene/ply_file.h"
-#include "host/scene/polygon.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/text_file.h"
 
@@ -34,6 +35,7 @@ namespace fs = std::filesystem;
 using Face = Scene::Mesh::Face;
 using Positions = std::vector<glm::dvec3>;
 using Faces = std::vector<Face>;
+using Strings = std::vector<std::string>;
 
 constexpr std::uint32_t none = Scene::Mesh::no_normal;
 
@@ -162,19 +164,34 @@ double shoelace(const Positions& corners) {
     return sum;
 }
 
-TEST(Triangulate, ConvexPolygonIsAFan) {
+/// The triangles that a builder makes of one more face.
+Faces split(MeshBuilder& builder, const Positions& corners) {
+    builder.mesh.faces.clear();
+    builder.mesh.positions = corners;
+    std::vector<std::uint32_t> face(corners.size());
+    std::iota(face.begin(), face.end(), 0u);
+    builder.add_face(face, {});
+    return builder.mesh.faces;
+}
+
+Faces triangulate(const Positions& corners) {
+    MeshBuilder builder;
+    return split(builder, corners);
+}
+
+TEST(MeshFaces, ConvexPolygonIsAFan) {
     const Positions corners = {{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {2, 2, 0}, {0, 2, 0}};
     EXPECT_EQ(triangulate(corners), (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
 }
 
-TEST(Triangulate, ConcaveQuadIsCutAtItsDent) {
+TEST(MeshFaces, ConcaveQuadIsCutAtItsDent) {
     const Positions dart = {{0, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}};
     const Faces triangles = triangulate(dart);
     ASSERT_EQ(triangles.size(), 2u);
     EXPECT_DOUBLE_EQ(total_area(dart, triangles), 1.0);
 }
 
-TEST(Triangulate, EveryStartAndEveryAxisGiveTheSameArea) {
+TEST(MeshFaces, EveryStartAndEveryAxisGiveTheSameArea) {
     const Positions shape = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {3, 3, 0},
                              {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};  // a U of area 8
     for (std::size_t start = 0; start < shape.size(); ++start) {
@@ -194,14 +211,14 @@ TEST(Triangulate, EveryStartAndEveryAxisGiveTheSameArea) {
     }
 }
 
-TEST(Triangulate, WindingIsThePolygons) {
+TEST(MeshFaces, WindingIsThePolygons) {
     const Positions clockwise = {{0, 0, 0}, {0, 2, 0}, {0.5, 0.5, 0}, {2, 0, 0}};
     for (const auto& [a, b, c] : triangulate(clockwise)) {
         EXPECT_LT(glm::cross(clockwise[b] - clockwise[a], clockwise[c] - clockwise[a]).z, 0);
     }
 }
 
-TEST(Triangulate, CornersOnStraightLinesStayCorners) {
+TEST(MeshFaces, CornersOnStraightLinesStayCorners) {
     const Positions square = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0},
                               {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}};
     const Faces triangles = triangulate(square);
@@ -209,7 +226,7 @@ TEST(Triangulate, CornersOnStraightLinesStayCorners) {
     EXPECT_DOUBLE_EQ(total_area(square, triangles), 4.0);
 }
 
-TEST(Triangulate, StarsCombsAndSpiralsKeepTheirArea) {
+TEST(MeshFaces, StarsCombsAndSpiralsKeepTheirArea) {
     Positions star, comb, spiral;
     for (int i = 0; i < 200; ++i) {
         const double angle = i * 3.14159265358979 / 100, radius = i % 2 == 0 ? 1 : 0.4;
@@ -231,26 +248,65 @@ TEST(Triangulate, StarsCombsAndSpiralsKeepTheirArea) {
     }
 }
 
-TEST(Triangulate, AHoleReachedThroughASlitStaysOpen) {
+TEST(MeshFaces, AHoleReachedThroughASlitStaysOpen) {
     const Positions ring = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
                             {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
     EXPECT_DOUBLE_EQ(total_area(ring, triangulate(ring)), 12.0);
 }
 
-TEST(Triangulate, DegenerateAndCrossingPolygonsEnd) {
-    EXPECT_TRUE(triangulate(Positions{{0, 0, 0}, {1, 1, 1}}).empty());
-    EXPECT_TRUE(triangulate(Positions{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}).empty());
-    EXPECT_TRUE(triangulate(Positions(5, glm::dvec3(7, 8, 9))).empty());
+TEST(MeshFaces, FacesNeedNotBeFlat) {
+    const Positions saddle = {{0, 0, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}};
+    EXPECT_EQ(triangulate(saddle).size(), 2u);
+    Positions crown;
+    for (int i = 0; i < 20; ++i) {
+        crown.emplace_back(std::cos(i * 0.314159), std::sin(i * 0.314159), i % 2);
+    }
+    MeshBuilder builder;
+    EXPECT_EQ(split(builder, crown).size(), 18u);
+    EXPECT_TRUE(builder.notes("f").empty());
+}
+
+TEST(MeshFaces, FacesWithoutAreaAreLeftOutWithANote) {
+    MeshBuilder builder;
+    EXPECT_TRUE(split(builder, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}).empty());
+    EXPECT_EQ(builder.notes("f"), Strings{"f: 1 polygon without area left out"});
+    EXPECT_TRUE(split(builder, Positions(5, glm::dvec3(7, 8, 9))).empty());
+    EXPECT_EQ(builder.notes("f"), Strings{"f: 2 polygons without area left out"});
+}
+
+TEST(MeshFaces, FacesThatCrossThemselvesAreFansWithANote) {
+    MeshBuilder builder;
     const Positions bow = {{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}};
-    EXPECT_LE(triangulate(bow).size(), 2u);
+    EXPECT_EQ(split(builder, bow), (Faces{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(builder.notes("f"),
+              Strings{"f: 1 polygon crosses itself or is too intricate: it may look wrong"});
     Positions pentagram;
     for (int i = 0; i < 5; ++i) {
         pentagram.emplace_back(std::cos(i * 2.513274), std::sin(i * 2.513274), 0);
     }
-    EXPECT_LE(triangulate(pentagram).size(), 3u);
+    EXPECT_EQ(split(builder, pentagram), (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+    EXPECT_EQ(builder.notes("f"),
+              Strings{"f: 2 polygons cross themselves or are too intricate: they may look wrong"});
 }
 
-TEST(Triangulate, ScaleDoesNotMatter) {
+TEST(MeshFaces, IntricateFacesAreFansOnceTheBudgetIsSpent) {
+    Positions comb = {{-1, 0, 0}};
+    for (int tooth = 0; tooth < 3300; ++tooth) {
+        comb.emplace_back(0, 2 * tooth, 0);
+        comb.emplace_back(1e6, 2 * tooth + 0.5, 0);
+        comb.emplace_back(0, 2 * tooth + 1, 0);
+    }
+    comb.emplace_back(-1, 2 * 3300, 0);
+    MeshBuilder builder;
+    EXPECT_NEAR(total_area(comb, split(builder, comb)), shoelace(comb), 1);
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(split(builder, comb).size(), comb.size() - 2);
+    ASSERT_EQ(builder.notes("f").size(), 1u);
+    EXPECT_NE(builder.notes("f")[0].find("are too intricate"), std::string::npos);
+    const Positions dart = {{2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}, {0, 0, 0}};
+    EXPECT_DOUBLE_EQ(total_area(dart, split(builder, dart)), 1.0);
+}
+
+TEST(MeshFaces, ScaleDoesNotMatter) {
     for (const double s : {1e-200, 1e-30, 1e30}) {
         Positions dart = {{0, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}};
         for (glm::dvec3& corner : dart) corner *= s;

@@ -9,10 +9,10 @@
 #include <set>
 
 #include "host/error.h"
+#include "host/parallel.h"
 #include "host/render/adaptive.h"
 #include "host/render/device_spec.h"
 #include "host/render/film.h"
-#include "host/render/posix_threads.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
 #include "host/report/image_error.h"

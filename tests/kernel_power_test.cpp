@@ -41,7 +41,7 @@ std::vector<T> positive_numbers() {
     return values;
 }
 
-/// What log_unit is for: positive numbers up to 1, most of them normal and near 1.
+/// What log_cosine is for: positive numbers up to 1, most of them normal and near 1.
 template <typename T>
 std::vector<T> numbers_up_to_one() {
     auto values = positive_numbers<T>();
@@ -166,26 +166,39 @@ TYPED_TEST(TwiceAtanh, IsTwiceAtanhOverItsInterval) {
     EXPECT_TRUE(same_as_twin<TypeParam>("twice_atanh", x, trace::twice_atanh));
 }
 
-KERNEL_SUITE(LogOneMinus);
-TYPED_TEST(LogOneMinus, IsLog1pNearThePeakAndAcrossItsInterval) {
-    auto s = evenly<TypeParam>(0, 0.2, 60000);
-    // Half gaps far below a roundoff, where 1 - s is 1; above the numbers whose halves round.
+KERNEL_SUITE(LogCosine);
+template <typename T>
+void expect_log(const std::vector<T>& cosine, const std::vector<T>& gap,
+                const std::function<long double(T, T)>& reference, double bar) {
+    const auto logs = run<T, T>("log_cosine", cosine.size(), cosine, gap);
+    WorstError worst;
+    for (std::size_t i = 0; i < cosine.size(); ++i)
+        worst.add(relative_error(logs[i], Quad(reference(cosine[i], gap[i]))));
+    worst.expect_at_most(bar);
+    EXPECT_TRUE(same_bits<T>(logs, for_each_item(cosine.size(), [&](std::size_t i) {
+                                 return trace::log_cosine(cosine[i], gap[i]);
+                             })));
+}
+TYPED_TEST(LogCosine, IsLog1pOfTheGapNearThePeak) {
+    auto gap = evenly<TypeParam>(0, 0.2, 60000);
+    // Gaps far below a roundoff, where 1 - gap is 1; above the numbers whose halves round.
     for (const TypeParam small : positive_numbers<TypeParam>()) {
         if (small < TypeParam(0.1) && small > 4 * std::numeric_limits<TypeParam>::min()) {
-            s.push_back(small);
+            gap.push_back(small);
         }
     }
-    sweep<TypeParam>("log_one_minus", s, [](long double x) {
-        return std::log1p(-x);
-    }).expect_at_most(2.5);
-    EXPECT_TRUE(same_as_twin<TypeParam>("log_one_minus", s, trace::log_one_minus));
+    std::vector<TypeParam> cosine;
+    for (const TypeParam g : gap)
+        cosine.push_back(std::max(1 - g, std::nextafter(TypeParam(0.8125), TypeParam(1))));
+    const auto log1p = [](TypeParam, TypeParam g) { return std::log1p(-(long double)g); };
+    expect_log<TypeParam>(cosine, gap, log1p, 2.5);
 }
-
-KERNEL_SUITE(LogUnit);
-TYPED_TEST(LogUnit, IsLogUpToOneSubnormalsIncluded) {
-    const auto x = numbers_up_to_one<TypeParam>();
-    sweep<TypeParam>("log_unit", x, [](long double v) { return std::log(v); }).expect_at_most(3);
-    EXPECT_TRUE(same_as_twin<TypeParam>("log_unit", x, trace::log_unit));
+TYPED_TEST(LogCosine, IsTheLogFartherOffSubnormalsIncluded) {
+    auto cosine = numbers_up_to_one<TypeParam>();
+    std::erase_if(cosine, [](TypeParam x) { return x > TypeParam(0.8125); });
+    const std::vector<TypeParam> gap(cosine.size(), TypeParam(0.5));
+    const auto log = [](TypeParam x, TypeParam) { return std::log((long double)x); };
+    expect_log<TypeParam>(cosine, gap, log, 3);
 }
 
 KERNEL_SUITE(ExpNegative);

@@ -49,7 +49,7 @@ void add_inputs(std::vector<ProbeInput>& inputs, const std::vector<X>& values) {
     inputs.push_back({values.data(), values.size() * sizeof(X)});
 }
 
-/// A scene is six arguments, the PROBE_SCENE of probes.cl.
+/// A scene is nine arguments, the PROBE_SCENE of probes.cl.
 template <typename T>
 void add_inputs(std::vector<ProbeInput>& inputs, const FlatScene<T>& scene) {
     add_inputs(inputs, scene.spheres);
@@ -57,6 +57,9 @@ void add_inputs(std::vector<ProbeInput>& inputs, const FlatScene<T>& scene) {
     add_inputs(inputs, scene.vertex_normals);
     add_inputs(inputs, scene.materials);
     add_inputs(inputs, scene.lights);
+    add_inputs(inputs, scene.nodes);
+    add_inputs(inputs, scene.order);
+    add_inputs(inputs, scene.casters);
     inputs.push_back({&scene.frame, sizeof(scene.frame)});
 }
 

@@ -157,23 +157,6 @@ TYPED_TEST(ClosestHit, ShowsTheFirstOfCoplanarTrianglesOnWhicheverDiagonal) {
     }
 }
 
-KERNEL_SUITE(FirstListedHit);
-TYPED_TEST(FirstListedHit, IsTheLowestIndexWithinReach) {
-    Random random(3);
-    const auto scene = crowd<TypeParam>(random);
-    const auto rays = rays_about<TypeParam>(random, 20000);
-    const AllHits<TypeParam> all(scene, rays);
-    const auto hits = run<TypeParam, Hit<TypeParam>>("first_listed_hit", rays.size(), scene, rays);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_EQ(hits[i].prim, all.first_within(i, rays[i].t_max)) << i;
-    }
-    EXPECT_TRUE(same_bits<TypeParam>(hits, for_each_item(rays.size(), [&](std::size_t i) {
-                                         const auto ray = unpack(rays[i]);
-                                         return trace::first_listed_hit(
-                                             view(scene), ray, trace::make_shear(ray), ray.t_max);
-                                     })));
-}
-
 KERNEL_SUITE(AnyHit);
 TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
     Random random(4);

@@ -10,12 +10,13 @@
 #define PROBE_ITEM                       \
     size_t i = first + get_global_id(0); \
     if (i >= count) return
-#define PROBE_SCENE                                                                       \
-    __global const Sphere *spheres, __global const Triangle *triangles,                   \
-        __global const VertexNormals *vertex_normals, __global const Material *materials, \
-        __global const Light *lights, __global const Frame *frame
+#define PROBE_SCENE                                                                                \
+    __global const Sphere *spheres, __global const Triangle *triangles,                            \
+        __global const VertexNormals *vertex_normals, __global const Material *materials,          \
+        __global const Light *lights, __global const BvhNode *nodes, __global const Index *listed, \
+        __global const Index *casters, __global const Frame *frame
 #define PROBE_SCENE_VIEW \
-    { spheres, triangles, vertex_normals, materials, lights, *frame }
+    { spheres, triangles, vertex_normals, materials, lights, nodes, listed, casters, *frame }
 
 typedef struct {
     Packed3 origin;
@@ -40,6 +41,11 @@ typedef struct {
 } ProbeShear;
 
 typedef struct {
+    Real t, u, v;
+    Index prim, tied;
+} ProbeHit;
+
+typedef struct {
     ulong offset, bytes;
 } ProbeField;
 
@@ -55,6 +61,26 @@ Ray unpack_ray(ProbeRay packed) {
     ray.t_max = packed.t_max;
     ray.from = packed.from;
     return ray;
+}
+
+Hit unpack_hit(ProbeHit packed) {
+    Hit hit = {packed.t, packed.u, packed.v, packed.prim, packed.tied != 0};
+    return hit;
+}
+
+ProbeHit pack_hit(Hit hit) {
+    ProbeHit packed = {hit.t, hit.u, hit.v, hit.prim, hit.tied};
+    return packed;
+}
+
+RayCounts pack_counts(PacketCounts counts) {
+    RayCounts packed = {(ulong)counts.shadow, (ulong)counts.mirror};
+    return packed;
+}
+
+// The finish of a surface of a probe's scene.
+Finish probe_finish(const SceneView* scene, const Surface* surface) {
+    return finish_of(scene, surface->material, RT_ALL_LANES);
 }
 
 ProbeRay pack_ray(Ray ray) {
@@ -108,8 +134,6 @@ PROBE_UNARY(mantissa_of)
 PROBE_UNARY(atanh_tail)
 PROBE_UNARY(exp_series)
 PROBE_UNARY(twice_atanh)
-PROBE_UNARY(log_one_minus)
-PROBE_UNARY(log_unit)
 PROBE_UNARY(exp_negative)
 
 // bits.cl, power.cl
@@ -128,6 +152,12 @@ __kernel void probe_one_ulp_towards(PROBE_ITEMS, __global const Real* x,
                                     __global const Real* direction, __global Real* out) {
     PROBE_ITEM;
     out[i] = one_ulp_towards(x[i], direction[i]);
+}
+
+__kernel void probe_log_cosine(PROBE_ITEMS, __global const Real* cosine, __global const Real* gap,
+                               __global Real* out) {
+    PROBE_ITEM;
+    out[i] = log_cosine(cosine[i], gap[i]);
 }
 
 __kernel void probe_blinn_lobe(PROBE_ITEMS, __global const Real* n_dot_h,
@@ -216,7 +246,10 @@ __kernel void probe_intersect_sphere(PROBE_ITEMS, __global const ProbeRay* rays,
                                      __global Real* out) {
     PROBE_ITEM;
     Ray ray = unpack_ray(rays[i]);
-    out[i] = intersect_sphere(&ray, load3(spheres[i].center), spheres[i].radius, leaving[i] != 0);
+    Real t;
+    Mask met =
+        intersect_sphere(&ray, load3(spheres[i].center), spheres[i].radius, leaving[i] != 0, &t);
+    out[i] = met ? t : -1;
 }
 
 __kernel void probe_component3(PROBE_ITEMS, __global const Packed3* v, __global const Index* k,
@@ -229,8 +262,16 @@ __kernel void probe_make_shear(PROBE_ITEMS, __global const ProbeRay* rays,
                                __global ProbeShear* out) {
     PROBE_ITEM;
     Ray ray = unpack_ray(rays[i]);
-    RayShear s = make_shear(&ray);
-    ProbeShear packed = {s.kx, s.ky, s.kz, s.origin_x, s.origin_y, s.origin_z, s.sx, s.sy, s.sz};
+    RayShear s = make_shear(&ray, RT_ALL_LANES);
+    ProbeShear packed = {next_axis(s.axis),
+                         next_axis(next_axis(s.axis)),
+                         s.axis,
+                         s.origin.x,
+                         s.origin.y,
+                         s.origin.z,
+                         s.sx,
+                         s.sy,
+                         s.sz};
     out[i] = packed;
 }
 
@@ -238,49 +279,53 @@ __kernel void probe_shear_vertex(PROBE_ITEMS, __global const ProbeRay* rays,
                                  __global const Packed3* vertices, __global Packed3* out) {
     PROBE_ITEM;
     Ray ray = unpack_ray(rays[i]);
-    RayShear shear = make_shear(&ray);
-    out[i] = pack(shear_vertex(&shear, &vertices[i]));
+    RayShear shear = make_shear(&ray, RT_ALL_LANES);
+    out[i] = pack(shear_vertex(&shear, shear.axis, &vertices[i]));
 }
 
 __kernel void probe_intersect_triangle(PROBE_ITEMS, __global const ProbeRay* rays,
-                                       __global const Triangle* triangles, __global Hit* out) {
+                                       __global const Triangle* triangles, __global ProbeHit* out) {
     PROBE_ITEM;
     Ray ray = unpack_ray(rays[i]);
-    RayShear shear = make_shear(&ray);
-    Hit hit = {0};
-    hit.t = intersect_triangle(&shear, &triangles[i], &hit.u, &hit.v);
+    RayShear shear = make_shear(&ray, RT_ALL_LANES);
+    ProbeHit hit = {-1, 0, 0, 0, 0};
+    Real t, u, v;
+    if (intersect_triangle(&shear, shear.axis, &triangles[i], &t, &u, &v)) {
+        hit.t = t;
+        hit.u = u;
+        hit.v = v;
+    }
     out[i] = hit;
 }
 
 // closest_hit.cl
 
+// Distance to primitive prims[i] alone.
 __kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                                        __global const Index* prims, __global Hit* out) {
+                                        __global const Index* prims, __global ProbeHit* out) {
     PROBE_ITEM;
-    SceneView scene = PROBE_SCENE_VIEW;
     Ray ray = unpack_ray(rays[i]);
-    RayShear shear = make_shear(&ray);
-    Hit hit = {0};
-    hit.prim = prims[i];
-    hit.t = intersect_primitive(&scene, &ray, &shear, prims[i], &hit.u, &hit.v);
+    RayShear shear = make_shear(&ray, RT_ALL_LANES);
+    ProbeHit hit = {-1, 0, 0, prims[i], 0};
+    Real t, u, v;
+    Index triangle = prims[i] - frame->sphere_count;
+    if (triangle < 0) {
+        __global const Sphere* sphere = &spheres[prims[i]];
+        if (intersect_sphere(&ray, load3(sphere->center), sphere->radius, ray.from == prims[i], &t))
+            hit.t = t;
+    } else if (ray.from != prims[i] &&
+               intersect_triangle(&shear, shear.axis, &triangles[triangle], &t, &u, &v)) {
+        hit.t = t;
+    }
     out[i] = hit;
 }
 
-__kernel void probe_first_listed_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                                     __global Hit* out) {
-    PROBE_ITEM;
-    SceneView scene = PROBE_SCENE_VIEW;
-    Ray ray = unpack_ray(rays[i]);
-    RayShear shear = make_shear(&ray);
-    out[i] = first_listed_hit(&scene, &ray, &shear, ray.t_max);
-}
-
 __kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                                __global Hit* out) {
+                                __global ProbeHit* out) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     Ray ray = unpack_ray(rays[i]);
-    out[i] = closest_hit(&scene, &ray);
+    out[i] = pack_hit(closest_hit(&scene, &ray, RT_ALL_LANES));
 }
 
 __kernel void probe_any_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
@@ -288,7 +333,7 @@ __kernel void probe_any_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* r
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     Ray ray = unpack_ray(rays[i]);
-    out[i] = any_hit(&scene, &ray) ? 1 : 0;
+    out[i] = any_hit(&scene, &ray, 0, frame->triangle_count);
 }
 
 // surface.cl
@@ -309,39 +354,40 @@ __kernel void probe_blended_normal(PROBE_ITEMS, __global const VertexNormals* no
 }
 
 __kernel void probe_triangle_surface(PROBE_ITEMS, __global const ProbeRay* rays,
-                                     __global const Hit* hits, __global const Triangle* triangles,
+                                     __global const ProbeHit* hits,
+                                     __global const Triangle* triangles,
                                      __global const VertexNormals* vertex_normals,
                                      __global ProbeSurface* out) {
     PROBE_ITEM;
     Ray ray = unpack_ray(rays[i]);
-    Hit hit = hits[i];
+    Hit hit = unpack_hit(hits[i]);
     out[i] = pack_surface(triangle_surface(&ray, &hit, &triangles[i], vertex_normals));
 }
 
 __kernel void probe_primitive_surface(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                                      __global const Hit* hits, __global ProbeSurface* out) {
+                                      __global const ProbeHit* hits, __global ProbeSurface* out) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     Ray ray = unpack_ray(rays[i]);
-    Hit hit = hits[i];
-    out[i] = pack_surface(primitive_surface(&scene, &ray, &hit));
+    Hit hit = unpack_hit(hits[i]);
+    out[i] = pack_surface(primitive_surface(&scene, &ray, &hit, hit.prim));
 }
 
-__kernel void probe_is_on_edge(PROBE_ITEMS, PROBE_SCENE, __global const Hit* hits,
+__kernel void probe_is_on_edge(PROBE_ITEMS, PROBE_SCENE, __global const ProbeHit* hits,
                                __global Index* out) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
-    Hit hit = hits[i];
+    Hit hit = unpack_hit(hits[i]);
     out[i] = is_on_edge(&scene, &hit);
 }
 
 __kernel void probe_surface_at(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                               __global const Hit* hits, __global ProbeSurface* out) {
+                               __global const ProbeHit* hits, __global ProbeSurface* out) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     Ray ray = unpack_ray(rays[i]);
-    Hit hit = hits[i];
-    out[i] = pack_surface(surface_at(&scene, &ray, &hit));
+    Hit hit = unpack_hit(hits[i]);
+    out[i] = pack_surface(surface_at(&scene, &ray, &hit, RT_ALL_LANES));
 }
 
 __kernel void probe_offset_origin(PROBE_ITEMS, __global const ProbeSurface* surfaces,
@@ -355,7 +401,7 @@ __kernel void probe_offset_origin(PROBE_ITEMS, __global const ProbeSurface* surf
 
 __kernel void probe_is_black(PROBE_ITEMS, __global const Packed3* colors, __global Index* out) {
     PROBE_ITEM;
-    out[i] = is_black(load3(colors[i])) ? 1 : 0;
+    out[i] = is_black(load3(colors[i]));
 }
 
 __kernel void probe_specular_lobe(PROBE_ITEMS, __global const Packed3* normals,
@@ -374,10 +420,11 @@ __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     Surface surface = unpack_surface(surfaces[i]);
-    RayCounts used = {0, 0};
-    out[i] = pack(light_contribution(&scene, &surface, &materials[surface.material], &lights[0],
-                                     load3(origins[i]), load3(to_eye[i]), prims[i], &used));
-    counts[i] = used;
+    Finish finish = probe_finish(&scene, &surface);
+    PacketCounts used = {0, 0};
+    out[i] = pack(light_contribution(&scene, &surface, &finish, &lights[0], load3(origins[i]),
+                                     load3(to_eye[i]), prims[i], RT_ALL_LANES, &used));
+    counts[i] = pack_counts(used);
 }
 
 __kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface* surfaces,
@@ -386,10 +433,11 @@ __kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface*
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     Surface surface = unpack_surface(surfaces[i]);
-    RayCounts used = {0, 0};
-    out[i] = pack(
-        shade(&scene, &surface, &materials[surface.material], load3(to_eye[i]), prims[i], &used));
-    counts[i] = used;
+    Finish finish = probe_finish(&scene, &surface);
+    PacketCounts used = {0, 0};
+    out[i] =
+        pack(shade(&scene, &surface, &finish, load3(to_eye[i]), prims[i], RT_ALL_LANES, &used));
+    counts[i] = pack_counts(used);
 }
 
 // whitted.cl
@@ -406,9 +454,9 @@ __kernel void probe_trace_path(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay
                                __global Packed3* out, __global RayCounts* counts) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
-    RayCounts used = {0, 0};
-    out[i] = pack(trace_path(&scene, unpack_ray(rays[i]), &used));
-    counts[i] = used;
+    PacketCounts used = {0, 0};
+    out[i] = pack(trace_path(&scene, unpack_ray(rays[i]), RT_ALL_LANES, &used));
+    counts[i] = pack_counts(used);
 }
 
 __kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
@@ -416,16 +464,16 @@ __kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index*
                                  __global Packed3* out, __global RayCounts* counts) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
-    RayCounts used = {0, 0};
-    out[i] = pack(trace_sample(&scene, x[i], y[i], k[i], &used));
-    counts[i] = used;
+    PacketCounts used = {0, 0};
+    out[i] = pack(trace_sample(&scene, x[i], y[i], k[i], RT_ALL_LANES, &used));
+    counts[i] = pack_counts(used);
 }
 
 // render.cl
 
 __kernel void probe_store3(PROBE_ITEMS, __global const Packed3* colors, __global Packed3* out) {
     PROBE_ITEM;
-    store3((__global Real*)out, (Index)i, load3(colors[i]));
+    store3((__global Real*)out, (Index)i, colors[i].x, colors[i].y, colors[i].z);
 }
 
 __kernel void probe_add_counts(PROBE_ITEMS, __global const RayCounts* a,
@@ -522,5 +570,6 @@ __kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* 
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     RayCounts counts = {0, 0};
-    out[i] = pack(trace_pixel(&scene, x[i], y[i], &counts));
+    Packet packet = make_packet(frame->samples);
+    out[i] = pack(trace_pixels(&scene, &packet, x[i], y[i], RT_ALL_LANES, &counts));
 }

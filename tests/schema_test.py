@@ -20,6 +20,8 @@ SEEN_BY_READER_ONLY = {
     "camera-up-parallel",
     "camera-up-zero",
     "camera-window-mirrored",
+    "cone-same-point",
+    "cone-zero-radii",
     "duplicate-key",
     "duplicate-key-escaped",
     "duplicate-material",

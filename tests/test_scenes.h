@@ -26,6 +26,7 @@ void count_primitives(FlatScene<T>& scene) {
     scene.frame.sphere_count = static_cast<Index<T>>(scene.spheres.size());
     scene.frame.triangle_count = static_cast<Index<T>>(scene.triangles.size());
     scene.frame.light_count = static_cast<Index<T>>(scene.lights.size());
+    for (auto& light : scene.lights) light.caster_count = scene.frame.triangle_count;
 }
 
 /// Balls and triangles about the origin, some of them twice.

@@ -13,6 +13,7 @@ struct Features {
     bool spheres = true;
     bool triangles = true;
     bool vertex_normals = true;  ///< implies triangles
+    bool hierarchy = true;       ///< some kind of primitive is found through boxes
     bool lights = true;          ///< shadow rays, diffuse and specular light
     bool mirrors = true;         ///< the bounce loop
 
@@ -26,10 +27,11 @@ struct FeatureName {
     const char* macro;
 };
 
-inline constexpr std::array<FeatureName, 5> feature_names{{
+inline constexpr std::array<FeatureName, 6> feature_names{{
     {&Features::spheres, "spheres", "RT_HAS_SPHERES"},
     {&Features::triangles, "triangles", "RT_HAS_TRIANGLES"},
     {&Features::vertex_normals, "vertex normals", "RT_HAS_VERTEX_NORMALS"},
+    {&Features::hierarchy, "hierarchy", "RT_HAS_HIERARCHY"},
     {&Features::lights, "lights", "RT_HAS_LIGHTS"},
     {&Features::mirrors, "mirrors", "RT_HAS_MIRRORS"},
 }};

@@ -4,87 +4,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
 
 #include "host/error.h"
+#include "host/flatten/boxes.h"
+#include "host/flatten/casters.h"
+#include "host/flatten/flat_shapes.h"
 #include "host/flatten/view_frame.h"
+#include "host/memory_limit.h"
+#include "host/parallel.h"
 
 namespace rt {
 
 namespace {
 
 bool is_black(const glm::dvec3& color) { return color == glm::dvec3(0); }
-
-template <typename T>
-typename Flat<T>::Packed3 pack(const glm::dvec3& v) {
-    return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
-}
-
-/// Squares of distances must stay finite in T.
-template <typename T>
-constexpr double farthest = sizeof(T) == sizeof(float) ? 0x1p60 : 0x1p500;
-
-template <typename T>
-typename Flat<T>::Packed3 pack_position(const ViewFrame& view, const glm::dvec3& scene_point) {
-    const glm::dvec3 p = view.to_view(scene_point);
-    if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > farthest<T>) {
-        throw Error(ExitCode::input,
-                    fmt::format("({:g}, {:g}, {:g}) lies more than {:g} times as far away as most "
-                                "of the scene; move it nearer{}",
-                                scene_point.x, scene_point.y, scene_point.z, farthest<T>,
-                                sizeof(T) == sizeof(float) ? ", or use --precision double" : ""));
-    }
-    return pack<T>(p);
-}
-
-template <typename T>
-typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphere& sphere) {
-    typename Flat<T>::Sphere flat{};
-    flat.center = pack_position<T>(view, sphere.center);
-    flat.radius = static_cast<T>(sphere.radius * view.scale);
-    flat.material = sphere.material;
-    return flat;
-}
-
-/// How far a barycentric point may lie off the plane: 4 u extent + 6 u |vertex| per axis, seen
-/// along the normal (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8.5; measured in
-/// docs/numerics.md).
-template <typename T>
-double barycentric_offset(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
-                          const glm::dvec3& normal) {
-    const glm::dvec3 low = glm::min(a, glm::min(b, c));
-    const glm::dvec3 high = glm::max(a, glm::max(b, c));
-    const glm::dvec3 largest = glm::max(glm::abs(low), glm::abs(high));
-    const glm::dvec3 error = 4.0 * (high - low) + 6.0 * largest;
-    return static_cast<double>(Flat<T>::roundoff) * glm::dot(glm::abs(normal), error);
-}
-
-template <typename T>
-typename Flat<T>::Triangle flatten_triangle(const ViewFrame& view,
-                                            const Scene::Triangle& triangle) {
-    const glm::dvec3 a = view.to_view(triangle.vertices[0]);
-    const glm::dvec3 b = view.to_view(triangle.vertices[1]);
-    const glm::dvec3 c = view.to_view(triangle.vertices[2]);
-    const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
-    typename Flat<T>::Triangle flat{};
-    flat.p0 = pack_position<T>(view, triangle.vertices[0]);
-    flat.p1 = pack_position<T>(view, triangle.vertices[1]);
-    flat.p2 = pack_position<T>(view, triangle.vertices[2]);
-    flat.material = triangle.material;
-    flat.smooth = Flat<T>::none;
-    flat.offset = static_cast<T>(barycentric_offset<T>(a, b, c, normal));
-    flat.normal = pack<T>(normal);
-    flat.plane = static_cast<T>(glm::dot(normal, a));
-    return flat;
-}
-
-template <typename T>
-typename Flat<T>::VertexNormals flatten_normals(const std::array<glm::dvec3, 3>& normals) {
-    return {pack<T>(normals[0]), 0, pack<T>(normals[1]), 0, pack<T>(normals[2]), 0};
-}
 
 template <typename T>
 typename Flat<T>::Material flatten_material(const Scene::Material& material) {
@@ -170,9 +108,12 @@ typename Flat<T>::Frame flatten_frame(const ViewFrame& view, const Scene& scene)
 /// The materials that some primitive wears.
 std::vector<const Scene::Material*> worn_materials(const Scene& scene) {
     std::vector<bool> worn(scene.materials.size(), false);
-    for (const auto& sphere : scene.spheres) worn[static_cast<std::size_t>(sphere.material)] = true;
-    for (const auto& triangle : scene.triangles) {
-        worn[static_cast<std::size_t>(triangle.material)] = true;
+    const auto wear = [&](int material) { worn[static_cast<std::size_t>(material)] = true; };
+    for (const auto& sphere : scene.spheres) wear(sphere.material);
+    for (const auto& cone : scene.cones) wear(cone.material);
+    for (const auto& triangle : scene.triangles) wear(triangle.material);
+    for (const auto& mesh : scene.meshes) {
+        for (const int material : mesh.face_materials) wear(material);
     }
     std::vector<const Scene::Material*> materials;
     for (std::size_t i = 0; i < worn.size(); ++i) {
@@ -187,82 +128,268 @@ bool reflects_light(const Scene::Material* material) {
 
 bool is_mirror(const Scene::Material* material) { return !is_black(material->mirror); }
 
-template <typename T>
-void flatten_lights(const ViewFrame& view, const Scene& scene, FlatScene<T>& flat) {
-    const auto materials = worn_materials(scene);
-    if (std::none_of(materials.begin(), materials.end(), reflects_light)) return;
-    for (const Scene::Light& light : scene.lights) {
-        if (is_black(light.intensity)) continue;
-        flat.lights.push_back(
-            {pack_position<T>(view, light.position), 0, pack<T>(light.intensity), 0});
-    }
-}
+/// Primitives that a thread works on at once.
+constexpr std::size_t run_length = 1 << 13;
 
+/// One flattening: what its steps share.
 template <typename T>
-Features needed_features(const Scene& scene, const FlatScene<T>& flat) {
-    const auto materials = worn_materials(scene);
-    Features features;
-    features.spheres = !flat.spheres.empty();
-    features.triangles = !flat.triangles.empty();
-    features.vertex_normals = !flat.vertex_normals.empty();
-    features.lights = !flat.lights.empty();
-    features.mirrors =
-        scene.max_bounces > 0 && std::any_of(materials.begin(), materials.end(), is_mirror);
-    return features;
-}
+class Flattener {
+   public:
+    using Index = typename Flat<T>::Index;
 
-/// Primitives are numbered in Flat<T>::Index, and so are the numbers of a film.
-void check_counts(const Scene& scene) {
-    const std::size_t limit = std::numeric_limits<std::int32_t>::max();
-    const std::size_t count = scene.spheres.size() + scene.triangles.size();
-    if (count > limit || scene.lights.size() > limit) {
-        throw Error(ExitCode::limit, fmt::format("{} primitives and {} lights; at most {} of each "
-                                                 "can be rendered",
-                                                 count, scene.lights.size(), limit));
+    Flattener(const Scene& scene, const FlattenOptions& options)
+        : scene_(scene), options_(options), triangles_(scene) {
+        if (options_.threads == 0) options_.threads = available_cores();
+        check_limits();
+        view_ = make_view_frame(scene, triangles_, options_.threads);
+        worn_ = worn_materials(scene);
     }
+
+    FlatScene<T> run() {
+        flat_.frame = flatten_frame<T>(view_, scene_);
+        flatten_spheres();
+        flatten_cones();
+        flatten_triangles();
+        for (const auto& material : scene_.materials) {
+            flat_.materials.push_back(flatten_material<T>(material));
+        }
+        flatten_lights();
+        flat_.frame.sphere_count = static_cast<Index>(flat_.spheres.size());
+        flat_.frame.cone_count = static_cast<Index>(flat_.cones.size());
+        flat_.frame.triangle_count = static_cast<Index>(flat_.triangles.size());
+        flat_.frame.light_count = static_cast<Index>(flat_.lights.size());
+        number_primitives();
+        set_features();
+        return std::move(flat_);
+    }
+
+   private:
+    /// For one kind, the number each primitive was listed under; empty when the order was kept.
+    using Listed = std::vector<Index>;
+
+    /// Primitives and nodes (fewer than two a primitive) are numbered in a 32-bit Index.
+    void check_limits() const {
+        const std::uint64_t limit = (std::uint64_t{1} << 30) - 8;
+        const std::uint64_t count = scene_.spheres.size() + scene_.cones.size() + triangles_.size();
+        if (count > limit || scene_.lights.size() > limit) {
+            throw Error(ExitCode::limit,
+                        fmt::format("{} primitives and {} lights; at most {} of each can be "
+                                    "rendered",
+                                    count, scene_.lights.size(), limit));
+        }
+        constexpr std::uint64_t bytes_each = sizeof(typename Flat<T>::Triangle) +
+                                             2 * sizeof(typename Flat<T>::BvhNode) + sizeof(Index);
+        if (count > run_length) {
+            check_memory(count * bytes_each, fmt::format("flattening {} primitives", count),
+                         "use a smaller scene");
+        }
+    }
+
+    template <typename Work>
+    void for_each(std::size_t count, const Work& work) const {
+        for_each_run(count, run_length, options_.threads, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) work(i);
+        });
+    }
+
+    /// Builds the hierarchy over `count` primitives with the boxes box(i) if there are enough;
+    /// sets its root and says how it came out.
+    template <typename Box>
+    Listed build_hierarchy(std::size_t count, std::size_t crossover, const Box& box, Index& root,
+                           BvhShape& shape) {
+        if (!options_.hierarchies || count < crossover) return {};
+        const auto start = std::chrono::steady_clock::now();
+        std::vector<BvhBox<T>> boxes(count);
+        for_each(count, [&](std::size_t i) {
+            boxes[i] = box(i);
+            boxes[i].first = static_cast<Index>(i);
+        });
+        BvhSettings settings;
+        settings.threads = options_.threads;
+        root = build_bvh<T>(boxes, settings, flat_.nodes);
+        shape = shape_of<T>(flat_.nodes, root, settings);
+        Listed listed(count);
+        for_each(count, [&](std::size_t i) { listed[i] = boxes[i].first; });
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        flat_.stats.bvh_seconds += taken.count();
+        return listed;
+    }
+
+    template <typename Primitive>
+    void reorder(std::vector<Primitive>& primitives, const Listed& listed) const {
+        if (listed.empty()) return;
+        std::vector<Primitive> ordered(primitives.size());
+        for_each(primitives.size(), [&](std::size_t i) {
+            ordered[i] = primitives[static_cast<std::size_t>(listed[i])];
+        });
+        primitives = std::move(ordered);
+    }
+
+    void flatten_spheres() {
+        flat_.spheres.resize(scene_.spheres.size());
+        for_each(flat_.spheres.size(), [&](std::size_t i) {
+            flat_.spheres[i] = flatten_sphere<T>(view_, scene_.spheres[i]);
+        });
+        listed_spheres_ = build_hierarchy(
+            flat_.spheres.size(), sphere_crossover,
+            [&](std::size_t i) { return box_of<T>(flat_.spheres[i]); }, flat_.frame.sphere_root,
+            flat_.stats.spheres);
+        reorder(flat_.spheres, listed_spheres_);
+    }
+
+    void flatten_cones() {
+        flat_.cones.resize(scene_.cones.size());
+        for_each(flat_.cones.size(),
+                 [&](std::size_t i) { flat_.cones[i] = flatten_cone<T>(view_, scene_.cones[i]); });
+        listed_cones_ = build_hierarchy(
+            flat_.cones.size(), cone_crossover,
+            [&](std::size_t i) { return box_of<T>(flat_.cones[i]); }, flat_.frame.cone_root,
+            flat_.stats.cones);
+        reorder(flat_.cones, listed_cones_);
+    }
+
+    /// The boxes come first, from vertices rounded for them alone, so that the triangles can be
+    /// made in the order of the leaves: memory never holds them twice.
+    void flatten_triangles() {
+        const auto count = static_cast<std::size_t>(triangles_.size());
+        listed_triangles_ = build_hierarchy(
+            count, triangle_crossover,
+            [&](std::size_t i) {
+                const TriangleList::Corners corners = triangles_.corners(i);
+                return box_of<T>(pack_position<T>(view_, corners[0]),
+                                 pack_position<T>(view_, corners[1]),
+                                 pack_position<T>(view_, corners[2]));
+            },
+            flat_.frame.triangle_root, flat_.stats.triangles);
+        flat_.triangles.resize(count);
+        const std::vector<std::size_t> smooth = smooth_before_runs(count);
+        flat_.vertex_normals.resize(smooth.back());
+        for_each_run(count, run_length, options_.threads, [&](std::size_t first, std::size_t last) {
+            std::size_t next_smooth = smooth[first / run_length];
+            for (std::size_t i = first; i < last; ++i) {
+                const std::size_t listed = listed_triangle(i);
+                flat_.triangles[i] = flatten_triangle<T>(view_, triangles_.corners(listed),
+                                                         triangles_.material(listed));
+                const auto normals = triangles_.normals(listed);
+                if (!normals) continue;
+                flat_.triangles[i].smooth = static_cast<Index>(next_smooth);
+                flat_.vertex_normals[next_smooth++] = flatten_normals<T>(*normals);
+            }
+        });
+    }
+
+    std::size_t listed_triangle(std::size_t i) const {
+        return listed_triangles_.empty() ? i : static_cast<std::size_t>(listed_triangles_[i]);
+    }
+
+    /// How many triangles with vertex normals come before each run, and in all.
+    std::vector<std::size_t> smooth_before_runs(std::size_t count) const {
+        std::vector<std::size_t> before((count + run_length - 1) / run_length + 1, 0);
+        for_each_run(count, run_length, options_.threads, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                before[first / run_length + 1] += triangles_.is_smooth(listed_triangle(i)) ? 1 : 0;
+            }
+        });
+        for (std::size_t i = 1; i < before.size(); ++i) before[i] += before[i - 1];
+        return before;
+    }
+
+    void flatten_lights() {
+        if (std::none_of(worn_.begin(), worn_.end(), reflects_light)) return;
+        for (const Scene::Light& light : scene_.lights) {
+            if (is_black(light.intensity)) continue;
+            typename Flat<T>::Light flat{};
+            flat.position = pack_position<T>(view_, light.position);
+            flat.intensity = pack<T>(light.intensity);
+            flat.caster_count = static_cast<Index>(flat_.triangles.size());
+            if (options_.caster_lists && flat_.frame.triangle_root == 0) {
+                list_casters(light.position, flat);
+            }
+            flat_.lights.push_back(flat);
+        }
+    }
+
+    void list_casters(const glm::dvec3& position, typename Flat<T>::Light& light) {
+        const auto casters = shadow_casters(scene_, triangles_, eye_ray_origins(), position);
+        if (casters.size() == flat_.triangles.size()) return;
+        light.first_caster = static_cast<Index>(flat_.casters.size());
+        light.caster_count = static_cast<Index>(casters.size());
+        for (const std::size_t triangle : casters) {
+            flat_.casters.push_back(static_cast<Index>(triangle));
+        }
+    }
+
+    /// Points that have all starts of eye rays among or between them.
+    std::vector<glm::dvec3> eye_ray_origins() const {
+        const Scene::Camera& camera = scene_.camera;
+        if (camera.projection == Scene::Projection::perspective) return {camera.from};
+        const Scene::Window window = camera_window(camera, scene_.width, scene_.height);
+        std::vector<glm::dvec3> origins;
+        for (const double x : {window.left, window.right}) {
+            for (const double y : {window.bottom, window.top}) {
+                origins.push_back(camera.from + view_.right * x + view_.up * y);
+            }
+        }
+        return origins;
+    }
+
+    void number_primitives() {
+        if (listed_spheres_.empty() && listed_cones_.empty() && listed_triangles_.empty()) return;
+        flat_.order.reserve(flat_.spheres.size() + flat_.cones.size() + flat_.triangles.size());
+        append_order(listed_spheres_, flat_.spheres.size());
+        append_order(listed_cones_, flat_.cones.size());
+        append_order(listed_triangles_, flat_.triangles.size());
+    }
+
+    void append_order(const Listed& listed, std::size_t count) {
+        const auto start = static_cast<Index>(flat_.order.size());
+        for (std::size_t i = 0; i < count; ++i) {
+            flat_.order.push_back(start + (listed.empty() ? static_cast<Index>(i) : listed[i]));
+        }
+    }
+
+    void set_features() {
+        Features& features = flat_.features;
+        features.spheres = !flat_.spheres.empty();
+        features.triangles = !flat_.triangles.empty();
+        features.vertex_normals = !flat_.vertex_normals.empty();
+        features.hierarchy = !flat_.nodes.empty();
+        features.lights = !flat_.lights.empty();
+        features.mirrors =
+            scene_.max_bounces > 0 && std::any_of(worn_.begin(), worn_.end(), is_mirror);
+    }
+
+    const Scene& scene_;
+    FlattenOptions options_;
+    const TriangleList triangles_;
+    ViewFrame view_;
+    std::vector<const Scene::Material*> worn_;
+    Listed listed_spheres_, listed_cones_, listed_triangles_;
+    FlatScene<T> flat_{};
+};
+
+template <typename Item>
+std::size_t bytes_of(const std::vector<Item>& items) {
+    return items.size() * sizeof(Item);
 }
 
 }  // namespace
 
 template <typename T>
 std::size_t FlatScene<T>::bytes() const {
-    return spheres.size() * sizeof(spheres[0]) + triangles.size() * sizeof(triangles[0]) +
-           vertex_normals.size() * sizeof(vertex_normals[0]) +
-           materials.size() * sizeof(materials[0]) + lights.size() * sizeof(lights[0]);
+    return bytes_of(spheres) + bytes_of(cones) + bytes_of(triangles) + bytes_of(vertex_normals) +
+           bytes_of(materials) + bytes_of(lights) + bytes_of(nodes) + bytes_of(order) +
+           bytes_of(casters);
 }
 
 template <typename T>
-FlatScene<T> flatten(const Scene& scene) {
-    check_counts(scene);
-    const ViewFrame view = make_view_frame(scene);
-    FlatScene<T> flat;
-    flat.spheres.reserve(scene.spheres.size());
-    for (const auto& sphere : scene.spheres) {
-        flat.spheres.push_back(flatten_sphere<T>(view, sphere));
-    }
-    flat.triangles.reserve(scene.triangles.size());
-    for (const auto& triangle : scene.triangles) {
-        flat.triangles.push_back(flatten_triangle<T>(view, triangle));
-        if (!triangle.normals) continue;
-        flat.triangles.back().smooth =
-            static_cast<typename Flat<T>::Index>(flat.vertex_normals.size());
-        flat.vertex_normals.push_back(flatten_normals<T>(*triangle.normals));
-    }
-    for (const auto& material : scene.materials) {
-        flat.materials.push_back(flatten_material<T>(material));
-    }
-    flatten_lights(view, scene, flat);
-    flat.frame = flatten_frame<T>(view, scene);
-    flat.frame.sphere_count = static_cast<typename Flat<T>::Index>(flat.spheres.size());
-    flat.frame.triangle_count = static_cast<typename Flat<T>::Index>(flat.triangles.size());
-    flat.frame.light_count = static_cast<typename Flat<T>::Index>(flat.lights.size());
-    flat.features = needed_features(scene, flat);
-    return flat;
+FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options) {
+    return Flattener<T>(scene, options).run();
 }
 
 template struct FlatScene<float>;
 template struct FlatScene<double>;
-template FlatScene<float> flatten(const Scene&);
-template FlatScene<double> flatten(const Scene&);
+template FlatScene<float> flatten(const Scene&, const FlattenOptions&);
+template FlatScene<double> flatten(const Scene&, const FlattenOptions&);
 
 }  // namespace rt

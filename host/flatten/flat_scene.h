@@ -4,30 +4,61 @@
 #include <cstddef>
 #include <vector>
 
+#include "host/flatten/bvh.h"
 #include "host/flatten/features.h"
 #include "host/flatten/flat_types.h"
 #include "host/scene/scene.h"
 
 namespace rt {
 
+/// A kind with fewer primitives than this has no hierarchy: a ray tests each of them.
+inline constexpr std::size_t sphere_crossover = 24;
+inline constexpr std::size_t cone_crossover = 24;
+inline constexpr std::size_t triangle_crossover = 24;
+
+/// What flatten built over the primitives; all 0 for a kind without a hierarchy.
+struct FlattenStats {
+    BvhShape spheres, cones, triangles;
+    double bvh_seconds = 0;
+};
+
 /// A scene as arrays of shared structs in the renderer's frame, in the precision of T (float or
-/// double): everything a renderer reads, and all it reads.
+/// double): everything a renderer reads, and all it reads. Primitives are numbered spheres first,
+/// then cones, then triangles.
 template <typename T>
 struct FlatScene {
     std::vector<typename Flat<T>::Sphere> spheres;
+    std::vector<typename Flat<T>::Cone> cones;
     std::vector<typename Flat<T>::Triangle> triangles;
     std::vector<typename Flat<T>::VertexNormals> vertex_normals;
     std::vector<typename Flat<T>::Material> materials;
     std::vector<typename Flat<T>::Light> lights;
+    /// Hierarchies over those kinds of primitive that have one (Frame::..._root). Leaves count a
+    /// kind's primitives from 0.
+    std::vector<typename Flat<T>::BvhNode> nodes;
+    /// The number each primitive would have if the arrays kept the author's order: ties go to the
+    /// lowest. Empty where they do, for want of a hierarchy.
+    std::vector<typename Flat<T>::Index> order;
+    /// Each light's triangles that may cast a shadow (Light::first_caster, caster_count), as
+    /// indices into `triangles`, ascending. A light with as many as there are has no list: all do.
+    std::vector<typename Flat<T>::Index> casters;
     typename Flat<T>::Frame frame;
     Features features;
+    FlattenStats stats;
 
     std::size_t bytes() const;
 };
 
+struct FlattenOptions {
+    int threads = 0;           ///< 0: all cores; changes no bit
+    bool hierarchies = true;   ///< false: none, whatever there is to test
+    bool caster_lists = true;  ///< false: every triangle casts shadows
+};
+
 /// Flattens a scene with its picture size, sampling and bounce limit. Lights that shine on nothing
-/// are left out. Throws Error (ExitCode::input) when something lies too far away for T.
+/// are left out. Throws Error (ExitCode::input) when something lies too far away for T,
+/// (ExitCode::limit) when there is more than can be numbered or than fits into memory.
 template <typename T>
-FlatScene<T> flatten(const Scene& scene);
+FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options = {});
 
 }  // namespace rt

@@ -2,9 +2,13 @@
 #include "host/flatten/view_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <vector>
+
+#include "host/parallel.h"
 
 namespace rt {
 
@@ -16,32 +20,72 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return glm::normalize(v / largest);
 }
 
-double farthest_vertex(const Scene::Triangle& triangle, const glm::dvec3& eye) {
+/// |v|, for any finite v.
+double length_of(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 1e-150 && length < 1e150 ? length : std::hypot(v.x, v.y, v.z);
+}
+
+double farthest_vertex(const TriangleList::Corners& corners, const glm::dvec3& eye) {
     double distance = 0;
-    for (const glm::dvec3& vertex : triangle.vertices) {
-        distance = std::max(distance, glm::distance(vertex, eye));
-    }
+    for (const glm::dvec3& corner : corners) distance = std::max(distance, length_of(corner - eye));
     return distance;
 }
 
-double median_distance(const Scene& scene, const glm::dvec3& eye) {
-    std::vector<double> distances;
-    distances.reserve(scene.spheres.size() + scene.triangles.size());
+double farthest_rim(const Scene::Cone& cone, const glm::dvec3& eye) {
+    return std::max({length_of(cone.base - eye), length_of(cone.apex - eye), cone.base_radius,
+                     cone.apex_radius});
+}
+
+/// How many distances lie in [2^k, 2^(k + 1)), for every k.
+class Octaves {
+   public:
+    void add(double distance) {
+        ++counts_[static_cast<std::size_t>(std::clamp(std::ilogb(distance), lowest, -lowest) -
+                                           lowest)];
+    }
+    void add(const Octaves& other) {
+        for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+    }
+    /// The k of the median; 0 when there is none.
+    int median() const {
+        std::uint64_t total = 0;
+        for (const std::uint64_t count : counts_) total += count;
+        if (total == 0) return 0;
+        std::uint64_t below = 0;
+        for (std::size_t i = 0;; ++i) {
+            below += counts_[i];
+            if (below > total / 2) return static_cast<int>(i) + lowest;
+        }
+    }
+
+   private:
+    static constexpr int lowest = -1022;
+    std::array<std::uint64_t, 1 - 2 * lowest> counts_{};
+};
+
+Octaves distance_octaves(const Scene& scene, const TriangleList& triangles, const glm::dvec3& eye,
+                         int threads) {
+    Octaves octaves;
     for (const auto& sphere : scene.spheres) {
-        distances.push_back(std::max(glm::distance(sphere.center, eye), sphere.radius));
+        octaves.add(std::max(length_of(sphere.center - eye), sphere.radius));
     }
-    for (const auto& triangle : scene.triangles) {
-        distances.push_back(farthest_vertex(triangle, eye));
-    }
-    if (distances.empty()) return 1;
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    return *middle;
+    for (const auto& cone : scene.cones) octaves.add(farthest_rim(cone, eye));
+    constexpr std::size_t run = 1 << 15;
+    const auto count = static_cast<std::size_t>(triangles.size());
+    std::vector<Octaves> parts((count + run - 1) / run);
+    for_each_run(count, run, threads, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            parts[first / run].add(farthest_vertex(triangles.corners(i), eye));
+        }
+    });
+    for (const Octaves& part : parts) octaves.add(part);
+    return octaves;
 }
 
 }  // namespace
 
-ViewFrame make_view_frame(const Scene& scene) {
+ViewFrame make_view_frame(const Scene& scene, const TriangleList& triangles, int threads) {
     const Scene::Camera& camera = scene.camera;
     ViewFrame frame;
     frame.eye = camera.from;
@@ -53,7 +97,8 @@ ViewFrame make_view_frame(const Scene& scene) {
         frame.eye += frame.right * (0.5 * (window.left + window.right)) +
                      frame.up * (0.5 * (window.bottom + window.top));
     }
-    frame.scale = std::ldexp(1.0, -std::ilogb(median_distance(scene, frame.eye)));
+    const Octaves octaves = distance_octaves(scene, triangles, frame.eye, threads);
+    frame.scale = std::ldexp(1.0, -octaves.median());
     return frame;
 }
 

@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "host/flatten/triangle_list.h"
 #include "host/scene/scene.h"
 
 namespace rt {
@@ -19,6 +20,7 @@ struct ViewFrame {
     glm::dvec3 to_view(const glm::dvec3& scene_point) const { return (scene_point - eye) * scale; }
 };
 
-ViewFrame make_view_frame(const Scene& scene);
+/// `triangles` are the scene's.
+ViewFrame make_view_frame(const Scene& scene, const TriangleList& triangles, int threads);
 
 }  // namespace rt

@@ -63,6 +63,7 @@ void add_bench(CLI::App& app, Options& options) {
     add_count(verb, "--threads", bench.threads, 1, 4096,
               "'threads' is timed with 1 to N threads (default: all cores)");
     add_precisions(verb, bench.precisions);
+    add_light_options(verb, bench.light);
     add_text(verb, "--schedules", "LIST", "of pthreads (default tiles,buffers)",
              [&](const std::string& text) { bench.schedules = parse_schedules(text); });
     add_count(verb, "--repeats", bench.repeats, 1, 1000,

@@ -20,6 +20,7 @@ struct ConvergeOptions {
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
     std::vector<bool> fast_math{false};
     std::vector<int> max_bounces;  ///< empty: the scene's
+    LightOverrides light;
     int repeats = 5;               ///< without the warm-up
     int reference_samples = 1024;  ///< of a pixel, in each of the reference's two halves
     std::string cache_folder;      ///< of references; empty: none

@@ -19,6 +19,7 @@ struct DevicesOptions {
 /// `mirrorball scene info|check`
 struct SceneOptions {
     std::string scene;
+    LightOverrides light;
     bool info = true;  ///< else check
     bool json = false;
 };

@@ -57,6 +57,22 @@ PictureSize parse_size(const std::string& option, const std::string& text) {
     return size;
 }
 
+std::optional<std::vector<double>> parse_amounts(std::string_view text) {
+    constexpr double largest = 1e30;
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    for (;;) {
+        double number = 0;
+        const auto [stop, error] = std::from_chars(at, end, number);
+        if (error != std::errc{} || !(number >= 0 && number <= largest)) return std::nullopt;
+        numbers.push_back(number);
+        if (stop == end) return numbers;
+        if (*stop != ',') return std::nullopt;
+        at = stop + 1;
+    }
+}
+
 std::string environment(const char* name) {
     const char* value = std::getenv(name);
     return value == nullptr ? "" : value;

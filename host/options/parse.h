@@ -21,6 +21,9 @@ std::optional<std::vector<int>> parse_integers(std::string_view text, char separ
 /// WIDTHxHEIGHT or N. Throws Error: ExitCode::usage, or ExitCode::limit for too many pixels.
 PictureSize parse_size(const std::string& option, const std::string& text);
 
+/// Numbers from 0 to 1e30 with commas between them; empty when the text is anything else.
+std::optional<std::vector<double>> parse_amounts(std::string_view text);
+
 /// The value of an environment variable, or "".
 std::string environment(const char* name);
 

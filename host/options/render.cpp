@@ -94,6 +94,10 @@ void add_device_options(CLI::App& app, RenderOptions& render) {
     add_choice<Launch>(app, "--launch", render.launch,
                        {{"pixel", Launch::pixel}, {"sample", Launch::sample}},
                        "what an OpenCL work item is (default: pixel on CPUs, sample elsewhere)");
+    add_choice<int>(app, "--lanes", render.lanes,
+                    {{"auto", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}},
+                    "rays an OpenCL work item traces side by side (default: a CPU's vector width, "
+                    "else 1)");
     add_choice<Schedule>(app, "--schedule", render.schedule,
                          {{"tiles", Schedule::tiles}, {"buffers", Schedule::buffers}},
                          "pthreads: shared tiles (default), or a thread per sample buffer");
@@ -144,13 +148,15 @@ void add_render(CLI::App& app, Options& options) {
     options.render.pocl_cache = pocl_cache_folder();
     options.render.dumb_terminal = environment("TERM") == "dumb";
     CLI::App& verb = *app.add_subcommand("render", "render one picture");
-    verb.add_option("SCENE", options.render.scene, "scene file (.json)")->required();
+    verb.add_option("SCENE", options.render.scene, "scene file (.json, .nff, .obj, .ply)")
+        ->required();
     add_text(verb, "-o,--output", "FILE", "picture file: .png, .exr or .pfm (default: none)",
              [&](const std::string& text) {
                  if (text.empty()) refuse("-o", text, "name a picture file");
                  options.render.output = text;
              });
     add_picture_options(verb, options.render);
+    add_light_options(verb, options.render.light);
     add_device_options(verb, options.render);
     add_report_options(verb, options.render);
     verb.callback([&] { options.verb = Verb::render; });

@@ -9,6 +9,7 @@
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
 #include "host/scene/aa_mode.h"
+#include "host/scene/scene_file.h"
 
 namespace rt {
 
@@ -30,9 +31,11 @@ struct RenderOptions {
     Filter filter = Filter::box;
     int sampling_seed = 0;  ///< of sobol samples
     std::optional<int> max_bounces;
+    LightOverrides light;
     Precision precision = Precision::float32;
     bool fast_math = false;
     Launch launch = Launch::automatic;
+    int lanes = 0;  ///< rays of a packet on OpenCL devices; 0: as suits the device
     Schedule schedule = Schedule::tiles;
     int threads = 0;  ///< 0: all cores
     bool all_features = false;

@@ -17,4 +17,7 @@ void add_report(CLI::App& app, Options& options);
 void add_devices(CLI::App& app, Options& options);
 void add_scene(CLI::App& app, Options& options);
 
+/// --light-scale and --ambient, of every verb that reads scenes.
+void add_light_options(CLI::App& verb, LightOverrides& light);
+
 }  // namespace rt

@@ -9,6 +9,7 @@ namespace rt {
 
 std::string build_options(const ClDevice& device, const ProgramOptions& options) {
     std::string text = "-cl-std=CL1.2";
+    if (options.lanes != 1) text += fmt::format(" -DRT_LANES={}", options.lanes);
     if (options.double_precision) text += " -DRT_DOUBLE=1";
     if (options.fast_math) {
         text += " -DRT_FAST_MATH=1 -cl-mad-enable";

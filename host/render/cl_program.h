@@ -16,6 +16,7 @@ struct ProgramOptions {
     bool double_precision = false;
     bool fast_math = false;            ///< let the compiler contract a * b + c
     bool warnings_are_errors = false;  ///< for tests
+    int lanes = 1;                     ///< rays of a packet: 1, 2, 4, 8 or 16
     Features features;
 };
 

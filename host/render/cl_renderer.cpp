@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <deque>
 #include <span>
 
 #include "host/error.h"
 #include "host/render/cl_program.h"
+#include "host/render/packet_shape.h"
 #include "host/render/pocl_cache.h"
 #include "host/render/stopwatch.h"
 
@@ -16,11 +18,14 @@ namespace rt {
 
 namespace {
 
-constexpr std::size_t local_size = 64;
+/// Work items of a group: of single rays, and of packets, which are wide enough by themselves
+/// (Intel's compiler would vectorise them once more, and slow them down).
+constexpr std::size_t single_group = 64;
+constexpr std::size_t packet_group = 1;
 
 /// Work items of one launch. PoCL compiles a kernel again when a grid passes 64 K items, so a CPU
 /// launch stays below; a GPU wants more to fill up.
-constexpr std::size_t cpu_items = 65536 - local_size;
+constexpr std::size_t cpu_items = 65536 - single_group;
 constexpr std::size_t gpu_items = 1u << 20;
 
 /// Samples of one launch, so that it stays short enough to be interrupted.
@@ -30,9 +35,7 @@ constexpr std::size_t gpu_samples = 1u << 24;
 constexpr std::size_t launches_in_flight = 3;
 constexpr double progress_seconds = 0.2;
 
-std::size_t rounded_up(std::size_t items) {
-    return (items + local_size - 1) / local_size * local_size;
-}
+std::size_t divided_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
 /// The wall-clock seconds that the device spent between two commands' start and end.
 double device_seconds(const cl::Event& event) {
@@ -47,6 +50,8 @@ class ClRenderer : public Renderer<T> {
     ClRenderer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
         : device_(device), frame_(scene.frame) {
         launch_samples_ = launches_samples(options.launch, device);
+        lanes_ = packet_lanes<T>(options.lanes, device);
+        group_ = lanes_ == 1 ? single_group : packet_group;
         try {
             open();
             upload(scene);
@@ -61,10 +66,13 @@ class ClRenderer : public Renderer<T> {
             static_cast<std::int64_t>((device_.is_cpu ? cpu_samples : gpu_samples) / samples());
         const int pixels = static_cast<int>(std::clamp<std::int64_t>(work, 1, most_tile_pixels()));
         const int width = std::min(film_width, pixels);
-        return {0, 0, width, pixels / width};
+        const int height = pixels / width;
+        const int block = shape(samples()).height;
+        return {0, 0, width, height < block ? height : height / block * block};
     }
 
     std::int64_t most_tile_pixels() const override {
+        // A tile has no more packets than pixels, whatever its shape.
         return static_cast<std::int64_t>(launch_samples_ ? most_items() / samples() : most_items());
     }
 
@@ -113,6 +121,26 @@ class ClRenderer : public Renderer<T> {
     };
 
     std::size_t samples() const { return static_cast<std::size_t>(frame_.samples); }
+
+    PacketShape shape(std::size_t samples) const {
+        return packet_shape(lanes_, static_cast<int>(samples));
+    }
+
+    /// Packets that cover a tile.
+    std::size_t packets(const FlatTile& tile, const PacketShape& shape) const {
+        return divided_up(static_cast<std::size_t>(tile.width),
+                          static_cast<std::size_t>(shape.width)) *
+               divided_up(static_cast<std::size_t>(tile.height),
+                          static_cast<std::size_t>(shape.height));
+    }
+
+    void enqueue(const cl::Kernel& kernel, std::size_t items, cl::Event& event) const {
+        const std::size_t whole_groups =
+            std::max<std::size_t>(divided_up(items, group_), 1) * group_;
+        queue_.enqueueNDRangeKernel(kernel, cl::NullRange, whole_groups, group_, nullptr, &event);
+    }
+
+    std::size_t count_slots() const { return divided_up(most_items(), group_) * group_; }
     std::size_t most_items() const { return device_.is_cpu ? cpu_items : gpu_items; }
 
     void open() {
@@ -150,7 +178,10 @@ class ClRenderer : public Renderer<T> {
         vertex_normals_ = upload_array(scene.vertex_normals, "the vertex normals");
         materials_ = upload_array(scene.materials, "the materials");
         lights_ = upload_array(scene.lights, "the lights");
-        const std::size_t count_bytes = rounded_up(most_items()) * sizeof(FlatCounts);
+        nodes_ = upload_array(scene.nodes, "the hierarchy");
+        order_ = upload_array(scene.order, "the primitives' numbers");
+        casters_ = upload_array(scene.casters, "the casters of shadows");
+        const std::size_t count_bytes = count_slots() * sizeof(FlatCounts);
         counts_ = make_buffer(count_bytes, "the ray counts");
         queue_.enqueueFillBuffer(counts_, std::uint64_t{0}, 0, count_bytes);
         if (launch_samples_) {
@@ -164,6 +195,7 @@ class ClRenderer : public Renderer<T> {
     void build(const FlatScene<T>& scene, const ClOptions& options) {
         ProgramOptions program_options;
         program_options.double_precision = sizeof(T) == sizeof(double);
+        program_options.lanes = lanes_;
         program_options.fast_math = options.fast_math;
         program_options.warnings_are_errors = options.warnings_are_errors;
         if (!options.all_features) program_options.features = scene.features;
@@ -180,8 +212,8 @@ class ClRenderer : public Renderer<T> {
             resolve_.setArg(1, samples_);
             resolve_.setArg(2, frame_);
         }
-        launch({}, cl::Buffer(), local_size);
-        if (options.will_refine) launch_listed({}, frame_, cl::Buffer(), cl::Buffer(), local_size);
+        launch({}, cl::Buffer());
+        if (options.will_refine) launch_listed({}, frame_, cl::Buffer(), cl::Buffer());
         queue_.finish();
         times_.build = watch.seconds();
         times_.build_cache = !is_pocl || options.pocl_cache.empty() ? BuildCache::unknown
@@ -196,37 +228,42 @@ class ClRenderer : public Renderer<T> {
         kernel.setArg(4, vertex_normals_);
         kernel.setArg(5, materials_);
         kernel.setArg(6, lights_);
-        kernel.setArg(7, frame);
+        kernel.setArg(7, nodes_);
+        kernel.setArg(8, order_);
+        kernel.setArg(9, casters_);
+        kernel.setArg(10, frame);
     }
 
-    /// Enqueues the kernels of one tile, `pixels` work items where a pixel is one.
-    std::vector<cl::Event> launch(const FlatTile& tile, const cl::Buffer& film,
-                                  std::size_t pixels) {
+    /// Enqueues the kernels of one tile.
+    std::vector<cl::Event> launch(const FlatTile& tile, const cl::Buffer& film) {
         std::vector<cl::Event> events(launch_samples_ ? 2 : 1);
         render_.setArg(0, launch_samples_ ? samples_ : film);
-        render_.setArg(8, tile);
-        const std::size_t items = launch_samples_ ? pixels * samples() : pixels;
-        queue_.enqueueNDRangeKernel(render_, cl::NullRange, rounded_up(items), local_size, nullptr,
-                                    &events[0]);
+        render_.setArg(11, tile);
+        const PacketShape packet = shape(samples());
+        const std::size_t rounds =
+            launch_samples_ ? samples() / static_cast<std::size_t>(packet.samples) : 1;
+        enqueue(render_, packets(tile, packet) * rounds, events[0]);
         if (launch_samples_) {
             resolve_.setArg(0, film);
             resolve_.setArg(3, tile);
-            queue_.enqueueNDRangeKernel(resolve_, cl::NullRange, rounded_up(pixels), local_size,
-                                        nullptr, &events[1]);
+            enqueue(resolve_, packets(tile, shape(1)), events[1]);
         }
         queue_.flush();
         return events;
     }
 
     cl::Event launch_listed(const FlatTile& tile, const typename Flat<T>::Frame& frame,
-                            const cl::Buffer& colors, const cl::Buffer& list, std::size_t pixels) {
+                            const cl::Buffer& colors, const cl::Buffer& list) {
         set_scene_arguments(listed_, frame);
         listed_.setArg(0, colors);
-        listed_.setArg(8, tile);
-        listed_.setArg(9, list);
+        listed_.setArg(11, tile);
+        listed_.setArg(12, list);
+        const auto samples = static_cast<std::size_t>(frame.samples);
         cl::Event event;
-        queue_.enqueueNDRangeKernel(listed_, cl::NullRange, rounded_up(pixels), local_size, nullptr,
-                                    &event);
+        enqueue(listed_,
+                divided_up(static_cast<std::size_t>(tile.width),
+                           static_cast<std::size_t>(shape(samples).pixels())),
+                event);
         return event;
     }
 
@@ -242,7 +279,7 @@ class ClRenderer : public Renderer<T> {
         frame.samples = grid * grid;
         FlatTile tile = flat_tile<T>(region, region);
         tile.width = static_cast<typename Flat<T>::Index>(pixels.size());
-        const cl::Event event = launch_listed(tile, frame, colors, list, pixels.size());
+        const cl::Event event = launch_listed(tile, frame, colors, list);
         std::vector<T> result(pixels.size() * 3);
         queue_.enqueueReadBuffer(colors, CL_TRUE, 0, bytes, result.data());
         times_.kernel += device_seconds(event);
@@ -253,8 +290,7 @@ class ClRenderer : public Renderer<T> {
         std::deque<InFlight> in_flight;
         Stopwatch since_progress;
         while (const auto tile = queue.next()) {
-            in_flight.push_back({*tile, launch(flat_tile<T>(*tile, region), film,
-                                               static_cast<std::size_t>(tile->pixels()))});
+            in_flight.push_back({*tile, launch(flat_tile<T>(*tile, region), film)});
             if (in_flight.size() < launches_in_flight) continue;
             finish_oldest(queue, in_flight);
             if (since_progress.seconds() < progress_seconds) continue;
@@ -277,7 +313,7 @@ class ClRenderer : public Renderer<T> {
 
     /// Tells the queue of the rays traced since the last time.
     void count_rays(TileQueue& queue) {
-        std::vector<FlatCounts> slots(rounded_up(most_items()));
+        std::vector<FlatCounts> slots(count_slots());
         queue_.enqueueReadBuffer(counts_, CL_TRUE, 0, slots.size() * sizeof(FlatCounts),
                                  slots.data());
         RayCounts total;
@@ -294,10 +330,13 @@ class ClRenderer : public Renderer<T> {
     const ClDevice device_;
     typename Flat<T>::Frame frame_;
     bool launch_samples_ = false;
+    int lanes_ = 1;
+    std::size_t group_ = 1;  ///< work items of a group
     cl::Context context_;
     cl::CommandQueue queue_;
     cl::Kernel render_, resolve_, listed_;
-    cl::Buffer spheres_, triangles_, vertex_normals_, materials_, lights_, counts_, samples_;
+    cl::Buffer spheres_, triangles_, vertex_normals_, materials_, lights_, nodes_, order_, casters_;
+    cl::Buffer counts_, samples_;
     std::uint64_t primary_ = 0;
     RayCounts counted_;
     RendererTimes times_;
@@ -308,6 +347,17 @@ class ClRenderer : public Renderer<T> {
 bool launches_samples(Launch launch, const ClDevice& device) {
     return launch == Launch::sample || (launch == Launch::automatic && !device.is_cpu);
 }
+
+template <typename T>
+int packet_lanes(int asked_for, const ClDevice& device) {
+    if (asked_for != 0) return asked_for;
+    if (!device.is_cpu) return 1;
+    const unsigned native = sizeof(T) == sizeof(float) ? device.float_lanes : device.double_lanes;
+    return static_cast<int>(std::bit_floor(std::clamp(native, 1u, 16u)));
+}
+
+template int packet_lanes<float>(int, const ClDevice&);
+template int packet_lanes<double>(int, const ClDevice&);
 
 template <typename T>
 std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const ClDevice& device,

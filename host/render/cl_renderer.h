@@ -19,8 +19,14 @@ enum class Launch {
 /// Whether a launch on this device has a work item per sample.
 bool launches_samples(Launch launch, const ClDevice& device);
 
+/// Rays of a packet on this device: what was asked for, or (0) its native vector width on CPUs and
+/// one on GPUs, which run a packet's rays side by side themselves.
+template <typename T>
+int packet_lanes(int asked_for, const ClDevice& device);
+
 struct ClOptions {
     Launch launch = Launch::automatic;
+    int lanes = 0;  ///< rays of a packet: 1, 2, 4, 8 or 16; 0: as suits the device
     bool fast_math = false;
     bool will_refine = false;          ///< have the kernel of `refine` ready, too
     bool all_features = false;         ///< compile what the scene does not need, too

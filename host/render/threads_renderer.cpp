@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <atomic>
 
-#include "host/render/memory_limit.h"
-#include "host/render/posix_threads.h"
+#include "host/memory_limit.h"
+#include "host/parallel.h"
 #include "host/render/stopwatch.h"
 #include "host/trace/whitted.h"
 

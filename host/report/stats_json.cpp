@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "host/render/posix_threads.h"
+#include "host/parallel.h"
 #include "host/report/error_json.h"
 #include "host/version.h"
 
@@ -66,6 +66,7 @@ Json device_json(const DeviceStats& device) {
         json["platform"] = device.platform;
         json["driver"] = device.driver;
         json["launch"] = device.launch;
+        json["lanes"] = device.lanes;
     } else {
         json["threads"] = device.threads;
         json["schedule"] = device.schedule;

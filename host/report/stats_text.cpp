@@ -18,7 +18,8 @@ std::string device_text(const DeviceStats& device) {
         return fmt::format("{} thread{}, {}", device.threads, device.threads == 1 ? "" : "s",
                            device.schedule);
     }
-    return fmt::format("{}, per {}", device.name, device.launch);
+    return fmt::format("{}, per {}, {} lane{}", device.name, device.launch, device.lanes,
+                       device.lanes == 1 ? "" : "s");
 }
 
 void add_phase(std::string& text, const char* name, double seconds, const std::string& note = "") {

@@ -76,4 +76,20 @@ bool zero_area(const std::array<glm::dvec3, 3>& corners) {
     return vanishes(0, 1, 2) && vanishes(1, 2, 0) && vanishes(2, 0, 1);
 }
 
+std::optional<AxesMistake> find_axes_mistake(glm::dvec3 from, glm::dvec3 at, glm::dvec3 up) {
+    if (nearly_same_point(from, at)) {
+        return AxesMistake{false, "the camera looks from and at the same point; move one of them"};
+    }
+    const auto view = unit_direction(at - from);
+    const auto up_direction = unit_direction(up);
+    if (!up_direction) {
+        return AxesMistake{true, "up is zero; give the direction that is up in the picture"};
+    }
+    if (nearly_parallel(*view, *up_direction)) {
+        return AxesMistake{
+            true, "up is parallel to the view direction; give an up that leans to the side"};
+    }
+    return std::nullopt;
+}
+
 }  // namespace rt

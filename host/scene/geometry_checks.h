@@ -21,4 +21,12 @@ bool nearly_parallel(glm::dvec3 a, glm::dvec3 b);
 /// place of their coordinates.
 bool zero_area(const std::array<glm::dvec3, 3>& corners);
 
+/// Why from, at and up make no camera.
+struct AxesMistake {
+    bool is_up = false;  ///< up is to blame, not from and at
+    const char* message = "";
+};
+
+std::optional<AxesMistake> find_axes_mistake(glm::dvec3 from, glm::dvec3 at, glm::dvec3 up);
+
 }  // namespace rt

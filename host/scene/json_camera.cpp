@@ -129,17 +129,8 @@ void check_axes(const ObjectReader& reader, const Scene::Camera& camera, Mistake
     const auto place = [&](std::string_view key) {
         return (reader.find(key) ? reader.find(key) : reader.find("at"))->offset;
     };
-    if (nearly_same_point(camera.from, camera.at)) {
-        mistakes.add(place("at"), "the camera looks from and at the same point; move one of them");
-        return;
-    }
-    const auto view = unit_direction(camera.at - camera.from);
-    const auto up = unit_direction(camera.up);
-    if (!up) {
-        mistakes.add(place("up"), "up is zero; give the direction that is up in the picture");
-    } else if (nearly_parallel(*view, *up)) {
-        mistakes.add(place("up"),
-                     "up is parallel to the view direction; give an up that leans to the side");
+    if (const auto mistake = find_axes_mistake(camera.from, camera.at, camera.up)) {
+        mistakes.add(place(mistake->is_up ? "up" : "at"), mistake->message);
     }
 }
 

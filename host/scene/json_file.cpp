@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "host/scene/image_limits.h"
 #include "host/scene/json_camera.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_meshes.h"
@@ -19,13 +20,11 @@
 namespace rt {
 namespace {
 
-constexpr int max_image_side = 65536;
-constexpr int max_image_pixels = 1 << 28;
 constexpr int max_max_bounces = 100000;
 
-constexpr std::string_view scene_keys[] = {"$schema",     "name",       "camera",        "image",
-                                           "max_bounces", "background", "ambient_light", "lights",
-                                           "materials",   "spheres",    "triangles",     "meshes"};
+constexpr std::string_view scene_keys[] = {
+    "$schema", "name",      "camera",  "image", "max_bounces", "background", "ambient_light",
+    "lights",  "materials", "spheres", "cones", "triangles",   "meshes"};
 constexpr std::string_view image_keys[] = {"width", "height", "aa"};
 
 std::optional<AaMode> read_aa(const JsonValue& value, std::string_view name, Mistakes& mistakes) {
@@ -83,6 +82,8 @@ void read_objects(const ObjectReader& reader, const SceneFolder& folder, SceneTe
               [&](const JsonValue& item) { return read_light(item, mistakes); });
     read_list(reader, "spheres", scene.spheres, mistakes,
               [&](const JsonValue& item) { return read_sphere(item, materials, mistakes); });
+    read_list(reader, "cones", scene.cones, mistakes,
+              [&](const JsonValue& item) { return read_cone(item, materials, mistakes); });
     read_list(reader, "triangles", scene.triangles, mistakes,
               [&](const JsonValue& item) { return read_triangle(item, materials, mistakes); });
     read_list(reader, "meshes", text.meshes, mistakes,

@@ -8,8 +8,8 @@
 namespace rt {
 namespace {
 
-constexpr std::string_view keys[] = {"ambient", "diffuse",   "specular",
-                                     "mirror",  "shininess", "two_sided"};
+constexpr std::string_view keys[] = {"ambient",      "diffuse",   "specular", "mirror",
+                                     "transmission", "shininess", "ior",      "two_sided"};
 
 Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
     Scene::Material material;
@@ -19,6 +19,8 @@ Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
     reader.optional("diffuse", material.diffuse, read_colour);
     reader.optional("specular", material.specular, read_colour);
     reader.optional("mirror", material.mirror, read_colour);
+    reader.optional("transmission", material.transmission, read_colour);
+    reader.optional("ior", material.ior, read_positive);
     reader.optional("shininess", material.shininess, read_not_negative);
     reader.optional("two_sided", material.two_sided, read_bool);
     return material;

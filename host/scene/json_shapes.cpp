@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::string_view light_keys[] = {"position", "intensity"};
 constexpr std::string_view sphere_keys[] = {"center", "radius", "material"};
+constexpr std::string_view cone_keys[] = {"base", "base_radius", "apex", "apex_radius", "material"};
 constexpr std::string_view triangle_keys[] = {"vertices", "normals", "material"};
 
 using Corners = std::array<glm::dvec3, 3>;
@@ -69,6 +70,7 @@ Scene::Light read_light(const JsonValue& value, Mistakes& mistakes) {
     const ObjectReader reader(value, "a light", light_keys, mistakes);
     reader.required("position", "\"position\": [x, y, z]", light.position, read_vec3);
     reader.optional("intensity", light.intensity, read_colour);
+    light.has_own_intensity = reader.find("intensity") != nullptr;
     return light;
 }
 
@@ -80,6 +82,28 @@ Scene::Sphere read_sphere(const JsonValue& value, const MaterialTable& materials
     reader.required("radius", "\"radius\": 1", sphere.radius, read_positive);
     read_material_of(reader, materials, sphere.material);
     return sphere;
+}
+
+Scene::Cone read_cone(const JsonValue& value, const MaterialTable& materials, Mistakes& mistakes) {
+    Scene::Cone cone;
+    const ObjectReader reader(value, "a cone", cone_keys, mistakes);
+    const std::size_t before = mistakes.count();
+    reader.required("base", "\"base\": [x, y, z]", cone.base, read_vec3);
+    reader.required("base_radius", "\"base_radius\": 1", cone.base_radius, read_not_negative);
+    reader.required("apex", "\"apex\": [x, y, z]", cone.apex, read_vec3);
+    reader.required("apex_radius", "\"apex_radius\": 0", cone.apex_radius, read_not_negative);
+    if (mistakes.count() == before) {
+        if (nearly_same_point(cone.base, cone.apex)) {
+            mistakes.add(reader.find("apex")->offset,
+                         "apex is the same point as base; move one of them");
+        }
+        if (cone.base_radius == 0 && cone.apex_radius == 0) {
+            mistakes.add(reader.find("base_radius")->offset,
+                         "both radii are 0; make one of them larger");
+        }
+    }
+    read_material_of(reader, materials, cone.material);
+    return cone;
 }
 
 Scene::Triangle read_triangle(const JsonValue& value, const MaterialTable& materials,

@@ -35,6 +35,7 @@ class MaterialTable {
 Scene::Light read_light(const JsonValue& value, Mistakes& mistakes);
 Scene::Sphere read_sphere(const JsonValue& value, const MaterialTable& materials,
                           Mistakes& mistakes);
+Scene::Cone read_cone(const JsonValue& value, const MaterialTable& materials, Mistakes& mistakes);
 Scene::Triangle read_triangle(const JsonValue& value, const MaterialTable& materials,
                               Mistakes& mistakes);
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mesh_builder.h"
 
-#include <algorithm>
-#include <utility>
+#include <fmt/format.h>
 
-#include "host/scene/polygon.h"
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
 
 namespace rt {
 namespace {
@@ -15,6 +17,20 @@ constexpr Face flat_face = {Scene::Mesh::no_normal, Scene::Mesh::no_normal, Scen
 
 Face pick(std::span<const std::uint32_t> items, const Face& which) {
     return {items[which[0]], items[which[1]], items[which[2]]};
+}
+
+/// Whether the diagonal from the first corner parts a quadrilateral well: the triangles on both of
+/// its sides face much the same way, by more than rounding explains. True for most.
+bool parts_well(const std::vector<glm::dvec3>& quad) {
+    const glm::dvec3 diagonal = quad[2] - quad[0];
+    const glm::dvec3 one = glm::cross(quad[1] - quad[0], diagonal);
+    const glm::dvec3 other = glm::cross(diagonal, quad[3] - quad[0]);
+    return glm::dot(one, other) > 0.5 * glm::length(one) * glm::length(other);
+}
+
+void make_fan(std::size_t corners, std::vector<Face>& triangles) {
+    triangles.clear();
+    for (std::uint32_t i = 2; i < corners; ++i) triangles.push_back({0, i - 1, i});
 }
 
 }  // namespace
@@ -41,9 +57,44 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
         add_triangle(face, &face_normals);
     };
     if (corners.size() == 3) return add({0, 1, 2});
+    split(corners);
+    for (const Face& which : parts_) add(which);
+}
+
+/// Sets parts_. What small faces cost is on the house, so that their number does not matter.
+void MeshBuilder::split(std::span<const std::uint32_t> corners) {
     outline_.clear();
     for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
-    for (const Face& which : triangulate(outline_)) add(which);
+    if (corners.size() == 4 && parts_well(outline_)) return make_fan(4, parts_);
+    constexpr std::int64_t work_of_a_corner = 64;
+    work_ = std::min(max_polygon_work,
+                     std::max<std::int64_t>(work_, 0) +
+                         work_of_a_corner * static_cast<std::int64_t>(corners.size()));
+    constexpr double any_bend = std::numeric_limits<double>::infinity();
+    switch (triangulate(outline_, work_, parts_, any_bend)) {
+        case PolygonFault::none:
+            return;
+        case PolygonFault::zero_area:
+            ++zero_areas_;
+            return parts_.clear();
+        case PolygonFault::crosses_itself:
+        case PolygonFault::bent:
+        case PolygonFault::too_intricate:
+            ++fans_;
+            return make_fan(corners.size(), parts_);
+    }
+}
+
+std::vector<std::string> MeshBuilder::notes(const std::string& file_name) const {
+    std::vector<std::string> notes;
+    const auto note = [&](std::size_t count, std::string_view one, std::string_view many) {
+        if (count == 0) return;
+        notes.push_back(fmt::format("{}: {} {}", file_name, count, count == 1 ? one : many));
+    };
+    note(zero_areas_, "polygon without area left out", "polygons without area left out");
+    note(fans_, "polygon crosses itself or is too intricate: it may look wrong",
+         "polygons cross themselves or are too intricate: they may look wrong");
+    return notes;
 }
 
 void MeshBuilder::use_material(int material) {

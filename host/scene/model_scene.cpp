@@ -55,7 +55,8 @@ Scene::Camera framing_camera(const Ball& ball) {
 std::vector<Scene::Light> lamps(const Ball& ball) {
     const glm::dvec3 key = 4.0 * ball.radius * glm::dvec3(-0.5, 1, 1);
     const glm::dvec3 fill = 4.0 * ball.radius * glm::dvec3(1, 0.4, 0.5);
-    return {{ball.center + key, glm::dvec3(0.75)}, {ball.center + fill, glm::dvec3(0.25)}};
+    return {{ball.center + key, glm::dvec3(0.75), false},
+            {ball.center + fill, glm::dvec3(0.25), false}};
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "host/scene/line_scanner.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/obj_materials.h"
-#include "host/scene/polygon.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -75,6 +74,7 @@ class ObjReader {
         if (open) model = materials_.load(open, mistakes_);
         const bool no_materials = model.materials.empty();
         model.mesh = builder_.take();
+        for (std::string& note : builder_.notes(file_name_)) model.notes.push_back(std::move(note));
         if (no_materials) {
             model.mesh.face_materials = {-1};
         } else {
@@ -202,9 +202,9 @@ class ObjReader {
         normals_.clear();
         while (scanner_.word_follows()) {
             if (!read_corner()) return;
-            if (corners_.size() > max_polygon_corners) {
+            if (corners_.size() > max_face_corners) {
                 mistakes_.add(offset, fmt::format("the face has more than {} corners; split it",
-                                                  max_polygon_corners));
+                                                  max_face_corners));
                 return;
             }
         }

@@ -12,7 +12,6 @@
 #include "host/scene/mesh_builder.h"
 #include "host/scene/ply_header.h"
 #include "host/scene/ply_rows.h"
-#include "host/scene/polygon.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -88,6 +87,7 @@ class BodyReader {
         mistakes_.throw_if_any();
         Model model;
         model.mesh = builder_.take();
+        model.notes = builder_.notes(file_name);
         model.mesh.face_materials = {-1};
         if (!model.mesh.normals.empty()) model.mesh.face_normals = model.mesh.faces;
         if (!leftover.empty()) model.notes.push_back(file_name + ": " + leftover);
@@ -200,9 +200,9 @@ class BodyReader {
     bool read_corners(const PlyProperty& list) {
         const auto length = list_length(list);
         if (!length) return false;
-        if (*length < 3 || *length > max_polygon_corners) {
-            rows_.note(fmt::format("the face has {} corners; give it 3 to {}", *length,
-                                   max_polygon_corners));
+        if (*length < 3 || *length > max_face_corners) {
+            rows_.note(
+                fmt::format("the face has {} corners; give it 3 to {}", *length, max_face_corners));
             return rows_.skip(list.type, *length);
         }
         corners_.clear();

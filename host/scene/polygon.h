@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -10,14 +9,28 @@
 
 namespace rt {
 
-/// A polygon of more corners is refused by the readers: the time to cut it up grows with the
-/// square of their number.
-inline constexpr std::size_t max_polygon_corners = 10000;
+enum class PolygonFault {
+    none,
+    zero_area,       ///< all corners lie on one line
+    crosses_itself,  ///< two edges cross, or the boundary folds over
+    bent,            ///< a corner lies further than max_bend off the polygon's plane
+    too_intricate,   ///< the work would exceed the budget
+};
 
-/// Cuts a polygon, convex or not, flat or nearly so, into triangles with the polygon's own
-/// winding (ear clipping; Meisters 1975). Every item holds three indices into `corners`. A simple
-/// polygon of n corners yields n - 2 triangles, fewer where corners lie on one line; one that
-/// crosses itself yields some, and one without area may yield none.
-std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::dvec3> corners);
+/// How far a corner may lie off a polygon's plane, as a share of the polygon's extent, to be taken
+/// for flat.
+inline constexpr double max_polygon_bend = 0.05;
+
+/// Comparisons that triangulating the polygons of a file may take, so that no file takes for ever.
+inline constexpr std::int64_t max_polygon_work = std::int64_t{1} << 28;
+
+/// Splits a polygon, convex or not, into triangles by clipping ears: rows of indices into
+/// `corners`, counterclockwise where the polygon is. Corners may repeat and lie on edges, and an
+/// edge may run along another one, as where a slit joins a hole to the outside. No triangle is of
+/// zero_area. `work` is what is left of the budget; `max_bend` is as max_polygon_bend. `triangles`
+/// is replaced, and holds nothing of use when there is a fault.
+PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
+                         std::vector<std::array<std::uint32_t, 3>>& triangles,
+                         double max_bend = max_polygon_bend);
 
 }  // namespace rt

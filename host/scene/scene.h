@@ -65,6 +65,7 @@ struct Scene {
     struct Light {
         glm::dvec3 position{0};
         glm::dvec3 intensity{1};
+        bool has_own_intensity = true;  ///< false: the file left it open (--light-scale)
     };
 
     struct Sphere {

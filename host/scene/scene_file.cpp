@@ -6,17 +6,39 @@
 
 #include "host/scene/json_file.h"
 #include "host/scene/model_file.h"
+#include "host/scene/nff_file.h"
 
 namespace rt {
 namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// ".nff" of "a/b.NFF".
+std::string ending_of(const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    std::ranges::transform(ending, ending.begin(), lower);
+    return ending;
+}
+
+Scene load(const std::string& path) {
+    const std::string ending = ending_of(path);
+    if (ending == ".nff") return load_nff_scene(path);
+    if (ending == ".obj" || ending == ".ply") return load_model_scene(path);
+    return load_json_scene(path);
+}
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 }  // namespace
 
-Scene load_scene(const std::string& path) {
-    if (is_obj_name(path) || is_ply_name(path)) return load_model_scene(path);
-    return load_json_scene(path);
+Scene load_scene(const std::string& path, const LightOverrides& light) {
+    Scene scene = load(path);
+    if (light.ambient_light) scene.ambient_light = *light.ambient_light;
+    if (!light.light_scale) return scene;
+    for (Scene::Light& of_scene : scene.lights) {
+        if (!of_scene.has_own_intensity) of_scene.intensity = glm::dvec3(*light.light_scale);
+    }
+    return scene;
 }
 
 std::string name_of_file(const std::string& path) {

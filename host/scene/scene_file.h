@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
 #include "host/scene/scene.h"
 
 namespace rt {
 
-/// Reads a scene file in the format that its ending names: .obj and .ply are models alone, all
-/// else is .json. Throws Error: ExitCode::input for a file that is missing, unreadable, not
+/// Light that replaces what a scene file says, or leaves open.
+struct LightOverrides {
+    std::optional<double> light_scale;  ///< intensity of lights that have none of their own
+    std::optional<glm::dvec3> ambient_light;
+};
+
+/// Reads a scene file in the format that its ending names: .nff, a model alone in .obj or
+/// .ply, else .json. Throws Error: ExitCode::input for a file that is missing, unreadable, not
 /// regular, or wrong; ExitCode::limit for one that is too large.
-Scene load_scene(const std::string& path);
+Scene load_scene(const std::string& path, const LightOverrides& light = {});
 
 /// A scene's name where the file gives none: that of the file, without its ending.
 std::string name_of_file(const std::string& path);

@@ -59,6 +59,16 @@ Vec3<T> shear_vertex(const RayShear<T>& shear, const typename Flat<T>::Packed3& 
             std::fma(-shear.sy, z, p[shear.ky] - shear.origin_y), z};
 }
 
+template <typename T>
+T min_of(T a, T b) {
+    return a < b ? a : b;
+}
+
+template <typename T>
+T max_of(T a, T b) {
+    return a > b ? a : b;
+}
+
 /// Distance along the ray to the triangle, or -1; u and v are set on a hit.
 template <typename T>
 T intersect_triangle(const RayShear<T>& shear, const typename Flat<T>::Triangle& triangle, T& u,
@@ -69,7 +79,9 @@ T intersect_triangle(const RayShear<T>& shear, const typename Flat<T>::Triangle&
     const T wa = difference_of_products(c.x, b.y, c.y, b.x);
     const T wb = difference_of_products(a.x, c.y, a.y, c.x);
     const T wc = difference_of_products(b.x, a.y, b.y, a.x);
-    if ((wa < 0 || wb < 0 || wc < 0) && (wa > 0 || wb > 0 || wc > 0)) return T(-1);
+    const bool front = min_of(wa, min_of(wb, wc)) >= T(0);
+    const bool back = max_of(wa, max_of(wb, wc)) <= T(0);
+    if (!front && !back) return T(-1);
     const T determinant = wa + wb + wc;
     if (determinant == T(0)) return T(-1);
     const T inverse = T(1) / determinant;

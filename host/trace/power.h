@@ -62,30 +62,30 @@ T twice_atanh(T z) {
     return std::fma(twice * w, horner(PowerConstants<T>::atanh_tail, w), twice);
 }
 
-/// log(1 - s) for 0 <= s <= 0.2
+/// log(cosine) for 0 < cosine <= 1, subnormal ones included; from gap = 1 - cosine where the cosine
+/// is above 13/16.
 template <typename T>
-T log_one_minus(T s) {
-    return -twice_atanh(s / (T(2) - s));
-}
-
-/// log(x) for 0 < x <= 1, subnormal x included
-template <typename T>
-T log_unit(T x) {
+T log_cosine(T cosine, T gap) {
+    using C = PowerConstants<T>;
     using Index = typename Flat<T>::Index;
-    Index shift = 0;
-    if (x < std::numeric_limits<T>::min()) {
-        shift = Bits<T>::mantissa_bits + 1;
-        x *= power_of_two<T>(shift);
+    T k = 0, above = -gap, below = T(2) - gap;
+    if (!(cosine > T(0.8125))) {
+        Index shift = 0;
+        if (cosine < std::numeric_limits<T>::min()) {
+            shift = Bits<T>::mantissa_bits + 1;
+            cosine *= power_of_two<T>(shift);
+        }
+        Index exponent = exponent_of(cosine) - shift;
+        T m = mantissa_of(cosine);
+        if (m > C::sqrt2) {
+            m *= T(0.5);
+            exponent += 1;
+        }
+        k = T(exponent);
+        above = m - T(1);
+        below = m + T(1);
     }
-    Index exponent = exponent_of(x) - shift;
-    T m = mantissa_of(x);
-    if (m > PowerConstants<T>::sqrt2) {
-        m *= T(0.5);
-        exponent += 1;
-    }
-    const T k = T(exponent);
-    const T log_m = twice_atanh((m - T(1)) / (m + T(1)));
-    return std::fma(k, PowerConstants<T>::ln2_high, std::fma(k, PowerConstants<T>::ln2_low, log_m));
+    return std::fma(k, C::ln2_high, std::fma(k, C::ln2_low, twice_atanh(above / below)));
 }
 
 /// exp(y) for y <= 0; 0 where the result would not be a normal number
@@ -104,8 +104,7 @@ template <typename T>
 T blinn_lobe(T n_dot_h, T half_gap, T exponent) {
     if (exponent == T(0)) return T(1);
     if (!(n_dot_h > T(0))) return T(0);
-    const T log_cosine = n_dot_h > T(0.8125) ? log_one_minus(half_gap) : log_unit(n_dot_h);
-    return exp_negative(exponent * log_cosine);
+    return exp_negative(exponent * log_cosine(n_dot_h, half_gap));
 }
 
 }  // namespace rt::trace

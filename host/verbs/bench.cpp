@@ -8,7 +8,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
-#include "host/render/posix_threads.h"
+#include "host/parallel.h"
 #include "host/render/stopwatch.h"
 #include "host/report/baseline.h"
 #include "host/report/bench_csv.h"
@@ -57,8 +57,10 @@ class Plan {
         }
         for (const std::string& path : paths) {
             const Stopwatch watch;
-            Scene scene = load_scene(path);
-            scenes_.push_back({path, std::move(scene), watch.seconds()});
+            Scene scene = load_scene(path, options.light);
+            const double seconds = watch.seconds();
+            if (!options.quiet) print_notes(scene.notes);
+            scenes_.push_back({path, std::move(scene), seconds});
         }
         say_devices_without_double();
     }

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/console.h"
+#include "host/parallel.h"
 #include "host/render/cl_device.h"
-#include "host/render/posix_threads.h"
 #include "host/report/stats_json.h"
 #include "host/verbs/verbs.h"
 

@@ -7,9 +7,9 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/memory_limit.h"
 #include "host/render/cl_renderer.h"
 #include "host/render/device_spec.h"
-#include "host/render/memory_limit.h"
 #include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "host/report/progress.h"
@@ -106,6 +106,9 @@ class Job {
         if (choice.use_threads && options_.launch != Launch::automatic) {
             say("--launch is for OpenCL devices; threads ignore it");
         }
+        if (choice.use_threads && options_.lanes != 0) {
+            say("--lanes is for OpenCL devices; threads ignore it");
+        }
         if (!choice.use_threads && options_.schedule != Schedule::tiles) {
             say("--schedule is for --device threads; OpenCL devices ignore it");
         }
@@ -123,6 +126,7 @@ class Job {
     void render_on_device(const ClDevice& device) {
         ClOptions cl_options;
         cl_options.launch = options_.launch;
+        cl_options.lanes = options_.lanes;
         cl_options.fast_math = options_.fast_math;
         cl_options.will_refine = stats_.aa.pattern == AaMode::Pattern::adaptive;
         cl_options.all_features = options_.all_features;
@@ -148,6 +152,9 @@ class Job {
         stats_.device.platform = device.platform;
         stats_.device.driver = device.driver;
         stats_.device.launch = launches_samples(options_.launch, device) ? "sample" : "pixel";
+        stats_.device.lanes = options_.precision == Precision::float32
+                                  ? packet_lanes<float>(options_.lanes, device)
+                                  : packet_lanes<double>(options_.lanes, device);
     }
 
     void say_verbose(const std::string& line) const {
@@ -225,6 +232,10 @@ void check_filter(const Scene& scene) {
 }
 
 }  // namespace
+
+void print_notes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) print_message("mirrorball: " + note + "\n");
+}
 
 void apply_overrides(Scene& scene, const RenderOptions& options) {
     if (options.size) set_image_size(scene, options.size->width, options.size->height);

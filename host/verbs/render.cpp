@@ -41,10 +41,6 @@ void print_results(const RenderStats& stats, const RenderOptions& options) {
     if (stats.error) print_result(error_line(*stats.error) + "\n");
 }
 
-void print_notes(const Scene& scene) {
-    for (const std::string& note : scene.notes) print_message("mirrorball: " + note + "\n");
-}
-
 /// Says what is wrong with the values of a picture; whether anything is.
 bool report_non_finite(const RenderedPicture& rendered) {
     const std::size_t count = rendered.stats.non_finite;
@@ -94,8 +90,8 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     const Stopwatch total;
     if (!options.output.empty()) check_picture_path(options.output);
     Stopwatch watch;
-    Scene scene = load_scene(options.scene);
-    if (!options.quiet) print_notes(scene);
+    Scene scene = load_scene(options.scene, options.light);
+    if (!options.quiet) print_notes(scene.notes);
     apply_overrides(scene, options);
     const double load_seconds = watch.lap();
     const std::optional<Picture> reference = load_reference(options, scene);

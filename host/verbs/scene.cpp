@@ -30,6 +30,7 @@ Json info_json(const std::string& path, const Scene& scene, const FlatScene<floa
             {"aa", to_string(scene.aa)},
             {"max_bounces", scene.max_bounces},
             {"spheres", scene.spheres.size()},
+            {"cones", scene.cones.size()},
             {"triangles", scene.triangles.size()},
             {"smooth_triangles", flat.vertex_normals.size()},
             {"meshes", scene.meshes.size()},
@@ -48,11 +49,11 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
         "{}\n"
         "  hash       {}\n"
         "  picture    {}x{} pixels, {}, up to {} mirror bounces\n"
-        "  holds      {} spheres, {} triangles ({} smooth), {} materials, {} lights\n"
+        "  holds      {} spheres, {} cones, {} triangles ({} smooth), {} materials, {} lights\n"
         "  on device  {} bytes in float\n",
         scene.name, hash_text(scene_hash(scene)), scene.width, scene.height, to_string(scene.aa),
-        scene.max_bounces, scene.spheres.size(), scene.triangles.size(), flat.vertex_normals.size(),
-        scene.materials.size(), scene.lights.size(), flat.bytes());
+        scene.max_bounces, scene.spheres.size(), scene.cones.size(), scene.triangles.size(),
+        flat.vertex_normals.size(), scene.materials.size(), scene.lights.size(), flat.bytes());
     if (!scene.meshes.empty()) {
         text += fmt::format("  meshes     {} of {} triangles\n", scene.meshes.size(),
                             triangle_count(scene) - scene.triangles.size());
@@ -70,7 +71,7 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
 }
 
 int show_info(const SceneOptions& options) {
-    const Scene scene = load_scene(options.scene);
+    const Scene scene = load_scene(options.scene, options.light);
     const FlatScene<float> flat = flatten<float>(scene);
     print_result(options.json ? json_text(info_json(options.scene, scene, flat))
                               : info_text(scene, flat));
@@ -91,7 +92,7 @@ Json check_json(const std::string& path, const std::string& mistakes) {
 int check_scene(const SceneOptions& options) {
     std::string mistakes;
     try {
-        flatten<float>(load_scene(options.scene));
+        flatten<float>(load_scene(options.scene, options.light));
     } catch (const Error& error) {
         if (!options.json || error.exit_code() != ExitCode::input) throw;
         mistakes = error.what();

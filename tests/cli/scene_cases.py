@@ -111,6 +111,55 @@ class Mistakes(CliTest):
         self.assert_mistake("[" * 100000, "1:65")
 
 
+class NeutralFileFormat(CliTest):
+    """.nff files; what is wrong in them is tested with the reader."""
+
+    TEXT = ("v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 32 24\n"
+            "l 1 2 3\nf 1 0.5 0.5 0.8 0 1 0 0\ns 0 0 0 1\n")
+
+    def test_info(self):
+        path = self.write_text("ball.NFF", self.TEXT)
+        result = self.run_cli("scene", "info", path, "--json")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        info = json.loads(result.stdout)
+        self.assertEqual((info["name"], info["width"], info["height"]), ("ball", 32, 24))
+        self.assertEqual((info["spheres"], info["cones"], info["max_bounces"]), (1, 0, 4))
+
+    def test_mistakes_have_line_and_column(self):
+        path = self.write_text("bad.nff", self.TEXT + "s 0 0 0 0\nq\n")
+        for verb in [("render", "-o", "out.png"), ("scene", "check"), ("bench", "--repeats", "1"),
+                     ("converge",)]:
+            with self.subTest(verb=verb):
+                result = self.run_cli(*verb, path)
+                self.assert_refused(result, 3, f"{path}:11:9: ", f"{path}:12:1: ", lines=2)
+
+    def test_light_is_half_and_may_be_set(self):
+        path = self.write_text("ball.nff", self.TEXT)
+        plain = self.hash_of(path)
+        self.assertEqual(self.hash_of(path, "--light-scale", "0.5", "--ambient", "0.5"), plain)
+        self.assertEqual(self.hash_of(path, "--ambient", "0.5,0.5,0.5"), plain)
+        self.assertNotEqual(self.hash_of(path, "--light-scale", "1"), plain)
+        self.assertNotEqual(self.hash_of(path, "--ambient", "0"), plain)
+
+    def test_light_scale_leaves_given_intensities_alone(self):
+        light = {"position": [1, 2, 3], "intensity": 0.7}
+        scene = {"materials": {"m": GREY}, "spheres": [{"center": [0, 0, 0], "radius": 1,
+                                                        "material": "m"}]}
+        given = self.write_scene("given.json", lights=[light], **scene)
+        left_open = self.write_scene("open.json", lights=[{"position": [1, 2, 3]}], **scene)
+        size = ["--size", "16"]
+        plain = self.hash_of(given, *size)
+        self.assertEqual(self.hash_of(given, *size, "--light-scale", "0.3"), plain)
+        self.assertEqual(self.hash_of(left_open, *size, "--light-scale", "0.7"), plain)
+
+    def test_cones_are_counted(self):
+        cone = {"base": [0, 0, 0], "base_radius": 1, "apex": [0, 1, 0], "apex_radius": 0,
+                "material": "m"}
+        path = self.write_scene(materials={"m": {"transmission": 0.5, "ior": 1.5}}, cones=[cone])
+        info = json.loads(self.run_cli("scene", "info", path, "--json").stdout)
+        self.assertEqual(info["cones"], 1)
+
+
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 

@@ -23,7 +23,7 @@ class Help(CliTest):
         self.assert_helps("render", "--help", words=[
             "--device", "--size", "--aa", "--max-bounces", "--precision", "--math", "--launch",
             "--schedule", "--threads", "--features", "--crop", "--reference", "--encoding",
-            "--stats", "--progress", "--no-fallback", "--output"])
+            "--stats", "--progress", "--no-fallback", "--output", "--light-scale", "--ambient"])
 
     def test_devices_help(self):
         self.assert_helps("devices", "--help", words=["--json"])
@@ -79,6 +79,16 @@ class WrongOption(CliTest):
 
     def test_size_beyond_an_int_is_too_large_as_well(self):
         self.assert_option_refused("--size", "99999999999", code=7, says=["65536"])
+
+    def test_light_scale_garbage(self):
+        for scale in ["half", "-1", "1,1,1", "1e31", "nan", "1x"]:
+            with self.subTest(scale=scale):
+                self.assert_option_refused(f"--light-scale={scale}", says=["0.5"])
+
+    def test_ambient_garbage(self):
+        for ambient in ["grey", "-1", "1,1", "1,1,1,1", "1,1,-1", "inf", "1,,1"]:
+            with self.subTest(ambient=ambient):
+                self.assert_option_refused(f"--ambient={ambient}", says=["R,G,B"])
 
     def test_aa_garbage(self):
         for aa in ["grid", "grid:", "grid:0", "grid:65", "grid:2x2", "nothing", "grid:-1"]:

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/posix_threads.h"
+#include "host/parallel.h"
 
 #include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <exception>
@@ -84,6 +85,30 @@ void run_on_threads(int count, const std::function<void(int)>& work) {
     join_all(threads);
     for (const Task& task : tasks) {
         if (task.failure) std::rethrow_exception(task.failure);
+    }
+}
+
+void for_each_run(std::size_t count, std::size_t grain, int threads,
+                  const std::function<void(std::size_t, std::size_t)>& work) {
+    const std::size_t runs = (count + grain - 1) / grain;
+    if (runs <= 1 || threads <= 1) {
+        for (std::size_t at = 0; at < count; at += grain) work(at, std::min(at + grain, count));
+        return;
+    }
+    std::vector<std::exception_ptr> failures(runs);
+    std::atomic<std::size_t> next = 0;
+    run_on_threads(static_cast<int>(std::min<std::size_t>(runs, threads)), [&](int) {
+        for (std::size_t run = next++; run < runs; run = next++) {
+            try {
+                work(run * grain, std::min((run + 1) * grain, count));
+            } catch (...) {
+                failures[run] = std::current_exception();
+                next = runs;
+            }
+        }
+    });
+    for (const std::exception_ptr& failure : failures) {
+        if (failure) std::rethrow_exception(failure);
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/memory_limit.h"
+#include "host/memory_limit.h"
 
 #include <fmt/format.h>
 

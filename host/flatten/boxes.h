@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/flatten/bvh.h"
+
+// Boxes that no ray can miss which hits what is in them, by the arithmetic of host/trace: every
+// coordinate is moved out by box_slack half-ulps of the box's largest one. The triangle test works
+// on vertices rounded in the ray's frame, at most 8 half-ulps of |vertex| + |origin| away, and t is
+// rounded once more on top; the origin's share is added to the ray (host/trace/bvh.h).
+namespace rt {
+
+inline constexpr int box_slack = 16;
+
+template <typename T>
+BvhBox<T> box_of(const typename Flat<T>::Sphere& sphere);
+
+template <typename T>
+BvhBox<T> box_of(const typename Flat<T>::Cone& cone);
+
+/// Of the vertices as rounded.
+template <typename T>
+BvhBox<T> box_of(const typename Flat<T>::Packed3& a, const typename Flat<T>::Packed3& b,
+                 const typename Flat<T>::Packed3& c);
+
+}  // namespace rt

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "host/flatten/flat_types.h"
+
+namespace rt {
+
+/// The box of one primitive: a node that holds that primitive, `first`, alone.
+template <typename T>
+using BvhBox = typename Flat<T>::BvhNode;
+
+/// What a ray costs, in tests of one primitive, and where that is not to be asked.
+struct BvhSettings {
+    double inner_cost = 1.0;  ///< of visiting an inner node
+    int most_in_leaf = 8;     ///< at most this many primitives in a leaf
+    int threads = 1;          ///< to build with; the hierarchy does not depend on it
+};
+
+/// How a hierarchy came out.
+struct BvhShape {
+    std::size_t nodes = 0, leaves = 0;
+    int depth = 0;        ///< inner nodes on the longest way down: what a stack must hold
+    double sah_cost = 0;  ///< expected tests of a ray that meets the root, after BvhSettings
+};
+
+/// Builds a hierarchy over the boxes, one or more of them, by the surface-area heuristic, appends
+/// its nodes to `nodes` and returns the place of its root (odd). The boxes are put into the order
+/// of the leaves, whose `first` counts them from 0. At most RT_BVH_STACK deep, whatever the boxes
+/// are, as long as they are finite.
+template <typename T>
+typename Flat<T>::Index build_bvh(std::span<BvhBox<T>> boxes, const BvhSettings& settings,
+                                  std::vector<typename Flat<T>::BvhNode>& nodes);
+
+template <typename T>
+BvhShape shape_of(std::span<const typename Flat<T>::BvhNode> nodes, typename Flat<T>::Index root,
+                  const BvhSettings& settings);
+
+}  // namespace rt

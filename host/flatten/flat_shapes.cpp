@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/flatten/flat_shapes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "host/error.h"
+
+namespace rt {
+
+namespace {
+
+/// Squares of distances must stay finite in T.
+template <typename T>
+constexpr double farthest = sizeof(T) == sizeof(float) ? 0x1p60 : 0x1p500;
+
+/// How far a barycentric point may lie off the plane: 4 u extent + 6 u |vertex| per axis, seen
+/// along the normal (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8.5; measured in
+/// docs/numerics.md).
+template <typename T>
+double barycentric_offset(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                          const glm::dvec3& normal) {
+    const glm::dvec3 low = glm::min(a, glm::min(b, c));
+    const glm::dvec3 high = glm::max(a, glm::max(b, c));
+    const glm::dvec3 largest = glm::max(glm::abs(low), glm::abs(high));
+    const glm::dvec3 error = 4.0 * (high - low) + 6.0 * largest;
+    return static_cast<double>(Flat<T>::roundoff) * glm::dot(glm::abs(normal), error);
+}
+
+}  // namespace
+
+template <typename T>
+typename Flat<T>::Packed3 pack_position(const ViewFrame& view, const glm::dvec3& scene_point) {
+    const glm::dvec3 p = view.to_view(scene_point);
+    if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > farthest<T>) {
+        throw Error(ExitCode::input,
+                    fmt::format("({:g}, {:g}, {:g}) lies more than {:g} times as far away as most "
+                                "of the scene; move it nearer{}",
+                                scene_point.x, scene_point.y, scene_point.z, farthest<T>,
+                                sizeof(T) == sizeof(float) ? ", or use --precision double" : ""));
+    }
+    return pack<T>(p);
+}
+
+template <typename T>
+typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphere& sphere) {
+    typename Flat<T>::Sphere flat{};
+    flat.center = pack_position<T>(view, sphere.center);
+    flat.radius = static_cast<T>(sphere.radius * view.scale);
+    flat.material = sphere.material;
+    return flat;
+}
+
+template <typename T>
+typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& cone) {
+    const glm::dvec3 along = (cone.apex - cone.base) * view.scale;
+    const double length = glm::length(along);
+    pack_position<T>(view, cone.apex);
+    typename Flat<T>::Cone flat{};
+    flat.base = pack_position<T>(view, cone.base);
+    flat.base_radius = static_cast<T>(cone.base_radius * view.scale);
+    flat.axis = pack<T>(along / length);
+    flat.length = static_cast<T>(length);
+    flat.slope = static_cast<T>((cone.apex_radius - cone.base_radius) * view.scale / length);
+    flat.material = cone.material;
+    return flat;
+}
+
+template <typename T>
+typename Flat<T>::Triangle flatten_triangle(const ViewFrame& view,
+                                            const TriangleList::Corners& corners, int material) {
+    const glm::dvec3 a = view.to_view(corners[0]);
+    const glm::dvec3 b = view.to_view(corners[1]);
+    const glm::dvec3 c = view.to_view(corners[2]);
+    const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    typename Flat<T>::Triangle flat{};
+    flat.p0 = pack_position<T>(view, corners[0]);
+    flat.p1 = pack_position<T>(view, corners[1]);
+    flat.p2 = pack_position<T>(view, corners[2]);
+    flat.material = material;
+    flat.smooth = Flat<T>::none;
+    flat.offset = static_cast<T>(barycentric_offset<T>(a, b, c, normal));
+    flat.normal = pack<T>(normal);
+    flat.plane = static_cast<T>(glm::dot(normal, a));
+    return flat;
+}
+
+template <typename T>
+typename Flat<T>::VertexNormals flatten_normals(const TriangleList::Corners& normals) {
+    return {pack<T>(normals[0]), 0, pack<T>(normals[1]), 0, pack<T>(normals[2]), 0};
+}
+
+template Flat<float>::Packed3 pack_position<float>(const ViewFrame&, const glm::dvec3&);
+template Flat<float>::Sphere flatten_sphere<float>(const ViewFrame&, const Scene::Sphere&);
+template Flat<float>::Cone flatten_cone<float>(const ViewFrame&, const Scene::Cone&);
+template Flat<float>::Triangle flatten_triangle<float>(const ViewFrame&,
+                                                       const TriangleList::Corners&, int);
+template Flat<float>::VertexNormals flatten_normals<float>(const TriangleList::Corners&);
+template Flat<double>::Packed3 pack_position<double>(const ViewFrame&, const glm::dvec3&);
+template Flat<double>::Sphere flatten_sphere<double>(const ViewFrame&, const Scene::Sphere&);
+template Flat<double>::Cone flatten_cone<double>(const ViewFrame&, const Scene::Cone&);
+template Flat<double>::Triangle flatten_triangle<double>(const ViewFrame&,
+                                                         const TriangleList::Corners&, int);
+template Flat<double>::VertexNormals flatten_normals<double>(const TriangleList::Corners&);
+
+}  // namespace rt

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "host/flatten/flat_types.h"
+#include "host/flatten/triangle_list.h"
+#include "host/flatten/view_frame.h"
+#include "host/scene/scene.h"
+
+// Primitives one by one, from the author's to the renderer's frame. All arithmetic is in double;
+// rounding to T comes last.
+namespace rt {
+
+template <typename T>
+typename Flat<T>::Packed3 pack(const glm::dvec3& v) {
+    return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
+}
+
+/// Throws Error (ExitCode::input) when the point lies too far away for T.
+template <typename T>
+typename Flat<T>::Packed3 pack_position(const ViewFrame& view, const glm::dvec3& scene_point);
+
+template <typename T>
+typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphere& sphere);
+
+template <typename T>
+typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& cone);
+
+/// A flat triangle.
+template <typename T>
+typename Flat<T>::Triangle flatten_triangle(const ViewFrame& view,
+                                            const TriangleList::Corners& corners, int material);
+
+template <typename T>
+typename Flat<T>::VertexNormals flatten_normals(const TriangleList::Corners& normals);
+
+}  // namespace rt

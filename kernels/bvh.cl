@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The leaves of a bounding volume hierarchy that a packet of rays meets, the nearer ones first.
+//
+// Nothing is ever missed: the host enlarges boxes by 8 half-ulps of their largest coordinate
+// (host/flatten/boxes.cpp) and here they grow by 8 half-ulps of the origin's. That is more than the
+// rounding of the vertices in the rays' frames and of the slab test together (after Ize, Robust BVH
+// Ray Traversal, JCGT 2(2), 2013, whose bound is relative to the distance; with a bound relative to
+// the coordinates a plane's distance may be one fma).
+#ifndef RT_BVH_CL
+#define RT_BVH_CL
+
+#include "kernels/intersect.cl"
+
+typedef struct {
+    real3 inverse;  // of the direction
+    // A box's planes lie at t = plane x inverse + at, of those met first and last.
+    real3 first_at, last_at;
+    bool is_uniform;       // along each axis all rays run the same way; else first_at is of the
+                           // low planes and last_at of the high ones
+    Index low_or_high[3];  // where the planes met first are in a node: 0 for low, 4 for high
+    Index whole;           // primitives of the kind in hand, when it has no hierarchy
+    Index size;            // of the stack
+    Index stack[RT_BVH_STACK];  // nodes to visit
+} Traversal;
+
+// 1 / d, finite: a direction this small does not leave the boxes' margin.
+Reals finite_inverse(Reals d) {
+    Reals least = (Reals)RT_LEAST_DIRECTION;
+    Reals away = d < (Reals)0 ? -least : least;
+    return (Reals)1 / (fabs(d) < least ? away : d);
+}
+
+// Whether v is positive in all live lanes, or in none of them; in all: sets *positive.
+bool is_one_way(Reals v, Mask live, bool* positive) {
+    bool any_positive = any_lane(live & (v > (Reals)0));
+    *positive = any_positive;
+    return !(any_positive & any_lane(live & (v < (Reals)0)));
+}
+
+Traversal begin_traversal(const Ray* ray, Mask live) {
+    Traversal traversal;
+    if (RT_HAS_HIERARCHY) {
+        real3 inverse = make3(finite_inverse(ray->dir.x), finite_inverse(ray->dir.y),
+                              finite_inverse(ray->dir.z));
+        real3 size = abs3(ray->origin);
+        Reals reach = (Reals)((Real)8 * (Real)RT_ROUNDOFF) * max_of(size.x, max_of(size.y, size.z));
+        real3 margin = make3(reach, reach, reach);
+        real3 low_at = negate3(mul3(add3(ray->origin, margin), inverse));
+        real3 high_at = negate3(mul3(sub3(ray->origin, margin), inverse));
+        bool x_up, y_up, z_up;
+        bool x = is_one_way(inverse.x, live, &x_up);
+        bool y = is_one_way(inverse.y, live, &y_up);
+        bool z = is_one_way(inverse.z, live, &z_up);
+        bool uniform = x & y & z;
+        x_up |= !uniform;
+        y_up |= !uniform;
+        z_up |= !uniform;
+        traversal.inverse = inverse;
+        traversal.is_uniform = uniform;
+        traversal.low_or_high[0] = x_up ? 0 : 4;
+        traversal.low_or_high[1] = y_up ? 0 : 4;
+        traversal.low_or_high[2] = z_up ? 0 : 4;
+        traversal.first_at = make3(x_up ? low_at.x : high_at.x, y_up ? low_at.y : high_at.y,
+                                   z_up ? low_at.z : high_at.z);
+        traversal.last_at = make3(x_up ? high_at.x : low_at.x, y_up ? high_at.y : low_at.y,
+                                  z_up ? high_at.z : low_at.z);
+    }
+    return traversal;
+}
+
+// Turns to a kind of primitive: `count` of them under the node `root`, or under none.
+void enter_kind(Traversal* traversal, Index root, Index count) {
+    traversal->whole = count;
+    traversal->size = 1;
+    if (RT_HAS_HIERARCHY) traversal->stack[0] = root;
+}
+
+// Where the rays meet planes of a box; p points at its x.
+real3 plane_distances(__global const Real* p, Index x, Index y, Index z, real3 inverse, real3 at) {
+    return make3(fma((Reals)p[x], inverse.x, at.x), fma((Reals)p[1 + y], inverse.y, at.y),
+                 fma((Reals)p[2 + z], inverse.z, at.z));
+}
+
+// The lanes whose rays meet the box no later than t_max, and where they enter it. The order of the
+// operands is such that a NaN leaves the interval as it is.
+Mask meets_box(const Traversal* traversal, __global const BvhNode* node, Reals t_max,
+               Reals* entry) {
+    __global const Real* p = &node->low.x;
+    const Index x = traversal->low_or_high[0];
+    const Index y = traversal->low_or_high[1];
+    const Index z = traversal->low_or_high[2];
+    real3 enter = plane_distances(p, x, y, z, traversal->inverse, traversal->first_at);
+    real3 leave = plane_distances(p, 4 - x, 4 - y, 4 - z, traversal->inverse, traversal->last_at);
+    if (!traversal->is_uniform) {
+        real3 first = enter;
+        enter = make3(min_of(first.x, leave.x), min_of(first.y, leave.y), min_of(first.z, leave.z));
+        leave = make3(max_of(first.x, leave.x), max_of(first.y, leave.y), max_of(first.z, leave.z));
+    }
+    Reals near = max_of(max_of(enter.x, enter.y), max_of(enter.z, (Reals)0));
+    Reals far = min_of(min_of(leave.x, leave.y), min_of(leave.z, t_max));
+    *entry = near;
+    return near <= far;
+}
+
+// The next node after an inner one whose children start at `first`: the child that some ray meets,
+// of two the nearer one, and the other one goes on the stack. -1 when no ray meets either.
+Index enter_children(Traversal* traversal, __global const BvhNode* nodes, Index first,
+                     Reals t_max) {
+    Reals entry, other_entry;
+    Mask meets = meets_box(traversal, &nodes[first], t_max, &entry);
+    Mask meets_other = meets_box(traversal, &nodes[first + 1], t_max, &other_entry);
+    bool enters = any_lane(meets);
+    bool enters_other = any_lane(meets_other);
+    if (enters & enters_other) {
+        Index nearer = any_lane(meets & meets_other & (other_entry < entry)) ? 1 : 0;
+        traversal->stack[traversal->size++] = first + 1 - nearer;
+        return first + nearer;
+    }
+    if (enters) return first;
+    return enters_other ? first + 1 : -1;
+}
+
+Index pop_node(Traversal* traversal) {
+    if (traversal->size == 0) return -1;
+    traversal->size -= 1;
+    return RT_HAS_HIERARCHY ? traversal->stack[traversal->size] : 0;
+}
+
+// The next primitives that some ray may meet no later than its t_max: first.., before end. False
+// when there are no more.
+bool next_range(Traversal* traversal, __global const BvhNode* nodes, Reals t_max, Index* first,
+                Index* end) {
+    Index place = pop_node(traversal);
+    while (place >= 0) {
+        if (place == 0) {
+            *first = 0;
+            *end = traversal->whole;
+            return true;
+        }
+        __global const BvhNode* node = &nodes[place];
+        if (node->count > 0) {
+            *first = node->first;
+            *end = node->first + node->count;
+            return true;
+        }
+        place = enter_children(traversal, nodes, node->first, t_max);
+        if (place < 0) place = pop_node(traversal);
+    }
+    return false;
+}
+
+#endif

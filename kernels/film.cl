@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Between packets and memory: which pixels of a tile a packet holds, and its colours lane by lane.
+#ifndef RT_FILM_CL
+#define RT_FILM_CL
+
+#include "kernels/packet.cl"
+
+// A packet's lanes one by one.
+typedef union {
+    Reals all;
+    Real lane[RT_LANES];
+} RealLanes;
+
+typedef union {
+    Indices all;
+    Index lane[RT_LANES];
+} IndexLanes;
+
+void store3(__global Real* to, Index at, Real x, Real y, Real z) {
+    to[3 * at] = x;
+    to[3 * at + 1] = y;
+    to[3 * at + 2] = z;
+}
+
+void add_counts(__global RayCounts* counts, size_t slot, RayCounts add) {
+    counts[slot].shadow += add.shadow;
+    counts[slot].mirror += add.mirror;
+}
+
+// Where the lanes of packet number `item` lie in a tile, columns and rows from its upper left
+// corner; live where they lie in it.
+typedef struct {
+    Indices column, row;
+    Mask live;
+} TileLanes;
+
+Index packets_across(const Tile* tile, const Packet* packet) {
+    return (tile->width + packet->width - 1) / packet->width;
+}
+
+TileLanes tile_lanes(const Tile* tile, const Packet* packet, Index item) {
+    Index across = packets_across(tile, packet);
+    Indices down = packet->pixel >> packet->log_width;
+    TileLanes lanes;
+    lanes.column = item % across * packet->width + (packet->pixel & (packet->width - 1));
+    lanes.row = item / across * packet->height + down;
+    lanes.live = (Mask)((lanes.column < tile->width) & (lanes.row < tile->height));
+    return lanes;
+}
+
+// The picture's row, counted from the bottom, of a tile's row.
+Indices picture_y(const Frame* frame, const Tile* tile, Indices row) {
+    return frame->height - 1 - (tile->y + row);
+}
+
+// Stores `count` lanes' colours at their places, where these are not negative.
+void store_lanes(__global Real* to, real3 color, Indices places, Index count) {
+    RealLanes x, y, z;
+    IndexLanes at;
+    x.all = color.x;
+    y.all = color.y;
+    z.all = color.z;
+    at.all = places;
+    for (Index i = 0; i < count; ++i) {
+        if (at.lane[i] >= 0) store3(to, at.lane[i], x.lane[i], y.lane[i], z.lane[i]);
+    }
+}
+
+// The samples at 3 x places of a packet of pixels.
+real3 load_lanes(__global const Real* from, Indices places) {
+    RealLanes x, y, z;
+    IndexLanes at;
+    at.all = places;
+    for (Index i = 0; i < RT_LANES; ++i) {
+        x.lane[i] = from[3 * at.lane[i]];
+        y.lane[i] = from[3 * at.lane[i] + 1];
+        z.lane[i] = from[3 * at.lane[i] + 2];
+    }
+    return make3(x.all, y.all, z.all);
+}
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the surfaces of a packet are made of.
+#ifndef RT_MATERIAL_CL
+#define RT_MATERIAL_CL
+
+#include "kernels/math.cl"
+#include "kernels/scene_view.h"
+
+// The material of every lane (kernels/shared.h).
+typedef struct {
+    real3 ambient, diffuse, specular, mirror;
+    Reals shininess;
+    Indices two_sided;
+} Finish;
+
+Mask is_black(real3 color) {
+    return (color.x == (Reals)0) & (color.y == (Reals)0) & (color.z == (Reals)0);
+}
+
+// The finishes of the live lanes, one material after the other for all the lanes that wear it.
+Finish finish_of(const SceneView* scene, Indices material, Mask live) {
+    const real3 black = make3((Reals)0, (Reals)0, (Reals)0);
+    Finish finish = {black, black, black, black, (Reals)1, (Indices)0};
+    for (Mask left = live; any_lane(left);) {
+        Index one = least_lane(left, material);
+        Mask lanes = left & (material == one);
+        left &= !lanes;
+        __global const Material* worn = &scene->materials[one];
+        finish.ambient = select3(lanes, load3(worn->ambient), finish.ambient);
+        if (RT_HAS_LIGHTS) {
+            finish.diffuse = select3(lanes, load3(worn->diffuse), finish.diffuse);
+            finish.specular = select3(lanes, load3(worn->specular), finish.specular);
+            finish.shininess = lanes ? (Reals)worn->shininess : finish.shininess;
+        }
+        if (RT_HAS_MIRRORS) finish.mirror = select3(lanes, load3(worn->mirror), finish.mirror);
+        finish.two_sided = lanes ? (Indices)worn->two_sided : finish.two_sided;
+    }
+    return finish;
+}
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the lanes of a packet share out pixels and samples: four samples of each pixel where their
+// number allows it, else two, else one, and the pixels in a block as square as can be, so that the
+// rays stay close together. The samples of a pixel are added in their order, whatever the packet,
+// so the sums have the same bits.
+#ifndef RT_PACKET_CL
+#define RT_PACKET_CL
+
+#include "kernels/whitted.cl"
+
+#if RT_LANES == 1
+#define RT_LOG_LANES 0
+#elif RT_LANES == 2
+#define RT_LOG_LANES 1
+#elif RT_LANES == 4
+#define RT_LOG_LANES 2
+#elif RT_LANES == 8
+#define RT_LOG_LANES 3
+#else
+#define RT_LOG_LANES 4
+#endif
+
+typedef struct {
+    Index samples;  // of each pixel
+    Index pixels;   // in a block of width x height
+    Index width, height;
+    Index log_width;
+    Indices pixel, sample;  // each lane's, counted from the packet's first; pixels row by row
+} Packet;
+
+Packet make_packet(Index samples) {
+    Index log_samples = samples % 4 == 0 ? 2 : (samples % 2 == 0 ? 1 : 0);
+    log_samples = log_samples > RT_LOG_LANES ? RT_LOG_LANES : log_samples;
+    Index log_pixels = RT_LOG_LANES - log_samples;
+    Index log_width = (log_pixels + 1) / 2;
+    Packet packet;
+    packet.samples = (Index)1 << log_samples;
+    packet.pixels = (Index)1 << log_pixels;
+    packet.log_width = log_width;
+    packet.width = (Index)1 << log_width;
+    packet.height = (Index)1 << (log_pixels - log_width);
+    packet.pixel = RT_LANE_NUMBERS & (packet.pixels - 1);
+    packet.sample = RT_LANE_NUMBERS >> log_pixels;
+    return packet;
+}
+
+// sum + weight x v of a pixel's first sample, then of its second..; wanted and made in the first
+// lanes, those of the first sample.
+Reals add_samples(Reals sum, Reals weight, Reals v, Index samples) {
+#if RT_LANES >= 4
+    if (samples == 4) {
+        Reals quarter;
+        quarter.lo.lo = fma(weight.lo.lo, v.lo.lo, sum.lo.lo);
+        quarter.lo.lo = fma(weight.lo.hi, v.lo.hi, quarter.lo.lo);
+        quarter.lo.lo = fma(weight.hi.lo, v.hi.lo, quarter.lo.lo);
+        quarter.lo.lo = fma(weight.hi.hi, v.hi.hi, quarter.lo.lo);
+        return quarter;
+    }
+#endif
+#if RT_LANES >= 2
+    if (samples == 2) {
+        Reals half_sum;
+        half_sum.lo = fma(weight.lo, v.lo, sum.lo);
+        half_sum.lo = fma(weight.hi, v.hi, half_sum.lo);
+        return half_sum;
+    }
+#endif
+    return fma(weight, v, sum);
+}
+
+// The pixels (x, y) of a packet, in its first lanes: their samples weighed and averaged.
+real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indices y, Mask live,
+                   RayCounts* counts) {
+    real3 sum = make3((Reals)0, (Reals)0, (Reals)0);
+    Reals total = (Reals)0;
+    for (Index first = 0; first < scene->frame.samples; first += packet->samples) {
+        Indices k = first + packet->sample;
+        PacketCounts used = {(Indices)0, (Indices)0};
+        real3 color = trace_sample(scene, x, y, k, live, &used);
+        Reals weight = sample_weight(&scene->frame, x, y, k);
+        sum.x = add_samples(sum.x, weight, color.x, packet->samples);
+        sum.y = add_samples(sum.y, weight, color.y, packet->samples);
+        sum.z = add_samples(sum.z, weight, color.z, packet->samples);
+        total = add_samples(total, weight, (Reals)1, packet->samples);
+        counts->shadow += (RT_COUNT)sum_lanes(used.shadow);
+        counts->mirror += (RT_COUNT)sum_lanes(used.mirror);
+    }
+    return divide3(sum, total);
+}
+
+#endif

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes Neutral File Format, and counts what it has written."""
+import math
+
+SKY = (0.078, 0.361, 0.753)
+
+
+def numbers(*values):
+    return " ".join(f"{value:.12g}" for value in values)
+
+
+class Writer:
+    """The resolution and angle are those of the databases, unless `corners` asks for the rays of
+    their Readme's table: one through each corner of the 512 x 512 pixels, the centres of 513 x 513.
+    """
+
+    def __init__(self, stream, corners=False):
+        self.stream = stream
+        self.corners = corners
+        self.counts = {"s": 0, "c": 0, "p": 0, "pp": 0}
+
+    def _line(self, *parts):
+        self.stream.write(" ".join(parts) + "\n")
+
+    def view(self, start, at, up=(0.0, 0.0, 1.0), angle=45.0, hither=1.0):
+        side = 512
+        if self.corners:
+            half = math.tan(math.radians(angle / 2)) * (side + 1) / side
+            angle = math.degrees(2 * math.atan(half))
+            side += 1
+        self._line("v")
+        for name, vector in [("from", start), ("at", at), ("up", up)]:
+            self._line(name, numbers(*vector))
+        self._line("angle", numbers(angle))
+        self._line("hither", numbers(hither))
+        self._line("resolution", str(side), str(side))
+
+    def background(self, colour=SKY):
+        self._line("b", numbers(*colour))
+
+    def light(self, position):
+        self._line("l", numbers(*position))
+
+    def fill(self, colour, kd, ks=0.0, half_angle=0.0, t=0.0, ior=0.0):
+        """half_angle: degrees from a highlight's middle to where it has half its strength."""
+        shine = 100000.0
+        if half_angle > 0:
+            shine = math.log(0.5) / math.log(math.cos(math.radians(half_angle)))
+        self._line("f", numbers(*colour, kd, ks, shine, t, ior))
+
+    def sphere(self, center, radius):
+        self.counts["s"] += 1
+        self._line("s", numbers(*center, radius))
+
+    def cone(self, base, base_radius, apex, apex_radius):
+        self.counts["c"] += 1
+        self._line("c")
+        self._line(numbers(*base, base_radius))
+        self._line(numbers(*apex, apex_radius))
+
+    def polygon(self, corners):
+        self.counts["p"] += 1
+        self._line("p", str(len(corners)))
+        for corner in corners:
+            self._line(numbers(*corner))
+
+    def patch(self, corners, normals):
+        self.counts["pp"] += 1
+        self._line("pp", str(len(corners)))
+        for corner, normal in zip(corners, normals):
+            self._line(numbers(*corner, *normal))

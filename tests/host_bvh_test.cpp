@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// host/flatten/bvh: every box in one leaf, boxes inside their parents, the depth bounded and the
+// outcome the same for any number of threads, whatever the boxes are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include "host/flatten/bvh.h"
+#include "tests/test_random.h"
+
+namespace rt {
+namespace {
+
+template <typename T>
+using Boxes = std::vector<BvhBox<T>>;
+
+template <typename T>
+BvhBox<T> box_about(const glm::dvec3& center, double half) {
+    BvhBox<T> box{};
+    box.low = {T(center.x - half), T(center.y - half), T(center.z - half)};
+    box.high = {T(center.x + half), T(center.y + half), T(center.z + half)};
+    return box;
+}
+
+struct Cloud {
+    const char* name;
+    std::size_t count;
+    std::function<glm::dvec3(Random&, double)> center;  ///< of a box at a fraction of the count
+    std::function<double(Random&, double)> half;
+};
+
+const std::vector<Cloud>& clouds() {
+    const auto tiny = [](Random&, double) { return 1e-3; };
+    const auto spread = [](Random& random, double) { return random.in_cube(1); };
+    static const std::vector<Cloud> all{
+        {"one", 1, spread, tiny},
+        {"two", 2, spread, tiny},
+        {"nine", 9, spread, tiny},
+        {"soup", 100000, spread, [](Random& random, double) { return random.uniform(0, 0.02); }},
+        {"coincident", 1000000, [](Random&, double) { return glm::dvec3(1, 2, 3); }, tiny},
+        {"concentric", 100000, [](Random&, double) { return glm::dvec3(0); },
+         [](Random& random, double) { return random.log_uniform(1e-6, 1e6); }},
+        {"collinear", 100000, [](Random&, double at) { return glm::dvec3(at, 0, 0); }, tiny},
+        {"geometric", 20000,
+         [](Random&, double at) { return glm::dvec3(std::exp2(-120 * at), 0, 0); },
+         [](Random&, double at) { return 0.25 * std::exp2(-120 * at); }},
+        {"huge and small", 50000,
+         [](Random& random, double) {
+             return random.log_uniform(1e-8, 1e8) * random.unit_vector();
+         },
+         [](Random& random, double) { return random.log_uniform(1e-9, 1e9); }},
+        {"far limit", 1000, [](Random& random, double) { return 0x1p60 * random.unit_vector(); },
+         [](Random& random, double) { return random.uniform(0, 0x1p60); }},
+        {"points", 1000, spread, [](Random&, double) { return 0.0; }},
+        {"subnormal", 1000, [](Random& random, double) { return 1e-44 * random.in_cube(1); },
+         [](Random&, double) { return 0.0; }},
+        {"twins of two", 4096,
+         [](Random&, double at) { return glm::dvec3(at < 0.5 ? -1 : 1, 0, 0); }, tiny},
+    };
+    return all;
+}
+
+template <typename T>
+Boxes<T> boxes_of(const Cloud& cloud) {
+    Random random(7);
+    Boxes<T> boxes;
+    for (std::size_t i = 0; i < cloud.count; ++i) {
+        const double at = static_cast<double>(i) / static_cast<double>(cloud.count);
+        const glm::dvec3 center = cloud.center(random, at);
+        boxes.push_back(box_about<T>(center, cloud.half(random, at)));
+        boxes.back().first = static_cast<typename Flat<T>::Index>(i);
+    }
+    return boxes;
+}
+
+template <typename T>
+struct Built {
+    Boxes<T> boxes;
+    std::vector<typename Flat<T>::BvhNode> nodes;
+    typename Flat<T>::Index root = 0;
+    BvhSettings settings;
+};
+
+template <typename T>
+Built<T> built(const Boxes<T>& boxes, int threads = 2) {
+    Built<T> result;
+    result.boxes = boxes;
+    result.settings.threads = threads;
+    result.root = build_bvh<T>(result.boxes, result.settings, result.nodes);
+    return result;
+}
+
+template <typename Node>
+bool contains(const Node& outer, const Node& inner) {
+    return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
+           outer.high.x >= inner.high.x && outer.high.y >= inner.high.y &&
+           outer.high.z >= inner.high.z;
+}
+
+/// Walks the hierarchy; every box must be in one leaf and inside all nodes above it.
+template <typename T>
+void expect_sound(const Built<T>& bvh, const Boxes<T>& boxes) {
+    const auto& nodes = bvh.nodes;
+    std::vector<int> seen(boxes.size(), 0);
+    std::vector<std::size_t> stack{static_cast<std::size_t>(bvh.root)};
+    std::size_t misplaced = 0, visited = 0;
+    while (!stack.empty()) {
+        const auto& node = nodes[stack.back()];
+        stack.pop_back();
+        visited += 1;
+        if (node.count == 0) {
+            const auto pair = static_cast<std::size_t>(node.first);
+            ASSERT_EQ(pair % 2, 0u);
+            ASSERT_LT(pair + 1, nodes.size());
+            for (const std::size_t child : {pair, pair + 1}) {
+                misplaced += contains(node, nodes[child]) ? 0 : 1;
+                stack.push_back(child);
+            }
+            continue;
+        }
+        ASSERT_LE(node.count, bvh.settings.most_in_leaf);
+        for (auto i = node.first; i < node.first + node.count; ++i) {
+            const auto listed =
+                static_cast<std::size_t>(bvh.boxes[static_cast<std::size_t>(i)].first);
+            seen[listed] += 1;
+            misplaced += contains(node, boxes[listed]) ? 0 : 1;
+        }
+    }
+    EXPECT_EQ(misplaced, 0u);
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
+    EXPECT_EQ(visited + 1, nodes.size());  // all but node 0
+}
+
+template <typename T>
+class BuildBvh : public testing::Test {};
+using Precisions = testing::Types<float, double>;
+TYPED_TEST_SUITE(BuildBvh, Precisions);
+
+TYPED_TEST(BuildBvh, HoldsEveryBoxOnceAndIsBounded) {
+    for (const Cloud& cloud : clouds()) {
+        SCOPED_TRACE(cloud.name);
+        const auto boxes = boxes_of<TypeParam>(cloud);
+        const auto bvh = built<TypeParam>(boxes);
+        EXPECT_EQ(bvh.root, 1);
+        expect_sound<TypeParam>(bvh, boxes);
+        const BvhShape shape = shape_of<TypeParam>(bvh.nodes, bvh.root, bvh.settings);
+        EXPECT_LE(shape.depth, f32::RT_BVH_STACK);
+        EXPECT_EQ(shape.nodes, 2 * shape.leaves - 1);
+    }
+}
+
+TYPED_TEST(BuildBvh, DoesNotDependOnTheNumberOfThreads) {
+    for (const Cloud& cloud : clouds()) {
+        SCOPED_TRACE(cloud.name);
+        const auto boxes = boxes_of<TypeParam>(cloud);
+        const auto one = built<TypeParam>(boxes, 1);
+        for (const int threads : {2, 7}) {
+            const auto more = built<TypeParam>(boxes, threads);
+            ASSERT_EQ(more.nodes.size(), one.nodes.size());
+            EXPECT_EQ(std::memcmp(more.nodes.data(), one.nodes.data(),
+                                  one.nodes.size() * sizeof(one.nodes[0])),
+                      0);
+            EXPECT_EQ(std::memcmp(more.boxes.data(), one.boxes.data(),
+                                  one.boxes.size() * sizeof(one.boxes[0])),
+                      0);
+        }
+    }
+}
+
+TYPED_TEST(BuildBvh, PutsSeveralHierarchiesIntoOneArray) {
+    const auto small = boxes_of<TypeParam>(clouds()[2]);
+    std::vector<typename Flat<TypeParam>::BvhNode> nodes;
+    for (int i = 0; i < 3; ++i) {
+        Boxes<TypeParam> boxes = small;
+        const auto root = build_bvh<TypeParam>(boxes, {}, nodes);
+        EXPECT_EQ(root % 2, 1);
+        const BvhShape shape = shape_of<TypeParam>(nodes, root, {});
+        EXPECT_EQ(root + static_cast<decltype(root)>(shape.nodes),
+                  static_cast<decltype(root)>(nodes.size()));
+    }
+}
+
+TYPED_TEST(BuildBvh, BeatsHalvingOnASoup) {
+    const auto boxes = boxes_of<TypeParam>(clouds()[3]);
+    const auto bvh = built<TypeParam>(boxes);
+    const BvhShape shape = shape_of<TypeParam>(bvh.nodes, bvh.root, bvh.settings);
+    EXPECT_LT(shape.sah_cost, 200);
+    EXPECT_LT(shape.depth, 40);
+}
+
+}  // namespace
+}  // namespace rt

@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes written by scripts/spd and scripts/generate. Usage: spd_test.py BUILD_DIR REPO_ROOT"""
+import json
+import math
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+BUILD, REPO = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+
+# The table "Database Analysis" in the Readme of SPD 3.14, and the heads of its programs.
+USUAL = {
+    "balls": (4, {"s": 7381, "p": 1}, 3),
+    "gears": (4, {"p": 9345}, 5),
+    "mount": (6, {"s": 4, "p": 8192}, 1),
+    "rings": (7, {"s": 4200, "c": 4200, "p": 1}, 3),
+    "teapot": (12, {"pp": 9120, "p": 144}, 2),
+    "tetra": (6, {"p": 4096}, 1),
+    "tree": (11, {"s": 4095, "c": 4095, "p": 1}, 7),
+}
+TOTAL = {"balls": 7382, "gears": 9345, "mount": 8196, "rings": 8401, "teapot": 9264,
+         "tetra": 4096, "tree": 8191}
+SMALL = {
+    "balls": {1: {"s": 10, "p": 1}, 2: {"s": 91, "p": 1}, 3: {"s": 820, "p": 1}},
+    "gears": {1: {"p": 147}, 2: {"p": 1169}, 3: {"p": 3943}},
+    "mount": {1: {"s": 4, "p": 8}, 2: {"s": 4, "p": 32}, 3: {"s": 4, "p": 128}},
+    "rings": {1: {"s": 30, "c": 30, "p": 1}, 2: {"s": 150, "c": 150, "p": 1}},
+    "teapot": {1: {"pp": 56, "p": 1}, 2: {"pp": 240, "p": 4}, 3: {"pp": 552, "p": 9}},
+    "tetra": {1: {"p": 4}, 2: {"p": 16}, 3: {"p": 64}},
+    "tree": {1: {"s": 3, "c": 3, "p": 1}, 2: {"s": 7, "c": 7, "p": 1}, 3: {"s": 15, "c": 15, "p": 1}},
+}
+# All but grounds and walls lies in these boxes.
+BOXES = {
+    "balls": ((-1, -1, -1), (1, 1, 1)),
+    "gears": ((-1, -1, 0), (1, 1, 1)),
+    "mount": ((-1.2, -1, -1), (1, 1.2, 1.5)),
+    "rings": ((-7, 0, -7), (7, 7 * 2.62 + 1, 7)),
+    "teapot": ((-4, -4, -0.01), (4, 4, 3.2)),
+    "tetra": ((-1, -1, -1), (1, 1, 1)),
+    "tree": ((-2.5, -2.5, 0), (2.5, 2.5, 3.25)),
+}
+
+
+def run(*arguments):
+    return subprocess.run([str(a) for a in arguments], capture_output=True, text=True, check=False)
+
+
+def written(name, *options):
+    result = run(sys.executable, REPO / "scripts/spd/spd.py", name, *options)
+    if result.returncode != 0:
+        raise AssertionError(result.stderr)
+    return result.stdout
+
+
+def entities(text):
+    """(letter, numbers) of every entity but the view; the view's parts by their names."""
+    found, words = [], []
+    for line in text.splitlines():
+        parts = line.split("#")[0].split()
+        if not parts:
+            continue
+        if parts[0][0].isalpha():
+            words = []
+            found.append((parts[0], words))
+            parts = parts[1:]
+        words.extend(float(p) for p in parts)
+    return found
+
+
+def counts(text):
+    result = {}
+    for letter, _ in entities(text):
+        if letter in ("s", "c", "p", "pp"):
+            result[letter] = result.get(letter, 0) + 1
+    return result
+
+
+def points(text):
+    """Every vertex and every sphere's middle, less polygons that reach far: ground and walls."""
+    for letter, numbers in entities(text):
+        if letter == "s":
+            yield numbers[:3]
+        elif letter == "c":
+            yield numbers[:3]
+            yield numbers[4:7]
+        elif letter in ("p", "pp"):
+            step = 3 if letter == "p" else 6
+            corners = [numbers[i:i + 3] for i in range(1, len(numbers), step)]
+            if letter == "pp" or max(math.dist(corners[0], c) for c in corners) < 3:
+                yield from corners
+
+
+class Databases(unittest.TestCase):
+    def test_counts_are_the_published_ones(self):
+        for name, sizes in SMALL.items():
+            for size, expected in sizes.items():
+                with self.subTest(name=name, size=size):
+                    self.assertEqual(counts(written(name, "--size", size)), expected)
+
+    def test_usual_sizes(self):
+        for name, (_, expected, lights) in USUAL.items():
+            with self.subTest(name=name):
+                text = written(name)
+                self.assertEqual(counts(text), expected)
+                self.assertEqual(sum(expected.values()), TOTAL[name])
+                self.assertEqual(sum(letter == "l" for letter, _ in entities(text)), lights)
+                self.assert_accepted(name, text)
+
+    def test_all_sizes_are_read(self):
+        for name, sizes in SMALL.items():
+            for size in sizes:
+                with self.subTest(name=name, size=size):
+                    self.assert_accepted(name, written(name, "--size", size))
+
+    def assert_accepted(self, name, text):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, f"{name}.nff")
+            path.write_text(text, encoding="utf-8")
+            check = run(BUILD / "mirrorball", "scene", "check", path)
+            self.assertEqual((check.returncode, check.stderr), (0, ""))
+            info = json.loads(run(BUILD / "mirrorball", "scene", "info", path, "--json").stdout)
+        expected = counts(text)
+        self.assertEqual(info["spheres"], expected.get("s", 0))
+        self.assertEqual(info["cones"], expected.get("c", 0))
+        polygons = expected.get("p", 0) + expected.get("pp", 0)
+        degenerate = 3 if polygons == 57 else 0  # of the teapot's, size 1
+        self.assertGreaterEqual(info["triangles"], polygons - degenerate)
+        self.assertEqual((info["width"], info["max_bounces"]), (512, 4))
+
+    def test_everything_lies_where_it_should(self):
+        for name, (low, high) in BOXES.items():
+            with self.subTest(name=name):
+                for point in points(written(name)):
+                    for axis in range(3):
+                        self.assertGreaterEqual(point[axis], low[axis] - 1e-9, point)
+                        self.assertLessEqual(point[axis], high[axis] + 1e-9, point)
+
+    def test_cameras_look_at_the_things_from_outside(self):
+        for name, (low, high) in BOXES.items():
+            with self.subTest(name=name):
+                view = dict((k, v) for k, v in entities(written(name, "--size", 2)) if len(k) > 1)
+                self.assertEqual(view["angle"], [45])
+                start, at = view["from"], view["at"]
+                self.assertTrue(any(not low[i] <= start[i] <= high[i] for i in range(3)))
+                middle = [(a + b) / 2 - s for a, b, s in zip(low, high, start)]
+                ahead = sum(m * (t - s) for m, t, s in zip(middle, at, start))
+                self.assertGreater(ahead, 0)
+
+    def test_polygons_are_flat(self):
+        for letter, numbers in entities(written("gears", "--size", 2)):
+            if letter == "p" and numbers[0] > 4:
+                self.assertEqual(len({round(z, 9) for z in numbers[3::3]}), 1)
+
+    def test_corner_rays_are_those_of_513_pixels(self):
+        text = written("tetra", "--size", 1, "--corners")
+        view = dict(entities(text))
+        self.assertEqual(view["resolution"], [513, 513])
+        half = math.tan(math.radians(view["angle"][0] / 2))
+        self.assertAlmostEqual(half * 512 / 513, math.tan(math.radians(22.5)))
+
+
+class Generated(unittest.TestCase):
+    def generate(self, folder, name, size):
+        path = pathlib.Path(folder, f"{name}.json")
+        result = run(sys.executable, REPO / "scripts/generate/generate.py", name, size, "-o", path)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return path
+
+    def test_balls_are_as_many_as_they_should_be(self):
+        for name, size, spheres in [("sphere-flake", 3, 820), ("mirror-lattice", 7, 343)]:
+            with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:
+                path = self.generate(folder, name, size)
+                info = json.loads(run(BUILD / "mirrorball", "scene", "info", path, "--json").stdout)
+                self.assertEqual(info["spheres"], spheres)
+
+    def test_mesh_is_closed_and_has_as_many_triangles_as_asked_for(self):
+        for triangles in [18, 1000, 20000]:
+            with self.subTest(triangles=triangles), tempfile.TemporaryDirectory() as folder:
+                path = self.generate(folder, "bumpy-mesh", triangles)
+                meshes = json.loads(path.read_text(encoding="utf-8"))["meshes"]
+                self.assertEqual([mesh["file"] for mesh in meshes], ["bumpy-mesh.ply"])
+                self.assert_closed(path.with_suffix(".ply").read_bytes(), triangles)
+
+    def assert_closed(self, ply, triangles):
+        head, body = ply.split(b"end_header\n", 1)
+        self.assertIn(f"element face {triangles}\n".encode(), head)
+        vertices = triangles // 2
+        self.assertEqual(len(body), 12 * vertices + 13 * triangles)
+        edges = set()
+        for corners, a, b, c in struct.iter_unpack("<Biii", body[12 * vertices:]):
+            self.assertEqual(corners, 3)
+            edges |= {(a, b), (b, c), (c, a)}
+        self.assertEqual(len(edges), 3 * triangles)
+        self.assertEqual({(b, a) for a, b in edges}, edges)
+        self.assertLess(max(a for a, _ in edges), vertices)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
