@@ -24,6 +24,8 @@ int run(int argc, char** argv, double seconds_before_main) {
             return rt::run_bench(options.bench);
         case rt::Verb::converge:
             return rt::run_converge(options.converge);
+        case rt::Verb::stress:
+            return rt::run_stress(options.stress);
         case rt::Verb::report:
             return rt::run_report(options.report);
         case rt::Verb::devices:

@@ -2,11 +2,11 @@
 //
 // The leaves of a bounding volume hierarchy that a packet of rays meets, the nearer ones first.
 //
-// Nothing is ever missed: the host enlarges boxes by 8 half-ulps of their largest coordinate
-// (host/flatten/boxes.cpp) and here they grow by 8 half-ulps of the origin's. That is more than the
-// rounding of the vertices in the rays' frames and of the slab test together (after Ize, Robust BVH
-// Ray Traversal, JCGT 2(2), 2013, whose bound is relative to the distance; with a bound relative to
-// the coordinates a plane's distance may be one fma).
+// Nothing is ever missed: the host enlarges boxes by 16 half-ulps of their largest coordinate
+// (host/flatten/boxes.cpp) and here they grow by 16 half-ulps of the origin's. That is more than
+// the rounding of the vertices in the rays' frames and of the slab test together (after Ize, Robust
+// BVH Ray Traversal, JCGT 2(2), 2013, whose bound is relative to the distance; with a bound
+// relative to the coordinates a plane's distance may be one fma).
 #ifndef RT_BVH_CL
 #define RT_BVH_CL
 
@@ -44,7 +44,8 @@ Traversal begin_traversal(const Ray* ray, Mask live) {
         real3 inverse = make3(finite_inverse(ray->dir.x), finite_inverse(ray->dir.y),
                               finite_inverse(ray->dir.z));
         real3 size = abs3(ray->origin);
-        Reals reach = (Reals)((Real)8 * (Real)RT_ROUNDOFF) * max_of(size.x, max_of(size.y, size.z));
+        Reals reach =
+            (Reals)((Real)16 * (Real)RT_ROUNDOFF) * max_of(size.x, max_of(size.y, size.z));
         real3 margin = make3(reach, reach, reach);
         real3 low_at = negate3(mul3(add3(ray->origin, margin), inverse));
         real3 high_at = negate3(mul3(sub3(ray->origin, margin), inverse));

@@ -147,7 +147,7 @@ TYPED_TEST(BuildBvh, HoldsEveryBoxOnceAndIsBounded) {
         EXPECT_EQ(bvh.root, 1);
         expect_sound<TypeParam>(bvh, boxes);
         const BvhShape shape = shape_of<TypeParam>(bvh.nodes, bvh.root, bvh.settings);
-        EXPECT_LE(shape.depth, f32::RT_BVH_STACK);
+        EXPECT_LE(shape.depth, max_bvh_depth);
         EXPECT_EQ(shape.nodes, 2 * shape.leaves - 1);
     }
 }
@@ -187,7 +187,7 @@ TYPED_TEST(BuildBvh, BeatsHalvingOnASoup) {
     const auto boxes = boxes_of<TypeParam>(clouds()[3]);
     const auto bvh = built<TypeParam>(boxes);
     const BvhShape shape = shape_of<TypeParam>(bvh.nodes, bvh.root, bvh.settings);
-    EXPECT_LT(shape.sah_cost, 200);
+    EXPECT_LT(shape.sah_cost, 250);
     EXPECT_LT(shape.depth, 40);
 }
 

@@ -16,11 +16,10 @@ using Index = typename Flat<T>::Index;
 
 template <typename T>
 trace::SceneView<T> view(const FlatScene<T>& scene) {
-    return {scene.spheres.data(),   scene.triangles.data(), scene.vertex_normals.data(),
-            scene.materials.data(), scene.lights.data(),    scene.frame};
+    return trace::view_of(scene);
 }
 
-/// Sets the frame's counts.
+/// Sets the frame's counts; all triangles cast shadows.
 template <typename T>
 void count_primitives(FlatScene<T>& scene) {
     scene.frame.sphere_count = static_cast<Index<T>>(scene.spheres.size());

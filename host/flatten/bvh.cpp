@@ -303,7 +303,7 @@ class Builder {
         if (range.count() == 1) return {};
         const bool fits = range.count() <= static_cast<std::size_t>(settings_.most_in_leaf);
         const int halvings = std::bit_width(range.count());
-        const bool too_deep = range.depth + halvings >= f32::RT_BVH_STACK;
+        const bool too_deep = range.depth + halvings >= max_bvh_depth;
         const Vector<T> size = range.bounds.high - range.bounds.low;
         const T scale = T(1) / std::max({size[0], size[1], size[2]});
         if (too_deep || !std::isfinite(scale)) {

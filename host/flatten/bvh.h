@@ -15,15 +15,19 @@ using BvhBox = typename Flat<T>::BvhNode;
 
 /// What a ray costs, in tests of one primitive, and where that is not to be asked.
 struct BvhSettings {
-    double inner_cost = 1.0;  ///< of visiting an inner node
-    int most_in_leaf = 8;     ///< at most this many primitives in a leaf
-    int threads = 1;          ///< to build with; the hierarchy does not depend on it
+    double inner_cost = 1.25;  ///< of visiting an inner node
+    int most_in_leaf = 8;      ///< at most this many primitives in a leaf
+    int threads = 1;           ///< to build with; the hierarchy does not depend on it
 };
+
+/// Inner nodes from a root down to any leaf, at most. A traversal that puts both children on its
+/// stack, the nearer on top, has one node more there than it has gone down.
+inline constexpr int max_bvh_depth = f32::RT_BVH_STACK - 2;
 
 /// How a hierarchy came out.
 struct BvhShape {
     std::size_t nodes = 0, leaves = 0;
-    int depth = 0;        ///< inner nodes on the longest way down: what a stack must hold
+    int depth = 0;        ///< inner nodes on the longest way down
     double sah_cost = 0;  ///< expected tests of a ray that meets the root, after BvhSettings
 };
 

@@ -306,6 +306,8 @@ class Flattener {
                 list_casters(light.position, flat);
             }
             flat_.lights.push_back(flat);
+            flat_.stats.casters += static_cast<std::uint64_t>(flat.caster_count);
+            flat_.stats.lit_triangles += flat_.triangles.size();
         }
     }
 

@@ -45,6 +45,7 @@ Options parse_options(int argc, const char* const* argv) {
     add_compare(app, options);
     add_bench(app, options);
     add_converge(app, options);
+    add_stress(app, options);
     add_report(app, options);
     add_devices(app, options);
     add_scene(app, options);

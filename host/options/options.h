@@ -8,6 +8,7 @@
 #include "host/options/converge_options.h"
 #include "host/options/render_options.h"
 #include "host/options/report_options.h"
+#include "host/options/stress_options.h"
 
 namespace rt {
 
@@ -24,7 +25,7 @@ struct SceneOptions {
     bool json = false;
 };
 
-enum class Verb { none, render, bench, converge, devices, scene, compare, report };
+enum class Verb { none, render, bench, converge, devices, scene, compare, report, stress };
 
 struct Options {
     Verb verb = Verb::none;
@@ -33,6 +34,7 @@ struct Options {
     ConvergeOptions converge;
     CompareOptions compare;
     ReportOptions report;
+    StressOptions stress;
     DevicesOptions devices;
     SceneOptions scene;
     std::string text;  ///< help or version, to be printed instead of doing anything

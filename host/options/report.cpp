@@ -26,6 +26,8 @@ void add_report(CLI::App& app, Options& options) {
               "timed rounds after the warm-up, at least 5 (default 5)");
     verb.add_flag("--quick", report.quick,
                   "fewer settings and a coarser reference: to see the page, not to quote it");
+    verb.add_flag("--stress", report.stress,
+                  "also the stress suite, minutes more (with --quick: its quick part)");
     verb.add_flag("-q,--quiet", report.quiet, "no progress on stderr");
     verb.callback([&] {
         options.report.cache_folder = options.converge.cache_folder;

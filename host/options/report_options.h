@@ -15,8 +15,9 @@ struct ReportOptions {
     std::string output;               ///< the page
     std::optional<PictureSize> size;  ///< default: the scene's
     std::vector<std::string> devices{"all"};
-    int repeats = 5;     ///< without the warm-up
-    bool quick = false;  ///< fewer settings and a coarser reference: to see the page, not to quote
+    int repeats = 5;      ///< without the warm-up
+    bool quick = false;   ///< fewer settings and a coarser reference: to see the page, not to quote
+    bool stress = false;  ///< with the stress suite
     std::string cache_folder;  ///< of converged references; empty: none
     bool quiet = false;
 };

@@ -13,6 +13,7 @@ void add_render(CLI::App& app, Options& options);
 void add_compare(CLI::App& app, Options& options);
 void add_bench(CLI::App& app, Options& options);
 void add_converge(CLI::App& app, Options& options);
+void add_stress(CLI::App& app, Options& options);
 void add_report(CLI::App& app, Options& options);
 void add_devices(CLI::App& app, Options& options);
 void add_scene(CLI::App& app, Options& options);

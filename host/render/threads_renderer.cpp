@@ -14,12 +14,6 @@ namespace rt {
 namespace {
 
 template <typename T>
-trace::SceneView<T> view_of(const FlatScene<T>& scene) {
-    return {scene.spheres.data(),   scene.triangles.data(), scene.vertex_normals.data(),
-            scene.materials.data(), scene.lights.data(),    scene.frame};
-}
-
-template <typename T>
 void store3(std::vector<T>& rgb, typename Flat<T>::Index pixel, const Vec3<T>& color) {
     const std::size_t at = 3 * static_cast<std::size_t>(pixel);
     rgb[at] = color.x;
@@ -114,7 +108,7 @@ class ThreadsRenderer : public Renderer<T> {
     void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
                 const Rect& region, Film<T>& film) override {
         const Stopwatch watch;
-        trace::SceneView<T> view = view_of(scene_);
+        trace::SceneView<T> view = trace::view_of(scene_);
         view.frame.grid = grid;
         view.frame.samples = grid * grid;
         std::atomic<std::size_t> next = 0;
@@ -137,7 +131,7 @@ class ThreadsRenderer : public Renderer<T> {
 
     void render_tiles(TileQueue& queue, const Rect& region, Film<T>& film) {
         const Stopwatch watch;
-        const trace::SceneView<T> view = view_of(scene_);
+        const trace::SceneView<T> view = trace::view_of(scene_);
         run_on_threads(thread_count(options_, samples()), [&](int) {
             while (const auto tile = queue.next()) {
                 queue.add_rays(render_pixels<T>(view, flat_tile<T>(*tile, region), film.rgb));
@@ -150,7 +144,7 @@ class ThreadsRenderer : public Renderer<T> {
     /// The paper's schedule. A tile is finished once every buffer has it.
     void render_buffers(TileQueue& queue, const Rect& region, Film<T>& film) {
         Stopwatch watch;
-        const trace::SceneView<T> view = view_of(scene_);
+        const trace::SceneView<T> view = trace::view_of(scene_);
         check_memory(static_cast<std::uint64_t>(samples()) * film.rgb.size() * sizeof(T),
                      "a buffer for each sample", "use --schedule tiles or fewer samples");
         std::vector<std::vector<T>> buffers(static_cast<std::size_t>(samples()),

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/flatten/features.h"
+#include "host/flatten/flat_scene.h"
 #include "host/render/renderer.h"
 #include "host/report/image_error.h"
 #include "host/scene/aa_mode.h"
@@ -32,6 +33,7 @@ struct SceneStats {
     std::uint64_t hash = 0;
     std::size_t spheres = 0, triangles = 0, smooth_triangles = 0, lights = 0, materials = 0;
     std::size_t bytes = 0;  ///< flattened
+    FlattenStats flatten;
 };
 
 /// Wall-clock seconds. Set-up, as the paper counts it, is all before `trace`; `resolve_and_write`

@@ -10,6 +10,7 @@
 #include "host/report/bench_result.h"
 #include "host/report/converge_result.h"
 #include "host/report/render_stats.h"
+#include "host/stress/stress_result.h"
 
 namespace rt {
 
@@ -39,6 +40,7 @@ struct ReportScene {
 /// All that the page tells.
 struct Report {
     std::vector<ReportScene> scenes;
+    std::optional<StressResult> stress;  ///< where --stress asked for it
     nlohmann::ordered_json environment;
     std::vector<std::string> commands;  ///< that make this page, and its parts, again
     std::string date;                   ///< of the machine's clock, for people

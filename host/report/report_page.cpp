@@ -13,6 +13,7 @@
 #include "host/report/report_style.h"
 #include "host/report/run_json.h"
 #include "host/report/stats_json.h"
+#include "host/report/stress_json.h"
 
 namespace rt {
 
@@ -133,6 +134,7 @@ std::string navigation(const Report& report) {
         html += fmt::format("<li><a href=\"#scene-{}\">{}</a></li>\n", i,
                             html_text(scene_name(report.scenes[i])));
     }
+    if (report.stress) html += "<li><a href=\"#stress\">Numerical stability</a></li>\n";
     return html +
            "<li><a href=\"#machine\">Environment</a></li>\n"
            "<li><a href=\"#commands\">Make it again</a></li>\n"
@@ -163,6 +165,7 @@ std::string data_html(const Report& report) {
         if (scene.trial)
             html += json_block(fmt::format("features-{}", i), trial_json(*scene.trial));
     }
+    if (report.stress) html += json_block("stress", stress_json(*report.stress));
     return html;
 }
 
@@ -175,6 +178,7 @@ std::string report_page(const Report& report) {
                        "measured on one machine in one go.</p>\n" +
                        navigation(report) + "</header>\n<main>\n";
     for (std::size_t i = 0; i < report.scenes.size(); ++i) html += scene_html(report, i);
+    if (report.stress) html += stress_section(*report.stress);
     return html + environment_html(report) + commands_html(report) + data_html(report) +
            "</main>\n<footer>Made by " + html_text(text_of(report.environment["program"])) + ", " +
            html_text(report.date) +

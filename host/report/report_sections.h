@@ -22,4 +22,7 @@ std::string error_time_section(const ReportScene& scene, std::size_t index);
 /// Features used and left out, and what leaving them out saved.
 std::string features_section(const ReportScene& scene, std::size_t index);
 
+/// Verdicts of the stress suite, and error against the parameter of its families.
+std::string stress_section(const StressResult& result);
+
 }  // namespace rt

@@ -7,6 +7,7 @@
 
 #include "host/parallel.h"
 #include "host/report/error_json.h"
+#include "host/report/flatten_text.h"
 #include "host/version.h"
 
 namespace rt {
@@ -43,6 +44,10 @@ Json scene_json(const RenderStats& stats) {
             {"lights", stats.scene.lights},
             {"materials", stats.scene.materials},
             {"flat_bytes", stats.scene.bytes},
+            {"hierarchies", hierarchies_json(stats.scene.flatten)},
+            {"hierarchy_seconds", stats.scene.flatten.bvh_seconds},
+            {"shadow_casters", stats.scene.flatten.casters},
+            {"lit_triangles", stats.scene.flatten.lit_triangles},
             {"features_used", names_of(stats.features, true)},
             {"features_left_out", names_of(stats.features, false)}};
 }

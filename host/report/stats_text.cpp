@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "host/report/flatten_text.h"
+
 namespace rt {
 
 namespace {
@@ -88,6 +90,8 @@ std::string stats_text(const RenderStats& stats) {
     text += fmt::format("needs   {}\nleaves out {}{}\n", joined(names_of(stats.features, true)),
                         joined(names_of(stats.features, false)),
                         stats.all_features ? " (compiled in all the same: --features all)" : "");
+    text += fmt::format("builds  {}\ncasts   {}\n", hierarchies_text(stats.scene.flatten),
+                        casters_text(stats.scene.flatten));
     text += phases_text(stats.phases) + rays_text(stats);
     if (stats.error) text += "error   " + error_line(*stats.error) + "\n";
     return text;

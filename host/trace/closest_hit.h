@@ -3,13 +3,28 @@
 
 #include <limits>
 
+#include "host/trace/bvh.h"
 #include "host/trace/intersect.h"
 
-// Twin of kernels/closest_hit.cl: one ray against the scene; ties go to the lowest index.
+// Twin of kernels/closest_hit.cl: one ray against the scene. Surfaces within 32 half-ulps of the
+// nearest are one surface, and the first listed among them is hit. That set depends on the ray and
+// the primitives alone, so neither hierarchies nor the order of tests change the picture.
 namespace rt::trace {
 
 template <typename T>
 constexpr T tie_factor = T(1) + T(32) * Flat<T>::roundoff;
+
+/// A ray with what the tests of primitives and boxes make of it once.
+template <typename T>
+struct PreparedRay {
+    Ray<T> ray;
+    RayShear<T> shear;
+    BoxRay<T> box;  ///< only where the scene has hierarchies
+
+    PreparedRay(const SceneView<T>& scene, const Ray<T>& r) : ray(r), shear(make_shear(r)) {
+        if (scene.order) box = make_box_ray(r);
+    }
+};
 
 /// Distance to primitive `prim`, or -1 (or NaN) where it is missed.
 template <typename T>
@@ -20,59 +35,130 @@ T intersect_primitive(const SceneView<T>& scene, const Ray<T>& ray, const RayShe
         return intersect_sphere(ray, load3(sphere.center), sphere.radius, prim == ray.from);
     }
     if (prim == ray.from) return T(-1);
-    return intersect_triangle(shear, scene.triangles[prim - scene.frame.sphere_count], u, v);
+    return intersect_triangle(shear, scene.triangles[prim - first_triangle(scene.frame)], u, v);
 }
 
-/// The lowest-numbered primitive hit no further away than t_max; there is one.
-template <typename T>
-Hit<T> first_listed_hit(const SceneView<T>& scene, const Ray<T>& ray, const RayShear<T>& shear,
-                        T t_max) {
-    const auto count = scene.frame.sphere_count + scene.frame.triangle_count;
-    Hit<T> hit{0, 0, 0, Flat<T>::none, 1};
-    for (typename Flat<T>::Index prim = 0; prim < count; ++prim) {
-        hit.t = intersect_primitive(scene, ray, shear, prim, hit.u, hit.v);
-        if (hit.t > T(0) && hit.t <= t_max) {
-            hit.prim = prim;
-            return hit;
-        }
+/// Calls visit(i) for spheres 0 <= i < sphere_count, at least those that the ray may hit no further
+/// away than `limit`, until a call returns true; that is returned.
+template <typename T, typename Visit>
+RT_INLINE bool visit_spheres(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
+                             const Visit& visit) {
+    if (scene.frame.sphere_root != 0) {
+        return visit_leaves(scene, ray.box, scene.frame.sphere_root, limit, visit);
     }
-    return hit;
+    for (typename Flat<T>::Index i = 0; i < scene.frame.sphere_count; ++i) {
+        if (visit(i)) return true;
+    }
+    return false;
+}
+
+/// The same for triangles.
+template <typename T, typename Visit>
+RT_INLINE bool visit_triangles(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
+                               const Visit& visit) {
+    if (scene.frame.triangle_root != 0) {
+        return visit_leaves(scene, ray.box, scene.frame.triangle_root, limit, visit);
+    }
+    for (typename Flat<T>::Index i = 0; i < scene.frame.triangle_count; ++i) {
+        if (visit(i)) return true;
+    }
+    return false;
+}
+
+/// Calls visit(prim, t, u, v) for the hits with 0 < t <= limit, in no particular order.
+template <typename T, typename Visit>
+RT_INLINE void visit_hits(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
+                          const Visit& visit) {
+    using Index = typename Flat<T>::Index;
+    visit_spheres(scene, ray, limit, [&](Index i) {
+        const auto& sphere = scene.spheres[i];
+        const T t =
+            intersect_sphere(ray.ray, load3(sphere.center), sphere.radius, i == ray.ray.from);
+        if (t > T(0) && t <= limit) visit(i, t, T(0), T(0));
+        return false;
+    });
+    const Index first = first_triangle(scene.frame);
+    const Index from = ray.ray.from - first;
+    visit_triangles(scene, ray, limit, [&](Index i) {
+        if (i == from) return false;
+        T u, v;
+        const T t = intersect_triangle(ray.shear, scene.triangles[i], u, v);
+        if (t > T(0) && t <= limit) visit(first + i, t, u, v);
+        return false;
+    });
+}
+
+/// The first listed of the primitives hit no further away than t_max; there is one.
+template <typename T>
+Hit<T> first_listed_hit(const SceneView<T>& scene, const PreparedRay<T>& ray, T t_max) {
+    using Index = typename Flat<T>::Index;
+    Hit<T> first{0, 0, 0, Flat<T>::none, 1};
+    Index lowest = std::numeric_limits<Index>::max();
+    visit_hits(scene, ray, t_max, [&](Index prim, T t, T u, T v) {
+        const Index listed = scene.order ? scene.order[prim] : prim;
+        if (listed >= lowest) return;
+        lowest = listed;
+        first = {t, u, v, prim, 1};
+    });
+    return first;
 }
 
 template <typename T>
-Hit<T> closest_hit(const SceneView<T>& scene, const Ray<T>& ray) {
-    const auto count = scene.frame.sphere_count + scene.frame.triangle_count;
-    const RayShear<T> shear = make_shear(ray);
+Hit<T> closest_hit(const SceneView<T>& scene, const Ray<T>& r) {
+    const PreparedRay<T> ray(scene, r);
     Hit<T> best{std::numeric_limits<T>::infinity(), 0, 0, Flat<T>::none, 0};
-    T second = std::numeric_limits<T>::infinity();
-    for (typename Flat<T>::Index prim = 0; prim < count; ++prim) {
-        T u = 0, v = 0;
-        const T t = intersect_primitive(scene, ray, shear, prim, u, v);
-        if (t > T(0) && t < second) {
-            if (t < best.t) {
-                second = best.t;
-                best = {t, u, v, prim, 0};
-            } else {
-                second = t;
-            }
+    T limit = best.t;   // best.t * tie_factor: beyond, nothing matters
+    T second = best.t;  // the second smallest distance, if within the limit
+    visit_hits(scene, ray, limit, [&](typename Flat<T>::Index prim, T t, T u, T v) {
+        if (t < best.t) {
+            second = best.t;
+            best = {t, u, v, prim, 0};
+            limit = t * tie_factor<T>;
+        } else if (t < second) {
+            second = t;
         }
-    }
-    const T tie = best.t * tie_factor<T>;
-    if (best.prim != Flat<T>::none && second <= tie) {
-        return first_listed_hit(scene, ray, shear, tie);
-    }
+    });
+    if (best.prim != Flat<T>::none && second <= limit) return first_listed_hit(scene, ray, limit);
     return best;
+}
+
+template <typename T>
+RT_INLINE bool any_sphere_hit(const SceneView<T>& scene, const PreparedRay<T>& ray) {
+    return visit_spheres(scene, ray, ray.ray.t_max, [&](typename Flat<T>::Index i) {
+        const auto& sphere = scene.spheres[i];
+        const T t =
+            intersect_sphere(ray.ray, load3(sphere.center), sphere.radius, i == ray.ray.from);
+        return t > T(0) && t <= ray.ray.t_max;
+    });
+}
+
+/// Whether the ray hits triangle i, other than the one it leaves, in (0, t_max].
+template <typename T>
+RT_INLINE bool hits_triangle(const SceneView<T>& scene, const PreparedRay<T>& ray,
+                             typename Flat<T>::Index i) {
+    if (i == ray.ray.from - first_triangle(scene.frame)) return false;
+    T u, v;
+    const T t = intersect_triangle(ray.shear, scene.triangles[i], u, v);
+    return t > T(0) && t <= ray.ray.t_max;
 }
 
 /// Whether anything lies on the ray in (0, t_max].
 template <typename T>
-bool any_hit(const SceneView<T>& scene, const Ray<T>& ray) {
-    const auto count = scene.frame.sphere_count + scene.frame.triangle_count;
-    const RayShear<T> shear = make_shear(ray);
-    for (typename Flat<T>::Index prim = 0; prim < count; ++prim) {
-        T u, v;
-        const T t = intersect_primitive(scene, ray, shear, prim, u, v);
-        if (t > T(0) && t <= ray.t_max) return true;
+bool any_hit(const SceneView<T>& scene, const Ray<T>& r) {
+    const PreparedRay<T> ray(scene, r);
+    return any_sphere_hit(scene, ray) ||
+           visit_triangles(scene, ray, ray.ray.t_max,
+                           [&](typename Flat<T>::Index i) { return hits_triangle(scene, ray, i); });
+}
+
+/// The same for a ray to a light, which needs to look at the light's casters only.
+template <typename T>
+bool any_hit(const SceneView<T>& scene, const Ray<T>& r, const typename Flat<T>::Light& light) {
+    if (light.caster_count == scene.frame.triangle_count) return any_hit(scene, r);
+    const PreparedRay<T> ray(scene, r);
+    if (any_sphere_hit(scene, ray)) return true;
+    for (typename Flat<T>::Index k = 0; k < light.caster_count; ++k) {
+        if (hits_triangle(scene, ray, scene.casters[light.first_caster + k])) return true;
     }
     return false;
 }

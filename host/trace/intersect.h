@@ -9,7 +9,7 @@ namespace rt::trace {
 
 /// Distance along the ray to the sphere, or -1. `leaving`: the origin lies on this very sphere.
 template <typename T>
-T intersect_sphere(const Ray<T>& ray, const Vec3<T>& center, T radius, bool leaving) {
+RT_INLINE T intersect_sphere(const Ray<T>& ray, const Vec3<T>& center, T radius, bool leaving) {
     const Vec3<T> f = ray.origin - center;
     const T b = -dot3(f, ray.dir);
     if (leaving) return T(2) * b;
@@ -30,12 +30,12 @@ struct RayShear {
 };
 
 template <typename T>
-T component3(const Vec3<T>& v, int k) {
+RT_INLINE T component3(const Vec3<T>& v, int k) {
     return k == 0 ? v.x : (k == 1 ? v.y : v.z);
 }
 
 template <typename T>
-RayShear<T> make_shear(const Ray<T>& ray) {
+RT_INLINE RayShear<T> make_shear(const Ray<T>& ray) {
     const Vec3<T> a = abs3(ray.dir);
     RayShear<T> shear;
     shear.kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
@@ -52,7 +52,7 @@ RayShear<T> make_shear(const Ray<T>& ray) {
 
 /// The vertex in the ray's frame. Its components are picked as they are loaded.
 template <typename T>
-Vec3<T> shear_vertex(const RayShear<T>& shear, const typename Flat<T>::Packed3& vertex) {
+RT_INLINE Vec3<T> shear_vertex(const RayShear<T>& shear, const typename Flat<T>::Packed3& vertex) {
     const T* p = &vertex.x;
     const T z = p[shear.kz] - shear.origin_z;
     return {std::fma(-shear.sx, z, p[shear.kx] - shear.origin_x),
@@ -60,19 +60,19 @@ Vec3<T> shear_vertex(const RayShear<T>& shear, const typename Flat<T>::Packed3& 
 }
 
 template <typename T>
-T min_of(T a, T b) {
+RT_INLINE T min_of(T a, T b) {
     return a < b ? a : b;
 }
 
 template <typename T>
-T max_of(T a, T b) {
+RT_INLINE T max_of(T a, T b) {
     return a > b ? a : b;
 }
 
 /// Distance along the ray to the triangle, or -1; u and v are set on a hit.
 template <typename T>
-T intersect_triangle(const RayShear<T>& shear, const typename Flat<T>::Triangle& triangle, T& u,
-                     T& v) {
+RT_INLINE T intersect_triangle(const RayShear<T>& shear, const typename Flat<T>::Triangle& triangle,
+                               T& u, T& v) {
     const Vec3<T> a = shear_vertex(shear, triangle.p0);
     const Vec3<T> b = shear_vertex(shear, triangle.p1);
     const Vec3<T> c = shear_vertex(shear, triangle.p2);

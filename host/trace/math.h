@@ -7,49 +7,53 @@
 
 // Twin of kernels/math.cl: the same functions in the same order of operations. Compiled without
 // contraction (CMakeLists.txt), so that both round alike.
+/// For the small functions that the tracer's inner loops are made of: compilers stop inlining them
+/// once a caller has grown large.
+#define RT_INLINE [[gnu::always_inline]] inline
+
 namespace rt::trace {
 
 template <typename P>
-auto load3(const P& p) {
+RT_INLINE auto load3(const P& p) {
     return Vec3<decltype(p.x)>(p.x, p.y, p.z);
 }
 
 template <typename T>
-T dot3(const Vec3<T>& a, const Vec3<T>& b) {
+RT_INLINE T dot3(const Vec3<T>& a, const Vec3<T>& b) {
     return std::fma(a.z, b.z, std::fma(a.y, b.y, a.x * b.x));
 }
 
 /// a + s * b
 template <typename T>
-Vec3<T> add_scaled(const Vec3<T>& a, T s, const Vec3<T>& b) {
+RT_INLINE Vec3<T> add_scaled(const Vec3<T>& a, T s, const Vec3<T>& b) {
     return {std::fma(s, b.x, a.x), std::fma(s, b.y, a.y), std::fma(s, b.z, a.z)};
 }
 
 template <typename T>
-T length3(const Vec3<T>& v) {
+RT_INLINE T length3(const Vec3<T>& v) {
     return std::sqrt(dot3(v, v));
 }
 
 template <typename T>
-Vec3<T> normalize3(const Vec3<T>& v) {
+RT_INLINE Vec3<T> normalize3(const Vec3<T>& v) {
     return v * (T(1) / length3(v));
 }
 
 template <typename T>
-Vec3<T> abs3(const Vec3<T>& v) {
+RT_INLINE Vec3<T> abs3(const Vec3<T>& v) {
     return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
 }
 
 /// a b - c d with an error below 1.5 ulp (Kahan; Jeannerod, Louvet and Muller 2013).
 template <typename T>
-T difference_of_products(T a, T b, T c, T d) {
+RT_INLINE T difference_of_products(T a, T b, T c, T d) {
     const T cd = c * d;
     return std::fma(a, b, -cd) + std::fma(-c, d, cd);
 }
 
 /// The mirror direction of d (towards the surface) about the unit normal n.
 template <typename T>
-Vec3<T> reflect3(const Vec3<T>& d, const Vec3<T>& n) {
+RT_INLINE Vec3<T> reflect3(const Vec3<T>& d, const Vec3<T>& n) {
     return add_scaled(d, T(-2) * dot3(d, n), n);
 }
 

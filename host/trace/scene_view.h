@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/flatten/flat_scene.h"
 #include "host/flatten/flat_types.h"
 #include "host/trace/ray_counts.h"
 
@@ -15,9 +16,33 @@ struct SceneView {
     const typename Flat<T>::Material* materials;
     const typename Flat<T>::Light* lights;
     typename Flat<T>::Frame frame;
+    const typename Flat<T>::Cone* cones = nullptr;
+    const typename Flat<T>::BvhNode* nodes = nullptr;
+    const typename Flat<T>::Index* order = nullptr;  ///< null: primitives are in the order listed
+    const typename Flat<T>::Index* casters = nullptr;
 };
 
-/// Primitives are numbered spheres first, then triangles.
+/// The scene must outlive the view.
+template <typename T>
+SceneView<T> view_of(const FlatScene<T>& scene) {
+    return {scene.spheres.data(),
+            scene.triangles.data(),
+            scene.vertex_normals.data(),
+            scene.materials.data(),
+            scene.lights.data(),
+            scene.frame,
+            scene.cones.data(),
+            scene.nodes.data(),
+            scene.order.empty() ? nullptr : scene.order.data(),
+            scene.casters.data()};
+}
+
+/// Primitives are numbered spheres first, then cones, then triangles.
+template <typename Frame>
+auto first_triangle(const Frame& frame) {
+    return frame.sphere_count + frame.cone_count;
+}
+
 template <typename T>
 struct Ray {
     Vec3<T> origin;

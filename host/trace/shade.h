@@ -43,7 +43,7 @@ Vec3<T> light_contribution(const SceneView<T>& scene, const Surface<T>& surface,
     const T cosine = dot3(surface.normal, shadow.dir);
     if (!(cosine > T(0))) return none;
     counts.shadow += 1;
-    if (any_hit(scene, shadow)) return none;
+    if (any_hit(scene, shadow, light)) return none;
     Vec3<T> reflected = cosine * load3(material.diffuse);
     const Vec3<T> specular = load3(material.specular);
     if (!is_black(specular)) {

@@ -72,7 +72,7 @@ Surface<T> primitive_surface(const SceneView<T>& scene, const Ray<T>& ray, const
     if (hit.prim < scene.frame.sphere_count) {
         return sphere_surface(ray, hit.t, scene.spheres[hit.prim]);
     }
-    const auto& triangle = scene.triangles[hit.prim - scene.frame.sphere_count];
+    const auto& triangle = scene.triangles[hit.prim - first_triangle(scene.frame)];
     return triangle_surface(ray, hit, triangle, scene.vertex_normals);
 }
 

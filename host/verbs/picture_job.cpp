@@ -72,7 +72,10 @@ class Job {
         scene_ = flatten<T>(scene);
         stats_.phases.flatten = watch.seconds();
         stats_.scene = scene_stats(scene);
+        stats_.scene.triangles = scene_.triangles.size();
+        stats_.scene.smooth_triangles = scene_.vertex_normals.size();
         stats_.scene.bytes = scene_.bytes();
+        stats_.scene.flatten = scene_.stats;
         stats_.width = scene.width;
         stats_.height = scene.height;
         stats_.region = region_;

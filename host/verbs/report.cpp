@@ -137,6 +137,18 @@ class SceneStudy {
     Scene scene_;
 };
 
+/// The suite with textbook formulas beside it, on the report's devices.
+StressResult stress_result(const ReportOptions& options) {
+    StressOptions stress;
+    stress.devices = options.devices;
+    stress.quick = options.quick;
+    stress.naive = true;
+    stress.quiet = options.quiet;
+    StressResult result = measure_stress(stress);
+    if (result.interrupted) throw Stopped{};
+    return result;
+}
+
 std::string today() {
     const time_t now = time(nullptr);
     tm utc{};
@@ -170,6 +182,7 @@ int run_report(const ReportOptions& options) {
         for (const std::string& path : options.scenes) {
             report.scenes.push_back(SceneStudy(options, path, kernels.folder()).run());
         }
+        if (options.stress) report.stress = stress_result(options);
     } catch (const Stopped&) {
         print_message("mirrorball: stopped; no page written\n");
         return 128 + stop_flag();

@@ -7,6 +7,7 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
+#include "host/report/flatten_text.h"
 #include "host/report/render_stats.h"
 #include "host/report/stats_json.h"
 #include "host/scene/scene_file.h"
@@ -31,7 +32,7 @@ Json info_json(const std::string& path, const Scene& scene, const FlatScene<floa
             {"max_bounces", scene.max_bounces},
             {"spheres", scene.spheres.size()},
             {"cones", scene.cones.size()},
-            {"triangles", scene.triangles.size()},
+            {"triangles", flat.triangles.size()},
             {"smooth_triangles", flat.vertex_normals.size()},
             {"meshes", scene.meshes.size()},
             {"mesh_triangles", triangle_count(scene) - scene.triangles.size()},
@@ -39,6 +40,10 @@ Json info_json(const std::string& path, const Scene& scene, const FlatScene<floa
             {"lights_used", flat.lights.size()},
             {"materials", scene.materials.size()},
             {"flat_bytes", flat.bytes()},
+            {"hierarchies", hierarchies_json(flat.stats)},
+            {"hierarchy_seconds", flat.stats.bvh_seconds},
+            {"shadow_casters", flat.stats.casters},
+            {"lit_triangles", flat.stats.lit_triangles},
             {"features_used", names_of(flat.features, true)},
             {"features_left_out", names_of(flat.features, false)},
             {"notes", scene.notes}};
@@ -52,12 +57,19 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
         "  holds      {} spheres, {} cones, {} triangles ({} smooth), {} materials, {} lights\n"
         "  on device  {} bytes in float\n",
         scene.name, hash_text(scene_hash(scene)), scene.width, scene.height, to_string(scene.aa),
-        scene.max_bounces, scene.spheres.size(), scene.cones.size(), scene.triangles.size(),
+        scene.max_bounces, scene.spheres.size(), scene.cones.size(), flat.triangles.size(),
         flat.vertex_normals.size(), scene.materials.size(), scene.lights.size(), flat.bytes());
+    if (!flat.triangles.empty()) {
+        text += fmt::format(
+            "             {:.1f} a triangle\n",
+            static_cast<double>(flat.bytes()) / static_cast<double>(flat.triangles.size()));
+    }
     if (!scene.meshes.empty()) {
         text += fmt::format("  meshes     {} of {} triangles\n", scene.meshes.size(),
                             triangle_count(scene) - scene.triangles.size());
     }
+    text += fmt::format("  builds     {}\n  casts      {}\n", hierarchies_text(flat.stats),
+                        casters_text(flat.stats));
     for (const FeatureName& feature : feature_names) {
         const bool used = flat.features.*feature.flag;
         text += fmt::format("  {:<10} {}\n", used ? "needs" : "leaves out", feature.name);

@@ -11,6 +11,7 @@ int run_render(const RenderOptions& options, double seconds_before_main);
 int run_compare(const CompareOptions& options);
 int run_bench(const BenchOptions& options);
 int run_converge(const ConvergeOptions& options);
+int run_stress(const StressOptions& options);
 int run_report(const ReportOptions& options);
 int run_devices(const DevicesOptions& options);
 int run_scene(const SceneOptions& options);

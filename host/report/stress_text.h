@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/stress/stress_result.h"
+
+namespace rt {
+
+/// A line per family: cases, worst figures, bar, verdict, why it matters; the broken cases below
+/// their family. Verbose: a line per case and renderer.
+std::string stress_text(const StressResult& result, bool verbose);
+
+/// The names of the families and their cases; those of --quick are marked.
+std::string stress_list(const std::vector<StressFamily>& families);
+
+/// What a case allows, in a few words: "0 wrong, 1e-04".
+std::string bar_text(const StressBar& bar);
+
+/// The largest bar of a family's cases, likewise.
+StressBar loosest_bar(const StressFamilyResult& family);
+
+}  // namespace rt

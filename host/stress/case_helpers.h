@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "host/stress/stress_case.h"
+
+namespace rt {
+
+enum class InQuick { no, yes };
+
+/// A picture of the scene against its reference.
+inline StressCase picture_case(std::string label, double value, InQuick quick,
+                               std::function<Scene()> scene, StressBar bar = {},
+                               ReferenceKind reference = ReferenceKind::quad) {
+    PictureTrial trial{std::move(scene), {}, reference, ""};
+    return {std::move(label), value, bar, std::move(trial), quick == InQuick::yes};
+}
+
+inline StressCase text_case(std::string label, double value, InQuick quick,
+                            std::vector<std::string> scenes) {
+    StressBar bar;
+    bar.may_overflow = true;
+    return {std::move(label), value, bar, TextTrial{std::move(scenes)}, quick == InQuick::yes};
+}
+
+inline InQuick quick_if(bool yes) { return yes ? InQuick::yes : InQuick::no; }
+
+}  // namespace rt

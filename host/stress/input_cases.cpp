@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "host/stress/case_helpers.h"
+#include "host/stress/families.h"
+
+namespace rt {
+
+namespace {
+
+using Fields = std::map<std::string, std::string>;
+
+/// The numbers of a small scene, by name, as a file would say them.
+const Fields& ordinary_fields() {
+    static const Fields fields{{"from", "0"},
+                               {"at", "0"},
+                               {"up", "1"},
+                               {"fov", "40"},
+                               {"ambient", "0.5"},
+                               {"diffuse", "0.5"},
+                               {"specular", "0.5"},
+                               {"mirror", "0.5"},
+                               {"shininess", "20"},
+                               {"background", "0.25"},
+                               {"ambient-light", "0.25"},
+                               {"light-position", "2"},
+                               {"light-intensity", "0.5"},
+                               {"center", "0"},
+                               {"radius", "1"},
+                               {"vertex", "2"},
+                               {"normal", "0.25"},
+                               {"bounces", "4"},
+                               {"window", "-1"}};
+    return fields;
+}
+
+std::string scene_text(const Fields& f, bool with_window) {
+    const std::string view = with_window ? fmt::format("\"window\": [{}, 1, -1, 1]", f.at("window"))
+                                         : fmt::format("\"fov_degrees\": {}", f.at("fov"));
+    return fmt::format(
+        R"({{"camera": {{"from": [{}, 1, 6], "at": [0, {}, 0], "up": [0, {}, 0.125], {}}},
+"image": {{"width": 12, "height": 9, "aa": "none"}}, "max_bounces": {}, "background": [{}, 0, 0.5],
+"ambient_light": [{}, 0, 0.25],
+"lights": [{{"position": [3, {}, 4], "intensity": [{}, 0, 0.5]}}],
+"materials": {{"skin": {{"ambient": [{}, 0, 0.5], "diffuse": [{}, 0, 0.5],
+"specular": [{}, 0, 0.5], "mirror": [{}, 0, 0.5], "shininess": {}}}}},
+"spheres": [{{"center": [{}, 0, 0], "radius": {}, "material": "skin"}},
+{{"center": [-1, 1, -1], "radius": 0.75, "material": "skin"}}],
+"triangles": [{{"vertices": [[-3, -1, 2], [3, -1, 2], [0, {}, -3]],
+"normals": [[0, 1, {}], [0.25, 1, 0], [0, 1, -0.25]], "material": "skin"}}]}})",
+        f.at("from"), f.at("at"), f.at("up"), view, f.at("bounces"), f.at("background"),
+        f.at("ambient-light"), f.at("light-position"), f.at("light-intensity"), f.at("ambient"),
+        f.at("diffuse"), f.at("specular"), f.at("mirror"), f.at("shininess"), f.at("center"),
+        f.at("radius"), f.at("vertex"), f.at("normal"));
+}
+
+constexpr const char* odd_numbers[] = {
+    "NaN",    "Infinity", "-Infinity", "1e999", "-1e999", "1e308", "-1e308", "1e31",
+    "1e30",   "-1e30",    "1e15",      "1e-15", "1e-30",  "1e-38", "1e-45",  "1e-308",
+    "1e-320", "5e-324",   "1e-999",    "0",     "-0",     "-1e-30"};
+
+StressFamily odd_fields() {
+    StressFamily family{"odd-numbers",
+                        "field",
+                        "NaN, infinities, subnormal and huge numbers: "
+                        "refused, or rendered without a NaN",
+                        {}};
+    for (const auto& [name, usual] : ordinary_fields()) {
+        std::vector<std::string> texts;
+        for (const char* number : odd_numbers) {
+            Fields fields = ordinary_fields();
+            fields[name] = number;
+            texts.push_back(scene_text(fields, name == "window"));
+        }
+        const bool quick = name == "mirror" || name == "radius" || name == "vertex";
+        family.cases.push_back(text_case(name, static_cast<double>(family.cases.size()),
+                                         quick_if(quick), std::move(texts)));
+    }
+    return family;
+}
+
+/// A number from random bits of a float, of a double, or between.
+std::string random_number(std::mt19937_64& engine) {
+    const std::uint64_t bits = engine();
+    switch (engine() % 3) {
+        case 0:
+            return fmt::format("{:.17g}", std::bit_cast<double>(bits));
+        case 1:
+            return fmt::format("{:.17g}", std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        default:
+            return fmt::format("{:.17g}", std::ldexp(1 + static_cast<double>(bits >> 12) * 0x1p-52,
+                                                     static_cast<int>(engine() % 160) - 80));
+    }
+}
+
+/// Every field from ordinary or from random bits, one to three of them random.
+StressFamily random_bits() {
+    StressFamily family{
+        "random-bits", "seed", "numbers that nobody would write, several at once", {}};
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        std::mt19937_64 engine(seed);
+        std::vector<std::string> texts;
+        for (int i = 0; i < 40; ++i) {
+            Fields fields = ordinary_fields();
+            const std::uint64_t changes = 1 + engine() % 3;
+            for (std::uint64_t k = 0; k < changes; ++k) {
+                auto field = fields.begin();
+                std::advance(field, static_cast<std::ptrdiff_t>(engine() % fields.size()));
+                if (field->first != "bounces") field->second = random_number(engine);
+            }
+            texts.push_back(scene_text(fields, i % 4 == 0));
+        }
+        family.cases.push_back(text_case(fmt::format("{}", seed), static_cast<double>(seed),
+                                         quick_if(seed == 1), std::move(texts)));
+    }
+    return family;
+}
+
+/// Cameras without axes and triangles without area.
+StressFamily no_geometry() {
+    StressFamily family{"no-geometry",
+                        "what is missing",
+                        "views without axes, triangles without "
+                        "area, spheres without size",
+                        {}};
+    const auto with_camera = [](const char* camera) {
+        return fmt::format(R"({{"camera": {{{}}}, "image": {{"width": 12, "height": 9}},
+"materials": {{"m": {{"ambient": 1}}}}, "ambient_light": 1,
+"spheres": [{{"center": [0, 0, 0], "radius": 1, "material": "m"}}]}})",
+                           camera);
+    };
+    const auto with_shape = [](const char* shape) {
+        return fmt::format(R"({{"camera": {{"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40}},
+"image": {{"width": 12, "height": 9}}, "materials": {{"m": {{"ambient": 1}}}},
+"ambient_light": 1, {}}})",
+                           shape);
+    };
+    family.cases.push_back(text_case(
+        "cameras", 0, InQuick::yes,
+        {with_camera(R"("from": [1, 2, 3], "at": [1, 2, 3], "fov_degrees": 40)"),
+         with_camera(R"("from": [0, 5, 0], "at": [0, 0, 0], "fov_degrees": 40)"),
+         with_camera(R"("from": [0, 5, 0], "at": [0, 0, 0], "up": [0, 0, 0], "fov_degrees": 40)"),
+         with_camera(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 0)"),
+         with_camera(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 180)"),
+         with_camera(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 179.999999999999)"),
+         with_camera(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 1e-300)"),
+         with_camera(R"("from": [1e30, 0, 1e30], "at": [1e30, 0, 0], "fov_degrees": 40)")}));
+    family.cases.push_back(text_case(
+        "shapes", 1, InQuick::yes,
+        {with_shape(R"("triangles": [{"vertices": [[0,0,0],[0,0,0],[0,0,0]], "material": "m"}])"),
+         with_shape(R"("triangles": [{"vertices": [[0,0,0],[1,1,1],[2,2,2]], "material": "m"}])"),
+         with_shape(
+             R"("triangles": [{"vertices": [[0,0,0],[1,1,1],[3,3,3.0000000000000004]], "material": "m"}])"),
+         with_shape(
+             R"("triangles": [{"vertices": [[0,0,0],[1e-30,0,0],[0,1e-30,0]], "material": "m"}])"),
+         with_shape(
+             R"("triangles": [{"vertices": [[-1e30,-1e30,0],[1e30,-1e30,0],[0,1e30,0]], "material": "m"}])"),
+         with_shape(
+             R"("triangles": [{"vertices": [[-1,-1,0],[1,-1,0],[0,1e-300,0]], "material": "m"}])"),
+         with_shape(R"("spheres": [{"center": [0,0,0], "radius": 1e-30, "material": "m"}])"),
+         with_shape(R"("spheres": [{"center": [0,0,0], "radius": 1e30, "material": "m"}])"),
+         with_shape(R"("spheres": [])")}));
+    return family;
+}
+
+}  // namespace
+
+void add_input_families(StressFamilies& families) {
+    families.push_back(odd_fields());
+    families.push_back(random_bits());
+    families.push_back(no_geometry());
+}
+
+}  // namespace rt

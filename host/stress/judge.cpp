@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stress/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rt {
+
+namespace {
+
+constexpr double wrong_error = 1.0 / 255;
+constexpr double edge_matters = 2e-5;
+
+/// The largest difference of a channel; infinite where a channel is NaN.
+double pixel_error(const float* pixel, const std::array<double, 3>& reference) {
+    double largest = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        if (std::isnan(pixel[c])) return std::numeric_limits<double>::infinity();
+        const double difference =
+            std::clamp(double{pixel[c]}, 0.0, 1.0) - std::clamp(reference[c], 0.0, 1.0);
+        largest = std::max(largest, std::fabs(difference));
+    }
+    return largest;
+}
+
+}  // namespace
+
+PictureFigures count_non_numbers(const Picture& picture) {
+    PictureFigures figures;
+    for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {
+        const auto first = picture.pixels.begin() + static_cast<std::ptrdiff_t>(i);
+        figures.nans += std::any_of(first, first + 3, [](float v) { return std::isnan(v); });
+        figures.infinities += std::any_of(first, first + 3, [](float v) { return std::isinf(v); });
+    }
+    return figures;
+}
+
+PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& reference) {
+    PictureFigures figures = count_non_numbers(picture);
+    std::vector<std::size_t> doubtful;
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < picture.pixels.size() / 3; ++i) {
+        const double error = pixel_error(&picture.pixels[3 * i], reference.colour(i));
+        if (error > edge_matters) {
+            doubtful.push_back(i);
+            errors.push_back(error);
+        } else {
+            figures.max_error = std::max(figures.max_error, error);
+        }
+    }
+    const std::vector<bool> at_edge = reference.at_edges(doubtful);
+    for (std::size_t i = 0; i < doubtful.size(); ++i) {
+        const bool is_wrong = errors[i] > wrong_error;
+        if (at_edge[i]) {
+            figures.wrong_at_edges += is_wrong ? 1 : 0;
+        } else {
+            figures.wrong += is_wrong ? 1 : 0;
+            figures.max_error = std::max(figures.max_error, errors[i]);
+        }
+    }
+    return figures;
+}
+
+std::string broken_bar(const PictureFigures& figures, const StressBar& bar) {
+    if (figures.nans > 0) return fmt::format("{} pixels are NaN", figures.nans);
+    if (figures.infinities > 0 && !bar.may_overflow) {
+        return fmt::format("{} pixels are infinite", figures.infinities);
+    }
+    if (figures.wrong > bar.most_wrong) return fmt::format("{} pixels are wrong", figures.wrong);
+    if (figures.wrong_at_edges > bar.most_wrong_at_edges) {
+        return fmt::format("{} pixels are wrong at edges", figures.wrong_at_edges);
+    }
+    if (!(figures.max_error <= bar.max_error)) {
+        return fmt::format("off by {:.2g}", figures.max_error);
+    }
+    return "";
+}
+
+}  // namespace rt

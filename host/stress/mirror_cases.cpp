@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "host/stress/case_helpers.h"
+#include "host/stress/families.h"
+#include "host/stress/stress_scenes.h"
+
+namespace rt {
+
+namespace {
+
+/// Two walls, 8192 wide, face each other across a ball; their mirror images go on to the bounce
+/// limit.
+Scene facing_mirrors(double mirror, double ambient, int bounces, int width, int height) {
+    Scene scene = bare_scene();
+    set_image_size(scene, width, height);
+    scene.max_bounces = bounces;
+    const int glass = add_mirror(scene, mirror, ambient);
+    const int red = add_matt(scene, {0.875, 0.25, 0.125});
+    const double w = 4096;
+    add_quad(scene, {-2, -w, w}, {-2, -w, -w}, {-2, w, -w}, {-2, w, w}, glass);
+    add_quad(scene, {2, -w, -w}, {2, -w, w}, {2, w, w}, {2, w, -w}, glass);
+    add_sphere(scene, {0.25, -0.25, -1}, 0.75, red);
+    set_view(scene, {-1.25, 0.5, 1.5}, {0.25, 0.125, -0.5}, 60);
+    scene.lights = {{{0, 3, 2}, glm::dvec3(0.5)}};
+    return scene;
+}
+
+StressFamily mirror_walls() {
+    StressFamily family{"facing-mirrors",
+                        "mirror rays",
+                        "every bounce adds its rounding to the "
+                        "next",
+                        {}};
+    for (const int bounces : {8, 64, 1000}) {
+        StressBar bar;
+        bar.max_error = bounces == 1000 ? 2e-4 : 1e-4;
+        family.cases.push_back(picture_case(
+            fmt::format("{}", bounces), bounces, quick_if(bounces == 64),
+            [bounces] { return facing_mirrors(1, 0, bounces, 80, 60); }, bar,
+            bounces == 8 ? ReferenceKind::quad : ReferenceKind::extended));
+    }
+    return family;
+}
+
+/// The eye inside a mirror ball, off its centre, with a lit ball beside it.
+Scene mirror_ball(int bounces) {
+    Scene scene = bare_scene();
+    set_image_size(scene, 80, 60);
+    scene.max_bounces = bounces;
+    const int glass = add_mirror(scene, 0.9375, 0.0625);
+    const int red = add_matt(scene, {0.875, 0.25, 0.125});
+    add_sphere(scene, {0, 0, 0}, 4, glass);
+    add_sphere(scene, {0.5, -1, -1.5}, 0.75, red);
+    scene.lights = {{{0, 2, 1}, glm::dvec3(0.5)}};
+    set_view(scene, {0.25, 0.5, 1.75}, {0, 0, -1}, 60);
+    return scene;
+}
+
+/// A mirror ball spreads rays by a factor a bounce: where it does, the reference changes too.
+StressFamily mirror_balls() {
+    StressFamily family{"in-mirror-ball",
+                        "mirror rays",
+                        "the far side of the ball one is in is "
+                        "lost, and images of images shake",
+                        {}};
+    for (const int bounces : {4, 16, 64}) {
+        StressBar bar;
+        bar.most_wrong = bounces == 4 ? 0 : 1;
+        bar.max_error = bounces == 4 ? 1e-4 : 1;
+        family.cases.push_back(picture_case(
+            fmt::format("{}", bounces), bounces, quick_if(bounces == 4),
+            [bounces] { return mirror_ball(bounces); }, bar));
+    }
+    return family;
+}
+
+StressFamily bright_mirrors() {
+    StressFamily family{"bright-mirrors",
+                        "reflectance",
+                        "light that grows at each bounce "
+                        "overflows, and infinity times 0 is NaN",
+                        {}};
+    for (const double mirror : {1.0, 1.5, 1e3, 1e30}) {
+        StressBar bar;
+        bar.may_overflow = true;
+        bar.max_error = 1e-3;
+        family.cases.push_back(picture_case(
+            fmt::format("{:g}", mirror), mirror, quick_if(mirror != 1e3),
+            [mirror] {
+                Scene scene = facing_mirrors(mirror, 0x1p-10, 1000, 32, 24);
+                scene.background = {0, 0.5, 0};
+                return scene;
+            },
+            bar, ReferenceKind::extended));
+    }
+    return family;
+}
+
+}  // namespace
+
+void add_mirror_families(StressFamilies& families) {
+    families.push_back(mirror_walls());
+    families.push_back(mirror_balls());
+    families.push_back(bright_mirrors());
+}
+
+}  // namespace rt

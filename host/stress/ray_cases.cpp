@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/stress/case_helpers.h"
+#include "host/stress/families.h"
+#include "host/stress/meshes.h"
+#include "host/stress/ray_trials.h"
+#include "host/stress/stress_scenes.h"
+
+namespace rt {
+
+namespace {
+
+/// The mesh alone, the eye in its middle or far from it.
+Scene mesh_scene(const StressMesh& mesh, glm::dvec3 eye) {
+    Scene scene = bare_scene();
+    add_mesh(scene, mesh, add_matt(scene, glm::dvec3(0.5)));
+    set_view(scene, eye, eye + glm::dvec3(0, 0, -1), 60);
+    return scene;
+}
+
+StressCase ray_case(std::string label, double value, InQuick quick, RayTrial trial,
+                    StressBar bar = {}) {
+    return {std::move(label), value, bar, std::move(trial), quick == InQuick::yes};
+}
+
+RayTrial leak_trial(const Scene& scene, RayAim aim) {
+    RayTrial trial;
+    trial.in_float = [=](std::uint64_t rays) { return count_leaks<float>(scene, aim, rays); };
+    trial.in_double = [=](std::uint64_t rays) { return count_leaks<double>(scene, aim, rays); };
+    return trial;
+}
+
+StressFamily leak_rays(RayAim aim) {
+    StressFamily family;
+    family.name = aim == RayAim::edges ? "rays-at-edges" : "rays-at-vertices";
+    family.parameter = "closed mesh";
+    family.why = aim == RayAim::edges ? "edge functions of neighbours round apart"
+                                      : "three roundings meet at a vertex";
+    const auto add = [&](const char* label, const StressMesh& mesh, glm::dvec3 eye) {
+        family.cases.push_back(ray_case(label, static_cast<double>(family.cases.size()),
+                                        InQuick::yes, leak_trial(mesh_scene(mesh, eye), aim)));
+    };
+    add("bumpy-ball", bumpy_mesh(2), glm::dvec3(0));
+    add("fan", fan_mesh(250), {0.125, 0.125, 0});
+    add("needles", needle_mesh(12, 4, 1e-6), {0.125, 0.125, 0});
+    add("tiny-ball", placed(bumpy_mesh(1), 1e-6, {3, 2, 1}), {3, 2, 1});
+    add("far-ball", placed(bumpy_mesh(1), 1, {148376, 1234, -223423}), glm::dvec3(0));
+    return family;
+}
+
+/// An octahedron with a vertex in the middle of one side of an edge and none on the other: such a
+/// mesh is closed on paper only, so that its leaks are counted and not judged.
+StressFamily t_junctions() {
+    StressMesh mesh = fan_mesh(4);
+    const int middle = static_cast<int>(mesh.vertices.size());
+    const auto [a, b, c] = mesh.faces[0];
+    const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
+    mesh.vertices.push_back(vertex(b) + 0.3 * (vertex(c) - vertex(b)));
+    mesh.faces[0] = {a, b, middle};
+    mesh.faces.push_back({a, middle, c});
+    const Scene scene = mesh_scene(mesh, {0.125, 0.125, 0});
+    StressBar bar;
+    bar.most_wrong = std::numeric_limits<std::size_t>::max();
+    StressFamily family{
+        "t-junctions", "aim", "not closed whatever one does: counted, not judged", {}};
+    family.cases = {ray_case("edges", 0, InQuick::yes, leak_trial(scene, RayAim::edges), bar),
+                    ray_case("vertices", 1, InQuick::no, leak_trial(scene, RayAim::vertices), bar)};
+    return family;
+}
+
+/// A sphere this far from the eye, among things that keep the scale of the scene at 1.
+Scene sphere_scene(double radius, double distance) {
+    Scene scene = bare_scene();
+    const int skin = add_matt(scene, glm::dvec3(0.5));
+    const glm::dvec3 towards(-0.48, 0.6, -0.64);
+    add_sphere(scene, distance * towards, radius, skin);
+    for (int i = 0; i < 3; ++i) add_sphere(scene, {0.125 * i, 0, 1}, 0x1p-10, skin);
+    set_view(scene, glm::dvec3(0), towards, 60);
+    return scene;
+}
+
+/// A point that far away is rounded by `distances` times u of the radius, which tilts a chord.
+StressFamily leaving_rays(const char* name, double distances, const char* why) {
+    const double shallowest = distances > 10 ? 0.1 : 1e-3;
+    StressFamily family{name, "radius", why, {}};
+    for (int k = -6; k <= 6; ++k) {
+        const double radius = std::pow(10.0, k);
+        const Scene scene = sphere_scene(radius, distances * radius);
+        RayTrial trial;
+        trial.rays = 1'000'000;
+        trial.quick_rays = 50'000;
+        trial.in_float = [=](std::uint64_t rays) {
+            return count_leaving_failures<float>(scene, shallowest, rays);
+        };
+        trial.in_double = [=](std::uint64_t rays) {
+            return count_leaving_failures<double>(scene, shallowest, rays);
+        };
+        StressBar bar;
+        bar.max_error = 1e-3;
+        family.cases.push_back(ray_case(fmt::format("{:g}", radius), radius, quick_if(k % 3 == 0),
+                                        std::move(trial), bar));
+    }
+    return family;
+}
+
+/// Up to these sizes hits and misses are those of exact arithmetic; beyond, rounding the ray's
+/// direction alone moves it by a share of the radius, and an outline's share of rays flips.
+StressFamily sphere_rays() {
+    StressFamily family{"sphere-rays",
+                        "radius over distance",
+                        "the discriminant cancels: hits "
+                        "become misses, distances noise",
+                        {}};
+    for (int k = -6; k <= 0; ++k) {
+        const double radius = k == 0 ? 0.5 : std::pow(10.0, k);
+        const Scene scene = sphere_scene(radius, 1);
+        RayTrial trial;
+        trial.rays = trial.quick_rays = 100'000;
+        trial.in_float = [=](std::uint64_t rays) {
+            return count_sphere_failures<float>(scene, rays);
+        };
+        trial.in_double = [=](std::uint64_t rays) {
+            return count_sphere_failures<double>(scene, rays);
+        };
+        StressBar bar;
+        bar.most_wrong = k >= -3 ? 4 : (k == -4 ? 50 : (k == -5 ? 400 : 4000));
+        bar.max_error = 1e-4;
+        family.cases.push_back(
+            ray_case(fmt::format("{:g}", radius), radius, InQuick::yes, std::move(trial), bar));
+    }
+    return family;
+}
+
+}  // namespace
+
+void add_ray_families(StressFamilies& families) {
+    families.push_back(leak_rays(RayAim::edges));
+    families.push_back(leak_rays(RayAim::vertices));
+    families.push_back(t_junctions());
+    families.push_back(leaving_rays("leaving-sphere", 3,
+                                    "an absolute epsilon is acne on large balls and a hole in "
+                                    "small ones"));
+    families.push_back(
+        leaving_rays("leaving-far-sphere", 1000, "the same with the ball a thousand radii away"));
+    families.push_back(sphere_rays());
+}
+
+}  // namespace rt

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stress/ray_trials.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <numbers>
+#include <random>
+
+#include "host/flatten/flat_scene.h"
+#include "host/parallel.h"
+#include "host/stress/wide_real.h"
+#include "host/trace/surface.h"
+#include "host/trace/whitted.h"
+
+namespace rt {
+
+namespace {
+
+using stress::Quad;
+using stress::Wide3;
+
+class Dice {
+   public:
+    explicit Dice(std::uint64_t seed) : engine_(seed) {}
+
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+    }
+    double log_uniform(double low, double high) {
+        return std::exp(uniform(std::log(low), std::log(high)));
+    }
+    std::size_t index(std::size_t count) { return engine_() % count; }
+    glm::dvec3 direction() {
+        const double z = uniform(-1, 1), angle = uniform(0, 2 * std::numbers::pi);
+        const double radius = std::sqrt(1 - z * z);
+        return {radius * std::cos(angle), radius * std::sin(angle), z};
+    }
+
+   private:
+    std::mt19937_64 engine_;
+};
+
+template <typename P>
+glm::dvec3 in_double(const P& p) {
+    return {double(p.x), double(p.y), double(p.z)};
+}
+
+template <typename T>
+trace::Ray<T> make_ray(const Vec3<T>& origin, const glm::dvec3& dir) {
+    trace::Ray<T> ray;
+    ray.origin = origin;
+    ray.dir = trace::normalize3(Vec3<T>(dir / glm::length(dir)));
+    ray.t_max = std::numeric_limits<T>::infinity();
+    ray.from = Flat<T>::none;
+    return ray;
+}
+
+/// Sums try_ray(dice, figures) over many rays, in blocks with dice of their own, on all cores.
+template <typename Try>
+RayFigures many_rays(std::uint64_t rays, const Try& try_ray) {
+    constexpr std::uint64_t block = 4096;
+    std::atomic<std::uint64_t> next = 0;
+    std::mutex mutex;
+    RayFigures sum;
+    run_on_threads(available_cores(), [&](int) {
+        RayFigures own;
+        for (std::uint64_t at = next.fetch_add(block); at < rays; at = next.fetch_add(block)) {
+            Dice dice(at + 1);
+            for (std::uint64_t i = at; i < std::min(at + block, rays); ++i) try_ray(dice, own);
+        }
+        const std::lock_guard lock(mutex);
+        sum.rays += own.rays;
+        sum.failures += own.failures;
+        sum.max_error = std::max(sum.max_error, own.max_error);
+    });
+    return sum;
+}
+
+/// Middle and size of the flat triangles.
+struct Bounds {
+    glm::dvec3 middle;
+    double radius;
+};
+
+template <typename T>
+Bounds bounds_of(const FlatScene<T>& flat) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const auto& triangle : flat.triangles) {
+        for (const auto& p : {triangle.p0, triangle.p1, triangle.p2}) {
+            low = glm::min(low, in_double(p));
+            high = glm::max(high, in_double(p));
+        }
+    }
+    const glm::dvec3 half = 0.5 * (high - low);
+    return {low + half, std::min({half.x, half.y, half.z})};
+}
+
+/// The distance to the ray's sphere by the quadratic formula; negative for a miss.
+template <typename T>
+Quad exact_distance(const trace::Ray<T>& ray, const typename Flat<T>::Sphere& sphere) {
+    const auto wide = [](const auto& v) { return Wide3<Quad>{Quad(v.x), Quad(v.y), Quad(v.z)}; };
+    const Wide3<Quad> f = wide(ray.origin) - wide(sphere.center), d = wide(ray.dir);
+    const Quad radius = sphere.radius;
+    const Quad a = dot(d, d), b = dot(f, d);
+    const Quad discriminant = b * b - a * (dot(f, f) - radius * radius);
+    if (!(discriminant >= 0)) return -1;
+    const Quad root = stress::square_root(discriminant);
+    const Quad near = (-b - root) / a;
+    return near > 0 ? near : (-b + root) / a;
+}
+
+/// The far side for a ray from this point of the sphere, put onto it exactly.
+template <typename T>
+Quad far_side(const trace::Surface<T>& start, const Vec3<T>& dir,
+              const typename Flat<T>::Sphere& sphere) {
+    const auto wide = [](const auto& v) { return Wide3<Quad>{Quad(v.x), Quad(v.y), Quad(v.z)}; };
+    const Wide3<Quad> out = unit(wide(start.normal));
+    return Quad(-2) * Quad(sphere.radius) * dot(out, unit(wide(dir)));
+}
+
+/// A direction at this angle over the plane of the normal.
+glm::dvec3 at_angle(Dice& dice, const glm::dvec3& normal, double angle) {
+    const glm::dvec3 other = std::fabs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 across = glm::normalize(glm::cross(normal, other));
+    const double turn = dice.uniform(0, 2 * std::numbers::pi);
+    const glm::dvec3 tangent =
+        std::cos(turn) * across + std::sin(turn) * glm::cross(normal, across);
+    return std::cos(angle) * tangent + std::sin(angle) * normal;
+}
+
+double relative_error(double found, Quad exact) {
+    return static_cast<double>(stress::magnitude((Quad(found) - exact) / exact));
+}
+
+template <typename T>
+void leave_sphere(const trace::SceneView<T>& view, double shallowest, Dice& dice,
+                  RayFigures& figures) {
+    const auto& sphere = view.spheres[0];
+    const glm::dvec3 center = in_double(sphere.center);
+    const glm::dvec3 target = center + double(sphere.radius) * dice.direction();
+    const trace::Ray<T> eye = make_ray<T>(Vec3<T>(T(0)), target);
+    const trace::Hit<T> hit = trace::closest_hit(view, eye);
+    if (hit.prim != 0) return;
+    const trace::Surface<T> surface = trace::surface_at(view, eye, hit);
+    const glm::dvec3 normal = glm::normalize(in_double(surface.normal));
+    const bool outwards = dice.index(4) != 0;
+    const double steepest = std::numbers::pi / 2;
+    const double angle =
+        outwards ? (dice.index(3) == 0 ? dice.uniform(0.1, steepest) : dice.log_uniform(1e-6, 0.1))
+                 : -dice.log_uniform(shallowest, steepest);
+    const glm::dvec3 dir = at_angle(dice, normal, angle);
+    trace::Ray<T> ray = make_ray<T>(surface.point, dir);
+    ray.origin = trace::offset_origin(surface, ray.dir);
+    ray.from = 0;
+    const trace::Hit<T> again = trace::closest_hit(view, ray);
+    ++figures.rays;
+    if (outwards) {
+        figures.failures += again.prim == 0 ? 1 : 0;
+        return;
+    }
+    const double error =
+        again.prim == 0 ? relative_error(double(again.t), far_side(surface, ray.dir, sphere)) : 1.0;
+    figures.failures += error <= 1e-3 ? 0 : 1;
+    if (again.prim == 0) figures.max_error = std::max(figures.max_error, error);
+}
+
+}  // namespace
+
+template <typename T>
+RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays) {
+    const FlatScene<T> flat = flatten<T>(mesh);
+    const trace::SceneView<T> view = trace::view_of(flat);
+    const Bounds bounds = bounds_of(flat);
+    return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
+        const auto& triangle = flat.triangles[dice.index(flat.triangles.size())];
+        const std::array<glm::dvec3, 3> corners{in_double(triangle.p0), in_double(triangle.p1),
+                                                in_double(triangle.p2)};
+        const std::size_t first = dice.index(3);
+        const double share = aim == RayAim::edges ? dice.uniform(0, 1) : 0;
+        const glm::dvec3 target =
+            corners[first] + share * (corners[(first + 1) % 3] - corners[first]);
+        const double spread = 0.15 * bounds.radius * dice.uniform(0, 1);
+        const Vec3<T> origin(bounds.middle + spread * dice.direction());
+        const trace::Ray<T> ray = make_ray<T>(origin, target - in_double(origin));
+        ++figures.rays;
+        figures.failures += trace::closest_hit(view, ray).prim == Flat<T>::none ? 1 : 0;
+    });
+}
+
+template <typename T>
+RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays) {
+    const FlatScene<T> flat = flatten<T>(scene);
+    const trace::SceneView<T> view = trace::view_of(flat);
+    return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
+        leave_sphere(view, shallowest, dice, figures);
+    });
+}
+
+template <typename T>
+RayFigures count_sphere_failures(const Scene& scene, std::uint64_t rays) {
+    const FlatScene<T> flat = flatten<T>(scene);
+    const trace::SceneView<T> view = trace::view_of(flat);
+    const auto& sphere = flat.spheres[0];
+    return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
+        const double reach = 1.5 * double(sphere.radius) * dice.uniform(0, 1);
+        const glm::dvec3 target = in_double(sphere.center) + reach * dice.direction();
+        const trace::Ray<T> ray = make_ray<T>(Vec3<T>(T(0)), target);
+        const trace::Hit<T> hit = trace::closest_hit(view, ray);
+        const Quad exact = exact_distance(ray, sphere);
+        ++figures.rays;
+        const bool found = hit.prim == 0;
+        if (found != (exact > 0)) {
+            ++figures.failures;
+        } else if (found) {
+            figures.max_error = std::max(figures.max_error, relative_error(double(hit.t), exact));
+        }
+    });
+}
+
+template RayFigures count_leaks<float>(const Scene&, RayAim, std::uint64_t);
+template RayFigures count_leaks<double>(const Scene&, RayAim, std::uint64_t);
+template RayFigures count_leaving_failures<float>(const Scene&, double, std::uint64_t);
+template RayFigures count_leaving_failures<double>(const Scene&, double, std::uint64_t);
+template RayFigures count_sphere_failures<float>(const Scene&, std::uint64_t);
+template RayFigures count_sphere_failures<double>(const Scene&, std::uint64_t);
+
+}  // namespace rt

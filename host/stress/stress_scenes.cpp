@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stress/stress_scenes.h"
+
+namespace rt {
+
+namespace {
+
+/// Calls change(point) for each place of the scene, the camera's too.
+template <typename Change>
+void for_each_point(Scene& scene, const Change& change) {
+    change(scene.camera.from);
+    change(scene.camera.at);
+    for (auto& light : scene.lights) change(light.position);
+    for (auto& sphere : scene.spheres) change(sphere.center);
+    for (auto& triangle : scene.triangles) {
+        for (auto& vertex : triangle.vertices) change(vertex);
+    }
+}
+
+}  // namespace
+
+void set_view(Scene& scene, glm::dvec3 from, glm::dvec3 at, double fov_degrees) {
+    scene.camera.projection = Scene::Projection::perspective;
+    scene.camera.from = from;
+    scene.camera.at = at;
+    scene.camera.field_of_view = {Scene::FieldOfView::Fixed::vertical, fov_degrees};
+    set_image_size(scene, scene.width, scene.height);
+}
+
+void set_orthographic(Scene& scene, glm::dvec3 from, glm::dvec3 at, double height) {
+    scene.camera.projection = Scene::Projection::orthographic;
+    scene.camera.from = from;
+    scene.camera.at = at;
+    scene.camera.field_of_view = {Scene::FieldOfView::Fixed::view_height, height};
+    set_image_size(scene, scene.width, scene.height);
+}
+
+int add_matt(Scene& scene, glm::dvec3 colour, double specular, double shininess) {
+    Scene::Material material;
+    material.ambient = colour;
+    material.diffuse = colour;
+    material.specular = glm::dvec3(specular);
+    material.shininess = shininess;
+    scene.materials.push_back(material);
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+int add_mirror(Scene& scene, double mirror, double ambient) {
+    Scene::Material material;
+    material.ambient = glm::dvec3(ambient);
+    material.mirror = glm::dvec3(mirror);
+    scene.materials.push_back(material);
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+void add_sphere(Scene& scene, glm::dvec3 center, double radius, int material) {
+    scene.spheres.push_back({center, radius, material});
+}
+
+void add_triangle(Scene& scene, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, int material) {
+    scene.triangles.push_back({{a, b, c}, {}, material});
+}
+
+void add_quad(Scene& scene, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d, int material) {
+    add_triangle(scene, a, b, c, material);
+    add_triangle(scene, a, c, d, material);
+}
+
+void add_floor(Scene& scene, glm::dvec3 center, double half_side, int material) {
+    const double h = half_side;
+    add_quad(scene, center + glm::dvec3(-h, 0, h), center + glm::dvec3(h, 0, h),
+             center + glm::dvec3(h, 0, -h), center + glm::dvec3(-h, 0, -h), material);
+}
+
+Scene bare_scene() {
+    Scene scene;
+    scene.width = 160;
+    scene.height = 120;
+    scene.aa.pattern = AaMode::Pattern::grid;
+    scene.aa.count = 1;
+    scene.max_bounces = 5;
+    scene.background = {0.25, 0.375, 0.5};
+    scene.ambient_light = glm::dvec3(0.25);
+    scene.lights = {{{-3, 6, 4}, glm::dvec3(0.5)}, {{5, 4, 2}, {0.375, 0.3125, 0.25}}};
+    set_view(scene, {0, 2, 8}, {0, 0.75, 0}, 40);
+    return scene;
+}
+
+Scene still_life() {
+    Scene scene = bare_scene();
+    const int red = add_matt(scene, {0.875, 0.25, 0.125});
+    const int green = add_matt(scene, {0.125, 0.625, 0.25}, 0.25, 200);
+    const int grey = add_matt(scene, glm::dvec3(0.5), 0.125, 10);
+    const int glossy = add_matt(scene, {0.25, 0.25, 0.75});
+    scene.materials[static_cast<std::size_t>(glossy)].mirror = glm::dvec3(0.25);
+    scene.materials[static_cast<std::size_t>(grey)].mirror = glm::dvec3(0.125);
+    const int mirror = add_mirror(scene, 0.75);
+    add_sphere(scene, {-1.5, 1, 0}, 1, red);
+    add_sphere(scene, {0.75, 0.75, 1}, 0.75, mirror);
+    add_sphere(scene, {2.25, 0.5, 2}, 0.5, glossy);
+    add_sphere(scene, {-0.25, 0.375, 2.5}, 0.375, green);
+    add_floor(scene, {0, 0, 0}, 12, grey);
+    const glm::dvec3 tip(2, 2.25, -1.5);
+    const std::array<glm::dvec3, 4> base{{{1, 0, -0.5}, {3, 0, -0.5}, {3, 0, -2.5}, {1, 0, -2.5}}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        add_triangle(scene, base[i], base[(i + 1) % 4], tip, i % 2 == 0 ? green : glossy);
+    }
+    return scene;
+}
+
+void scale_scene(Scene& scene, double factor) {
+    for_each_point(scene, [&](glm::dvec3& point) { point *= factor; });
+    for (auto& sphere : scene.spheres) sphere.radius *= factor;
+    if (scene.camera.projection == Scene::Projection::orthographic) {
+        scene.camera.field_of_view.amount *= factor;
+        set_image_size(scene, scene.width, scene.height);
+    }
+}
+
+void shift_scene(Scene& scene, glm::dvec3 by) {
+    for_each_point(scene, [&](glm::dvec3& point) { point += by; });
+}
+
+}  // namespace rt

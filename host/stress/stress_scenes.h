@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "host/scene/scene.h"
+
+namespace rt {
+
+// Scenes that the families vary. Coordinates are multiples of 1/64, so that integer shifts up to
+// 1e9 are exact.
+
+/// Four balls (one a mirror), a pyramid, a floor that mirrors a little, two lights, five bounces.
+Scene still_life();
+
+/// A camera, matt and shiny materials, two lights, a small picture; nothing in it.
+Scene bare_scene();
+
+void set_view(Scene& scene, glm::dvec3 from, glm::dvec3 at, double fov_degrees);
+
+/// An orthographic view, `height` scene units high.
+void set_orthographic(Scene& scene, glm::dvec3 from, glm::dvec3 at, double height);
+
+/// Index of a new material: ambient and diffuse of a colour, specular 0.5 with shininess 50.
+int add_matt(Scene& scene, glm::dvec3 colour, double specular = 0.5, double shininess = 50);
+
+/// Index of a new material that mirrors, with a little light of its own.
+int add_mirror(Scene& scene, double mirror, double ambient = 0.05);
+
+void add_sphere(Scene& scene, glm::dvec3 center, double radius, int material);
+void add_triangle(Scene& scene, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, int material);
+
+/// Two triangles; a, b, c, d counterclockwise seen from the front, the diagonal from a to c.
+void add_quad(Scene& scene, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d, int material);
+
+/// A level square about (center.x, y, center.z), its front up.
+void add_floor(Scene& scene, glm::dvec3 center, double half_side, int material);
+
+/// Every length of the scene times the factor.
+void scale_scene(Scene& scene, double factor);
+
+void shift_scene(Scene& scene, glm::dvec3 by);
+
+}  // namespace rt

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/stress_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "host/console.h"
+#include "host/error.h"
+#include "host/hash.h"
+#include "host/render/stopwatch.h"
+#include "host/scene/json_file.h"
+#include "host/stop_signal.h"
+#include "host/stress/naive_tracer.h"
+#include "host/verbs/device_list.h"
+#include "host/verbs/picture_job.h"
+#include "host/verbs/stress_pictures.h"
+#include "host/verbs/timing_loop.h"
+
+namespace rt {
+
+namespace {
+
+std::string first_line(const Error& error) {
+    const std::string text = error.what();
+    return text.substr(0, text.find('\n'));
+}
+
+RenderOptions row_options(const StressRow& row, bool quick) {
+    RenderOptions options = timed_options();
+    options.device = row.device;
+    options.precision = row.double_precision ? Precision::float64 : Precision::float32;
+    options.all_features = quick;  // one build of the kernels for all cases
+    return options;
+}
+
+/// The first row of a renderer that must give the same bits as others of its family.
+using FirstHashes = std::map<std::string, std::uint64_t>;
+
+class Runner {
+   public:
+    explicit Runner(const StressOptions& options)
+        : options_(options), devices_(listed_devices(options.devices)) {
+        if (devices_.empty()) throw Error(ExitCode::device, "no device to run on");
+    }
+
+    StressFamilyResult run(const StressFamily& family) {
+        StressFamilyResult result{family.name, family.parameter, family.why, {}};
+        first_hashes_.clear();
+        for (const StressCase& one : family.cases) {
+            if (stop_flag() != 0) break;
+            StressCaseResult done{one.label, one.value, one.bar, {}, "", 0};
+            std::visit([&](const auto& trial) { run_trial(family, one, trial, done); }, one.trial);
+            compare_hashes(done);
+            result.cases.push_back(std::move(done));
+        }
+        return result;
+    }
+
+   private:
+    std::vector<StressRow> planned_rows(const StressBar& bar) const {
+        std::vector<StressRow> rows;
+        for (const ListedDevice& device : devices_) {
+            for (const bool double_precision : {false, true}) {
+                if (double_precision && !device.has_double) continue;
+                StressRow row;
+                row.renderer = device.name;
+                row.device = device.spec;
+                row.double_precision = double_precision;
+                row.judged = double_precision || bar.in_float;
+                rows.push_back(std::move(row));
+            }
+        }
+        return rows;
+    }
+
+    void judge(const Picture& picture, ReferencePicture* reference, const StressBar& bar,
+               StressRow& row) const {
+        row.figures =
+            reference ? judge_stress_picture(picture, *reference) : count_non_numbers(picture);
+        row.why = broken_bar(row.figures, bar);
+    }
+
+    void run_trial(const StressFamily& family, const StressCase& one, const PictureTrial& trial,
+                   StressCaseResult& result) {
+        const Scene scene = trial.scene();
+        const Stopwatch watch;
+        std::optional<ReferencePicture> reference;
+        if (trial.reference != ReferenceKind::none) {
+            reference.emplace(trial.reference_scene ? trial.reference_scene() : scene,
+                              trial.reference);
+        }
+        result.reference_seconds = watch.seconds();
+        ReferencePicture* const against = reference ? &*reference : nullptr;
+        StressPictures pictures(options_.output, family.name, one.label, against);
+        for (StressRow& row : planned_rows(one.bar)) {
+            if (stop_flag() != 0) return;
+            try {
+                const RenderedPicture rendered =
+                    render_picture(scene, row_options(row, options_.quick));
+                if (!rendered.stats.complete()) return;
+                row.hash = rendered.stats.image_hash;
+                row.seconds = rendered.stats.phases.renderer.trace;
+                judge(rendered.picture, against, one.bar, row);
+                pictures.keep_worst(rendered.picture, row.figures);
+            } catch (const Error& error) {
+                row.why = first_line(error);
+            }
+            check_same_bits(trial, row);
+            result.rows.push_back(std::move(row));
+        }
+        pictures.write();
+        if (options_.naive) add_naive_rows(scene, against, result);
+    }
+
+    /// Whether a row has the bits of the group's first on this renderer.
+    void check_same_bits(const PictureTrial& trial, StressRow& row) {
+        if (trial.same_bits.empty() || !row.why.empty()) return;
+        const std::string key = fmt::format("{} {} {}", trial.same_bits, row.device,
+                                            row.double_precision ? "double" : "float");
+        const auto [first, is_new] = first_hashes_.try_emplace(key, row.hash);
+        if (!is_new && first->second != row.hash) {
+            row.why = "not the bits of " + trial.same_bits;
+        }
+    }
+
+    template <typename T>
+    void add_naive_row(const Scene& scene, ReferencePicture* reference, NaiveStart start,
+                       StressCaseResult& result) const {
+        StressRow row;
+        row.renderer = start == NaiveStart::least_distance ? "naive, t > 1e-3" : "naive, + 1e-4 n";
+        row.naive = true;
+        row.judged = false;
+        row.double_precision = sizeof(T) == sizeof(double);
+        const NaivePicture naive = naive_picture<T>(scene, start);
+        row.seconds = naive.seconds;
+        judge(naive.picture, reference, result.bar, row);
+        result.rows.push_back(std::move(row));
+    }
+
+    void add_naive_rows(const Scene& scene, ReferencePicture* reference,
+                        StressCaseResult& result) const {
+        for (const NaiveStart start : {NaiveStart::least_distance, NaiveStart::along_normal}) {
+            add_naive_row<float>(scene, reference, start, result);
+            add_naive_row<double>(scene, reference, start, result);
+        }
+    }
+
+    /// The scenes of the texts that the reader takes.
+    static std::vector<Scene> readable_scenes(const TextTrial& trial, std::string& why) {
+        std::vector<Scene> scenes;
+        for (const std::string& text : trial.scenes) {
+            try {
+                scenes.push_back(parse_json_scene(text, "stress.json"));
+            } catch (const Error& error) {
+                if (error.exit_code() != ExitCode::input) why = first_line(error);
+            }
+        }
+        return scenes;
+    }
+
+    void render_text(const Scene& scene, const StressBar& bar, StressRow& row,
+                     Hasher& hasher) const {
+        try {
+            const RenderedPicture rendered =
+                render_picture(scene, row_options(row, options_.quick));
+            const PictureFigures figures = count_non_numbers(rendered.picture);
+            row.figures.nans += figures.nans;
+            row.figures.infinities += figures.infinities;
+            row.seconds += rendered.stats.phases.renderer.trace;
+            ++row.rendered;
+            hasher.add(rendered.stats.image_hash);
+            const std::string broken = broken_bar(figures, bar);
+            if (row.why.empty()) row.why = broken;
+        } catch (const Error& error) {
+            if (error.exit_code() == ExitCode::input) {
+                ++row.refused;
+            } else {
+                row.why = first_line(error);
+            }
+        }
+    }
+
+    void run_trial(const StressFamily&, const StressCase& one, const TextTrial& trial,
+                   StressCaseResult& result) {
+        std::string why;
+        const std::vector<Scene> scenes = readable_scenes(trial, why);
+        for (StressRow& row : planned_rows(one.bar)) {
+            row.why = why;
+            row.refused = trial.scenes.size() - scenes.size();
+            Hasher hasher;
+            for (const Scene& scene : scenes) {
+                if (stop_flag() != 0) return;
+                render_text(scene, one.bar, row, hasher);
+            }
+            row.hash = hasher.value();
+            result.rows.push_back(std::move(row));
+        }
+    }
+
+    /// The C++ tracer stands for all: the kernels are its twins, bit for bit.
+    void run_trial(const StressFamily&, const StressCase& one, const RayTrial& trial,
+                   StressCaseResult& result) {
+        const std::uint64_t rays = options_.quick ? trial.quick_rays : trial.rays;
+        for (StressRow& row : planned_rows(one.bar)) {
+            if (row.device.rfind("threads", 0) != 0 || stop_flag() != 0) continue;
+            const Stopwatch watch;
+            row.rays = row.double_precision ? trial.in_double(rays) : trial.in_float(rays);
+            row.seconds = watch.seconds();
+            if (row.rays->failures > one.bar.most_wrong) {
+                row.why = fmt::format("{} of {} rays fail", row.rays->failures, row.rays->rays);
+            } else if (!(row.rays->max_error <= one.bar.max_error)) {
+                row.why = fmt::format("off by {:.2g}", row.rays->max_error);
+            }
+            result.rows.push_back(std::move(row));
+        }
+    }
+
+    /// In strict arithmetic all devices give the same bits.
+    static void compare_hashes(StressCaseResult& result) {
+        for (const bool double_precision : {false, true}) {
+            std::set<std::uint64_t> hashes;
+            for (const StressRow& row : result.rows) {
+                if (row.naive || row.rays || row.double_precision != double_precision) continue;
+                hashes.insert(row.hash);
+            }
+            if (hashes.size() < 2) continue;
+            result.disagreement = fmt::format("devices give {} pictures in {}", hashes.size(),
+                                              double_precision ? "double" : "float");
+        }
+    }
+
+    const StressOptions& options_;
+    const std::vector<ListedDevice> devices_;
+    FirstHashes first_hashes_;
+};
+
+}  // namespace
+
+StressResult run_stress_cases(const std::vector<StressFamily>& families,
+                              const StressOptions& options) {
+    StressResult result;
+    result.load_before = load_average();
+    result.quick = options.quick;
+    const Stopwatch watch;
+    Runner runner(options);
+    install_stop_signals();
+    for (const StressFamily& family : families) {
+        if (!options.quiet) {
+            print_message(fmt::format("mirrorball: {}, {} case{}\n", family.name,
+                                      family.cases.size(), family.cases.size() == 1 ? "" : "s"));
+        }
+        result.families.push_back(runner.run(family));
+        if (stop_flag() != 0) break;
+    }
+    result.interrupted = stop_flag() != 0;
+    result.seconds = watch.seconds();
+    return result;
+}
+
+}  // namespace rt

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "host/error.h"
+#include "host/report/report_sections.h"
+#include "host/report/stress_json.h"
+#include "host/report/stress_text.h"
+#include "host/stress/judge.h"
+#include "host/stress/meshes.h"
+#include "host/stress/naive_tracer.h"
+#include "host/stress/ray_trials.h"
+#include "host/stress/stress_result.h"
+#include "host/stress/stress_scenes.h"
+
+namespace rt {
+namespace {
+
+// The families and their names
+
+TEST(StressGlob, FitsAFamilyOrOneOfItsCases) {
+    EXPECT_TRUE(fits_glob("scale-*", "scale-2", "2^-40"));
+    EXPECT_TRUE(fits_glob("scale-2", "scale-2", "2^-40"));
+    EXPECT_TRUE(fits_glob("scale-2/2^-4?", "scale-2", "2^-40"));
+    EXPECT_TRUE(fits_glob("*/2^-40", "scale-2", "2^-40"));
+    EXPECT_FALSE(fits_glob("scale", "scale-2", "2^-40"));
+    EXPECT_FALSE(fits_glob("scale-2/2^4", "scale-2", "2^-40"));
+    EXPECT_FALSE(fits_glob("", "scale-2", "2^-40"));
+}
+
+TEST(StressFamilies, AreNamedOnceAndHaveReasons) {
+    std::set<std::string> names;
+    for (const StressFamily& family : all_stress_families()) {
+        EXPECT_TRUE(names.insert(family.name).second) << family.name;
+        EXPECT_EQ(family.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-"),
+                  std::string::npos);
+        EXPECT_FALSE(family.why.empty()) << family.name;
+        std::set<std::string> labels;
+        bool quick = false;
+        for (const StressCase& one : family.cases) {
+            EXPECT_TRUE(labels.insert(one.label).second) << family.name << "/" << one.label;
+            quick = quick || one.quick;
+        }
+        EXPECT_TRUE(quick) << family.name << " has no quick case";
+    }
+}
+
+TEST(StressFamilies, AnUnknownGlobListsThem) {
+    try {
+        chosen_families(all_stress_families(), {"no-such-family"}, {}, false);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::usage);
+        const std::string what = error.what();
+        EXPECT_NE(what.find("no-such-family"), std::string::npos);
+        EXPECT_NE(what.find("\n  facing-mirrors"), std::string::npos);
+    }
+}
+
+TEST(StressFamilies, AreChosenAndLeftOut) {
+    const auto chosen =
+        chosen_families(all_stress_families(), {"scale-*", "ties"}, {"scale-10", "ties/b*"}, true);
+    ASSERT_EQ(chosen.size(), 2U);
+    EXPECT_EQ(chosen[0].name, "scale-2");
+    EXPECT_EQ(chosen[1].name, "ties");
+    for (const StressFamily& family : chosen) {
+        for (const StressCase& one : family.cases) {
+            EXPECT_TRUE(one.quick);
+            EXPECT_NE(one.label, "ball");
+        }
+    }
+}
+
+// The reference against closed forms
+
+constexpr ReferenceKind both_kinds[] = {ReferenceKind::quad, ReferenceKind::extended};
+
+/// A ball about the origin, the eye 4 before it, one light.
+Scene one_ball(glm::dvec3 light) {
+    Scene scene = bare_scene();
+    set_image_size(scene, 9, 9);
+    set_view(scene, {0, 0, 4}, {0, 0, 0}, 30);
+    scene.lights = {{light, {0.5, 0.25, 1}}};
+    add_sphere(scene, {0, 0, 0}, 1, add_matt(scene, {0.5, 0.75, 0.25}, 0.5, 30));
+    return scene;
+}
+
+std::array<double, 3> centre_colour(const Scene& scene, ReferenceKind kind) {
+    return make_reference_tracer(scene, kind)
+        ->colour_at(scene.width / 2.0, scene.height / 2.0, 0, 0);
+}
+
+void expect_colour(const std::array<double, 3>& colour, const glm::dvec3& expected) {
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(colour[static_cast<std::size_t>(c)], expected[c], 1e-15) << c;
+    }
+}
+
+/// The normal is (0, 0, 1); light and eye lie 3 and 4 away at these angles.
+TEST(ReferenceTracer, ShadesTheMiddleOfABall) {
+    const Scene scene = one_ball({0, 3, 5});
+    const double cosine = 4 / 5.0;
+    const glm::dvec3 l(0, 3 / 5.0, 4 / 5.0);
+    const double half = (l.z + 1) / std::sqrt(l.y * l.y + (l.z + 1) * (l.z + 1));
+    const double lobe = std::pow(half, 30);
+    const glm::dvec3 expected =
+        glm::dvec3(0.5, 0.75, 0.25) * 0.25 +
+        glm::dvec3(0.5, 0.25, 1) * (cosine * glm::dvec3(0.5, 0.75, 0.25) + lobe * glm::dvec3(0.5));
+    for (const ReferenceKind kind : both_kinds) {
+        expect_colour(centre_colour(scene, kind), expected);
+    }
+}
+
+TEST(ReferenceTracer, AShadowLeavesAmbientLight) {
+    Scene scene = one_ball({0, 3, 5});
+    add_sphere(scene, {0, 1.5, 3}, 0.25, 0);
+    for (const ReferenceKind kind : both_kinds) {
+        expect_colour(centre_colour(scene, kind), glm::dvec3(0.125, 0.1875, 0.0625));
+    }
+}
+
+TEST(ReferenceTracer, ALightBehindTheObstacleIsNotSeenButOneBeforeItIs) {
+    Scene scene = one_ball({0, 3, 5});
+    add_sphere(scene, {0, 6, 9}, 0.25, 0);  // on the same line, beyond the light
+    const auto lit = centre_colour(scene, ReferenceKind::quad);
+    EXPECT_GT(lit[0], 0.3);
+}
+
+/// A mirror at z = 0 shows the background, or a ball behind the eye at twice the distance.
+TEST(ReferenceTracer, APlaneMirrorsWhatIsBehindTheEye) {
+    Scene scene = bare_scene();
+    set_image_size(scene, 9, 9);
+    set_view(scene, {0, 0, 4}, {0, 0, 0}, 30);
+    scene.lights.clear();
+    const int mirror = add_mirror(scene, 0.5, 0);
+    add_quad(scene, {-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}, mirror);
+    for (const ReferenceKind kind : both_kinds) {
+        expect_colour(centre_colour(scene, kind), 0.5 * scene.background);
+    }
+    add_sphere(scene, {0, 0, 8}, 1, add_matt(scene, {0.5, 0.75, 0.25}));
+    for (const ReferenceKind kind : both_kinds) {
+        expect_colour(centre_colour(scene, kind), 0.125 * glm::dvec3(0.5, 0.75, 0.25));
+    }
+}
+
+/// Between two facing mirrors, n bounces take the n-th power of the reflectance.
+TEST(ReferenceTracer, FacingMirrorsCountTheirBounces) {
+    Scene scene = bare_scene();
+    set_view(scene, {0, 0, 1}, {0, 0, 0}, 30);
+    set_image_size(scene, 9, 9);
+    scene.ambient_light = glm::dvec3(1);
+    scene.lights.clear();
+    scene.max_bounces = 3;
+    const int mirror = add_mirror(scene, 0.5, 0.25);
+    add_quad(scene, {-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}, mirror);
+    add_quad(scene, {8, -8, 2}, {-8, -8, 2}, {-8, 8, 2}, {8, 8, 2}, mirror);
+    expect_colour(centre_colour(scene, ReferenceKind::quad),
+                  glm::dvec3(0.25 * (1 + 0.5 + 0.25 + 0.125)));
+}
+
+TEST(ReferenceTracer, FirstListedOfTwoInOnePlaceIsSeen) {
+    Scene scene = one_ball({0, 3, 5});
+    scene.lights.clear();
+    add_sphere(scene, {0, 0, 0}, 1, add_matt(scene, glm::dvec3(1)));
+    expect_colour(centre_colour(scene, ReferenceKind::quad), glm::dvec3(0.125, 0.1875, 0.0625));
+}
+
+TEST(ReferenceTracer, BothKindsAgree) {
+    Scene scene = still_life();
+    set_image_size(scene, 20, 15);
+    const auto quad = make_reference_tracer(scene, ReferenceKind::quad);
+    const auto extended = make_reference_tracer(scene, ReferenceKind::extended);
+    for (int y = 0; y < 15; ++y) {
+        for (int x = 0; x < 20; ++x) {
+            const auto a = quad->colour_at(x + 0.5, y + 0.5, 0, 0);
+            const auto b = extended->colour_at(x + 0.5, y + 0.5, 0, 0);
+            for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-12);
+        }
+    }
+}
+
+// The judge
+
+Scene small_still_life() {
+    Scene scene = still_life();
+    set_image_size(scene, 40, 30);
+    return scene;
+}
+
+TEST(StressJudge, TheReferenceItselfIsRight) {
+    ReferencePicture reference(small_still_life(), ReferenceKind::quad);
+    const PictureFigures figures = judge_stress_picture(reference.as_picture(), reference);
+    EXPECT_EQ(figures.wrong + figures.wrong_at_edges + figures.nans, 0U);
+    EXPECT_LT(figures.max_error, 1e-7);
+    EXPECT_EQ(broken_bar(figures, StressBar{}), "");
+}
+
+/// A pixel in the middle of the floor, and one of the background.
+TEST(StressJudge, ABrokenPictureFails) {
+    ReferencePicture reference(small_still_life(), ReferenceKind::quad);
+    const Picture right = reference.as_picture();
+    Picture picture = right;
+    picture.pixels[3 * (25 * 40 + 3)] += 0.01F;
+    PictureFigures figures = judge_stress_picture(picture, reference);
+    EXPECT_EQ(figures.wrong, 1U);
+    EXPECT_NEAR(figures.max_error, 0.01, 1e-6);
+    EXPECT_EQ(broken_bar(figures, StressBar{}), "1 pixels are wrong");
+    picture = right;
+    picture.pixels[3 * (25 * 40 + 3)] += 0.001F;
+    figures = judge_stress_picture(picture, reference);
+    EXPECT_EQ(figures.wrong, 0U);
+    EXPECT_EQ(broken_bar(figures, StressBar{}), "off by 0.001");
+}
+
+TEST(StressJudge, NaNIsWrongAndInfinityOnlySaturates) {
+    ReferencePicture reference(small_still_life(), ReferenceKind::quad);
+    Picture picture = reference.as_picture();
+    picture.pixels[7] = std::numeric_limits<float>::quiet_NaN();
+    PictureFigures figures = judge_stress_picture(picture, reference);
+    EXPECT_EQ(figures.nans, 1U);
+    EXPECT_NE(broken_bar(figures, StressBar{}), "");
+    StressBar bright;
+    bright.may_overflow = true;
+    EXPECT_NE(broken_bar(figures, bright), "");
+    figures = {};
+    figures.infinities = 1;
+    EXPECT_NE(broken_bar(figures, StressBar{}), "");
+    EXPECT_EQ(broken_bar(figures, bright), "");
+}
+
+/// A floor's edge against the background runs through some pixels: a change there is forgiven, and
+/// a change beside it is not.
+TEST(StressJudge, EdgesAreWhereTheReferenceChanges) {
+    Scene scene = bare_scene();
+    scene.lights.clear();
+    set_image_size(scene, 10, 10);
+    set_orthographic(scene, {0, 0, 5}, {0, 0, 0}, 10);
+    // Its right edge lies 0.01 pixel right of the middle of column 5.
+    add_quad(scene, {-20, -20, 0}, {0.51, -20, 0}, {0.51, 20, 0}, {-20, 20, 0},
+             add_matt(scene, glm::dvec3(1)));
+    ReferencePicture reference(scene, ReferenceKind::quad);
+    Picture picture = reference.as_picture();
+    for (int x = 4; x <= 6; ++x) picture.pixels[static_cast<std::size_t>(3 * x)] += 0.1F;
+    const PictureFigures figures = judge_stress_picture(picture, reference);
+    EXPECT_EQ(figures.wrong, 2U);
+    EXPECT_EQ(figures.wrong_at_edges, 1U);
+}
+
+TEST(StressVerdict, OneRowOrOneDisagreementBreaksIt) {
+    StressResult result;
+    result.families.resize(1);
+    result.families[0].cases.resize(1);
+    StressCaseResult& one = result.families[0].cases[0];
+    one.rows.resize(2);
+    EXPECT_TRUE(result.passed());
+    one.rows[1].why = "broken";
+    EXPECT_FALSE(result.passed());
+    one.rows[1].judged = false;
+    EXPECT_TRUE(result.passed());
+    one.disagreement = "devices differ";
+    EXPECT_FALSE(result.passed());
+}
+
+/// Two cases on threads, the second wrong, and textbook formulas beside each.
+StressResult small_result() {
+    StressResult result;
+    StressFamily family{"scale-2", "scale", "absolute epsilons", {}};
+    result.families.push_back({family.name, family.parameter, family.why, {}});
+    for (const double value : {1.0, 16.0}) {
+        StressCaseResult one;
+        one.label = std::to_string(static_cast<int>(value));
+        one.value = value;
+        StressRow row;
+        row.renderer = row.device = "threads";
+        row.figures.max_error = value * 1e-5;
+        row.why = value > 1 ? "off by 0.00016" : "";
+        one.rows.push_back(row);
+        row.renderer = "naive, t > 1e-3";
+        row.device = "";
+        row.naive = true;
+        row.judged = false;
+        row.figures.wrong = 123;
+        one.rows.push_back(row);
+        result.families[0].cases.push_back(one);
+    }
+    result.cost = StressCost{"box", 0.3, 0.2};
+    return result;
+}
+
+TEST(StressTable, NamesWhatIsBroken) {
+    const std::string text = stress_text(small_result(), false);
+    EXPECT_NE(text.find("\n    FAIL scale-2/16, threads float: off by 0.00016\n"),
+              std::string::npos);
+    EXPECT_EQ(text.find("scale-2/1,"), std::string::npos);
+    EXPECT_NE(text.find("box: 1.50"), std::string::npos);
+    EXPECT_NE(text.find("FAIL: 1 of 1 families"), std::string::npos);
+    EXPECT_NE(stress_text(small_result(), true).find("naive, t > 1e-3 float"), std::string::npos);
+}
+
+TEST(StressJson, SaysTheSame) {
+    const auto json = stress_json(small_result());
+    EXPECT_FALSE(json["passed"].get<bool>());
+    EXPECT_EQ(json["families"][0]["cases"][1]["rows"][0]["verdict"], "fail");
+    EXPECT_EQ(json["families"][0]["cases"][1]["rows"][1]["verdict"], "not judged");
+    EXPECT_TRUE(json["families"][0]["cases"][0]["bar"]["wrong_at_edges"].is_null());
+    EXPECT_DOUBLE_EQ(json["cost"]["ratio"].get<double>(), 1.5);
+}
+
+TEST(StressSection, ShowsVerdictsAndCurves) {
+    const std::string html = stress_section(small_result());
+    EXPECT_NE(html.find("falls short"), std::string::npos);
+    EXPECT_NE(html.find("123 wrong"), std::string::npos);
+    EXPECT_NE(html.find("stress-scale-2-title"), std::string::npos);
+    EXPECT_NE(html.find("stress#/families/0/cases/1/rows/0"), std::string::npos);
+}
+
+// The naive tracer
+
+PictureFigures naive_figures(const Scene& scene, NaiveStart start) {
+    ReferencePicture reference(scene, ReferenceKind::quad);
+    return judge_stress_picture(naive_picture<float>(scene, start).picture, reference);
+}
+
+TEST(NaiveTracer, IsRightWhereNothingIsStiff) {
+    for (const NaiveStart start : {NaiveStart::least_distance, NaiveStart::along_normal}) {
+        EXPECT_LE(naive_figures(small_still_life(), start).wrong, 2U);
+    }
+}
+
+TEST(NaiveTracer, BreaksWhereTheSceneIsSmall) {
+    Scene scene = small_still_life();
+    scale_scene(scene, 0x1p-20);
+    EXPECT_GT(naive_figures(scene, NaiveStart::least_distance).wrong, 300U);
+}
+
+TEST(NaiveTracer, GivesTheSameOnAnyNumberOfThreads) {
+    const Scene scene = small_still_life();
+    const auto one = naive_picture<double>(scene, NaiveStart::along_normal, 1);
+    const auto three = naive_picture<double>(scene, NaiveStart::along_normal, 3);
+    EXPECT_EQ(one.picture.pixels, three.picture.pixels);
+}
+
+// Rays
+
+TEST(RayTrials, AHoleInAMeshIsCounted) {
+    Scene scene = bare_scene();
+    StressMesh mesh = ball_mesh(1);
+    mesh.faces.pop_back();
+    add_mesh(scene, mesh, add_matt(scene, glm::dvec3(1)));
+    set_view(scene, {0, 0, 0}, {0, 0, -1}, 60);
+    EXPECT_GT(count_leaks<float>(scene, RayAim::edges, 10000).failures, 50U);
+}
+
+TEST(RayTrials, AreTheSameEachTime) {
+    Scene scene = bare_scene();
+    add_sphere(scene, {0, 0, -4}, 1e-5, add_matt(scene, glm::dvec3(1)));
+    set_view(scene, {0, 0, 0}, {0, 0, -1}, 60);
+    const RayFigures first = count_sphere_failures<float>(scene, 20000);
+    const RayFigures second = count_sphere_failures<float>(scene, 20000);
+    EXPECT_EQ(first.rays, 20000U);
+    EXPECT_EQ(first.failures, second.failures);
+    EXPECT_EQ(first.max_error, second.max_error);
+}
+
+TEST(StressMeshes, AreClosed) {
+    for (const StressMesh& mesh :
+         {ball_mesh(2), bumpy_mesh(1), fan_mesh(50), needle_mesh(6, 3, 1e-6)}) {
+        std::set<std::pair<int, int>> edges;
+        for (const auto& face : mesh.faces) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                EXPECT_TRUE(edges.insert({face[i], face[(i + 1) % 3]}).second);
+            }
+        }
+        for (const auto& [a, b] : edges) EXPECT_TRUE(edges.count({b, a}) == 1);
+    }
+}
+
+}  // namespace
+}  // namespace rt

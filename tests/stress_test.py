@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The quick stress suite passes on threads and every OpenCL device, its JSON is what the schema
+says, and its options do what they say.
+
+usage: stress_test.py BUILD_DIR REPO_ROOT
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import jsonschema
+
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+
+# What falls short for now, by family or case. Each line goes when the renderers have its rule; the
+# suite then holds them to it.
+KNOWN_OPEN = [
+    "huge-ball-floor",        # no discriminant for spheres much larger than the scene
+    "eye-on-surface",         # an eye on a sphere does not start with its number
+    "huge-triangle",          # t from far-away vertices: float from a half side of 1e4
+    "facing-mirrors",         # the same: off by 4.6e-4 in float, never wrong
+    "bright-mirrors",         # infinite throughput times 0
+    "light-place/on-a-ball",  # the ball's root at the light, where the ray grazes it there
+    "leaving-far-sphere",     # float: rays within 1e-4 rad of a ball 1000 radii away hit it again
+]
+
+
+def stress(*arguments, code=0):
+    result = subprocess.run([str(BUILD / "mirrorball"), "stress", *arguments], cwd=ROOT, text=True,
+                            capture_output=True, timeout=500, check=False)
+    assert result.returncode == code, (result.returncode, result.stdout, result.stderr)
+    return result
+
+
+def validate(result):
+    schemas = {name: json.loads((ROOT / "docs" / f"{name}.schema.json").read_text())
+               for name in ["results", "stress"]}
+    jsonschema.Draft202012Validator.check_schema(schemas["stress"])
+    base = "file:///docs/"
+    resolver = jsonschema.RefResolver(
+        f"{base}stress.schema.json", schemas["stress"],
+        store={f"{base}{name}.schema.json": schema for name, schema in schemas.items()})
+    jsonschema.Draft202012Validator(schemas["stress"], resolver=resolver).validate(result)
+
+
+class Quick(unittest.TestCase):
+    def test_passes_everywhere(self):
+        stress("--quick", "-q", "--except", ",".join(KNOWN_OPEN))
+
+    def test_known_open_families_are_families(self):
+        for name in KNOWN_OPEN:
+            self.assertIn(name, stress("--list", "--case", name).stdout)
+
+
+class Output(unittest.TestCase):
+    SMALL = ["--case", "scale-2/2^0,scale-2/2^20,no-geometry,leaving-sphere/1", "--quick", "-q"]
+
+    def test_json(self):
+        result = json.loads(stress(*self.SMALL, "--naive", "--json").stdout)
+        validate(result)
+        self.assertTrue(result["passed"])
+        rows = [row for family in result["families"] for case in family["cases"]
+                for row in case["rows"]]
+        self.assertEqual({row["precision"] for row in rows}, {"float", "double"})
+        hashes = {row["picture"]["hash"] for case in result["families"][0]["cases"]
+                  for row in case["rows"] if not row["naive"] and row["precision"] == "float"}
+        self.assertEqual(len(hashes), 1)
+        naive = [row for case in result["families"][0]["cases"] for row in case["rows"]
+                 if row["naive"]]
+        self.assertEqual(len(naive), 8)
+
+    def test_table(self):
+        lines = stress(*self.SMALL, "--device", "threads").stdout.splitlines()
+        self.assertEqual(len(lines), 5)
+        self.assertRegex(lines[1], "^scale-2 .* pass ")
+        self.assertRegex(lines[-1], "^PASS: 0 of 3 families")
+
+    def test_pictures(self):
+        with tempfile.TemporaryDirectory() as folder:
+            stress("--case", "picture-shape/1x1", "--device", "threads", "-q", "-o", folder)
+            names = sorted(path.name for path in pathlib.Path(folder).iterdir())
+            self.assertEqual(names, [f"picture-shape-1x1.{kind}.png"
+                                     for kind in ["error", "reference", "worst"]])
+
+    def test_json_never_replaces_something_else(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "scene.json"
+            path.write_text("{}")
+            stress(*self.SMALL, "--json", str(path), code=2)
+            self.assertEqual(path.read_text(), "{}")
+
+
+class Usage(unittest.TestCase):
+    def test_unknown_family(self):
+        error = stress("--case", "scale-3", code=2).stderr
+        self.assertIn("scale-3", error)
+        self.assertIn("\n  scale-2\n", error)
+
+    def test_unknown_device(self):
+        stress("--device", "nonsense", code=2)
+        stress("--device", "99", code=5)
+
+    def test_list_marks_the_quick_ones(self):
+        text = stress("--list").stdout
+        self.assertIn("  shift/1e9  quick\n", text)
+        self.assertIn("  shift/1e8\n", text)
+        self.assertNotIn("shift/1e8", stress("--list", "--quick").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
