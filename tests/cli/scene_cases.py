@@ -182,6 +182,20 @@ class Models(CliTest):
             self.assertEqual(result.returncode, 0)
             self.assertEqual(result.stderr.count("left out"), lines)
 
+    def test_bench_says_what_is_left_out(self):
+        path = self.write_text("A.OBJ", TRIANGLE + "f 1 1 2\n")
+        result = self.run_cli("bench", path, "--devices", "threads", "--threads", "1", "--sizes", "8",
+                              "--aa", "none", "--repeats", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count("left out"), 1)
+
+    def test_light_of_a_model_alone(self):
+        path = self.write_text("a.obj", TRIANGLE)
+        plain = self.hash_of(path)
+        self.assertEqual(self.hash_of(path, "--ambient", "0.25"), plain)
+        self.assertNotEqual(self.hash_of(path, "--ambient", "0"), plain)
+        self.assertNotEqual(self.hash_of(path, "--light-scale", "0.75"), plain)
+
     def test_mistakes(self):
         path = self.write_text("a.obj", TRIANGLE + "f 1 2 9\n")
         self.assert_refused(self.run_cli("render", path, "-o", "out.png"), 3, f"{path}:5:7: ")
