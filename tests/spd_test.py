@@ -185,6 +185,25 @@ class Generated(unittest.TestCase):
                 meshes = json.loads(path.read_text(encoding="utf-8"))["meshes"]
                 self.assertEqual([mesh["file"] for mesh in meshes], ["bumpy-mesh.ply"])
                 self.assert_closed(path.with_suffix(".ply").read_bytes(), triangles)
+                check = run(BUILD / "mirrorball", "scene", "check", path)
+                self.assertEqual((check.returncode, check.stderr), (0, ""))
+                info = json.loads(run(BUILD / "mirrorball", "scene", "info", path, "--json").stdout)
+                self.assertEqual((info["mesh_triangles"], info["notes"]), (triangles, []))
+
+    def test_mesh_is_seen(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = self.generate(folder, "bumpy-mesh", 1000)
+            whole = self.hash_of(path)
+            scene = json.loads(path.read_text(encoding="utf-8"))
+            del scene["meshes"]
+            path.write_text(json.dumps(scene), encoding="utf-8")
+            self.assertNotEqual(self.hash_of(path), whole)
+
+    def hash_of(self, path):
+        result = run(BUILD / "mirrorball", "render", path, "--device", "threads", "--size", "32",
+                     "--stats=json", "-q")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return json.loads(result.stdout)["image"]["hash"]
 
     def assert_closed(self, ply, triangles):
         head, body = ply.split(b"end_header\n", 1)

@@ -59,7 +59,7 @@ void add_converge(CLI::App& app, Options& options) {
     converge.aa = default_modes();
     converge.cache_folder = reference_folder();
     CLI::App& verb = *app.add_subcommand("converge", "error against run time");
-    verb.add_option("SCENE", converge.scene, "scene file (.json or .nff)")->required();
+    verb.add_option("SCENE", converge.scene, "scene file (.json, .nff, .obj, .ply)")->required();
     add_sweep(verb, converge);
     add_light_options(verb, converge.light);
     add_count(verb, "--repeats", converge.repeats, 5, 1000,

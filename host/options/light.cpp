@@ -27,7 +27,8 @@ glm::dvec3 parse_ambient(const std::string& text) {
 
 void add_light_options(CLI::App& verb, LightOverrides& light) {
     add_text(verb, "--light-scale", "X",
-             "intensity of lights whose file gives none (default: NFF sqrt(n)/2n, JSON 1)",
+             "intensity of lights whose file gives none (default: NFF sqrt(n)/2n, JSON 1, models "
+             "0.75 and 0.25)",
              [&](const std::string& text) { light.light_scale = parse_light_scale(text); });
     add_text(verb, "--ambient", "R,G,B|X", "ambient light (default: the scene's)",
              [&](const std::string& text) { light.ambient_light = parse_ambient(text); });

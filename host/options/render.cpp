@@ -148,7 +148,8 @@ void add_render(CLI::App& app, Options& options) {
     options.render.pocl_cache = pocl_cache_folder();
     options.render.dumb_terminal = environment("TERM") == "dumb";
     CLI::App& verb = *app.add_subcommand("render", "render one picture");
-    verb.add_option("SCENE", options.render.scene, "scene file (.json or .nff)")->required();
+    verb.add_option("SCENE", options.render.scene, "scene file (.json, .nff, .obj, .ply)")
+        ->required();
     add_text(verb, "-o,--output", "FILE", "picture file: .png, .exr or .pfm (default: none)",
              [&](const std::string& text) {
                  if (text.empty()) refuse("-o", text, "name a picture file");

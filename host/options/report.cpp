@@ -9,7 +9,7 @@ void add_report(CLI::App& app, Options& options) {
     ReportOptions& report = options.report;
     CLI::App& verb =
         *app.add_subcommand("report", "one page: pictures, timings, error against run time");
-    verb.add_option("SCENE", report.scenes, "scene files (.json)")->required();
+    verb.add_option("SCENE", report.scenes, "scene files (.json, .nff, .obj, .ply)")->required();
     verb.add_option_function<std::string>(
             "-o,--output",
             [&](const std::string& text) {

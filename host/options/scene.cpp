@@ -8,7 +8,8 @@ namespace {
 void add_scene_action(CLI::App& scene, const char* name, const char* help, bool info,
                       Options& options) {
     CLI::App& action = *scene.add_subcommand(name, help);
-    action.add_option("SCENE", options.scene.scene, "scene file (.json or .nff)")->required();
+    action.add_option("SCENE", options.scene.scene, "scene file (.json, .nff, .obj, .ply)")
+        ->required();
     add_light_options(action, options.scene.light);
     action.add_flag("--json", options.scene.json, "as JSON on stdout");
     action.callback([&options, info] {

@@ -46,6 +46,7 @@ struct ConvergeReference {
 /// All that `mirrorball converge` found out. Figures are functions over it (converge.h).
 struct ConvergeResult {
     std::string scene_path, scene_name;
+    std::vector<std::string> notes;  ///< Scene::notes
     std::uint64_t scene_hash = 0;
     int width = 0, height = 0;  ///< pixels
     int repeats_asked = 0;

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "host/scene/image_limits.h"
 #include "host/scene/json_camera.h"
 #include "host/scene/json_document.h"
+#include "host/scene/json_meshes.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/json_shapes.h"
 #include "host/scene/scene_file.h"
@@ -21,8 +23,8 @@ namespace {
 constexpr int max_max_bounces = 100000;
 
 constexpr std::string_view scene_keys[] = {
-    "$schema",       "name",   "camera",    "image",   "max_bounces", "background",
-    "ambient_light", "lights", "materials", "spheres", "cones",       "triangles"};
+    "$schema", "name",      "camera",  "image", "max_bounces", "background", "ambient_light",
+    "lights",  "materials", "spheres", "cones", "triangles",   "meshes"};
 constexpr std::string_view image_keys[] = {"width", "height", "aa"};
 
 std::optional<AaMode> read_aa(const JsonValue& value, std::string_view name, Mistakes& mistakes) {
@@ -66,7 +68,15 @@ void read_list(const ObjectReader& reader, std::string_view key, std::vector<T>&
     for (const JsonValue& item : *items) target.push_back(read(item));
 }
 
-void read_objects(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
+/// A scene but for its meshes, which wait until all else is known to be right.
+struct SceneText {
+    Scene scene;
+    std::vector<MeshRequest> meshes;
+};
+
+void read_objects(const ObjectReader& reader, const SceneFolder& folder, SceneText& text,
+                  Mistakes& mistakes) {
+    Scene& scene = text.scene;
     MaterialTable materials(reader.find("materials"), mistakes);
     read_list(reader, "lights", scene.lights, mistakes,
               [&](const JsonValue& item) { return read_light(item, mistakes); });
@@ -76,6 +86,8 @@ void read_objects(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) 
               [&](const JsonValue& item) { return read_cone(item, materials, mistakes); });
     read_list(reader, "triangles", scene.triangles, mistakes,
               [&](const JsonValue& item) { return read_triangle(item, materials, mistakes); });
+    read_list(reader, "meshes", text.meshes, mistakes,
+              [&](const JsonValue& item) { return read_mesh(item, materials, folder, mistakes); });
     scene.materials = materials.take();
 }
 
@@ -93,10 +105,11 @@ void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
     }
 }
 
-Scene read_scene(const JsonValue& root, Mistakes& mistakes) {
-    Scene scene;
+SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes& mistakes) {
+    SceneText text;
+    Scene& scene = text.scene;
     const ObjectReader reader(root, "the scene", scene_keys, mistakes);
-    if (!reader.is_object()) return scene;
+    if (!reader.is_object()) return text;
     read_name(reader, scene, mistakes);
     constexpr std::string_view example =
         "\"camera\": {\"from\": [0, 0, 5], \"at\": [0, 0, 0], \"fov_degrees\": 60}";
@@ -107,8 +120,8 @@ Scene read_scene(const JsonValue& root, Mistakes& mistakes) {
     reader.optional("max_bounces", scene.max_bounces, read_bounces);
     reader.optional("background", scene.background, read_colour);
     reader.optional("ambient_light", scene.ambient_light, read_colour);
-    read_objects(reader, scene, mistakes);
-    return scene;
+    read_objects(reader, folder, text, mistakes);
+    return text;
 }
 
 }  // namespace
@@ -120,11 +133,15 @@ Scene load_json_scene(const std::string& path) {
 Scene parse_json_scene(std::string_view text, const std::string& file_name) {
     Mistakes mistakes(text, file_name);
     const JsonValue root = parse_json(mistakes);
-    Scene scene = read_scene(root, mistakes);
+    const SceneFolder folder = SceneFolder::of(file_name);
+    SceneText read = read_scene(root, folder, mistakes);
+    mistakes.throw_if_any();
+    Scene& scene = read.scene;
+    load_meshes(read.meshes, folder, scene, mistakes);
     mistakes.throw_if_any();
     if (scene.name.empty()) scene.name = name_of_file(file_name);
     set_image_size(scene, scene.width, scene.height);
-    return scene;
+    return std::move(scene);
 }
 
 }  // namespace rt

@@ -30,7 +30,11 @@ Mistakes::Mistakes(std::string_view text, std::string file_name)
     : text_(text), file_name_(std::move(file_name)) {}
 
 void Mistakes::add(std::size_t offset, std::string message) {
-    found_.push_back({offset, std::move(message)});
+    add_in({}, offset, std::move(message));
+}
+
+void Mistakes::add_in(std::string where, std::size_t offset, std::string message) {
+    found_.push_back({offset, std::move(message), std::move(where)});
     if (found_.size() >= max_count) throw_if_any();
 }
 
@@ -47,7 +51,8 @@ void Mistakes::throw_if_any() const {
     std::string lines;
     for (const Mistake& mistake : sorted) {
         if (!lines.empty()) lines += '\n';
-        lines += place(mistake.offset) + ": " + mistake.message;
+        lines += mistake.where.empty() ? place(mistake.offset) : file_name_ + ": " + mistake.where;
+        lines += ": " + mistake.message;
     }
     throw Error(ExitCode::input, lines);
 }

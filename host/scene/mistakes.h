@@ -26,6 +26,10 @@ class Mistakes {
     /// Notes "what is wrong; what to do" at a byte offset. Throws when max_count is reached.
     void add(std::size_t offset, std::string message);
 
+    /// The same where lines do not count: `where` ("element 'face' 17") stands in the message in
+    /// place of line and column.
+    void add_in(std::string where, std::size_t offset, std::string message);
+
     std::size_t count() const { return found_.size(); }
     std::string_view text() const { return text_; }
 
@@ -40,6 +44,7 @@ class Mistakes {
     struct Mistake {
         std::size_t offset;
         std::string message;
+        std::string where;  ///< empty: line and column of the offset
     };
 
     std::string_view text_;

@@ -78,7 +78,7 @@ std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners, glm::dvec
 }  // namespace
 
 PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
-                         std::vector<std::array<std::uint32_t, 3>>& triangles) {
+                         std::vector<std::array<std::uint32_t, 3>>& triangles, double max_bend) {
     triangles.clear();
     if (corners.size() == 3) {
         if (zero_area({corners[0], corners[1], corners[2]})) return PolygonFault::zero_area;
@@ -87,7 +87,7 @@ PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work
     }
     if (corners.size() < 3 || on_one_line(corners)) return PolygonFault::zero_area;
     const Plane plane = plane_of(corners);
-    if (plane.bend > max_polygon_bend) return PolygonFault::bent;
+    if (plane.bend > max_bend) return PolygonFault::bent;
     if (largest(plane.normal) == 0) return PolygonFault::crosses_itself;
     const PolygonFault fault = EarClipper(flattened(corners, plane.normal), work, triangles).run();
     std::erase_if(triangles, [&](const auto& triangle) {

@@ -36,6 +36,12 @@ Scene::Window camera_window(const Scene::Camera& camera, int width, int height) 
     return camera.window;
 }
 
+std::size_t triangle_count(const Scene& scene) {
+    std::size_t count = scene.triangles.size();
+    for (const Scene::Mesh& mesh : scene.meshes) count += mesh.faces.size();
+    return count;
+}
+
 void set_image_size(Scene& scene, int width, int height) {
     scene.width = width;
     scene.height = height;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -118,7 +119,12 @@ struct Scene {
     std::vector<Cone> cones;
     std::vector<Triangle> triangles;
     std::vector<Mesh> meshes;
+    /// What the reader left out, a sentence each: for the user to see, without effect otherwise.
+    std::vector<std::string> notes;
 };
+
+/// The triangles of the scene, those of its meshes included.
+std::size_t triangle_count(const Scene& scene);
 
 /// The window that this camera's field of view spans on a picture of this many pixels.
 Scene::Window camera_window(const Scene::Camera& camera, int width, int height);

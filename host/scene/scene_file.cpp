@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "host/scene/json_file.h"
+#include "host/scene/model_file.h"
 #include "host/scene/nff_file.h"
 
 namespace rt {
@@ -22,6 +23,7 @@ std::string ending_of(const std::string& path) {
 Scene load(const std::string& path) {
     const std::string ending = ending_of(path);
     if (ending == ".nff") return load_nff_scene(path);
+    if (ending == ".obj" || ending == ".ply") return load_model_scene(path);
     return load_json_scene(path);
 }
 

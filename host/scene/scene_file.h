@@ -15,9 +15,9 @@ struct LightOverrides {
     std::optional<glm::dvec3> ambient_light;
 };
 
-/// Reads a scene file in the format that its ending names: .nff, else .json. Throws Error:
-/// ExitCode::input for a file that is missing, unreadable, not regular, or wrong; ExitCode::limit
-/// for one that is too large.
+/// Reads a scene file in the format that its ending names: .nff, a model alone in .obj or
+/// .ply, else .json. Throws Error: ExitCode::input for a file that is missing, unreadable, not
+/// regular, or wrong; ExitCode::limit for one that is too large.
 Scene load_scene(const std::string& path, const LightOverrides& light = {});
 
 /// A scene's name where the file gives none: that of the file, without its ending.

@@ -53,9 +53,10 @@ std::string read_text_file(const std::string& path, std::size_t max_bytes) {
     };
     if (!file) refuse();
     std::string text;
+    constexpr std::size_t chunk = std::size_t{1} << 20;
+    if (!unknown) text.reserve(static_cast<std::size_t>(hint) + chunk);
     std::size_t size = 0;
     while (file && size <= max_bytes) {
-        constexpr std::size_t chunk = std::size_t{1} << 20;
         text.resize(size + chunk);
         file.read(text.data() + size, chunk);
         size += static_cast<std::size_t>(file.gcount());

@@ -58,7 +58,9 @@ class Plan {
         for (const std::string& path : paths) {
             const Stopwatch watch;
             Scene scene = load_scene(path, options.light);
-            scenes_.push_back({path, std::move(scene), watch.seconds()});
+            const double seconds = watch.seconds();
+            if (!options.quiet) print_notes(scene.notes);
+            scenes_.push_back({path, std::move(scene), seconds});
         }
         say_devices_without_double();
     }

@@ -130,6 +130,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options, const std::strin
     if (options.size) set_image_size(scene, options.size->width, options.size->height);
     result.scene_path = options.scene;
     result.scene_name = scene.name;
+    result.notes = scene.notes;
     result.scene_hash = scene_hash(scene);
     result.width = scene.width;
     result.height = scene.height;
@@ -157,6 +158,7 @@ int run_converge(const ConvergeOptions& options) {
     check_result_path(options.results.csv, run_csv_header());
     const FreshKernelCache kernels;
     const ConvergeResult result = measure_converge(options, kernels.folder());
+    if (!options.quiet) print_notes(result.notes);
     if (!options.results.take_stdout()) print_result(converge_text(result));
     write_result(options.results.json, json_text(converge_json(result)));
     write_result(options.results.csv, converge_csv(result));

@@ -53,7 +53,7 @@ SceneStats scene_stats(const Scene& scene) {
     stats.name = scene.name;
     stats.hash = scene_hash(scene);
     stats.spheres = scene.spheres.size();
-    stats.triangles = scene.triangles.size();
+    stats.triangles = triangle_count(scene);
     stats.smooth_triangles = static_cast<std::size_t>(std::count_if(
         scene.triangles.begin(), scene.triangles.end(),
         [](const Scene::Triangle& triangle) { return triangle.normals.has_value(); }));
@@ -235,6 +235,10 @@ void check_filter(const Scene& scene) {
 }
 
 }  // namespace
+
+void print_notes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) print_message("mirrorball: " + note + "\n");
+}
 
 void apply_overrides(Scene& scene, const RenderOptions& options) {
     if (options.size) set_image_size(scene, options.size->width, options.size->height);

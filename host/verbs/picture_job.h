@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "host/image/picture.h"
 #include "host/options/options.h"
 #include "host/report/render_stats.h"
@@ -12,6 +15,9 @@ struct RenderedPicture {
     Picture picture;  ///< the region, row 0 at the top; finished tiles only when stopped early
     RenderStats stats;
 };
+
+/// Says on stderr what a scene's reader left out.
+void print_notes(const std::vector<std::string>& notes);
 
 /// Gives the scene what the options override: size, AA, bounces.
 void apply_overrides(Scene& scene, const RenderOptions& options);

@@ -91,6 +91,7 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     if (!options.output.empty()) check_picture_path(options.output);
     Stopwatch watch;
     Scene scene = load_scene(options.scene, options.light);
+    if (!options.quiet) print_notes(scene.notes);
     apply_overrides(scene, options);
     const double load_seconds = watch.lap();
     const std::optional<Picture> reference = load_reference(options, scene);

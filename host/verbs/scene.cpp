@@ -34,6 +34,8 @@ Json info_json(const std::string& path, const Scene& scene, const FlatScene<floa
             {"cones", scene.cones.size()},
             {"triangles", flat.triangles.size()},
             {"smooth_triangles", flat.vertex_normals.size()},
+            {"meshes", scene.meshes.size()},
+            {"mesh_triangles", triangle_count(scene) - scene.triangles.size()},
             {"lights", scene.lights.size()},
             {"lights_used", flat.lights.size()},
             {"materials", scene.materials.size()},
@@ -43,7 +45,8 @@ Json info_json(const std::string& path, const Scene& scene, const FlatScene<floa
             {"shadow_casters", flat.stats.casters},
             {"lit_triangles", flat.stats.lit_triangles},
             {"features_used", names_of(flat.features, true)},
-            {"features_left_out", names_of(flat.features, false)}};
+            {"features_left_out", names_of(flat.features, false)},
+            {"notes", scene.notes}};
 }
 
 std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
@@ -61,6 +64,10 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
             "             {:.1f} a triangle\n",
             static_cast<double>(flat.bytes()) / static_cast<double>(flat.triangles.size()));
     }
+    if (!scene.meshes.empty()) {
+        text += fmt::format("  meshes     {} of {} triangles\n", scene.meshes.size(),
+                            triangle_count(scene) - scene.triangles.size());
+    }
     text += fmt::format("  builds     {}\n  casts      {}\n", hierarchies_text(flat.stats),
                         casters_text(flat.stats));
     for (const FeatureName& feature : feature_names) {
@@ -71,6 +78,7 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
         text += fmt::format("  leaves out {} lights that shine on nothing\n",
                             scene.lights.size() - flat.lights.size());
     }
+    for (const std::string& note : scene.notes) text += fmt::format("  note       {}\n", note);
     return text;
 }
 

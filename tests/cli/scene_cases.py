@@ -160,6 +160,51 @@ class NeutralFileFormat(CliTest):
         self.assertEqual(info["cones"], 1)
 
 
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+class Models(CliTest):
+    def test_alone(self):
+        result = self.run_cli("scene", "info", self.write_text("a.obj", TRIANGLE), "--json")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        info = json.loads(result.stdout)
+        self.assertEqual((info["name"], info["meshes"], info["mesh_triangles"]), ("a", 1, 1))
+
+    def test_in_a_scene(self):
+        result = self.run_cli("scene", "info", scene_path("meshes"))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("3 of 846 triangles", result.stdout)
+
+    def test_what_is_left_out_is_said(self):
+        path = self.write_text("a.obj", TRIANGLE + "f 1 1 2\nl 1 2\n")
+        for options, lines in [((), 2), (("-q",), 0)]:
+            result = self.run_cli("render", path, "--device", "threads", "--size", "8", *options)
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(result.stderr.count("left out"), lines)
+
+    def test_bench_says_what_is_left_out(self):
+        path = self.write_text("A.OBJ", TRIANGLE + "f 1 1 2\n")
+        result = self.run_cli("bench", path, "--devices", "threads", "--threads", "1", "--sizes", "8",
+                              "--aa", "none", "--repeats", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count("left out"), 1)
+
+    def test_light_of_a_model_alone(self):
+        path = self.write_text("a.obj", TRIANGLE)
+        plain = self.hash_of(path)
+        self.assertEqual(self.hash_of(path, "--ambient", "0.25"), plain)
+        self.assertNotEqual(self.hash_of(path, "--ambient", "0"), plain)
+        self.assertNotEqual(self.hash_of(path, "--light-scale", "0.75"), plain)
+
+    def test_mistakes(self):
+        path = self.write_text("a.obj", TRIANGLE + "f 1 2 9\n")
+        self.assert_refused(self.run_cli("render", path, "-o", "out.png"), 3, f"{path}:5:7: ")
+
+    def test_fifo_does_not_hang(self):
+        os.mkfifo(self.folder / "fifo.ply")
+        self.assert_refused(self.run_cli("scene", "check", "fifo.ply"), 3, "regular file")
+
+
 class Check(CliTest):
     def test_all_shipped_scenes_are_fine(self):
         for path in all_scenes():

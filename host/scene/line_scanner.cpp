@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/line_scanner.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+#include "host/scene/json_reader.h"
+#include "host/scene/words.h"
+
+namespace rt {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+}  // namespace
+
+/// The bytes of a backslash with the line end that it takes away, or 0.
+std::size_t LineScanner::continuation() const {
+    if (*at_ != '\\' || end_ - at_ < 2) return 0;
+    if (at_[1] == '\n') return 2;
+    if (at_[1] != '\r') return 0;
+    return end_ - at_ > 2 && at_[2] == '\n' ? 3 : 2;
+}
+
+bool LineScanner::at_word_end() const {
+    return at_line_end() || is_blank(*at_) || continuation() > 0;
+}
+
+bool LineScanner::word_follows() {
+    while (!at_line_end()) {
+        if (const std::size_t joined = continuation()) {
+            at_ += joined;
+        } else if (is_blank(*at_)) {
+            ++at_;
+        } else {
+            return *at_ != '#';
+        }
+    }
+    return false;
+}
+
+std::string_view LineScanner::word() {
+    if (!word_follows()) return {};
+    const char* start = at_;
+    while (!at_word_end()) ++at_;
+    return {start, static_cast<std::size_t>(at_ - start)};
+}
+
+std::string_view LineScanner::rest() {
+    while (!at_line_end() && is_blank(*at_)) ++at_;
+    const char* start = at_;
+    while (!at_line_end()) ++at_;
+    const char* stop = at_;
+    while (stop != start && is_blank(stop[-1])) --stop;
+    return {start, static_cast<std::size_t>(stop - start)};
+}
+
+void LineScanner::next_line() {
+    bool comment = false;
+    while (!at_line_end()) {
+        comment = comment || *at_ == '#';
+        const std::size_t joined = comment ? 0 : continuation();
+        at_ += joined > 0 ? joined : 1;
+    }
+    if (at_ == end_) return;
+    if (*at_ == '\r' && end_ - at_ > 1 && at_[1] == '\n') ++at_;
+    ++at_;
+}
+
+bool LineScanner::find_word() {
+    while (!word_follows()) {
+        if (at_ == end_) return false;
+        next_line();
+    }
+    return true;
+}
+
+std::optional<double> LineScanner::number() {
+    if (!word_follows()) return std::nullopt;
+    const char* const start = at_;
+    const char* digits = *at_ == '+' && end_ - at_ > 1 && at_[1] != '-' ? at_ + 1 : at_;
+    double value = 0;
+    const auto result = std::from_chars(digits, end_, value);
+    at_ = result.ptr;
+    if (result.ec == std::errc::result_out_of_range) {
+        value = std::strtod(std::string(digits, at_).c_str(), nullptr);
+    } else if (result.ec != std::errc()) {
+        at_ = start;
+        return std::nullopt;
+    }
+    if (at_word_end() && std::isfinite(value)) return value;
+    at_ = start;
+    return std::nullopt;
+}
+
+std::optional<std::int64_t> LineScanner::integer() {
+    if (!word_follows()) return std::nullopt;
+    const char* const start = at_;
+    std::int64_t value = 0;
+    const auto result = std::from_chars(at_, end_, value);
+    at_ = result.ptr;
+    if (result.ec == std::errc() && at_word_end()) return value;
+    at_ = start;
+    return std::nullopt;
+}
+
+std::optional<double> read_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes) {
+    constexpr std::string_view wanted = "write a number from -1e30 to 1e30";
+    const bool there = scanner.word_follows();
+    const std::size_t offset = scanner.offset();
+    if (!there) {
+        mistakes.add(offset, fmt::format("{} is missing; {}", name, wanted));
+        return std::nullopt;
+    }
+    const auto number = scanner.number();
+    if (number && std::abs(*number) <= max_scene_number) return number;
+    const std::string found = number ? fmt::format("{}", *number) : in_quotes(scanner.word());
+    mistakes.add(offset, fmt::format("{} is {}; {}", name, found, wanted));
+    return std::nullopt;
+}
+
+}  // namespace rt

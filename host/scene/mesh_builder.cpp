@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/mesh_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace rt {
+namespace {
+
+using Face = Scene::Mesh::Face;
+
+constexpr Face flat_face = {Scene::Mesh::no_normal, Scene::Mesh::no_normal, Scene::Mesh::no_normal};
+
+Face pick(std::span<const std::uint32_t> items, const Face& which) {
+    return {items[which[0]], items[which[1]], items[which[2]]};
+}
+
+/// Whether the diagonal from the first corner parts a quadrilateral well: the triangles on both of
+/// its sides face much the same way, by more than rounding explains. True for most.
+bool parts_well(const std::vector<glm::dvec3>& quad) {
+    const glm::dvec3 diagonal = quad[2] - quad[0];
+    const glm::dvec3 one = glm::cross(quad[1] - quad[0], diagonal);
+    const glm::dvec3 other = glm::cross(diagonal, quad[3] - quad[0]);
+    return glm::dot(one, other) > 0.5 * glm::length(one) * glm::length(other);
+}
+
+void make_fan(std::size_t corners, std::vector<Face>& triangles) {
+    triangles.clear();
+    for (std::uint32_t i = 2; i < corners; ++i) triangles.push_back({0, i - 1, i});
+}
+
+}  // namespace
+
+void MeshBuilder::add_triangle(const Face& face, const Face* normals) {
+    if (normals && mesh.face_normals.empty()) {
+        mesh.face_normals.reserve(mesh.faces.capacity());
+        mesh.face_normals.assign(mesh.faces.size(), flat_face);
+    }
+    mesh.faces.push_back(face);
+    if (normals) {
+        mesh.face_normals.push_back(*normals);
+    } else if (!mesh.face_normals.empty()) {
+        mesh.face_normals.push_back(flat_face);
+    }
+}
+
+void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
+                           std::span<const std::uint32_t> normals) {
+    const auto add = [&](const Face& which) {
+        const Face face = pick(corners, which);
+        if (normals.empty()) return add_triangle(face, nullptr);
+        const Face face_normals = pick(normals, which);
+        add_triangle(face, &face_normals);
+    };
+    if (corners.size() == 3) return add({0, 1, 2});
+    split(corners);
+    for (const Face& which : parts_) add(which);
+}
+
+/// Sets parts_. What small faces cost is on the house, so that their number does not matter.
+void MeshBuilder::split(std::span<const std::uint32_t> corners) {
+    outline_.clear();
+    for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
+    if (corners.size() == 4 && parts_well(outline_)) return make_fan(4, parts_);
+    constexpr std::int64_t work_of_a_corner = 64;
+    work_ = std::min(max_polygon_work,
+                     std::max<std::int64_t>(work_, 0) +
+                         work_of_a_corner * static_cast<std::int64_t>(corners.size()));
+    constexpr double any_bend = std::numeric_limits<double>::infinity();
+    switch (triangulate(outline_, work_, parts_, any_bend)) {
+        case PolygonFault::none:
+            return;
+        case PolygonFault::zero_area:
+            ++zero_areas_;
+            return parts_.clear();
+        case PolygonFault::crosses_itself:
+        case PolygonFault::bent:
+        case PolygonFault::too_intricate:
+            ++fans_;
+            return make_fan(corners.size(), parts_);
+    }
+}
+
+std::vector<std::string> MeshBuilder::notes(const std::string& file_name) const {
+    std::vector<std::string> notes;
+    const auto note = [&](std::size_t count, std::string_view one, std::string_view many) {
+        if (count == 0) return;
+        notes.push_back(fmt::format("{}: {} {}", file_name, count, count == 1 ? one : many));
+    };
+    note(zero_areas_, "polygon without area left out", "polygons without area left out");
+    note(fans_, "polygon crosses itself or is too intricate: it may look wrong",
+         "polygons cross themselves or are too intricate: they may look wrong");
+    return notes;
+}
+
+void MeshBuilder::use_material(int material) {
+    if (runs_.empty() || runs_.back().material != material) {
+        runs_.push_back({mesh.faces.size(), material});
+    }
+}
+
+Scene::Mesh MeshBuilder::take() {
+    if (runs_.empty() || runs_[0].first_face > 0) runs_.insert(runs_.begin(), Run{0, -1});
+    std::vector<int>& materials = mesh.face_materials;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+        const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first_face : mesh.faces.size();
+        materials.resize(end, runs_[i].material);
+    }
+    const auto differs = [&](int material) { return material != materials[0]; };
+    if (std::none_of(materials.begin(), materials.end(), differs)) {
+        materials = {materials.empty() ? -1 : materials[0]};
+    }
+    return std::move(mesh);
+}
+
+}  // namespace rt

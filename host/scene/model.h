@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/scene/scene.h"
+
+namespace rt {
+
+/// What a model file holds, in its own coordinates. A reader has checked that indices are good
+/// and numbers finite; finish_mesh sees to the rest.
+struct Model {
+    Scene::Mesh mesh;  ///< face_materials: indices into materials, or a single -1 without these
+    std::vector<Scene::Material> materials;
+    std::vector<std::string> notes;  ///< what was left out, a sentence each
+};
+
+/// A material library that an OBJ names: its text, or why there is none.
+struct LibraryFile {
+    std::string path, text;
+    std::string problem;  ///< "what is wrong; what to do"
+};
+
+using OpenLibrary = std::function<LibraryFile(const std::string& name)>;
+
+}  // namespace rt

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/model_file.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+#include "host/error.h"
+#include "host/scene/mesh_finish.h"
+#include "host/scene/obj_file.h"
+#include "host/scene/ply_file.h"
+#include "host/scene/text_file.h"
+
+namespace rt {
+namespace {
+
+bool has_ending(const std::string& path, std::string_view ending) {
+    if (path.size() < ending.size()) return false;
+    const std::string_view tail = std::string_view(path).substr(path.size() - ending.size());
+    for (std::size_t i = 0; i < ending.size(); ++i) {
+        if ((tail[i] | 0x20) != (ending[i] | 0x20)) return false;
+    }
+    return true;
+}
+
+/// Libraries lie where the model lies, or in a folder there.
+OpenLibrary library_opener(const std::string& model_path, const std::filesystem::path& root) {
+    const SceneFolder folder{root, std::filesystem::path(model_path).parent_path()};
+    return [folder](const std::string& name) {
+        const FoundFile found = find_beneath(folder, name);
+        if (!found.problem.empty()) return LibraryFile{{}, {}, found.problem};
+        return LibraryFile{found.path, read_text_file(found.path, max_model_bytes), {}};
+    };
+}
+
+Model parse_model(const std::string& path, const ModelOptions& options) {
+    const std::string text = read_text_file(path, max_model_bytes);
+    if (is_ply_name(path)) return parse_ply(text, path);
+    OpenLibrary open;
+    if (options.with_materials) open = library_opener(path, options.root);
+    return parse_obj(text, path, open);
+}
+
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+}  // namespace
+
+bool is_obj_name(const std::string& path) { return has_ending(path, ".obj"); }
+bool is_ply_name(const std::string& path) { return has_ending(path, ".ply"); }
+
+Model finish_model(Model model, const std::string& path, const Affine& transform) {
+    const MeshLosses losses = finish_mesh(model.mesh, transform);
+    if (losses.too_far) {
+        throw Error(ExitCode::input, path +
+                                         ": a vertex lies beyond 1e30 once it is transformed; "
+                                         "make the transform smaller");
+    }
+    if (model.mesh.faces.empty()) {
+        throw Error(ExitCode::input, path +
+                                         ": no face has an area, so there is nothing to draw; "
+                                         "give a model with faces");
+    }
+    if (losses.zero_areas > 0) {
+        model.notes.push_back(fmt::format(
+            "{}: {} left out", path,
+            counted(losses.zero_areas, "triangle without area", "triangles without area")));
+    }
+    if (losses.zero_normals > 0) {
+        model.notes.push_back(
+            fmt::format("{}: {} of length 0: faces there are flat", path,
+                        counted(losses.zero_normals, "vertex normal is", "vertex normals are")));
+    }
+    return model;
+}
+
+Model load_model(const std::string& path, const ModelOptions& options) {
+    return finish_model(parse_model(path, options), path, options.transform);
+}
+
+}  // namespace rt

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "host/error.h"
+#include "host/scene/geometry_checks.h"
+#include "host/scene/model_file.h"
+#include "host/scene/obj_materials.h"
+#include "host/scene/scene_file.h"
+
+namespace rt {
+namespace {
+
+constexpr double fov_degrees = 40;
+
+struct Ball {
+    glm::dvec3 center{0};
+    double radius = 0;
+};
+
+/// Around the middle of the box that holds all faces. Vertices without a face do not count.
+Ball bounding_ball(const Scene::Mesh& mesh) {
+    glm::dvec3 low = mesh.positions[mesh.faces[0][0]], high = low;
+    for (const Scene::Mesh::Face& face : mesh.faces) {
+        for (const std::uint32_t i : face) {
+            low = glm::min(low, mesh.positions[i]);
+            high = glm::max(high, mesh.positions[i]);
+        }
+    }
+    Ball ball{0.5 * low + 0.5 * high, 0};
+    for (const Scene::Mesh::Face& face : mesh.faces) {
+        for (const std::uint32_t i : face) {
+            ball.radius = std::max(ball.radius, glm::length(mesh.positions[i] - ball.center));
+        }
+    }
+    return ball;
+}
+
+/// The ball touches all sides of a square picture.
+Scene::Camera framing_camera(const Ball& ball) {
+    constexpr double half_angle = fov_degrees * (std::numbers::pi / 360.0);
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(0.6, 0.45, 1));
+    Scene::Camera camera;
+    camera.at = ball.center;
+    camera.from = ball.center + ball.radius / std::sin(half_angle) * towards;
+    camera.field_of_view = {Scene::FieldOfView::Fixed::vertical, fov_degrees};
+    return camera;
+}
+
+/// The key lamp is left of the camera and high, the other one right and weak.
+std::vector<Scene::Light> lamps(const Ball& ball) {
+    const glm::dvec3 key = 4.0 * ball.radius * glm::dvec3(-0.5, 1, 1);
+    const glm::dvec3 fill = 4.0 * ball.radius * glm::dvec3(1, 0.4, 0.5);
+    return {{ball.center + key, glm::dvec3(0.75), false},
+            {ball.center + fill, glm::dvec3(0.25), false}};
+}
+
+}  // namespace
+
+Scene make_model_scene(Model model, const std::string& path) {
+    const Ball ball = bounding_ball(model.mesh);
+    Scene scene;
+    scene.name = name_of_file(path);
+    scene.camera = framing_camera(ball);
+    if (nearly_same_point(scene.camera.from, scene.camera.at)) {
+        throw Error(ExitCode::input, path +
+                                         ": the model is too small for how far it lies from "
+                                         "the origin; move it nearer");
+    }
+    scene.background = glm::dvec3(0.85, 0.9, 0.95);
+    scene.ambient_light = glm::dvec3(0.25);
+    scene.lights = lamps(ball);
+    scene.materials = std::move(model.materials);
+    if (scene.materials.empty()) {
+        scene.materials.push_back(default_material());
+        model.mesh.face_materials = {0};
+    }
+    scene.meshes.push_back(std::move(model.mesh));
+    scene.notes = std::move(model.notes);
+    set_image_size(scene, scene.width, scene.height);
+    return scene;
+}
+
+Scene load_model_scene(const std::string& path) {
+    ModelOptions options;
+    options.root = SceneFolder::of(path).root;
+    return make_model_scene(load_model(path, options), path);
+}
+
+}  // namespace rt

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/obj_materials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_set>
+#include <utility>
+
+#include "host/scene/model_name.h"
+#include "host/scene/mtl_file.h"
+#include "host/scene/words.h"
+
+namespace rt {
+namespace {
+
+/// Reads libraries into a model, each file once and of each material the first.
+class Libraries {
+   public:
+    explicit Libraries(const OpenLibrary& open) : open_(open) {}
+
+    /// What one mtllib statement names: one file, if there is one of that name (names may hold
+    /// blanks), else a file by each word. The problem with them, if there is one.
+    std::string add_all(const std::string& names) {
+        std::string problem = add(names);
+        if (problem.empty() || names.find_first_of(" \t") == names.npos) return problem;
+        LineScanner words(names);
+        for (problem.clear(); problem.empty() && words.word_follows();) {
+            problem = add(std::string(words.word()));
+        }
+        return problem;
+    }
+
+    Model take() { return std::move(model_); }
+
+   private:
+    std::string add(const std::string& name) {
+        if (files_.contains(name)) return {};
+        const LibraryFile file = open_(name);
+        if (!file.problem.empty()) return file.problem;
+        files_.insert(name);
+        MtlLibrary library = parse_mtl(file.text, file.path);
+        for (Scene::Material& material : library.materials) {
+            if (!known_.insert(material.name).second) continue;
+            model_.materials.push_back(std::move(material));
+        }
+        std::ranges::move(library.notes, std::back_inserter(model_.notes));
+        return {};
+    }
+
+    const OpenLibrary& open_;
+    Model model_;
+    std::unordered_set<std::string> files_, known_;
+};
+
+}  // namespace
+
+int ObjMaterials::use(LineScanner& scanner, Mistakes& mistakes) {
+    const std::size_t offset = scanner.offset();
+    const std::string name = model_name(scanner.rest());
+    if (name.empty()) {
+        mistakes.add(offset, "usemtl names no material; write a name after it");
+        return -1;
+    }
+    const auto [found, is_new] = numbers_.emplace(name, static_cast<int>(used_.size()));
+    if (is_new) used_.push_back({name, offset});
+    return found->second;
+}
+
+void ObjMaterials::note_library(LineScanner& scanner, Mistakes& mistakes) {
+    scanner.word_follows();
+    const std::size_t offset = scanner.offset();
+    libraries_.push_back({std::string(scanner.rest()), offset});
+    if (libraries_.back().text.empty()) {
+        mistakes.add(offset, "mtllib names no file; write the name of one after it");
+    }
+}
+
+Model ObjMaterials::load(const OpenLibrary& open, Mistakes& mistakes) const {
+    Libraries libraries(open);
+    for (const Name& statement : libraries_) {
+        const std::string problem = libraries.add_all(statement.text);
+        if (!problem.empty()) mistakes.add(statement.offset, problem);
+    }
+    mistakes.throw_if_any();
+    return libraries.take();
+}
+
+void ObjMaterials::resolve(Model& model, Mistakes& mistakes) const {
+    std::unordered_map<std::string_view, int> known;
+    std::vector<std::string_view> names;
+    for (const Scene::Material& material : model.materials) {
+        known.emplace(material.name, static_cast<int>(known.size()));
+        names.push_back(material.name);
+    }
+    std::vector<int> indices;
+    for (const Name& name : used_) {
+        const auto found = known.find(name.text);
+        indices.push_back(found == known.end() ? -1 : found->second);
+        if (found != known.end()) continue;
+        const std::string_view near = nearest_word(name.text, names);
+        mistakes.add(name.offset,
+                     fmt::format("unknown material {}; {}", in_quotes(name.text),
+                                 near.empty() ? "the libraries hold " + listed(names)
+                                              : fmt::format("did you mean {}?", in_quotes(near))));
+    }
+    const auto fallback = static_cast<int>(model.materials.size());
+    const auto index_of = [&](int number) {
+        return number < 0 ? fallback : indices[static_cast<std::size_t>(number)];
+    };
+    std::ranges::transform(model.mesh.face_materials, model.mesh.face_materials.begin(), index_of);
+    if (std::ranges::find(model.mesh.face_materials, fallback) != model.mesh.face_materials.end()) {
+        model.materials.push_back(default_material());
+    }
+}
+
+Scene::Material default_material() {
+    Scene::Material material;
+    material.name = "default";
+    material.ambient = material.diffuse = glm::dvec3(0.7);
+    material.two_sided = true;
+    return material;
+}
+
+}  // namespace rt

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/ply_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "host/scene/json_reader.h"
+#include "host/scene/mesh_builder.h"
+#include "host/scene/ply_header.h"
+#include "host/scene/ply_rows.h"
+#include "host/scene/words.h"
+
+namespace rt {
+namespace {
+
+constexpr std::string_view vertex_columns[] = {"x", "y", "z", "nx", "ny", "nz"};
+constexpr std::size_t column_count = std::size(vertex_columns);
+constexpr std::size_t not_used = column_count;
+
+bool is_corner_list(const PlyProperty& property) {
+    return property.name == "vertex_indices" || property.name == "vertex_index";
+}
+
+/// Notes what the mesh needs and the header does not declare.
+void check_vertex(const PlyElement& vertex, Mistakes& mistakes) {
+    for (const std::string_view name : vertex_columns) {
+        const PlyProperty* property = vertex.find(name);
+        if (property && property->count_type) {
+            mistakes.add(vertex.offset,
+                         fmt::format("property {} of the vertices is a list; declare one number",
+                                     in_quotes(name)));
+        } else if (!property && name.size() == 1) {
+            mistakes.add(vertex.offset, fmt::format("the vertices have no property {}; declare "
+                                                    "x, y and z",
+                                                    in_quotes(name)));
+        }
+    }
+}
+
+void check_face(const PlyElement& face, Mistakes& mistakes) {
+    const auto list = std::ranges::find_if(face.properties, is_corner_list);
+    if (list == face.properties.end()) {
+        mistakes.add(face.offset,
+                     "the faces have no property 'vertex_indices'; declare 'property "
+                     "list uchar int vertex_indices'");
+    } else if (!list->count_type || !is_whole(list->type)) {
+        mistakes.add(face.offset, fmt::format("property {} of the faces is no list of whole "
+                                              "numbers; declare 'property list uchar int {}'",
+                                              in_quotes(list->name), list->name));
+    }
+}
+
+void check_header(const PlyHeader& header, Mistakes& mistakes) {
+    const PlyElement* vertex = header.find("vertex");
+    const PlyElement* face = header.find("face");
+    if (!vertex) mistakes.add(0, "the header declares no element 'vertex'; give a mesh");
+    if (!face) {
+        mistakes.add(0, header.find("tristrips")
+                            ? "the model is made of triangle strips; save it with faces"
+                            : "the header declares no element 'face'; points alone cannot be "
+                              "drawn, give a mesh");
+    }
+    if (vertex) check_vertex(*vertex, mistakes);
+    if (face) check_face(*face, mistakes);
+    if (vertex && face && face < vertex) {
+        mistakes.add(face->offset, "the faces come before the vertices; save the vertices first");
+    }
+    mistakes.throw_if_any();
+}
+
+template <typename Rows>
+class BodyReader {
+   public:
+    BodyReader(const PlyHeader& header, Rows rows, Mistakes& mistakes)
+        : header_(header), rows_(std::move(rows)), mistakes_(mistakes) {}
+
+    Model read(const std::string& file_name) {
+        for (const PlyElement& element : header_.elements) {
+            check_count(element);
+            read_element(element);
+        }
+        const std::string leftover = rows_.leftover();
+        mistakes_.throw_if_any();
+        Model model;
+        model.mesh = builder_.take();
+        model.notes = builder_.notes(file_name);
+        model.mesh.face_materials = {-1};
+        if (!model.mesh.normals.empty()) model.mesh.face_normals = model.mesh.faces;
+        if (!leftover.empty()) model.notes.push_back(file_name + ": " + leftover);
+        return model;
+    }
+
+   private:
+    /// Counts are not believed: the rows must fit into the bytes that are left.
+    void check_count(const PlyElement& element) {
+        const std::size_t least = element.least_bytes(header_.format);
+        if (least == 0) return;
+        const std::uint64_t most = (rows_.bytes_left() + 1) / least;
+        if (element.count <= most) return;
+        mistakes_.add(element.offset,
+                      fmt::format("element {} declares {} rows, and what is left of the file "
+                                  "holds {} at most; correct the count or save the model again",
+                                  in_quotes(element.name), element.count, most));
+        mistakes_.throw_if_any();
+    }
+
+    void read_element(const PlyElement& element) {
+        if (element.properties.empty()) return;
+        if (element.name == "vertex") return read_vertices(element);
+        if (element.name == "face") return read_faces(element);
+        read_rows(element, [&] {
+            return std::ranges::all_of(element.properties,
+                                       [&](const PlyProperty& property) { return skip(property); });
+        });
+    }
+
+    /// Calls read_row for each row. A row that is cut short ends it all.
+    template <typename ReadRow>
+    void read_rows(const PlyElement& element, ReadRow read_row) {
+        for (std::uint64_t row = 0; row < element.count; ++row) {
+            rows_.start_row(element, row);
+            if (!rows_.lost()) read_row();
+            if (rows_.lost()) mistakes_.throw_if_any();
+            rows_.end_row();
+        }
+    }
+
+    /// The length of a list, which must have room in what is left.
+    std::optional<std::uint64_t> list_length(const PlyProperty& list) {
+        const auto length = rows_.integer(*list.count_type);
+        if (!length) return std::nullopt;
+        if (*length >= 0) return static_cast<std::uint64_t>(*length);
+        rows_.note(fmt::format("the length of list {} is {}; write 0 or more", in_quotes(list.name),
+                               *length));
+        mistakes_.throw_if_any();
+        return std::nullopt;
+    }
+
+    bool skip(const PlyProperty& property) {
+        if (!property.count_type) return rows_.skip(property.type, 1);
+        const auto length = list_length(property);
+        return length && rows_.skip(property.type, *length);
+    }
+
+    void read_vertices(const PlyElement& element) {
+        std::vector<std::size_t> columns;
+        for (const PlyProperty& property : element.properties) {
+            const auto found = std::ranges::find(vertex_columns, property.name);
+            columns.push_back(static_cast<std::size_t>(found - std::begin(vertex_columns)));
+        }
+        const bool smooth = element.find("nx") && element.find("ny") && element.find("nz");
+        Scene::Mesh& mesh = builder_.mesh;
+        mesh.positions.reserve(element.count);
+        if (smooth) mesh.normals.reserve(element.count);
+        read_rows(element, [&] {
+            std::array<double, column_count> values{};
+            read_vertex(element, columns, values);
+            mesh.positions.emplace_back(values[0], values[1], values[2]);
+            if (smooth) mesh.normals.emplace_back(values[3], values[4], values[5]);
+        });
+    }
+
+    void read_vertex(const PlyElement& element, const std::vector<std::size_t>& columns,
+                     std::array<double, column_count>& values) {
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const PlyProperty& property = element.properties[i];
+            if (columns[i] == not_used) {
+                if (!skip(property)) return;
+                continue;
+            }
+            const auto number = rows_.number(property.type);
+            if (!number) return;
+            values[columns[i]] = *number;
+            if (std::abs(*number) <= max_scene_number) continue;
+            rows_.note(fmt::format("{} is {}; write a number from -1e30 to 1e30",
+                                   in_quotes(property.name), *number));
+        }
+    }
+
+    void read_faces(const PlyElement& element) {
+        constexpr std::uint64_t triangle_bytes = 8;  // of the shortest text or the usual bytes
+        const std::uint64_t triangles =
+            std::min(element.count, rows_.bytes_left() / triangle_bytes);
+        builder_.mesh.faces.reserve(triangles);
+        const auto list = std::ranges::find_if(element.properties, is_corner_list);
+        read_rows(element, [&] {
+            for (auto property = element.properties.begin(); property != element.properties.end();
+                 ++property) {
+                if (!(property == list ? read_corners(*property) : skip(*property))) return;
+            }
+            if (mistakes_.count() == 0) builder_.add_face(corners_, {});
+        });
+    }
+
+    /// Whether the next value can be read; mistakes in the indices themselves are noted only.
+    bool read_corners(const PlyProperty& list) {
+        const auto length = list_length(list);
+        if (!length) return false;
+        if (*length < 3 || *length > max_face_corners) {
+            rows_.note(
+                fmt::format("the face has {} corners; give it 3 to {}", *length, max_face_corners));
+            return rows_.skip(list.type, *length);
+        }
+        corners_.clear();
+        for (std::uint64_t i = 0; i < *length; ++i) {
+            const auto index = rows_.integer(list.type);
+            if (!index) return false;
+            if (*index < 0 ||
+                static_cast<std::uint64_t>(*index) >= builder_.mesh.positions.size()) {
+                rows_.note(
+                    fmt::format("vertex {} does not exist, there are {} and the first is "
+                                "0; correct the number",
+                                *index, builder_.mesh.positions.size()));
+            }
+            corners_.push_back(static_cast<std::uint32_t>(*index));
+        }
+        return true;
+    }
+
+    const PlyHeader& header_;
+    Rows rows_;
+    Mistakes& mistakes_;
+    MeshBuilder builder_;
+    std::vector<std::uint32_t> corners_;  ///< of the face being read
+};
+
+}  // namespace
+
+Model parse_ply(std::string_view text, const std::string& file_name) {
+    Mistakes mistakes(text, file_name);
+    const PlyHeader header = parse_ply_header(mistakes);
+    check_header(header, mistakes);
+    if (header.format == PlyFormat::ascii) {
+        return BodyReader(header, TextRows(text, header, mistakes), mistakes).read(file_name);
+    }
+    return BodyReader(header, BinaryRows(text, header, mistakes), mistakes).read(file_name);
+}
+
+}  // namespace rt

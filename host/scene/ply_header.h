@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/scene/mistakes.h"
+
+namespace rt {
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+std::size_t size_of(PlyType type);
+inline bool is_whole(PlyType type) { return type < PlyType::float32; }
+
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::float32;    ///< of the value, or of a list's items
+    std::optional<PlyType> count_type;  ///< of a list's length; empty for a single value
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+    std::size_t offset = 0;  ///< of its line in the file
+
+    const PlyProperty* find(std::string_view property) const;
+    /// The least bytes that a row takes: in a binary file, or as text.
+    std::size_t least_bytes(PlyFormat format) const;
+};
+
+struct PlyHeader {
+    PlyFormat format = PlyFormat::ascii;
+    std::vector<PlyElement> elements;
+    std::size_t data_offset = 0;
+
+    const PlyElement* find(std::string_view element) const;
+};
+
+/// Reads the head of a PLY file (Turk 1994), up to the line end after end_header. Mistakes are
+/// thrown, all of the header at once.
+PlyHeader parse_ply_header(Mistakes& mistakes);
+
+}  // namespace rt
