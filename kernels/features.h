@@ -9,6 +9,9 @@
 #ifndef RT_HAS_SPHERES
 #define RT_HAS_SPHERES 1
 #endif
+#ifndef RT_HAS_CONES
+#define RT_HAS_CONES 1
+#endif
 #ifndef RT_HAS_TRIANGLES
 #define RT_HAS_TRIANGLES 1
 #endif
@@ -23,6 +26,9 @@
 #endif
 #ifndef RT_HAS_MIRRORS
 #define RT_HAS_MIRRORS 1
+#endif
+#ifndef RT_HAS_GLASS
+#define RT_HAS_GLASS 1
 #endif
 
 #endif

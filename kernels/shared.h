@@ -123,13 +123,17 @@ typedef struct {
 } Tile;
 
 typedef struct {
-    RT_COUNT shadow, mirror;
+    RT_COUNT shadow, mirror, transmitted;
 } RayCounts;
 
 enum { RT_NONE = -1 };
 
 // Nodes that a traversal has put aside, at most: what a stack must hold.
 enum { RT_BVH_STACK = 64 };
+
+// Refracted rays that wait for their turn, at most: one for each bounce where light is both
+// reflected and transmitted (kernels/whitted.cl).
+enum { RT_TREE_STACK = 16 };
 
 // Reconstruction filters (kernels/sampling.cl).
 enum { RT_FILTER_BOX = 0, RT_FILTER_TENT = 1, RT_FILTER_GAUSSIAN = 2, RT_FILTER_MITCHELL = 3 };
