@@ -54,7 +54,7 @@ struct ConeCases {
 /// The double cone |w x axis| = radius + slope (w.axis) along a ray, in quad: textbook formulas.
 template <typename T>
 struct ExactCone {
-    Quad a, b, k, at, rise, radius, m, length;
+    Quad a, b, k, at, rise, radius, m, length, widest;
     Quad size;  ///< of the terms of the discriminant
 
     ExactCone(const ProbeRay<T>& ray, const Cone<T>& cone, bool leaving) {
@@ -70,7 +70,8 @@ struct ExactCone {
         a = dot(c, c) - m * m;
         b = dot(g, c) - radius * m;
         k = leaving ? Quad(0) : dot(g, g) - radius * radius;
-        size = dot(c, c) * Quad(cone.base_radius) * Quad(cone.base_radius);
+        widest = std::max(Quad(cone.base_radius), Quad(cone.base_radius) + slope * length);
+        size = dot(c, c) * widest * widest;
     }
     Quad discriminant() const { return b * b - a * k; }
     /// The smallest part of the frustum's height, of its radius and of the discriminant that
@@ -79,8 +80,8 @@ struct ExactCone {
         const Quad height = at + t * rise, there = radius + t * m;
         const Quad scale = length * Quad(1e-12);
         Quad least = std::min(height, length - height) / (length + scale);
-        least = std::min(least, there / length);
-        return std::min(least, t / length);
+        least = std::min(least, there / widest);
+        return std::min(least, t / std::min(length, widest));
     }
 };
 
@@ -115,8 +116,10 @@ void expect_right_cones(const ConeCases<T>& cases, double clear, double bar, std
         ASSERT_EQ(t[i] > 0, expected > 0) << i << " " << what;
         if (t[i] <= 0) continue;
         ++hits;
-        // dF/dt / 2 = sqrt(D); F moves by radius x what a point is off by.
-        const Quad steep = square_root(d) / (cone.radius + cone.m * expected);
+        // The cosine between ray and normal.
+        const Quad slope = cases.cones[i].slope;
+        const Quad steep =
+            square_root(d) / (cone.radius + cone.m * expected) / square_root(1 + slope * slope);
         const Quad scale = (expected + cone.length) / std::min(steep, Quad(1));
         worst.add(error_in_roundoffs(t[i], expected, scale));
     }
@@ -158,14 +161,14 @@ KERNEL_SUITE(IntersectCone);
 TYPED_TEST(IntersectCone, IsRightForFrustumsNextToTheEye) {
     Random random(1);
     for (const Shape& shape : shapes) {
-        expect_right_cones(aimed<TypeParam>(random, shape, 0.5, false), 1e-2, 40, count / 8,
+        expect_right_cones(aimed<TypeParam>(random, shape, 0.5, false), 1e-2, 12, count / 8,
                            shape.name);
     }
 }
 TYPED_TEST(IntersectCone, IsRightAtAHundredthOfTheDistance) {
     Random random(2);
     for (const Shape& shape : {shapes[0], shapes[1], shapes[2], shapes[5], shapes[6]}) {
-        expect_right_cones(aimed<TypeParam>(random, shape, 1e-2, false), 5e-2, 40, count / 16,
+        expect_right_cones(aimed<TypeParam>(random, shape, 1e-2, false), 5e-2, 5, count / 16,
                            shape.name);
     }
 }
@@ -174,7 +177,7 @@ TYPED_TEST(IntersectCone, IsRightFromInside) {
     for (const Shape& shape : shapes) {
         for (const double scale : {1e-3, 1.0, 1e3}) {
             if (scale < 1 && shape.base_radius + shape.apex_radius < 0.5) continue;
-            expect_right_cones(aimed<TypeParam>(random, shape, scale, true), 5e-2, 40, count / 64,
+            expect_right_cones(aimed<TypeParam>(random, shape, scale, true), 5e-2, 32, count / 64,
                                fmt::format("{}_{:g}", shape.name, scale));
         }
     }
@@ -189,9 +192,9 @@ TYPED_TEST(IntersectCone, IsRightForRaysAlongTheAxis) {
             cones.add(ray, make_cone<TypeParam>({0, 0, 0}, 1, {0, 0, 2}, 0));
             cylinders.add(ray, make_cone<TypeParam>({0, 0, 0}, 1, {0, 0, 2}, 1));
         }
-        expect_right_cones(cones, 1e-3, 20, count / 5, fmt::format("cones_{:g}", lean));
+        expect_right_cones(cones, 1e-3, 4, count / 5, fmt::format("cones_{:g}", lean));
         for (const TypeParam t : cylinders.device()) {
-            if (lean < 1e-3) EXPECT_LT(t, 0);
+            EXPECT_TRUE(lean > 1e-3 || t < 0);
         }
     }
 }
@@ -237,7 +240,7 @@ TYPED_TEST(IntersectCone, LeavingSolvesWithTheOriginOnIt) {
                                              shape.apex_radius),
                         true);
         }
-        expect_right_cones(leaving, 1e-2, 40, 100, shape.name);
+        expect_right_cones(leaving, 1e-2, 14, 100, shape.name);
     }
 }
 TYPED_TEST(IntersectCone, HasTheTwinsBitsOnAnyNumbers) {
@@ -299,7 +302,7 @@ TYPED_TEST(ConeSurface, HasItsPointWithinTheOffsetAndItsNormalAcross) {
             }
             const std::string name = fmt::format("{}_{:g}", shape.name, scale);
             off.expect_at_most(1, name + "_off");
-            tilted.expect_at_most(8, name + "_tilted");
+            tilted.expect_at_most(3, name + "_tilted");
             const auto twin = for_each_item(count, [&](std::size_t i) {
                 return pack(trace::cone_surface(unpack(cases.rays[i]), t[i], cases.cones[i]));
             });

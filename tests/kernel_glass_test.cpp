@@ -77,7 +77,7 @@ TYPED_TEST(RefractedRay, ObeysSnell) {
         ASSERT_TRUE(std::isinf(rays[i].t_max));
         ASSERT_TRUE(dot(exact(rays[i].origin), n) * cosine > 0) << i;
     }
-    worst.expect_at_most(12);
+    worst.expect_at_most(4);
     EXPECT_GT(passing, count / 2);
     given.expect_the_twins_bits();
 }
@@ -241,7 +241,7 @@ TYPED_TEST(TraceTree, FocusesABallWhereTheoryHasIt) {
         const double slack = 2e-3;
         EXPECT_TRUE(upper_half(-focus + slack)) << h;
         EXPECT_FALSE(upper_half(-focus - slack)) << h;
-        if (h < 0.01) EXPECT_NEAR(focus, n / (2 * (n - 1)), 1e-5);
+        EXPECT_TRUE(h > 0.01 || std::abs(focus - n / (2 * (n - 1))) < 1e-5);
     }
 }
 
