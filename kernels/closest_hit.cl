@@ -11,6 +11,7 @@
 #define RT_CLOSEST_HIT_CL
 
 #include "kernels/bvh.cl"
+#include "kernels/cone.cl"
 
 #define RT_TIE ((Real)1 + (Real)32 * (Real)RT_ROUNDOFF)
 
@@ -66,6 +67,19 @@ void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal
     }
 }
 
+void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, Search* search) {
+    Index first, end;
+    enter_kind(traversal, scene->frame.cone_root, scene->frame.cone_count);
+    while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
+        for (Index i = first; i < end; ++i) {
+            Index prim = scene->frame.sphere_count + i;
+            Reals t;
+            Mask met = intersect_cone(ray, &scene->cones[i], ray->from == prim, &t);
+            if (any_lane(met)) offer_hit(scene, search, met, t, (Reals)0, (Reals)0, prim);
+        }
+    }
+}
+
 void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* shear,
                       Traversal* traversal, Search* search) {
     Index first, end;
@@ -77,7 +91,7 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
                 Reals t, u, v;
                 Mask met = intersect_triangle(shear, axis, &scene->triangles[i], &t, &u, &v);
                 if (!any_lane(met)) continue;
-                Index prim = scene->frame.sphere_count + i;
+                Index prim = first_triangle(scene) + i;
                 met &= (shear->axis == axis) & (ray->from != prim);
                 if (RT_HAS_EYE_ON_SURFACE && scene->triangles[i].plane == (Real)0) {
                     met &= ray->from != RT_EYE;
@@ -91,6 +105,7 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
 void search_all(const SceneView* scene, const Ray* ray, const RayShear* shear, Search* search) {
     Traversal traversal = begin_traversal(ray, search->limit > (Reals)0);
     if (RT_HAS_SPHERES) search_spheres(scene, ray, &traversal, search);
+    if (RT_HAS_CONES) search_cones(scene, ray, &traversal, search);
     if (RT_HAS_TRIANGLES) search_triangles(scene, ray, shear, &traversal, search);
 }
 
@@ -148,6 +163,26 @@ Mask blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* trave
     return blocked;
 }
 
+Mask blocked_by_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals t_max) {
+    Mask blocked = RT_NO_LANES;
+    Index first, end;
+    enter_kind(traversal, scene->frame.cone_root, scene->frame.cone_count);
+    while (next_range(traversal, scene->nodes, t_max, &first, &end)) {
+        for (Index i = first; i < end; ++i) {
+            Reals t;
+            Mask leaving = ray->from == scene->frame.sphere_count + i;
+            Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t);
+            if (!any_lane(met)) continue;
+            met &= (t > (Reals)0) & (t <= t_max);
+            if (!any_lane(met)) continue;
+            blocked |= met;
+            t_max = met ? (Reals)-1 : t_max;
+            if (!any_lane(t_max > (Reals)0)) return blocked;
+        }
+    }
+    return blocked;
+}
+
 // Triangles without a hierarchy come from the light's list of those that can cast a shadow, where
 // it has one.
 Mask blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals t_max,
@@ -167,7 +202,7 @@ Mask blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
                 Reals t, u, v;
                 Mask met = intersect_triangle(&shear, axis, &scene->triangles[index], &t, &u, &v);
                 if (!any_lane(met)) continue;
-                Index prim = scene->frame.sphere_count + index;
+                Index prim = first_triangle(scene) + index;
                 met &= (t > (Reals)0) & (t <= t_max) & (shear.axis == axis) & (ray->from != prim);
                 if (!any_lane(met)) continue;
                 blocked |= met;
@@ -187,6 +222,10 @@ Mask any_hit(const SceneView* scene, const Ray* ray, Index first_caster, Index c
     Traversal traversal = begin_traversal(ray, t_max > (Reals)0);
     if (RT_HAS_SPHERES) {
         blocked |= blocked_by_spheres(scene, ray, &traversal, t_max);
+        t_max = blocked ? (Reals)-1 : t_max;
+    }
+    if (RT_HAS_CONES && any_lane(t_max > (Reals)0)) {
+        blocked |= blocked_by_cones(scene, ray, &traversal, t_max);
         t_max = blocked ? (Reals)-1 : t_max;
     }
     if (RT_HAS_TRIANGLES && any_lane(t_max > (Reals)0)) {

@@ -15,6 +15,9 @@
 #ifndef RT_HAS_EYE_ON_SURFACE
 #define RT_HAS_EYE_ON_SURFACE 1
 #endif
+#ifndef RT_HAS_CONES
+#define RT_HAS_CONES 1
+#endif
 #ifndef RT_HAS_TRIANGLES
 #define RT_HAS_TRIANGLES 1
 #endif
@@ -29,6 +32,9 @@
 #endif
 #ifndef RT_HAS_MIRRORS
 #define RT_HAS_MIRRORS 1
+#endif
+#ifndef RT_HAS_GLASS
+#define RT_HAS_GLASS 1
 #endif
 
 #endif

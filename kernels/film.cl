@@ -26,6 +26,7 @@ void store3(__global Real* to, Index at, Real x, Real y, Real z) {
 void add_counts(__global RayCounts* counts, size_t slot, RayCounts add) {
     counts[slot].shadow += add.shadow;
     counts[slot].mirror += add.mirror;
+    counts[slot].transmitted += add.transmitted;
 }
 
 // Where the lanes of packet number `item` lie in a tile, columns and rows from its upper left

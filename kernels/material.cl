@@ -9,8 +9,8 @@
 
 // The material of every lane (kernels/shared.h).
 typedef struct {
-    real3 ambient, diffuse, specular, mirror;
-    Reals shininess;
+    real3 ambient, diffuse, specular, mirror, transmission;
+    Reals shininess, ior;
     Indices two_sided;
 } Finish;
 
@@ -21,7 +21,7 @@ Mask is_black(real3 color) {
 // The finishes of the live lanes, one material after the other for all the lanes that wear it.
 Finish finish_of(const SceneView* scene, Indices material, Mask live) {
     const real3 black = make3((Reals)0, (Reals)0, (Reals)0);
-    Finish finish = {black, black, black, black, (Reals)1, (Indices)0};
+    Finish finish = {black, black, black, black, black, (Reals)1, (Reals)1, (Indices)0};
     for (Mask left = live; any_lane(left);) {
         Index one = least_lane(left, material);
         Mask lanes = left & (material == one);
@@ -34,6 +34,10 @@ Finish finish_of(const SceneView* scene, Indices material, Mask live) {
             finish.shininess = lanes ? (Reals)worn->shininess : finish.shininess;
         }
         if (RT_HAS_MIRRORS) finish.mirror = select3(lanes, load3(worn->mirror), finish.mirror);
+        if (RT_HAS_GLASS) {
+            finish.transmission = select3(lanes, load3(worn->transmission), finish.transmission);
+            finish.ior = lanes ? (Reals)worn->ior : finish.ior;
+        }
         finish.two_sided = lanes ? (Indices)worn->two_sided : finish.two_sided;
     }
     return finish;

@@ -76,7 +76,7 @@ real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indi
     Reals total = (Reals)0;
     for (Index first = 0; first < scene->frame.samples; first += packet->samples) {
         Indices k = first + packet->sample;
-        PacketCounts used = {(Indices)0, (Indices)0};
+        PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
         real3 color = trace_sample(scene, x, y, k, live, &used);
         Reals weight = sample_weight(&scene->frame, x, y, k);
         sum.x = add_samples(sum.x, weight, color.x, packet->samples);
@@ -85,6 +85,7 @@ real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indi
         total = add_samples(total, weight, (Reals)1, packet->samples);
         counts->shadow += (RT_COUNT)sum_lanes(used.shadow);
         counts->mirror += (RT_COUNT)sum_lanes(used.mirror);
+        counts->transmitted += (RT_COUNT)sum_lanes(used.transmitted);
     }
     return divide3(sum, total);
 }

@@ -19,14 +19,15 @@
 #endif
 
 #define RT_SCENE_ARGUMENTS                                                                  \
-    __global const Sphere *restrict spheres, __global const Triangle *restrict triangles,   \
+    __global const Sphere *restrict spheres, __global const Cone *restrict cones,           \
+        __global const Triangle *restrict triangles,                                        \
         __global const VertexNormals *restrict vertex_normals,                              \
         __global const Material *restrict materials, __global const Light *restrict lights, \
         __global const BvhNode *restrict nodes, __global const Index *restrict listed,      \
         __global const Index *restrict casters, Frame frame
 
 #define RT_SCENE_VIEW \
-    { spheres, triangles, vertex_normals, materials, lights, nodes, listed, casters, frame }
+    { spheres, cones, triangles, vertex_normals, materials, lights, nodes, listed, casters, frame }
 
 __kernel void render_pixels(__global Real* restrict film, __global RayCounts* restrict counts,
                             RT_SCENE_ARGUMENTS, Tile tile) {
@@ -35,7 +36,7 @@ __kernel void render_pixels(__global Real* restrict film, __global RayCounts* re
     TileLanes lanes = tile_lanes(&tile, &packet, (Index)item);
     if (!any_lane(lanes.live)) return;
     SceneView scene = RT_SCENE_VIEW;
-    RayCounts used = {0, 0};
+    RayCounts used = {0, 0, 0};
     real3 color = trace_pixels(&scene, &packet, tile.x + lanes.column,
                                picture_y(&frame, &tile, lanes.row), lanes.live, &used);
     Indices places = tile.first + lanes.row * tile.film_width + lanes.column;
@@ -56,12 +57,13 @@ __kernel void render_samples(__global Real* restrict samples, __global RayCounts
     lanes.live &= (Mask)(k < frame.samples);
     if (!any_lane(lanes.live)) return;
     SceneView scene = RT_SCENE_VIEW;
-    PacketCounts used = {(Indices)0, (Indices)0};
+    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
     real3 color = trace_sample(&scene, tile.x + lanes.column, picture_y(&frame, &tile, lanes.row),
                                k, lanes.live, &used);
     Indices places = (k * tile.height + lanes.row) * tile.width + lanes.column;
     store_lanes(samples, color, lanes.live ? places : (Indices)-1, RT_LANES);
-    RayCounts sums = {(RT_COUNT)sum_lanes(used.shadow), (RT_COUNT)sum_lanes(used.mirror)};
+    RayCounts sums = {(RT_COUNT)sum_lanes(used.shadow), (RT_COUNT)sum_lanes(used.mirror),
+                      (RT_COUNT)sum_lanes(used.transmitted)};
     add_counts(counts, item, sums);
 }
 
@@ -102,7 +104,7 @@ __kernel void render_listed(__global Real* restrict colors, __global RayCounts* 
     Indices column = pixel.all - row * tile.film_width;
     Mask live = (Mask)(number.all < tile.width);
     SceneView scene = RT_SCENE_VIEW;
-    RayCounts used = {0, 0};
+    RayCounts used = {0, 0, 0};
     real3 color =
         trace_pixels(&scene, &packet, tile.x + column, picture_y(&frame, &tile, row), live, &used);
     store_lanes(colors, color, live ? number.all : (Indices)-1, packet.pixels);

@@ -10,6 +10,7 @@
 
 typedef struct {
     __global const Sphere* spheres;
+    __global const Cone* cones;
     __global const Triangle* triangles;
     __global const VertexNormals* vertex_normals;
     __global const Material* materials;
@@ -20,7 +21,11 @@ typedef struct {
     Frame frame;
 } SceneView;
 
-// Primitives are numbered spheres first, then triangles.
+// Primitives are numbered spheres first, then cones, then triangles.
+Index first_triangle(const SceneView* scene) {
+    return scene->frame.sphere_count + scene->frame.cone_count;
+}
+
 typedef struct {
     real3 origin;
     real3 dir;     // unit
@@ -37,7 +42,7 @@ typedef struct {
 
 // Rays traced by each lane.
 typedef struct {
-    Indices shadow, mirror;
+    Indices shadow, mirror, transmitted;
 } PacketCounts;
 
 #endif

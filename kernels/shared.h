@@ -125,7 +125,7 @@ typedef struct {
 } Tile;
 
 typedef struct {
-    RT_COUNT shadow, mirror;
+    RT_COUNT shadow, mirror, transmitted;
 } RayCounts;
 
 enum { RT_NONE = -1 };
@@ -135,6 +135,10 @@ enum { RT_EYE = -2 };
 
 // Nodes that a traversal has put aside, at most: what a stack must hold.
 enum { RT_BVH_STACK = 64 };
+
+// Refracted rays that wait for their turn, at most: one for each bounce where light is both
+// reflected and transmitted (kernels/whitted.cl).
+enum { RT_TREE_STACK = 16 };
 
 // Reconstruction filters (kernels/sampling.cl).
 enum { RT_FILTER_BOX = 0, RT_FILTER_TENT = 1, RT_FILTER_GAUSSIAN = 2, RT_FILTER_MITCHELL = 3 };

@@ -4,7 +4,8 @@
 //
 // A triangle's point is its barycentric combination, 10 to 10^5 times nearer to the plane than
 // origin + t dir; except on triangles much larger than the distance, where origin + t dir projected
-// onto the plane is nearer. A sphere's point is put back at distance r from the centre. Each point
+// onto the plane is nearer. A sphere's point is put back at distance r from the centre, a cone's at
+// its radius from the axis. Each point
 // carries a bound on how far it may lie off its surface; secondary rays start that far out along
 // the geometric normal and one ulp further (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8).
 //
@@ -16,7 +17,7 @@
 #define RT_SURFACE_CL
 
 #include "kernels/bits.cl"
-#include "kernels/math.cl"
+#include "kernels/cone.cl"
 #include "kernels/scene_view.h"
 
 typedef struct {
@@ -46,6 +47,34 @@ Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
     }
     surface.diameter = (Reals)((Real)2 * sphere->radius);
     surface.material = (Indices)sphere->material;
+    return surface;
+}
+
+// The point is put back on the cone at its height; on the axis, where the radius is 0, the normal
+// faces the viewer.
+Surface cone_surface(const Ray* ray, Reals t, __global const Cone* cone) {
+    real3 base = load3(cone->base);
+    real3 axis = load3(cone->axis);
+    real3 along = add_scaled(sub3(ray->origin, base), t, ray->dir);
+    Reals height = min_of(max_of(dot3(along, axis), (Reals)0), (Reals)cone->length);
+    real3 outwards = add_scaled(along, -height, axis);
+    Reals squared = dot3(outwards, outwards);
+    outwards = scale3((Reals)1 / sqrt(squared), outwards);
+    Mask is_on_axis = !(squared > (Reals)0);
+    Reals radius = max_of(fma((Reals)cone->slope, height, (Reals)cone->base_radius), (Reals)0);
+    Surface surface;
+    surface.normal = normalize3(add_scaled(outwards, -(Reals)cone->slope, axis));
+    surface.normal = select3(is_on_axis, negate3(ray->dir), surface.normal);
+    surface.geometric = surface.normal;
+    real3 center = add_scaled(base, height, axis);
+    real3 point = add_scaled(center, radius, outwards);
+    surface.point = select3(is_on_axis, center, point);
+    real3 size = add3(abs3(center), abs3(surface.point));
+    Reals extent =
+        (Real)8 * fma(fabs((Reals)cone->slope), (Reals)cone->length, (Reals)cone->base_radius);
+    surface.offset = (Real)RT_ROUNDOFF * (dot3(abs3(surface.normal), size) + extent);
+    surface.diameter = (Reals)0;
+    surface.material = (Indices)cone->material;
     return surface;
 }
 
@@ -105,7 +134,10 @@ Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit
     if (RT_HAS_SPHERES && prim < scene->frame.sphere_count) {
         return sphere_surface(ray, hit->t, &scene->spheres[prim]);
     }
-    Index index = prim - scene->frame.sphere_count;
+    Index index = prim - first_triangle(scene);
+    if (RT_HAS_CONES && index < 0) {
+        return cone_surface(ray, hit->t, &scene->cones[prim - scene->frame.sphere_count]);
+    }
     return triangle_surface(ray, hit, &scene->triangles[index], scene->vertex_normals);
 }
 
@@ -137,7 +169,7 @@ Surface hit_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Mask
 Mask is_on_edge(const SceneView* scene, const Hit* hit) {
     Reals rim = (Reals)((Real)64 * (Real)RT_ROUNDOFF);
     Mask at_rim = (hit->u < rim) | (hit->v < rim) | ((Reals)1 - hit->u - hit->v < rim);
-    return at_rim & (hit->prim >= scene->frame.sphere_count);
+    return at_rim & (hit->prim >= first_triangle(scene));
 }
 
 // The hits' surfaces, their points moved clear of other surfaces they touch.

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whitted's recursion with mirrors alone, as a loop: the colour seen along a ray is the local light
-// plus mirror x what the mirror ray sees. `throughput` is the product of the mirrors so far; the
-// loop ends when it is black, when a ray misses, or after max_bounces mirror rays.
+// Whitted's recursion, as a loop: the colour seen along a ray is the local light plus mirror x what
+// the mirror ray sees plus transmission x what the refracted ray sees. `throughput` is the product
+// of these weights so far; a path ends when it is black, when a ray misses, or after max_bounces
+// mirror and refracted rays together.
+//
+// Where a hit sends on both, the refracted ray is put on a stack and the mirror ray followed; when
+// no lane of the packet lives the last ray put aside is taken up. So each lane walks its tree, and
+// adds up its colours, in the same order whatever the packet. A branch at a transmitting surface
+// that is too faint to change a picture is left out.
+//
+// A ray enters where it meets the front of the geometric normal, whichever way two_sided turns it.
+// Total internal reflection adds the transmitted weight to the mirror ray's.
 #ifndef RT_WHITTED_CL
 #define RT_WHITTED_CL
 
@@ -22,35 +31,145 @@ Ray mirror_ray(const Surface* surface, real3 dir, Indices prim) {
     return leave_surface(surface, offset_origin(surface, mirrored), mirrored, prim);
 }
 
+// The refracted ray at a surface, where `eta` is the index of refraction on the side the ray comes
+// from over that on the other side: p is the part of dir along the surface, and eta p that of the
+// refracted direction. *total where all light is reflected instead. Where a blended normal would
+// leave the ray on the side it came from, it is refracted about the geometric normal.
+Ray refracted_ray(const Surface* surface, real3 dir, Reals eta, Indices prim, Mask* total) {
+    real3 refracted;
+    real3 normal = surface->normal;
+    Reals arriving = dot3(dir, surface->geometric);
+    for (int attempt = 0;; ++attempt) {
+        Reals cosine = dot3(dir, normal);
+        real3 along = add_scaled(dir, -cosine, normal);
+        Reals squared = (Reals)1 - eta * eta * dot3(along, along);
+        Reals depth = sqrt(squared);
+        real3 bent = add_scaled(scale3(eta, along), cosine < (Reals)0 ? -depth : depth, normal);
+        *total = !(squared >= (Reals)0);
+        refracted = select3(eta == (Reals)1, dir, normalize3(bent));
+        Mask passes = *total | (dot3(refracted, surface->geometric) * arriving > (Reals)0);
+        if (!RT_HAS_VERTEX_NORMALS || attempt == 1 || !any_lane(!passes)) break;
+        normal = select3(passes, normal, surface->geometric);
+    }
+    return leave_surface(surface, offset_origin(surface, refracted), refracted, prim);
+}
+
+// A ray of each live lane, and how much of what it sees counts.
+typedef struct {
+    Ray ray;
+    real3 throughput;
+    Mask live;
+    Index bounce;
+} Path;
+
+// Refracted rays put aside while the mirror rays of the same hits are followed. Bounces grow from
+// entry to entry.
+typedef struct {
+    Path paths[RT_TREE_STACK];
+    Index size;
+} Pending;
+
+Ray select_ray(Mask mask, Ray yes, Ray no) {
+    Ray ray;
+    ray.origin = select3(mask, yes.origin, no.origin);
+    ray.dir = select3(mask, yes.dir, no.dir);
+    ray.t_max = mask ? yes.t_max : no.t_max;
+    ray.chord = mask ? yes.chord : no.chord;
+    ray.from = mask ? yes.from : no.from;
+    return ray;
+}
+
+// Too dark to change a picture: below half an ulp of white.
+Mask is_faint(real3 weight) {
+    Reals largest = max_of(weight.x, max_of(weight.y, weight.z));
+    return !(largest >= (Reals)(Real)RT_ROUNDOFF);
+}
+
+// Sends the path on from a surface, of which geometric and normal face as the material has them;
+// `inside` where the ray came from behind it. Lanes where it ends are switched off.
+void scatter(const Surface* surface, const Finish* finish, Indices prim, Mask inside, Path* path,
+             Pending* pending, PacketCounts* counts) {
+    real3 throughput = path->throughput;
+    real3 reflected = limit3(mul3(throughput, finish->mirror));
+    Mask glassy = RT_NO_LANES;
+    if (RT_HAS_GLASS) glassy = path->live & !is_black(finish->transmission);
+    if (!RT_HAS_GLASS || !any_lane(glassy)) {
+        path->throughput = reflected;
+        path->live &= !is_black(reflected);
+        if (!any_lane(path->live)) return;
+        path->ray = mirror_ray(surface, path->ray.dir, prim);
+        path->bounce += 1;
+        counts->mirror += path->live & 1;
+        return;
+    }
+    real3 transmitted = limit3(mul3(throughput, finish->transmission));
+    Mask total;
+    Reals eta = inside ? finish->ior : (Reals)1 / finish->ior;
+    Ray refracted = refracted_ray(surface, path->ray.dir, eta, prim, &total);
+    total &= glassy;
+    reflected = select3(total, limit3(add3(reflected, transmitted)), reflected);
+    Mask transmits = glassy & !total & !is_faint(transmitted);
+    Mask reflects = path->live & !is_black(reflected) & !(glassy & is_faint(reflected));
+    Mask splits = reflects & transmits;
+    path->bounce += 1;
+    if (RT_HAS_MIRRORS && any_lane(splits)) {
+        Path later = {refracted, transmitted, splits, path->bounce};
+        pending->paths[pending->size++] = later;
+    }
+    path->ray = select_ray(reflects, mirror_ray(surface, path->ray.dir, prim), refracted);
+    path->throughput = select3(reflects, reflected, transmitted);
+    path->live = reflects | transmits;
+    counts->mirror += reflects & 1;
+    counts->transmitted += transmits & 1;
+}
+
+// What the hits of a path add to the colour, and the path from there on.
+real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* path,
+                   Pending* pending, PacketCounts* counts) {
+    Surface surface = surface_at(scene, &path->ray, hit, path->live);
+    Finish finish = finish_of(scene, surface.material, path->live);
+    Mask inside = dot3(surface.geometric, path->ray.dir) > (Reals)0;
+    Mask turned = (finish.two_sided != 0) & inside;
+    surface.normal = select3(turned, negate3(surface.normal), surface.normal);
+    surface.geometric = select3(turned, negate3(surface.geometric), surface.geometric);
+    surface.diameter = turned ? -surface.diameter : surface.diameter;
+    real3 to_eye = negate3(path->ray.dir);
+    real3 local_light = shade(scene, &surface, &finish, to_eye, hit->prim, path->live, counts);
+    color = select3(path->live, add3(color, mul3(path->throughput, local_light)), color);
+    bool ends = !(RT_HAS_MIRRORS || RT_HAS_GLASS) || path->bounce >= scene->frame.max_bounces;
+    if (ends) {
+        path->live = RT_NO_LANES;
+    } else {
+        scatter(&surface, &finish, hit->prim, inside, path, pending, counts);
+    }
+    return color;
+}
+
+// Turns to the ray put aside last. False when there is none.
+bool resume(Path* path, Pending* pending) {
+    if (!(RT_HAS_GLASS && RT_HAS_MIRRORS) || pending->size == 0) return false;
+    pending->size -= 1;
+    *path = pending->paths[pending->size];
+    return true;
+}
+
 // The colours seen along the rays of the live lanes.
 real3 trace_path(const SceneView* scene, Ray ray, Mask live, PacketCounts* counts) {
     real3 color = make3((Reals)0, (Reals)0, (Reals)0);
-    real3 throughput = make3((Reals)1, (Reals)1, (Reals)1);
-    for (Index bounce = 0;; ++bounce) {
-        Hit hit = closest_hit(scene, &ray, live);
-        Mask missed = live & (hit.prim == RT_NONE);
+    Path path = {ray, make3((Reals)1, (Reals)1, (Reals)1), live, 0};
+    Pending pending;
+    pending.size = 0;
+    do {
+        Hit hit = closest_hit(scene, &path.ray, path.live);
+        Mask missed = path.live & (hit.prim == RT_NONE);
         if (any_lane(missed)) {
-            real3 background = mul3(throughput, load3(scene->frame.background));
+            real3 background = mul3(path.throughput, load3(scene->frame.background));
             color = select3(missed, add3(color, background), color);
-            live &= !missed;
-            if (!any_lane(live)) return color;
+            path.live &= !missed;
         }
-        Surface surface = surface_at(scene, &ray, &hit, live);
-        Finish finish = finish_of(scene, surface.material, live);
-        Mask turned = (finish.two_sided != 0) & (dot3(surface.geometric, ray.dir) > (Reals)0);
-        surface.normal = select3(turned, negate3(surface.normal), surface.normal);
-        surface.geometric = select3(turned, negate3(surface.geometric), surface.geometric);
-        surface.diameter = turned ? -surface.diameter : surface.diameter;
-        real3 to_eye = negate3(ray.dir);
-        real3 local_light = shade(scene, &surface, &finish, to_eye, hit.prim, live, counts);
-        color = select3(live, add3(color, mul3(throughput, local_light)), color);
-        if (!RT_HAS_MIRRORS || bounce >= scene->frame.max_bounces) return color;
-        throughput = limit3(mul3(throughput, finish.mirror));
-        live &= !is_black(throughput);
-        if (!any_lane(live)) return color;
-        ray = mirror_ray(&surface, ray.dir, hit.prim);
-        counts->mirror += live & 1;
-    }
+        if (any_lane(path.live)) color = meet_surface(scene, &hit, color, &path, &pending, counts);
+    } while (any_lane(path.live) || resume(&path, &pending));
+    return color;
 }
 
 // The colours of samples k of the pixels (x, y) in the live lanes.

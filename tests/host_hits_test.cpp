@@ -110,6 +110,26 @@ const std::vector<Subject>& subjects() {
              for (int i = 0; i < 50; ++i)
                  s.spheres.push_back({r.in_cube(1), r.uniform(0.01, 0.2), 0});
          }},
+        {"cones",
+         [](Scene& s, Random& r) {
+             for (int i = 0; i < 200; ++i) {
+                 const double size = r.log_uniform(0.02, 0.5);
+                 const glm::dvec3 p = r.in_cube(1);
+                 const double ends[] = {r.uniform(0.01, 0.4) * size, r.uniform(0, 0.4) * size};
+                 s.cones.push_back({p, p + size * r.unit_vector(), ends[0],
+                                    r.index(3) == 0 ? ends[0] : ends[1] * r.index(2), 0});
+             }
+             for (int i = 0; i < 20; ++i) s.cones.push_back(s.cones[std::size_t(i)]);
+         }},
+        {"cones, spheres and soup",
+         [](Scene& s, Random& r) {
+             for (int i = 0; i < 60; ++i) {
+                 const glm::dvec3 p = r.in_cube(1), q = r.in_cube(1);
+                 s.cones.push_back({p, q, 0.02, 0.02, 0});
+                 s.spheres.push_back({p, 0.05, 0});
+             }
+             add_soup(s, r, 60, 1, 0.3);
+         }},
         {"needles",
          [](Scene& s, Random& r) {
              for (int i = 0; i < 300; ++i) {
@@ -178,7 +198,8 @@ struct Numbered {
     std::vector<Index> place;  ///< of the primitive listed under a number
 
     explicit Numbered(FlatScene<T> flat)
-        : scene(std::move(flat)), place(scene.spheres.size() + scene.triangles.size()) {
+        : scene(std::move(flat)),
+          place(scene.spheres.size() + scene.cones.size() + scene.triangles.size()) {
         for (std::size_t i = 0; i < place.size(); ++i)
             place[std::size_t(listed(Index(i)))] = Index(i);
     }
@@ -216,11 +237,20 @@ trace::Ray<T> some_ray(const FlatScene<T>& scene, Random& random) {
     }
     if (!(glm::length(dir) > 1e-9)) dir = random.unit_vector();
     trace::Ray<T> ray;
-    const int count = int(scene.spheres.size() + scene.triangles.size());
+    const int count = int(scene.spheres.size() + scene.cones.size() + scene.triangles.size());
     ray.from = random.index(4) == 0 ? random.index(count) : Flat<T>::none;
     if (ray.from >= 0 && ray.from < scene.frame.sphere_count) {  // a ray from a sphere starts on it
         const auto& sphere = scene.spheres[std::size_t(ray.from)];
         origin = in_double(sphere.center) + double(sphere.radius) * random.unit_vector();
+    }
+    const auto cone_index = ray.from - scene.frame.sphere_count;
+    if (cone_index >= 0 && cone_index < scene.frame.cone_count) {  // and so does one from a cone
+        const auto& cone = scene.cones[std::size_t(cone_index)];
+        const double height = random.uniform(0, double(cone.length));
+        const glm::dvec3 axis = in_double(cone.axis);
+        const glm::dvec3 across = glm::normalize(glm::cross(axis, random.unit_vector()));
+        origin = in_double(cone.base) + height * axis +
+                 (double(cone.base_radius) + double(cone.slope) * height) * across;
     }
     ray.origin = Vec3<T>(origin);
     ray.dir = trace::normalize3(Vec3<T>(glm::normalize(dir)));

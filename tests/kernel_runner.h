@@ -49,10 +49,11 @@ void add_inputs(std::vector<ProbeInput>& inputs, const std::vector<X>& values) {
     inputs.push_back({values.data(), values.size() * sizeof(X)});
 }
 
-/// A scene is nine arguments, the PROBE_SCENE of probes.cl.
+/// A scene is ten arguments, the PROBE_SCENE of probes.cl.
 template <typename T>
 void add_inputs(std::vector<ProbeInput>& inputs, const FlatScene<T>& scene) {
     add_inputs(inputs, scene.spheres);
+    add_inputs(inputs, scene.cones);
     add_inputs(inputs, scene.triangles);
     add_inputs(inputs, scene.vertex_normals);
     add_inputs(inputs, scene.materials);

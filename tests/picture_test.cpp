@@ -83,7 +83,7 @@ class EveryLaneWidth : public testing::TestWithParam<int> {
 };
 
 TEST_P(EveryLaneWidth, GivesTheTwinsBits) {
-    for (const char* stem : {"cornell-box", "vertex-normals", "many-lights"}) {
+    for (const char* stem : {"cornell-box", "vertex-normals", "many-lights", "cones", "glass"}) {
         for (const char* aa : {"grid:1", "grid:2", "grid:3", "sobol:6"}) {
             expect_the_twins_hash<float>(stem, aa);
         }
@@ -91,6 +91,8 @@ TEST_P(EveryLaneWidth, GivesTheTwinsBits) {
     if (!test_device().has_double) return;
     expect_the_twins_hash<double>("cornell-box", "grid:2");
     expect_the_twins_hash<double>("mirror-hall", "grid:3");
+    expect_the_twins_hash<double>("cones", "grid:1");
+    expect_the_twins_hash<double>("glass", "grid:2");
 }
 
 INSTANTIATE_TEST_SUITE_P(Lanes, EveryLaneWidth, testing::Values(1, 2, 4, 8, 16));

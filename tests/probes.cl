@@ -10,13 +10,14 @@
 #define PROBE_ITEM                       \
     size_t i = first + get_global_id(0); \
     if (i >= count) return
-#define PROBE_SCENE                                                                                \
-    __global const Sphere *spheres, __global const Triangle *triangles,                            \
-        __global const VertexNormals *vertex_normals, __global const Material *materials,          \
-        __global const Light *lights, __global const BvhNode *nodes, __global const Index *listed, \
+#define PROBE_SCENE                                                                       \
+    __global const Sphere *spheres, __global const Cone *cones,                           \
+        __global const Triangle *triangles, __global const VertexNormals *vertex_normals, \
+        __global const Material *materials, __global const Light *lights,                 \
+        __global const BvhNode *nodes, __global const Index *listed,                      \
         __global const Index *casters, __global const Frame *frame
 #define PROBE_SCENE_VIEW \
-    { spheres, triangles, vertex_normals, materials, lights, nodes, listed, casters, *frame }
+    { spheres, cones, triangles, vertex_normals, materials, lights, nodes, listed, casters, *frame }
 
 typedef struct {
     Packed3 origin;
@@ -76,7 +77,7 @@ ProbeHit pack_hit(Hit hit) {
 }
 
 RayCounts pack_counts(PacketCounts counts) {
-    RayCounts packed = {(ulong)counts.shadow, (ulong)counts.mirror};
+    RayCounts packed = {(ulong)counts.shadow, (ulong)counts.mirror, (ulong)counts.transmitted};
     return packed;
 }
 
@@ -252,6 +253,28 @@ __kernel void probe_intersect_sphere(PROBE_ITEMS, __global const ProbeRay* rays,
     out[i] = intersect_sphere(&ray, &spheres[i], (Index)i, &t) ? t : -1;
 }
 
+__kernel void probe_cross3(PROBE_ITEMS, __global const Packed3* a, __global const Packed3* b,
+                           __global Packed3* out) {
+    PROBE_ITEM;
+    out[i] = pack(cross3(load3(a[i]), load3(b[i])));
+}
+
+__kernel void probe_intersect_cone(PROBE_ITEMS, __global const ProbeRay* rays,
+                                   __global const Cone* cones, __global const Index* leaving,
+                                   __global Real* out) {
+    PROBE_ITEM;
+    Ray ray = unpack_ray(rays[i]);
+    Real t;
+    out[i] = intersect_cone(&ray, &cones[i], leaving[i] != 0, &t) ? t : -1;
+}
+
+__kernel void probe_cone_surface(PROBE_ITEMS, __global const ProbeRay* rays, __global const Real* t,
+                                 __global const Cone* cones, __global ProbeSurface* out) {
+    PROBE_ITEM;
+    Ray ray = unpack_ray(rays[i]);
+    out[i] = pack_surface(cone_surface(&ray, t[i], &cones[i]));
+}
+
 __kernel void probe_component3(PROBE_ITEMS, __global const Packed3* v, __global const Index* k,
                                __global Real* out) {
     PROBE_ITEM;
@@ -308,9 +331,12 @@ __kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const
     RayShear shear = make_shear(&ray, RT_ALL_LANES);
     ProbeHit hit = {-1, 0, 0, prims[i], 0};
     Real t, u, v;
-    Index triangle = prims[i] - frame->sphere_count;
-    if (triangle < 0) {
+    Index cone = prims[i] - frame->sphere_count;
+    Index triangle = cone - frame->cone_count;
+    if (cone < 0) {
         if (intersect_sphere(&ray, &spheres[prims[i]], prims[i], &t)) hit.t = t;
+    } else if (triangle < 0) {
+        if (intersect_cone(&ray, &cones[cone], ray.from == prims[i], &t)) hit.t = t;
     } else if (ray.from != prims[i] &&
                intersect_triangle(&shear, shear.axis, &triangles[triangle], &t, &u, &v)) {
         hit.t = t;
@@ -427,7 +453,7 @@ __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
     SceneView scene = PROBE_SCENE_VIEW;
     Surface surface = unpack_surface(surfaces[i]);
     Finish finish = probe_finish(&scene, &surface);
-    PacketCounts used = {0, 0};
+    PacketCounts used = {0, 0, 0};
     out[i] = pack(light_contribution(&scene, &surface, &finish, &lights[0], load3(origins[i]),
                                      load3(to_eye[i]), prims[i], RT_ALL_LANES, &used));
     counts[i] = pack_counts(used);
@@ -440,7 +466,7 @@ __kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface*
     SceneView scene = PROBE_SCENE_VIEW;
     Surface surface = unpack_surface(surfaces[i]);
     Finish finish = probe_finish(&scene, &surface);
-    PacketCounts used = {0, 0};
+    PacketCounts used = {0, 0, 0};
     out[i] =
         pack(shade(&scene, &surface, &finish, load3(to_eye[i]), prims[i], RT_ALL_LANES, &used));
     counts[i] = pack_counts(used);
@@ -456,11 +482,22 @@ __kernel void probe_mirror_ray(PROBE_ITEMS, __global const ProbeSurface* surface
     out[i] = pack_ray(mirror_ray(&surface, load3(dirs[i]), prims[i]));
 }
 
+__kernel void probe_refracted_ray(PROBE_ITEMS, __global const ProbeSurface* surfaces,
+                                  __global const Packed3* dirs, __global const Real* eta,
+                                  __global const Index* prims, __global ProbeRay* out,
+                                  __global Index* total) {
+    PROBE_ITEM;
+    Surface surface = unpack_surface(surfaces[i]);
+    Mask is_total;
+    out[i] = pack_ray(refracted_ray(&surface, load3(dirs[i]), eta[i], prims[i], &is_total));
+    total[i] = is_total;
+}
+
 __kernel void probe_trace_path(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                __global Packed3* out, __global RayCounts* counts) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
-    PacketCounts used = {0, 0};
+    PacketCounts used = {0, 0, 0};
     out[i] = pack(trace_path(&scene, unpack_ray(rays[i]), RT_ALL_LANES, &used));
     counts[i] = pack_counts(used);
 }
@@ -470,7 +507,7 @@ __kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index*
                                  __global Packed3* out, __global RayCounts* counts) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
-    PacketCounts used = {0, 0};
+    PacketCounts used = {0, 0, 0};
     out[i] = pack(trace_sample(&scene, x[i], y[i], k[i], RT_ALL_LANES, &used));
     counts[i] = pack_counts(used);
 }
@@ -575,7 +612,7 @@ __kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* 
                                 __global const Index* y, __global Packed3* out) {
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
-    RayCounts counts = {0, 0};
+    RayCounts counts = {0, 0, 0};
     Packet packet = make_packet(frame->samples);
     out[i] = pack(trace_pixels(&scene, &packet, x[i], y[i], RT_ALL_LANES, &counts));
 }

@@ -23,6 +23,7 @@ trace::SceneView<T> view(const FlatScene<T>& scene) {
 template <typename T>
 void count_primitives(FlatScene<T>& scene) {
     scene.frame.sphere_count = static_cast<Index<T>>(scene.spheres.size());
+    scene.frame.cone_count = static_cast<Index<T>>(scene.cones.size());
     scene.frame.triangle_count = static_cast<Index<T>>(scene.triangles.size());
     scene.frame.light_count = static_cast<Index<T>>(scene.lights.size());
     for (auto& light : scene.lights) light.caster_count = scene.frame.triangle_count;

@@ -13,11 +13,13 @@ struct Features {
     bool spheres = true;
     bool huge_spheres = true;    ///< far larger than their distance; implies spheres
     bool eye_on_surface = true;  ///< the eye lies on a sphere or in a triangle's plane
+    bool cones = true;
     bool triangles = true;
     bool vertex_normals = true;  ///< implies triangles
     bool hierarchy = true;       ///< some kind of primitive is found through boxes
     bool lights = true;          ///< shadow rays, diffuse and specular light
     bool mirrors = true;         ///< the bounce loop
+    bool glass = true;           ///< refracted rays, and with mirrors the stack of a ray tree
 
     bool operator==(const Features&) const = default;
 };
@@ -29,15 +31,17 @@ struct FeatureName {
     const char* macro;
 };
 
-inline constexpr std::array<FeatureName, 8> feature_names{{
+inline constexpr std::array<FeatureName, 10> feature_names{{
     {&Features::spheres, "spheres", "RT_HAS_SPHERES"},
     {&Features::huge_spheres, "huge spheres", "RT_HAS_HUGE_SPHERES"},
     {&Features::eye_on_surface, "eye on a surface", "RT_HAS_EYE_ON_SURFACE"},
+    {&Features::cones, "cones", "RT_HAS_CONES"},
     {&Features::triangles, "triangles", "RT_HAS_TRIANGLES"},
     {&Features::vertex_normals, "vertex normals", "RT_HAS_VERTEX_NORMALS"},
     {&Features::hierarchy, "hierarchy", "RT_HAS_HIERARCHY"},
     {&Features::lights, "lights", "RT_HAS_LIGHTS"},
     {&Features::mirrors, "mirrors", "RT_HAS_MIRRORS"},
+    {&Features::glass, "glass", "RT_HAS_GLASS"},
 }};
 
 /// The names of the switches that are on (used) or off (left out).

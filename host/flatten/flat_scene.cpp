@@ -127,6 +127,7 @@ bool reflects_light(const Scene::Material* material) {
 }
 
 bool is_mirror(const Scene::Material* material) { return !is_black(material->mirror); }
+bool is_glass(const Scene::Material* material) { return !is_black(material->transmission); }
 
 /// Primitives that a thread works on at once.
 constexpr std::size_t run_length = 1 << 13;
@@ -143,6 +144,7 @@ class Flattener {
         check_limits();
         view_ = make_view_frame(scene, triangles_, options_.threads);
         worn_ = worn_materials(scene);
+        check_ray_tree();
     }
 
     FlatScene<T> run() {
@@ -184,6 +186,23 @@ class Flattener {
             check_memory(count * bytes_each, fmt::format("flattening {} primitives", count),
                          "use a smaller scene");
         }
+    }
+
+    /// Where light is both reflected and transmitted one of the two rays must wait.
+    void check_ray_tree() const {
+        const auto splits = [](const Scene::Material* material) {
+            return is_mirror(material) && is_glass(material);
+        };
+        if (scene_.max_bounces <= f32::RT_TREE_STACK ||
+            std::none_of(worn_.begin(), worn_.end(), splits)) {
+            return;
+        }
+        throw Error(
+            ExitCode::limit,
+            fmt::format("max_bounces is {}, but at most {} where a material both mirrors "
+                        "and transmits; use --max-bounces {} or less, or make the "
+                        "material's mirror or transmission 0",
+                        scene_.max_bounces, int{f32::RT_TREE_STACK}, int{f32::RT_TREE_STACK}));
     }
 
     template <typename Work>
@@ -365,12 +384,15 @@ class Flattener {
         features.huge_spheres = std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
                                             [](const auto& sphere) { return sphere.is_huge != 0; });
         features.eye_on_surface = flat_.frame.eye_on_surface != 0;
+        features.cones = !flat_.cones.empty();
         features.triangles = !flat_.triangles.empty();
         features.vertex_normals = !flat_.vertex_normals.empty();
         features.hierarchy = !flat_.nodes.empty();
         features.lights = !flat_.lights.empty();
         features.mirrors =
             scene_.max_bounces > 0 && std::any_of(worn_.begin(), worn_.end(), is_mirror);
+        features.glass =
+            scene_.max_bounces > 0 && std::any_of(worn_.begin(), worn_.end(), is_glass);
     }
 
     const Scene& scene_;

@@ -174,6 +174,7 @@ class ClRenderer : public Renderer<T> {
     void upload(const FlatScene<T>& scene) {
         const Stopwatch watch;
         spheres_ = upload_array(scene.spheres, "the spheres");
+        cones_ = upload_array(scene.cones, "the cones");
         triangles_ = upload_array(scene.triangles, "the triangles");
         vertex_normals_ = upload_array(scene.vertex_normals, "the vertex normals");
         materials_ = upload_array(scene.materials, "the materials");
@@ -224,21 +225,22 @@ class ClRenderer : public Renderer<T> {
     void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::Frame& frame) {
         kernel.setArg(1, counts_);
         kernel.setArg(2, spheres_);
-        kernel.setArg(3, triangles_);
-        kernel.setArg(4, vertex_normals_);
-        kernel.setArg(5, materials_);
-        kernel.setArg(6, lights_);
-        kernel.setArg(7, nodes_);
-        kernel.setArg(8, order_);
-        kernel.setArg(9, casters_);
-        kernel.setArg(10, frame);
+        kernel.setArg(3, cones_);
+        kernel.setArg(4, triangles_);
+        kernel.setArg(5, vertex_normals_);
+        kernel.setArg(6, materials_);
+        kernel.setArg(7, lights_);
+        kernel.setArg(8, nodes_);
+        kernel.setArg(9, order_);
+        kernel.setArg(10, casters_);
+        kernel.setArg(11, frame);
     }
 
     /// Enqueues the kernels of one tile.
     std::vector<cl::Event> launch(const FlatTile& tile, const cl::Buffer& film) {
         std::vector<cl::Event> events(launch_samples_ ? 2 : 1);
         render_.setArg(0, launch_samples_ ? samples_ : film);
-        render_.setArg(11, tile);
+        render_.setArg(12, tile);
         const PacketShape packet = shape(samples());
         const std::size_t rounds =
             launch_samples_ ? samples() / static_cast<std::size_t>(packet.samples) : 1;
@@ -256,8 +258,8 @@ class ClRenderer : public Renderer<T> {
                             const cl::Buffer& colors, const cl::Buffer& list) {
         set_scene_arguments(listed_, frame);
         listed_.setArg(0, colors);
-        listed_.setArg(11, tile);
-        listed_.setArg(12, list);
+        listed_.setArg(12, tile);
+        listed_.setArg(13, list);
         const auto samples = static_cast<std::size_t>(frame.samples);
         cl::Event event;
         enqueue(listed_,
@@ -321,9 +323,10 @@ class ClRenderer : public Renderer<T> {
         for (const FlatCounts& slot : slots) {
             total.shadow += slot.shadow;
             total.mirror += slot.mirror;
+            total.transmitted += slot.transmitted;
         }
         queue.add_rays({total.primary - counted_.primary, total.shadow - counted_.shadow,
-                        total.mirror - counted_.mirror});
+                        total.mirror - counted_.mirror, total.transmitted - counted_.transmitted});
         counted_ = total;
     }
 
@@ -335,7 +338,8 @@ class ClRenderer : public Renderer<T> {
     cl::Context context_;
     cl::CommandQueue queue_;
     cl::Kernel render_, resolve_, listed_;
-    cl::Buffer spheres_, triangles_, vertex_normals_, materials_, lights_, nodes_, order_, casters_;
+    cl::Buffer spheres_, cones_, triangles_, vertex_normals_, materials_, lights_, nodes_, order_,
+        casters_;
     cl::Buffer counts_, samples_;
     std::uint64_t primary_ = 0;
     RayCounts counted_;

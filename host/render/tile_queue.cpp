@@ -37,6 +37,7 @@ void TileQueue::add_rays(const RayCounts& rays) {
     primary_ += rays.primary;
     shadow_ += rays.shadow;
     mirror_ += rays.mirror;
+    transmitted_ += rays.transmitted;
 }
 
 double TileQueue::fraction_finished() const {
@@ -44,6 +45,6 @@ double TileQueue::fraction_finished() const {
     return static_cast<double>(pixels_finished_) / static_cast<double>(pixels_);
 }
 
-RayCounts TileQueue::rays() const { return {primary_, shadow_, mirror_}; }
+RayCounts TileQueue::rays() const { return {primary_, shadow_, mirror_, transmitted_}; }
 
 }  // namespace rt

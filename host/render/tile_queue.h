@@ -54,7 +54,7 @@ class TileQueue {
     std::atomic<std::size_t> next_ = 0;
     std::atomic<std::size_t> tiles_finished_ = 0;
     std::atomic<std::int64_t> pixels_finished_ = 0;
-    std::atomic<std::uint64_t> primary_ = 0, shadow_ = 0, mirror_ = 0;
+    std::atomic<std::uint64_t> primary_ = 0, shadow_ = 0, mirror_ = 0, transmitted_ = 0;
 };
 
 }  // namespace rt

@@ -31,7 +31,8 @@ struct DeviceStats {
 struct SceneStats {
     std::string path, name;
     std::uint64_t hash = 0;
-    std::size_t spheres = 0, triangles = 0, smooth_triangles = 0, lights = 0, materials = 0;
+    std::size_t spheres = 0, cones = 0, triangles = 0, smooth_triangles = 0, lights = 0,
+                materials = 0;
     std::size_t bytes = 0;  ///< flattened
     FlattenStats flatten;
 };

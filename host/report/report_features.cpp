@@ -81,6 +81,7 @@ std::string features_section(const ReportScene& scene, std::size_t index) {
                               {count > 0 ? std::to_string(count) : "none", ""}});
     };
     row(&Features::spheres, "spheres", stats.scene.spheres);
+    row(&Features::cones, "cones", stats.scene.cones);
     row(&Features::triangles, "triangles", stats.scene.triangles);
     row(&Features::vertex_normals, "vertex normals", stats.scene.smooth_triangles);
     row(&Features::lights, "lights", stats.scene.lights);
@@ -89,6 +90,8 @@ std::string features_section(const ReportScene& scene, std::size_t index) {
          {stats.features.mirrors ? "used" : "left out", ""},
          {stats.features.mirrors ? fmt::format("up to {} bounces", stats.max_bounces) : "none",
           ""}});
+    table.rows.push_back(
+        {{"glass", ""}, {stats.features.glass ? "used" : "left out", ""}, {"", ""}});
     html += html_table(table);
     html += fmt::format(
         "<p>The flattened scene is {} bytes in {}. A feature left out is not "

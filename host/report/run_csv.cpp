@@ -42,7 +42,8 @@ std::vector<std::string> figure_cells(const RenderStats& run) {
           times.kernel, times.resolve, times.read_back, run.phases.total}) {
         cells.push_back(fmt::format("{}", seconds));
     }
-    for (const auto rays : {run.rays.primary, run.rays.shadow, run.rays.mirror}) {
+    for (const auto rays :
+         {run.rays.primary, run.rays.shadow, run.rays.mirror, run.rays.transmitted}) {
         cells.push_back(fmt::format("{}", rays));
     }
     cells.push_back(fmt::format("{}", run.rays_per_second()));
@@ -58,7 +59,8 @@ std::vector<std::string> figure_cells(const RenderStats& run) {
 std::string run_csv_header() {
     return "scene,scene_hash,width,height,aa,max_bounces,precision,math,device,device_name,threads,"
            "schedule,launch,verdict,round,build_cache,load,flatten,open,build,upload,trace,kernel,"
-           "resolve,read_back,total,primary_rays,shadow_rays,mirror_rays,rays_per_second,"
+           "resolve,read_back,total,primary_rays,shadow_rays,mirror_rays,transmitted_rays,rays_per_"
+           "second,"
            "image_hash,rmse,max_error,non_finite";
 }
 

@@ -52,9 +52,12 @@ std::string phases_text(const PhaseStats& phases) {
 
 std::string rays_text(const RenderStats& stats) {
     return fmt::format(
-        "rays\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}   {:.2f} Mrays/s\n",
+        "rays\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}   "
+        "{:.2f} "
+        "Mrays/s\n",
         "primary", stats.rays.primary, "shadow", stats.rays.shadow, "mirror", stats.rays.mirror,
-        "total", stats.rays.total(), stats.rays_per_second() * 1e-6);
+        "transmitted", stats.rays.transmitted, "total", stats.rays.total(),
+        stats.rays_per_second() * 1e-6);
 }
 
 }  // namespace

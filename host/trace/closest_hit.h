@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "host/trace/bvh.h"
+#include "host/trace/cone.h"
 #include "host/trace/intersect.h"
 
 // Twin of kernels/closest_hit.cl: one ray against the scene. Surfaces within 32 half-ulps of the
@@ -33,6 +34,9 @@ T intersect_primitive(const SceneView<T>& scene, const Ray<T>& ray, const RayShe
     if (prim < scene.frame.sphere_count) {
         return intersect_sphere(ray, scene.spheres[prim], prim);
     }
+    if (prim < first_triangle(scene.frame)) {
+        return intersect_cone(ray, scene.cones[prim - scene.frame.sphere_count], prim == ray.from);
+    }
     if (prim == ray.from) return T(-1);
     return intersect_triangle(shear, scene.triangles[prim - first_triangle(scene.frame)], u, v);
 }
@@ -46,6 +50,19 @@ RT_INLINE bool visit_spheres(const SceneView<T>& scene, const PreparedRay<T>& ra
         return visit_leaves(scene, ray.box, scene.frame.sphere_root, limit, visit);
     }
     for (typename Flat<T>::Index i = 0; i < scene.frame.sphere_count; ++i) {
+        if (visit(i)) return true;
+    }
+    return false;
+}
+
+/// The same for cones.
+template <typename T, typename Visit>
+RT_INLINE bool visit_cones(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
+                           const Visit& visit) {
+    if (scene.frame.cone_root != 0) {
+        return visit_leaves(scene, ray.box, scene.frame.cone_root, limit, visit);
+    }
+    for (typename Flat<T>::Index i = 0; i < scene.frame.cone_count; ++i) {
         if (visit(i)) return true;
     }
     return false;
@@ -72,6 +89,12 @@ RT_INLINE void visit_hits(const SceneView<T>& scene, const PreparedRay<T>& ray, 
     visit_spheres(scene, ray, limit, [&](Index i) {
         const T t = intersect_sphere(ray.ray, scene.spheres[i], i);
         if (t > T(0) && t <= limit) visit(i, t, T(0), T(0));
+        return false;
+    });
+    const Index first_cone = scene.frame.sphere_count;
+    visit_cones(scene, ray, limit, [&](Index i) {
+        const T t = intersect_cone(ray.ray, scene.cones[i], first_cone + i == ray.ray.from);
+        if (t > T(0) && t <= limit) visit(first_cone + i, t, T(0), T(0));
         return false;
     });
     const Index first = first_triangle(scene.frame);
@@ -138,6 +161,15 @@ RT_INLINE bool any_sphere_hit(const SceneView<T>& scene, const PreparedRay<T>& r
     });
 }
 
+template <typename T>
+RT_INLINE bool any_cone_hit(const SceneView<T>& scene, const PreparedRay<T>& ray) {
+    const auto from = ray.ray.from - scene.frame.sphere_count;
+    return visit_cones(scene, ray, ray.ray.t_max, [&](typename Flat<T>::Index i) {
+        const T t = intersect_cone(ray.ray, scene.cones[i], i == from);
+        return t > T(0) && t <= ray.ray.t_max;
+    });
+}
+
 /// Whether the ray hits triangle i, other than the one it leaves, in (0, t_max].
 template <typename T>
 RT_INLINE bool hits_triangle(const SceneView<T>& scene, const PreparedRay<T>& ray,
@@ -152,7 +184,7 @@ RT_INLINE bool hits_triangle(const SceneView<T>& scene, const PreparedRay<T>& ra
 template <typename T>
 bool any_hit(const SceneView<T>& scene, const Ray<T>& r) {
     const PreparedRay<T> ray(scene, r);
-    return any_sphere_hit(scene, ray) ||
+    return any_sphere_hit(scene, ray) || any_cone_hit(scene, ray) ||
            visit_triangles(scene, ray, ray.ray.t_max,
                            [&](typename Flat<T>::Index i) { return hits_triangle(scene, ray, i); });
 }
@@ -162,7 +194,7 @@ template <typename T>
 bool any_hit(const SceneView<T>& scene, const Ray<T>& r, const typename Flat<T>::Light& light) {
     if (light.caster_count == scene.frame.triangle_count) return any_hit(scene, r);
     const PreparedRay<T> ray(scene, r);
-    if (any_sphere_hit(scene, ray)) return true;
+    if (any_sphere_hit(scene, ray) || any_cone_hit(scene, ray)) return true;
     for (typename Flat<T>::Index k = 0; k < light.caster_count; ++k) {
         if (hits_triangle(scene, ray, scene.casters[light.first_caster + k])) return true;
     }

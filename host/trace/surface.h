@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "host/trace/bits.h"
-#include "host/trace/math.h"
+#include "host/trace/cone.h"
 #include "host/trace/scene_view.h"
 
 // Twin of kernels/surface.cl: from a hit to a point, its normals, and where a further ray starts.
@@ -39,6 +39,35 @@ Surface<T> sphere_surface(const Ray<T>& ray, T t, const typename Flat<T>::Sphere
     }
     surface.diameter = T(2) * sphere.radius;
     surface.material = sphere.material;
+    return surface;
+}
+
+/// The point is put back on the cone at its height; on the axis, where the radius is 0, the normal
+/// faces the viewer.
+template <typename T>
+Surface<T> cone_surface(const Ray<T>& ray, T t, const typename Flat<T>::Cone& cone) {
+    const Vec3<T> base = load3(cone.base);
+    const Vec3<T> axis = load3(cone.axis);
+    const Vec3<T> along = add_scaled(ray.origin - base, t, ray.dir);
+    const T height = min_of(max_of(dot3(along, axis), T(0)), cone.length);
+    const T radius = max_of(std::fma(cone.slope, height, cone.base_radius), T(0));
+    const Vec3<T> center = add_scaled(base, height, axis);
+    Vec3<T> outwards = add_scaled(along, -height, axis);
+    const T squared = dot3(outwards, outwards);
+    Surface<T> surface;
+    surface.normal = -ray.dir;
+    surface.point = center;
+    if (squared > T(0)) {
+        outwards = outwards * (T(1) / std::sqrt(squared));
+        surface.normal = normalize3(add_scaled(outwards, -cone.slope, axis));
+        surface.point = add_scaled(center, radius, outwards);
+    }
+    surface.geometric = surface.normal;
+    const Vec3<T> size = abs3(center) + abs3(surface.point);
+    const T extent = T(8) * std::fma(std::fabs(cone.slope), cone.length, cone.base_radius);
+    surface.offset = Flat<T>::roundoff * (dot3(abs3(surface.normal), size) + extent);
+    surface.diameter = 0;
+    surface.material = cone.material;
     return surface;
 }
 
@@ -94,6 +123,9 @@ Surface<T> primitive_surface(const SceneView<T>& scene, const Ray<T>& ray, const
     if (hit.prim < scene.frame.sphere_count) {
         return sphere_surface(ray, hit.t, scene.spheres[hit.prim]);
     }
+    if (hit.prim < first_triangle(scene.frame)) {
+        return cone_surface(ray, hit.t, scene.cones[hit.prim - scene.frame.sphere_count]);
+    }
     const auto& triangle = scene.triangles[hit.prim - first_triangle(scene.frame)];
     return triangle_surface(ray, hit, triangle, scene.vertex_normals);
 }
@@ -101,7 +133,7 @@ Surface<T> primitive_surface(const SceneView<T>& scene, const Ray<T>& ray, const
 /// Whether a triangle was hit within rounding of its edge, where a neighbour may begin.
 template <typename T>
 bool is_on_edge(const SceneView<T>& scene, const Hit<T>& hit) {
-    if (hit.prim < scene.frame.sphere_count) return false;
+    if (hit.prim < first_triangle(scene.frame)) return false;
     const T rim = T(64) * Flat<T>::roundoff;
     return hit.u < rim || hit.v < rim || T(1) - hit.u - hit.v < rim;
 }

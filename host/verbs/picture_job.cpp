@@ -53,6 +53,7 @@ SceneStats scene_stats(const Scene& scene) {
     stats.name = scene.name;
     stats.hash = scene_hash(scene);
     stats.spheres = scene.spheres.size();
+    stats.cones = scene.cones.size();
     stats.triangles = triangle_count(scene);
     stats.smooth_triangles = static_cast<std::size_t>(std::count_if(
         scene.triangles.begin(), scene.triangles.end(),

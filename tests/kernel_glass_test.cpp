@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Refraction in kernels/whitted.cl: Snell's law and the critical angle in closed form, trees worked
+// out by hand, energy, the focus of a ball, and the bits of host/trace/whitted.h.
+#include <algorithm>
+
+#include "host/trace/whitted.h"
+#include "tests/exact.h"
+#include "tests/kernel_runner.h"
+#include "tests/test_scenes.h"
+
+namespace rt {
+
+namespace {
+
+constexpr std::size_t count = 20000;
+
+template <typename T>
+using Counts = typename Flat<T>::RayCounts;
+
+/// Rays that meet surfaces, with an index each.
+template <typename T>
+struct Meetings {
+    std::vector<ProbeSurface<T>> surfaces;
+    std::vector<Packed3<T>> dirs;
+    std::vector<T> eta;
+    std::vector<Index<T>> prims;
+
+    void add(const glm::dvec3& normal, const glm::dvec3& face, const glm::dvec3& dir, double n) {
+        surfaces.push_back({{}, T(0x1p-18), round_to<T>(normal), 0, round_to<T>(face), 0});
+        dirs.push_back(round_to<T>(dir));
+        eta.push_back(static_cast<T>(n));
+        prims.push_back(static_cast<Index<T>>(prims.size()));
+    }
+    auto device() const {
+        return run<T, ProbeRay<T>, Index<T>>("refracted_ray", dirs.size(), surfaces, dirs, eta,
+                                             prims);
+    }
+    void expect_the_twins_bits() const {
+        const auto [rays, total] = device();
+        for (std::size_t i = 0; i < dirs.size(); ++i) {
+            bool twin_total;
+            const auto twin = pack(trace::refracted_ray(unpack(surfaces[i]), trace::load3(dirs[i]),
+                                                        eta[i], prims[i], twin_total));
+            ASSERT_EQ(total[i] != 0, twin_total) << i;
+            ASSERT_TRUE(same_bits<T>(std::vector{rays[i]}, std::vector{twin})) << i;
+        }
+    }
+};
+
+KERNEL_SUITE(RefractedRay);
+TYPED_TEST(RefractedRay, ObeysSnell) {
+    using T = TypeParam;
+    Random random(1);
+    Meetings<T> given;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 n = random.unit_vector();
+        const double eta = i % 3 == 0 ? 1.5 : (i % 3 == 1 ? 1 / 1.5 : random.uniform(0.3, 3));
+        given.add(n, n, random.unit_vector(), eta);
+    }
+    const auto [rays, total] = given.device();
+    WorstError worst;
+    std::size_t passing = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad3 d = exact(given.dirs[i]), n = exact(given.surfaces[i].normal);
+        const Quad eta = given.eta[i], cosine = dot(d, n);
+        const Quad3 along = eta * (d - cosine * n);
+        const Quad squared = 1 - dot(along, along);
+        if (magnitude(squared) < 1e-2) continue;
+        ASSERT_EQ(total[i] != 0, squared < 0) << i;
+        if (squared < 0) continue;
+        ++passing;
+        const Quad depth = square_root(squared);
+        worst.add(vector_error<T>(rays[i].dir, unit(along + (cosine < 0 ? -depth : depth) * n),
+                                  1 / depth));
+        ASSERT_EQ(rays[i].from, given.prims[i]);
+        ASSERT_TRUE(std::isinf(rays[i].t_max));
+        ASSERT_TRUE(dot(exact(rays[i].origin), n) * cosine > 0) << i;
+    }
+    worst.expect_at_most(4);
+    EXPECT_GT(passing, count / 2);
+    given.expect_the_twins_bits();
+}
+TYPED_TEST(RefractedRay, IsTotalBeyondTheCriticalAngle) {
+    const double critical = std::asin(1 / 1.5);
+    Meetings<TypeParam> given;
+    for (const double off : {-1e-3, -1e-6, 1e-6, 1e-3}) {
+        const double angle = critical + off;
+        given.add({0, 0, 1}, {0, 0, 1}, {std::sin(angle), 0, std::cos(angle)}, 1.5);
+    }
+    const auto total = std::get<1>(given.device());
+    EXPECT_EQ(total, (std::vector<Index<TypeParam>>{0, 0, 1, 1}));
+}
+TYPED_TEST(RefractedRay, GoesStraightOnWhereNothingChanges) {
+    using T = TypeParam;
+    Random random(2);
+    Meetings<T> same, near;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 n = random.unit_vector(), d = random.unit_vector();
+        same.add(n, n, d, 1);
+        if (std::abs(glm::dot(n, d)) > 0.01) near.add(n, n, d, 1 + (random.coin() ? 1e-7 : -1e-7));
+    }
+    const auto [rays, total] = same.device();
+    for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_TRUE(same_bits<T>(std::vector{rays[i].dir}, std::vector{same.dirs[i]})) << i;
+        ASSERT_EQ(total[i], 0);
+    }
+    const auto bent = std::get<0>(near.device());
+    for (std::size_t i = 0; i < bent.size(); ++i) {
+        const Quad3 change = exact(bent[i].dir) - exact(near.dirs[i]);
+        ASSERT_LE(double(length(change)), 1e-4) << i;
+    }
+    near.expect_the_twins_bits();
+}
+TYPED_TEST(RefractedRay, CrossesTheFaceWhateverTheShadingNormal) {
+    Random random(3);
+    Meetings<TypeParam> given;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 face = random.unit_vector();
+        glm::dvec3 lean = glm::normalize(face + 1.2 * random.unit_vector());
+        if (glm::dot(lean, face) < 0) lean = -lean;
+        given.add(lean, face, random.unit_vector(), random.uniform(0.4, 2.5));
+    }
+    const auto [rays, total] = given.device();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad3 face = exact(given.surfaces[i].geometric);
+        const Quad arriving = dot(exact(given.dirs[i]), face);
+        if (total[i] != 0 || magnitude(arriving) < 64 * Quad(Flat<TypeParam>::roundoff)) continue;
+        ASSERT_TRUE(dot(exact(rays[i].dir), face) * arriving > 0) << i;
+    }
+    given.expect_the_twins_bits();
+}
+
+/// A scene of one material, with no light of its own.
+template <typename T>
+FlatScene<T> unlit(double mirror, double transmission, double ior, double background) {
+    FlatScene<T> scene{};
+    typename Flat<T>::Material material{};
+    const T m = T(mirror), t = T(transmission), b = T(background);
+    material.mirror = {m, m, m};
+    material.transmission = {t, t, t};
+    material.ior = T(ior);
+    scene.materials = {material};
+    scene.frame.background = {b, b, b};
+    scene.frame.max_bounces = 8;
+    return scene;
+}
+
+template <typename T>
+auto trace_paths(const FlatScene<T>& scene, const std::vector<ProbeRay<T>>& rays) {
+    return run<T, Packed3<T>, Counts<T>>("trace_path", rays.size(), scene, rays);
+}
+
+KERNEL_SUITE(TraceTree);
+TYPED_TEST(TraceTree, AddsUpAPaneByHand) {
+    using T = TypeParam;
+    // Two panes of index 1 across the ray: every hit sends a quarter back and half on.
+    auto scene = unlit<T>(0.25, 0.5, 1, 1);
+    scene.triangles = {make_triangle<T>({-9, -9, -1}, {9, -9, -1}, {0, 9, -1}),
+                       make_triangle<T>({-9, -9, -2}, {9, -9, -2}, {0, 9, -2})};
+    count_primitives(scene);
+    const std::vector<ProbeRay<T>> ray{make_ray<T>({0, 0, 0}, {0, 0, -1})};
+    struct Case {
+        int max_bounces;
+        double color;
+        std::uint64_t mirror, transmitted;
+    };
+    // back 1/4, then through 1/4, back and out 1/16, back in the pane and so on
+    const Case cases[] = {{0, 0, 0, 0},
+                          {1, 0.25, 1, 1},
+                          {2, 0.25 + 0.25, 2, 2},
+                          {3, 0.25 + 0.25 + 0.0625, 3, 3},
+                          {4, 0.25 + 0.25 + 0.0625 + 0.015625, 4, 4}};
+    for (const auto& [max_bounces, color, mirror, transmitted] : cases) {
+        scene.frame.max_bounces = max_bounces;
+        const auto [colors, counts] = trace_paths(scene, ray);
+        EXPECT_EQ(colors[0].x, T(color)) << max_bounces;
+        EXPECT_EQ(counts[0].mirror, mirror) << max_bounces;
+        EXPECT_EQ(counts[0].transmitted, transmitted) << max_bounces;
+    }
+}
+TYPED_TEST(TraceTree, SeesTheBackgroundExactlyThroughIndexOne) {
+    using T = TypeParam;
+    Random random(4);
+    auto scene = unlit<T>(0, 1, 1, 0.7);
+    for (int i = 0; i < 3; ++i) {
+        scene.spheres.push_back(make_sphere<T>(random.in_cube(1), random.uniform(0.3, 1)));
+    }
+    count_primitives(scene);
+    const auto rays = many(count, [&] {
+        return make_ray<T>({0, 0, 3}, random.in_cube(1) - glm::dvec3(0, 0, 3));
+    });
+    const auto colors = std::get<0>(trace_paths(scene, rays));
+    for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(colors[i].x, T(0.7)) << i;
+}
+TYPED_TEST(TraceTree, NeverGainsEnergyInAWhiteFurnace) {
+    using T = TypeParam;
+    Random random(5);
+    for (const double mirror : {0.0, 0.1, 0.5}) {
+        for (const double ior : {1.5, 0.75, 2.4}) {
+            auto scene = unlit<T>(mirror, 1 - mirror, ior, 1);
+            for (int i = 0; i < 12; ++i) {
+                scene.spheres.push_back(
+                    make_sphere<T>(random.in_cube(1.5), random.uniform(0.2, 0.9)));
+            }
+            count_primitives(scene);
+            scene.frame.max_bounces = 12;
+            const auto rays = many(std::size_t(2000), [&] {
+                return make_ray<T>(random.in_cube(2), random.unit_vector());
+            });
+            const auto colors = std::get<0>(trace_paths(scene, rays));
+            double most = 0, sum = 0;
+            for (const auto& color : colors) {
+                most = std::max(most, double(color.x));
+                sum += double(color.x);
+            }
+            EXPECT_LE(most, 1 + 64 * double(Flat<T>::roundoff)) << mirror << " " << ior;
+            EXPECT_GT(sum, 0.3 * double(colors.size()));
+        }
+    }
+}
+TYPED_TEST(TraceTree, FocusesABallWhereTheoryHasIt) {
+    using T = TypeParam;
+    // Rays parallel to the axis, at height h: the ball of radius 1 and index n turns each by
+    // 2 (i - r), and it crosses the axis at sin(i) / sin(2 (i - r)); n / (2 (n - 1)) for small h.
+    const double n = 1.5;
+    for (const double h : {1e-3, 0.1, 0.3, 0.6, 0.9}) {
+        const double i = std::asin(h), r = std::asin(h / n);
+        const double focus = h / std::sin(2 * (i - r));
+        auto scene = unlit<T>(0, 1, n, 1);
+        scene.spheres = {make_sphere<T>({0, 0, 0}, 1)};
+        // A black target a little before and behind the focus, above the axis and below it.
+        typename Flat<T>::Material black{};
+        scene.materials.push_back(black);
+        const auto upper_half = [&](double z) {
+            scene.triangles = {make_triangle<T>({-9, 0, z}, {9, 0, z}, {0, 9, z}, 1)};
+            count_primitives(scene);
+            const std::vector<ProbeRay<T>> ray{make_ray<T>({0, h, 3}, {0, 0, -1})};
+            return std::get<0>(trace_paths(scene, ray))[0].x == 0;
+        };
+        const double slack = 2e-3;
+        EXPECT_TRUE(upper_half(-focus + slack)) << h;
+        EXPECT_FALSE(upper_half(-focus - slack)) << h;
+        EXPECT_TRUE(h > 0.01 || std::abs(focus - n / (2 * (n - 1))) < 1e-5);
+    }
+}
+
+/// A crowd of spheres, cones and triangles, mirroring and transmitting.
+template <typename T>
+FlatScene<T> glass_crowd() {
+    Random random(6);
+    auto scene = crowd<T>(random);
+    const auto color = [&] { return round_to<T>(0.5 * random.in_cube(0.5) + glm::dvec3(0.3)); };
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 way = random.unit_vector();
+        scene.cones.push_back({round_to<T>(random.in_cube(2)),
+                               T(0.4),
+                               round_to<T>(way),
+                               T(0.9),
+                               T(0.3 * random.index(3) - 0.3),
+                               0,
+                               {}});
+    }
+    for (Index<T> i = 0; i < 6; ++i) {
+        const auto clear = i % 3 == 0 ? Packed3<T>{} : color();
+        const auto shiny = i == 2 ? Packed3<T>{} : color();
+        scene.materials.push_back({color(), T(5 << i), color(), i % 2, color(),
+                                   T(random.uniform(0.6, 2)), shiny, 0, clear, 0});
+        scene.vertex_normals.push_back({round_to<T>(random.unit_vector()), 0,
+                                        round_to<T>(random.unit_vector()), 0,
+                                        round_to<T>(random.unit_vector()), 0});
+        scene.triangles[static_cast<std::size_t>(i)].smooth = i;
+    }
+    for (auto& sphere : scene.spheres) sphere.material = random.index(6);
+    for (auto& cone : scene.cones) cone.material = random.index(6);
+    for (auto& triangle : scene.triangles) triangle.material = random.index(6);
+    scene.lights = {{{5, 6, 7}, 0, {1, 1, 1}, 0}, {{-3, 5, 0}, 0, {T(0.5), 1, T(0.25)}, 0}};
+    scene.frame.max_bounces = 6;
+    scene.frame.background = {T(0.1), T(0.2), T(0.3)};
+    scene.frame.ambient_light = {T(0.5), T(0.5), T(0.5)};
+    count_primitives(scene);
+    return scene;
+}
+
+TYPED_TEST(TraceTree, HasTheTwinsBitsInAGlassCrowd) {
+    using T = TypeParam;
+    const auto scene = glass_crowd<T>();
+    Random random(7);
+    const auto rays =
+        many(count, [&] { return make_ray<T>(random.in_cube(3), random.unit_vector()); });
+    const auto [colors, counts] = trace_paths(scene, rays);
+    RayCounts all;
+    for (std::size_t i = 0; i < count; ++i) {
+        RayCounts used;
+        const auto twin = pack(trace::trace_path(view(scene), unpack(rays[i]), used));
+        ASSERT_TRUE(same_bits<T>(std::vector{colors[i]}, std::vector{twin})) << i;
+        ASSERT_EQ(counts[i].shadow, used.shadow) << i;
+        ASSERT_EQ(counts[i].mirror, used.mirror) << i;
+        ASSERT_EQ(counts[i].transmitted, used.transmitted) << i;
+        all += used;
+    }
+    EXPECT_GT(all.mirror, count / 2);
+    EXPECT_GT(all.transmitted, count / 2);
+}
+
+}  // namespace
+
+}  // namespace rt
