@@ -31,6 +31,14 @@ Scene scene_needing(const Features& features) {
         scene.triangles = {{{{{-3, -1, 3}, {3, -1, 3}, {0, -1, -6}}}, {}, 0},
                            {{{{-1, -1, -1}, {-0.2, -1, 0.2}, {-0.8, 1, 0}}}, {}, 0}};
     }
+    for (int i = 0; features.hierarchy && i < 24; ++i) {
+        const double x = 0.2 * i - 2.4;
+        if (features.spheres) {
+            scene.spheres.push_back({{x, -0.9, -1}, 0.1, 0});
+        } else {
+            scene.triangles.push_back({{{{x, -1, -1}, {x + 0.1, -1, -1}, {x, -0.8, -1}}}, {}, 0});
+        }
+    }
     if (features.vertex_normals) {
         scene.triangles[1].normals = {{{-0.6, 0, 0.8}, {0.6, 0, 0.8}, {0, 0.6, 0.8}}};
     }
@@ -46,7 +54,7 @@ std::vector<Features> all_combinations() {
         }
         const bool any_shape = features.spheres || features.triangles;
         if (features.vertex_normals && !features.triangles) continue;
-        if ((features.lights || features.mirrors) && !any_shape) continue;
+        if ((features.hierarchy || features.lights || features.mirrors) && !any_shape) continue;
         combinations.push_back(features);
     }
     return combinations;

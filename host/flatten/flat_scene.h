@@ -54,7 +54,7 @@ struct FlatScene {
 };
 
 struct FlattenOptions {
-    int threads = 0;           ///< 0: all cores; changes no bit
+    int threads = 0;  ///< 0: all cores; changes no bit
     /// Over which kinds of primitives: those with enough of them (not given), any with two (true),
     /// or none (false).
     std::optional<bool> hierarchies;
