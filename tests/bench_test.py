@@ -237,5 +237,70 @@ class Converge(FiguresTest):
         run("converge", SCENE, "--repeats", "4", code=2)
 
 
+class Ablation(FiguresTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.result = json.loads(run("bench", SCENE, "--ablate", "--sizes", "24", "--devices",
+                                    "threads:2,pocl", "--repeats", "3", "--json", "-q").stdout)
+        cls.rows = cls.result["ablation"]
+
+    def test_json_is_what_the_schema_says(self):
+        validator("bench").validate(self.result)
+
+    def test_every_omission_is_measured(self):
+        changes = [row["change"] for row in self.rows if row["threads"] == 0]
+        self.assertEqual(changes[:5], ["", "vertex normals compiled in", "hierarchy compiled in",
+                                       "everything compiled in", "no caster lists"])
+        self.assertEqual(changes[5], "hierarchies over few primitives")
+        self.assertEqual([row["change"] for row in self.rows if row["threads"] == 2],
+                         ["", "no caster lists", "hierarchies over few primitives"])
+        self.assertEqual(self.result["rows"], [])
+
+    def test_changes_are_made(self):
+        for row in self.rows:
+            settings = row["repeats"][0]["settings"]
+            change = row["change"]
+            self.assertEqual(settings["caster_lists"] == "off", change == "no caster lists")
+            self.assertEqual(settings["hierarchies"] == "on", "hierarchies over" in change)
+            self.assertEqual(settings["features"] == "all", change == "everything compiled in")
+            added = [change.removesuffix(" compiled in")] if change.endswith("compiled in") else []
+            self.assertEqual(settings["features_added"], [f for f in added if f != "everything"])
+
+    def test_no_change_moves_a_bit(self):
+        hashes = {one["image"]["hash"] for row in self.rows for one in row["repeats"]}
+        self.assertEqual(len(hashes), 1)
+        self.assertEqual({row["verdict"] for row in self.rows}, {"right"})
+
+    def test_figures(self):
+        usual = None
+        for row in self.rows:
+            trace = [one["seconds"]["trace"] for one in row["repeats"]]
+            usual = usual if row["change"] else statistics.median(trace)
+            self.assert_spread(row["figures"]["trace"], trace)
+            self.assert_close(row["figures"]["ratio"], statistics.median(trace) / usual)
+            self.assertEqual(row["figures"]["first_build"], row["warm_up"][0]["seconds"]["build"])
+
+    def test_table(self):
+        table = run("bench", SCENE, "--ablate", "--sizes", "16", "--devices", "threads:1",
+                    "--repeats", "1", "-q").stdout
+        self.assertIn("as usual", table)
+        self.assertIn("no caster lists", table)
+        self.assertLessEqual(max(len(line) for line in table.splitlines()), 100)
+
+    def test_no_hierarchies_where_brute_force_is_bearable(self):
+        scene = os.path.join(CACHE.name, "mesh.json")
+        for size, bearable in [(400, True), (6000, False)]:
+            subprocess.run([sys.executable, str(ROOT / "scripts" / "generate" / "generate.py"),
+                            "bumpy-mesh", str(size), "--plain", "-o", scene], check=True)
+            result = json.loads(run("bench", scene, "--ablate", "--sizes", "16", "--devices",
+                                    "threads:2", "--repeats", "1", "--json", "-q").stdout)
+            changes = [row["change"] for row in result["ablation"]]
+            self.assertEqual("no hierarchies" in changes, bearable)
+            self.assertIn("hierarchies over few primitives", changes)
+
+    def test_a_baseline_is_refused(self):
+        run("bench", SCENE, "--ablate", "--baseline", "old.json", code=2)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -3,6 +3,20 @@
 
 namespace rt {
 
+Features no_features() {
+    Features features;
+    for (const FeatureName& feature : feature_names) features.*feature.flag = false;
+    return features;
+}
+
+Features either_of(const Features& a, const Features& b) {
+    Features features;
+    for (const FeatureName& feature : feature_names) {
+        features.*feature.flag = a.*feature.flag || b.*feature.flag;
+    }
+    return features;
+}
+
 std::vector<std::string> names_of(const Features& features, bool used) {
     std::vector<std::string> names;
     for (const FeatureName& feature : feature_names) {

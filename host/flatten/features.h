@@ -44,6 +44,12 @@ inline constexpr std::array<FeatureName, 10> feature_names{{
     {&Features::glass, "glass", "RT_HAS_GLASS"},
 }};
 
+/// Nothing at all.
+Features no_features();
+
+/// What either has.
+Features either_of(const Features& a, const Features& b);
+
 /// The names of the switches that are on (used) or off (left out).
 std::vector<std::string> names_of(const Features& features, bool used);
 

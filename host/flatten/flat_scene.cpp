@@ -217,7 +217,8 @@ class Flattener {
     template <typename Box>
     Listed build_hierarchy(std::size_t count, std::size_t crossover, const Box& box, Index& root,
                            BvhShape& shape) {
-        if (!options_.hierarchies || count < crossover) return {};
+        if (options_.hierarchies.has_value()) crossover = *options_.hierarchies ? 2 : count + 1;
+        if (count < crossover) return {};
         const auto start = std::chrono::steady_clock::now();
         std::vector<BvhBox<T>> boxes(count);
         for_each(count, [&](std::size_t i) {

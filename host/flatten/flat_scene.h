@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host/flatten/bvh.h"
@@ -53,8 +54,10 @@ struct FlatScene {
 };
 
 struct FlattenOptions {
-    int threads = 0;           ///< 0: all cores; changes no bit
-    bool hierarchies = true;   ///< false: none, whatever there is to test
+    int threads = 0;  ///< 0: all cores; changes no bit
+    /// Over which kinds of primitives: those with enough of them (not given), any with two (true),
+    /// or none (false).
+    std::optional<bool> hierarchies;
     bool caster_lists = true;  ///< false: every triangle casts shadows
 };
 

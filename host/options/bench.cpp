@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <charconv>
 
+#include "host/error.h"
 #include "host/options/lists.h"
 #include "host/options/verb_options.h"
 
@@ -48,6 +49,16 @@ void add_baseline(CLI::App& app, BenchOptions& bench) {
              [&](const std::string& text) { bench.max_regress = parse_percent(text); });
 }
 
+/// What an ablation does not say otherwise: one picture on every device.
+void settle_ablation(const CLI::App& verb, BenchOptions& bench) {
+    if (!bench.baseline.empty()) {
+        throw Error(ExitCode::usage, "--ablate and --baseline: give one of them");
+    }
+    if (verb.count("--sizes") == 0) bench.sizes = {{500, 500}};
+    if (verb.count("--aa") == 0) bench.aa = parse_aa_list("--aa", "grid:2");
+    if (verb.count("--precision") == 0) bench.precisions = {Precision::float32};
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app, Options& options) {
@@ -70,9 +81,13 @@ void add_bench(CLI::App& app, Options& options) {
               "timed rounds after the warm-up (default 5)");
     add_baseline(verb, bench);
     add_result_files(verb, bench.results);
+    verb.add_flag("--ablate", bench.ablate,
+                  "what each thing left out saves: every one off and on, in turn (default "
+                  "--sizes 500 --aa grid:2 --precision float)");
     verb.add_flag("-q,--quiet", bench.quiet, "no progress on stderr");
-    verb.callback([&] {
+    verb.callback([&options, &verb] {
         check_result_files(options.bench.results);
+        if (options.bench.ablate) settle_ablation(verb, options.bench);
         options.verb = Verb::bench;
     });
 }

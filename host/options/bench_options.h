@@ -29,6 +29,7 @@ struct BenchOptions {
     ResultFiles results;
     std::string baseline;       ///< an earlier --json file; empty: none
     double max_regress = 0.05;  ///< share of the old median that a row may lose
+    bool ablate = false;        ///< measure what leaving things out saves, instead of devices
     bool quiet = false;
 };
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "host/error.h"
+#include "host/options/lists.h"
 #include "host/options/parse.h"
 #include "host/options/verb_options.h"
 #include "host/render/device_spec.h"
@@ -45,6 +48,26 @@ std::string pocl_cache_folder() {
     }
     const std::string home = environment("HOME");
     return home.empty() ? "" : home + "/.cache/pocl/kcache";
+}
+
+/// "all", "auto", or names as of --stats with hyphens for blanks.
+void parse_features(const std::string& text, RenderOptions& render) {
+    render.all_features = text == "all";
+    render.also_features = no_features();
+    if (text == "all" || text == "auto") return;
+    for (const std::string& part : split_list("--features", text)) {
+        const FeatureName* found = nullptr;
+        std::string names;
+        for (const FeatureName& feature : feature_names) {
+            std::string name = feature.name;
+            std::replace(name.begin(), name.end(), ' ', '-');
+            if (name == part) found = &feature;
+            names += ", " + name;
+        }
+        if (found == nullptr)
+            refuse("--features", part, "give auto, all or some of " + names.substr(2));
+        render.also_features.*found->flag = true;
+    }
 }
 
 void add_picture_options(CLI::App& app, RenderOptions& render) {
@@ -113,8 +136,15 @@ void add_device_options(CLI::App& app, RenderOptions& render) {
         ->type_name("N");
     add_text(app, "--tile", "WxH|N", "pixels handed out at once",
              [&](const std::string& text) { render.tile = parse_size("--tile", text); });
-    add_choice<bool>(app, "--features", render.all_features, {{"auto", false}, {"all", true}},
-                     "compile what the scene needs (default), or everything");
+    add_text(app, "--features", "auto|all|LIST",
+             "compile what the scene needs (default), everything, or what it needs and these",
+             [&](const std::string& text) { parse_features(text, render); });
+    add_choice<std::optional<bool>>(app, "--hierarchies", render.hierarchies,
+                                    {{"auto", std::nullopt}, {"on", true}, {"off", false}},
+                                    "over which kinds of primitives: those with enough (default), "
+                                    "two or more, none");
+    add_choice<bool>(app, "--caster-lists", render.caster_lists, {{"on", true}, {"off", false}},
+                     "list the triangles that cast shadows, where there are few (default on)");
     app.add_flag("--no-fallback", render.no_fallback,
                  "fail when the device fails, instead of finishing on threads");
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "host/flatten/features.h"
 #include "host/image/encoding.h"
 #include "host/render/cl_renderer.h"
 #include "host/render/threads_renderer.h"
@@ -39,6 +40,9 @@ struct RenderOptions {
     Schedule schedule = Schedule::tiles;
     int threads = 0;  ///< 0: all cores
     bool all_features = false;
+    Features also_features = no_features();  ///< compiled, needed or not
+    std::optional<bool> hierarchies;         ///< not given: where they are faster
+    bool caster_lists = true;
     std::optional<Rect> crop;
     std::optional<PictureSize> tile;
     std::string reference;  ///< empty: none

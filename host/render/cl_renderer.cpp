@@ -199,7 +199,9 @@ class ClRenderer : public Renderer<T> {
         program_options.lanes = lanes_;
         program_options.fast_math = options.fast_math;
         program_options.warnings_are_errors = options.warnings_are_errors;
-        if (!options.all_features) program_options.features = scene.features;
+        if (!options.all_features) {
+            program_options.features = either_of(scene.features, options.also);
+        }
         const bool is_pocl = device_.platform == pocl_platform;
         const PoclCacheWatch cache(is_pocl ? options.pocl_cache : "");
         const Stopwatch watch;

@@ -30,6 +30,7 @@ struct ClOptions {
     bool fast_math = false;
     bool will_refine = false;          ///< have the kernel of `refine` ready, too
     bool all_features = false;         ///< compile what the scene does not need, too
+    Features also = no_features();     ///< compile these, needed or not
     bool warnings_are_errors = false;  ///< for tests
     std::string pocl_cache;            ///< PoCL's kernel cache folder; may be empty
 };

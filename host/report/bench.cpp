@@ -69,6 +69,38 @@ std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow
     return figures;
 }
 
+const BenchRow& usual_row(const BenchResult& result, const BenchRow& row) {
+    std::ptrdiff_t i = &row - result.ablation.data();
+    while (!result.ablation[static_cast<std::size_t>(i)].asked.change.empty()) --i;
+    return result.ablation[static_cast<std::size_t>(i)];
+}
+
+std::optional<AblationFigures> ablation_figures(const BenchResult& result, const BenchRow& row) {
+    const BenchRow& usual = usual_row(result, row);
+    for (const BenchRow* one : {&row, &usual}) {
+        if (one->verdict != Verdict::right || one->repeats.empty()) return std::nullopt;
+    }
+    AblationFigures figures;
+    figures.trace = spread_of(row.repeats, trace_seconds);
+    if (!row.warm_up.empty()) figures.first_build = row.warm_up.front().phases.renderer.build;
+    const double before = spread_of(usual.repeats, trace_seconds).median;
+    if (before > 0) figures.ratio = figures.trace.median / before;
+    return figures;
+}
+
+void judge_ablation(BenchResult& result) {
+    for (BenchRow& row : result.ablation) {
+        const BenchRow& usual = usual_row(result, row);
+        if (row.verdict != Verdict::right || row.repeats.empty() || usual.repeats.empty()) continue;
+        const std::uint64_t found = row.repeats.front().image_hash;
+        const std::uint64_t expected = usual.repeats.front().image_hash;
+        if (found == expected) continue;
+        row.verdict = Verdict::wrong;
+        row.why = fmt::format("not the usual picture: {} instead of {}", hash_text(found),
+                              hash_text(expected));
+    }
+}
+
 std::string key_of(const BenchCase& asked) {
     return fmt::format("{} {}x{} {} {} {} {}{}{}", hash_text(asked.scene_hash), asked.width,
                        asked.height, to_string(asked.aa),
@@ -78,8 +110,9 @@ std::string key_of(const BenchCase& asked) {
 }
 
 bool any_row(const BenchResult& result, Verdict verdict) {
-    return std::any_of(result.rows.begin(), result.rows.end(),
-                       [&](const BenchRow& row) { return row.verdict == verdict; });
+    const auto has_it = [&](const BenchRow& row) { return row.verdict == verdict; };
+    return std::any_of(result.rows.begin(), result.rows.end(), has_it) ||
+           std::any_of(result.ablation.begin(), result.ablation.end(), has_it);
 }
 
 }  // namespace rt

@@ -27,6 +27,22 @@ struct BenchFigures {
 /// Empty unless the row is right and has a repeat: a wrong picture has no timing.
 std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow& row);
 
+/// What a row of an ablation comes to.
+struct AblationFigures {
+    Spread trace;            ///< seconds
+    double first_build = 0;  ///< seconds to build the kernels before the first picture
+    double ratio = 0;        ///< median trace over that of the row as usual: over 1, slower
+};
+
+/// The row that this one of result.ablation is a change of; itself when it is as usual.
+const BenchRow& usual_row(const BenchResult& result, const BenchRow& row);
+
+/// Empty unless the row and the usual one are right and have a repeat.
+std::optional<AblationFigures> ablation_figures(const BenchResult& result, const BenchRow& row);
+
+/// Finds pictures of an ablation that differ from the usual one: their rows become wrong.
+void judge_ablation(BenchResult& result);
+
 /// What a row is recognised by in another result: scene hash, size, AA, precision, device,
 /// schedule.
 std::string key_of(const BenchCase& asked);

@@ -51,6 +51,22 @@ Json row_json(const BenchResult& result, const BenchRow& row) {
             {"repeats", runs_json(row.repeats)}};
 }
 
+/// Null unless the row and the usual one are right.
+Json ablation_figures_json(const BenchResult& result, const BenchRow& row) {
+    const auto figures = ablation_figures(result, row);
+    if (!figures) return nullptr;
+    return {{"trace", spread_json(figures->trace)},
+            {"first_build", figures->first_build},
+            {"ratio", figures->ratio}};
+}
+
+Json ablation_json(const BenchResult& result, const BenchRow& row) {
+    Json json = row_json(result, row);
+    json["change"] = row.asked.change;
+    json["figures"] = ablation_figures_json(result, row);
+    return json;
+}
+
 Json reference_json(const RenderStats& run) {
     Json json{{"scene",
                {{"path", run.scene.path},
@@ -66,13 +82,16 @@ Json bench_json(const BenchResult& result) {
     Json references = Json::array(), rows = Json::array();
     for (const RenderStats& run : result.references) references.push_back(reference_json(run));
     for (const BenchRow& row : result.rows) rows.push_back(row_json(result, row));
+    Json ablation = Json::array();
+    for (const BenchRow& row : result.ablation) ablation.push_back(ablation_json(result, row));
     return {{"format", "mirrorball-bench"},
             {"version", 1},
             {"environment", bench_environment_json(result.load_before)},
             {"repeats", result.repeats_asked},
             {"interrupted", result.interrupted},
             {"references", references},
-            {"rows", rows}};
+            {"rows", rows},
+            {"ablation", ablation}};
 }
 
 }  // namespace rt

@@ -28,6 +28,7 @@ struct BenchCase {
     std::string device_name;    ///< "threads", or the OpenCL device's own name
     int threads = 0;            ///< asked for; 0 for OpenCL
     std::string schedule;       ///< "tiles" or "buffers"; empty for OpenCL
+    std::string change;         ///< of an ablation: what is not as usual; empty: nothing
 };
 
 /// A row: one case, with every run kept. RenderStats::error is against the double reference, on
@@ -47,6 +48,9 @@ struct BenchResult {
     double load_before = -1;  ///< one-minute load average when it began; below 0: unknown
     std::vector<RenderStats> references;  ///< double, strict, threads; a scene, size, AA mode each
     std::vector<BenchRow> rows;           ///< by scene, size, AA, precision; then devices
+    /// With --ablate, and then `rows` is empty: a picture on a device as usual, then with each
+    /// change. Every picture must have the usual one's bits.
+    std::vector<BenchRow> ablation;
 };
 
 }  // namespace rt

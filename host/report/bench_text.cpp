@@ -69,6 +69,39 @@ std::string header_text() {
                        "Amdahl", "diff", "RMSE");
 }
 
+std::string ablation_row_text(const BenchResult& result, const BenchRow& row) {
+    const bool usual = row.asked.change.empty();
+    const std::string head = fmt::format("  {:<34}", usual ? "as usual" : row.asked.change);
+    const auto figures = ablation_figures(result, row);
+    if (figures) {
+        return head + fmt::format(" {:>9.5f} {:>8.5f} {:>6.2f} {:>8.3f}  {}\n",
+                                  figures->trace.median, figures->trace.mad, figures->ratio,
+                                  figures->first_build, hash_text(row.repeats.back().image_hash));
+    }
+    if (row.verdict == Verdict::right) return head + " the usual picture is missing\n";
+    if (row.verdict == Verdict::unfinished) return head + " not finished\n";
+    return head + fmt::format(" {}, not timed: {}\n", to_string(row.verdict), row.why);
+}
+
+constexpr const char* ablation_legend =
+    "Trace seconds: medians, median absolute deviations. ratio: over the median as usual; above "
+    "1,\n"
+    "slower. build: seconds before the first picture.\n";
+
+std::string ablation_text(const BenchResult& result) {
+    std::string text;
+    for (const BenchRow& row : result.ablation) {
+        if (row.asked.change.empty()) {
+            text += fmt::format("{}{}, {}\n  {:<34} {:>9} {:>8} {:>6} {:>8}  {}\n",
+                                text.empty() ? "" : "\n", group_of(row.asked),
+                                row.asked.uses_threads ? row.asked.device : row.asked.device_name,
+                                "", "trace s", "+-", "ratio", "build", "image");
+        }
+        text += ablation_row_text(result, row);
+    }
+    return text;
+}
+
 constexpr const char* legend =
     "Medians; +-% is the median absolute deviation. total: flatten, open, build, upload, trace,\n"
     "resolve, read back. speedup: of total, over one thread. Amdahl: 1/((1-f)+f/n), f = "
@@ -91,10 +124,10 @@ std::string bench_text(const BenchResult& result) {
         const std::string schedule = row.asked.schedule.empty() ? "" : "/" + row.asked.schedule;
         images[hash_text(row.repeats.back().image_hash)].push_back(row.asked.device + schedule);
     }
-    text += images_text(images);
-    text +=
-        fmt::format("\n{} rounds after a warm-up{}; load before {:.2f}\n{}", result.repeats_asked,
-                    result.interrupted ? ", interrupted" : "", result.load_before, legend);
+    text += images_text(images) + ablation_text(result);
+    text += fmt::format("\n{} rounds after a warm-up{}; load before {:.2f}\n{}",
+                        result.repeats_asked, result.interrupted ? ", interrupted" : "",
+                        result.load_before, result.ablation.empty() ? legend : ablation_legend);
     return text;
 }
 

@@ -63,8 +63,11 @@ struct RenderStats {
     Filter filter = Filter::box;
     int max_bounces = 0;
     bool double_precision = false, fast_math = false;
-    Features features;          ///< what the scene needs
-    bool all_features = false;  ///< compiled with everything all the same
+    Features features;                       ///< what the scene needs
+    bool all_features = false;               ///< compiled with everything all the same
+    Features also_features = no_features();  ///< compiled all the same
+    std::optional<bool> hierarchies;         ///< asked for; empty: where they are faster
+    bool caster_lists = true;
     RayCounts rays;
     std::size_t tiles = 0, tiles_finished = 0;
     std::uint64_t image_hash = 0;

@@ -63,7 +63,12 @@ Json settings_json(const RenderStats& stats) {
             {"max_bounces", stats.max_bounces},
             {"precision", stats.double_precision ? "double" : "float"},
             {"math", stats.fast_math ? "fast" : "strict"},
-            {"features", stats.all_features ? "all" : "auto"}};
+            {"features", stats.all_features ? "all" : "auto"},
+            {"features_added", names_of(stats.also_features, true)},
+            {"hierarchies", !stats.hierarchies   ? "auto"
+                            : *stats.hierarchies ? "on"
+                                                 : "off"},
+            {"caster_lists", stats.caster_lists ? "on" : "off"}};
 }
 
 Json device_json(const DeviceStats& device) {

@@ -21,6 +21,7 @@
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"
+#include "host/verbs/ablation.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/measure.h"
 #include "host/verbs/picture_job.h"
@@ -121,7 +122,9 @@ class Plan {
             picture.precision = precision;
             for (const ListedDevice& device : devices_) {
                 if (precision == Precision::float64 && !device.has_double) continue;
-                if (device.is_threads) {
+                if (options_.ablate) {
+                    add_ablation(loaded, picture, device);
+                } else if (device.is_threads) {
                     add_threads_rows(loaded, picture, device);
                 } else {
                     picture.device = device.spec;
@@ -149,8 +152,29 @@ class Plan {
         }
     }
 
+    /// The picture as usual, then with each change.
+    void add_ablation(const LoadedScene& loaded, RenderOptions picture,
+                      const ListedDevice& device) {
+        int threads = 0;
+        picture.device = device.spec;
+        if (device.is_threads) {
+            threads = device.threads > 0     ? device.threads
+                      : options_.threads > 0 ? options_.threads
+                                             : available_cores();
+            picture.device = fmt::format("threads:{}", threads);
+        }
+        add_row(loaded, picture, device, threads);
+        Scene scene = loaded.scene;
+        apply_overrides(scene, picture);
+        for (const Change& change : changes_to_measure(scene, device, picture.precision)) {
+            RenderOptions changed = picture;
+            change.make(changed);
+            add_row(loaded, changed, device, threads, change.what);
+        }
+    }
+
     void add_row(const LoadedScene& loaded, const RenderOptions& picture,
-                 const ListedDevice& device, int threads) {
+                 const ListedDevice& device, int threads, const std::string& change = "") {
         PlannedRow row;
         BenchCase& asked = row.asked;
         asked.scene_path = loaded.path;
@@ -164,6 +188,7 @@ class Plan {
         asked.device = picture.device;
         asked.device_name = device.name;
         asked.threads = threads;
+        asked.change = change;
         if (device.is_threads) {
             asked.schedule = picture.schedule == Schedule::tiles ? "tiles" : "buffers";
         }
@@ -182,10 +207,14 @@ class Plan {
 };
 
 void say_bad_rows(const BenchResult& result) {
-    for (const BenchRow& row : result.rows) {
-        if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
-        print_message(fmt::format("mirrorball: {} ({}): {}: {}\n", key_of(row.asked),
-                                  row.asked.device_name, to_string(row.verdict), row.why));
+    for (const auto* rows : {&result.rows, &result.ablation}) {
+        for (const BenchRow& row : *rows) {
+            if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
+            print_message(fmt::format("mirrorball: {} ({}){}: {}: {}\n", key_of(row.asked),
+                                      row.asked.device_name,
+                                      row.asked.change.empty() ? "" : ", " + row.asked.change,
+                                      to_string(row.verdict), row.why));
+        }
     }
 }
 
@@ -211,10 +240,12 @@ BenchResult measure_bench(const BenchOptions& options, const std::string& pocl_c
     if (!result.interrupted) {
         result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
     }
+    std::vector<BenchRow>& rows = options.ablate ? result.ablation : result.rows;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        result.rows.push_back({plan.rows[i].asked, std::move(cases[i].warm_up),
-                               std::move(cases[i].repeats), cases[i].verdict, cases[i].why});
+        rows.push_back({plan.rows[i].asked, std::move(cases[i].warm_up),
+                        std::move(cases[i].repeats), cases[i].verdict, cases[i].why});
     }
+    judge_ablation(result);
     return result;
 }
 

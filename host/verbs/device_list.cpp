@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/console.h"
+#include "host/render/cl_renderer.h"
 #include "host/render/device_spec.h"
 
 namespace rt {
@@ -11,7 +12,13 @@ namespace rt {
 namespace {
 
 ListedDevice listed(const ClDevice& device) {
-    return {std::to_string(device.index), device.name, false, 0, device.has_double};
+    return {std::to_string(device.index),
+            device.name,
+            false,
+            0,
+            device.has_double,
+            packet_lanes<float>(0, device),
+            packet_lanes<double>(0, device)};
 }
 
 void add_once(std::vector<ListedDevice>& list, const ListedDevice& device) {

@@ -11,8 +11,9 @@ struct ListedDevice {
     std::string spec;  ///< for --device: "threads", "threads:2", "0"
     std::string name;  ///< "threads", or the OpenCL device's own name
     bool is_threads = false;
-    int threads = 0;         ///< from threads:N; 0 when not given
-    bool has_double = true;  ///< whether it can render in double
+    int threads = 0;                        ///< from threads:N; 0 when not given
+    bool has_double = true;                 ///< whether it can render in double
+    int float_lanes = 0, double_lanes = 0;  ///< of a packet, by default; 0: threads
 };
 
 /// The devices that specs name, each once; "all" is threads and every usable OpenCL device, with a

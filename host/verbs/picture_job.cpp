@@ -70,7 +70,10 @@ class Job {
     Job(const Scene& scene, const RenderOptions& options)
         : options_(options), region_(chosen_region(scene, options)) {
         const Stopwatch watch;
-        scene_ = flatten<T>(scene);
+        FlattenOptions flatten_options;
+        flatten_options.hierarchies = options.hierarchies;
+        flatten_options.caster_lists = options.caster_lists;
+        scene_ = flatten<T>(scene, flatten_options);
         stats_.phases.flatten = watch.seconds();
         stats_.scene = scene_stats(scene);
         stats_.scene.triangles = scene_.triangles.size();
@@ -87,6 +90,9 @@ class Job {
         stats_.fast_math = options.fast_math;
         stats_.features = scene_.features;
         stats_.all_features = options.all_features;
+        stats_.also_features = options.also_features;
+        stats_.hierarchies = options.hierarchies;
+        stats_.caster_lists = options.caster_lists;
     }
 
     RenderedPicture run() {
@@ -134,6 +140,7 @@ class Job {
         cl_options.fast_math = options_.fast_math;
         cl_options.will_refine = stats_.aa.pattern == AaMode::Pattern::adaptive;
         cl_options.all_features = options_.all_features;
+        cl_options.also = options_.also_features;
         cl_options.pocl_cache = options_.pocl_cache;
         if (!options_.fast_math && !device.rounds_correctly) {
             say_verbose(device.name +

@@ -4,7 +4,8 @@
 
   sphere-flake DEPTH    mirror balls that carry nine of a third their size each: 1 + 9 + 81 + ...
   bumpy-mesh N          a bumpy ring of N triangles (N even) on a mirror floor, with mirror balls;
-                        the mesh goes into a .ply file beside the scene
+                        the mesh goes into a .ply file beside the scene (--plain: into the scene);
+                        --mirror: the mesh is a mirror, too
   mirror-lattice N      N x N x N mirror balls
 """
 import argparse
@@ -26,6 +27,9 @@ MIRROR = {"ambient": 0.1, "diffuse": [0.25, 0.24, 0.2], "specular": 0.5, "shinin
 FLOOR = {"ambient": 0.3, "diffuse": [0.35, 0.3, 0.25], "mirror": 0.3, "two_sided": True}
 CLAY = {"ambient": [0.5, 0.3, 0.2], "diffuse": [0.7, 0.4, 0.25], "specular": 0.2, "shininess": 30,
         "two_sided": True}
+
+POLISHED = {"ambient": [0.25, 0.15, 0.1], "diffuse": [0.35, 0.2, 0.12], "specular": 0.4,
+            "shininess": 60, "mirror": 0.5, "two_sided": True}
 
 
 def scene(name, camera_from, camera_at, **more):
@@ -57,7 +61,7 @@ class Spheres:
         self.list.append(sphere((x, z, -y), radius))
 
 
-def sphere_flake(depth, _):
+def sphere_flake(depth, *_):
     flake = Spheres()
     balls.grow(flake, balls.directions(), depth, (0, 0, 0), 0.5, vectors.Z)
     return scene("sphere-flake", [2.1, 1.7, 2.3], [0, 0, 0],
@@ -65,7 +69,7 @@ def sphere_flake(depth, _):
                  triangles=floor_triangles(-0.5))
 
 
-def mirror_lattice(side, _):
+def mirror_lattice(side, *_):
     pitch = 2 / side
     places = [(i + 0.5) * pitch - 1 for i in range(side)]
     lattice = [sphere((x, y, z), 0.4 * pitch) for x in places for y in places for z in places]
@@ -98,6 +102,18 @@ def ring_points(around, along):
     return points
 
 
+def ring_faces(around, along):
+    """Rows of faces: three indices of points a triangle, one after the other."""
+    for j in range(along):
+        start, other = j * around, (j + 1) % along * around
+        numbers = []
+        for i in range(around):
+            k = i + 1 if i + 1 < around else 0
+            a, b, c, d = start + i, start + k, other + k, other + i
+            numbers += (a, b, c, c, d, a)
+        yield numbers
+
+
 def write_ring(path, triangles):
     around, along = mesh_sides(triangles)
     points = ring_points(around, along)
@@ -110,25 +126,36 @@ def write_ring(path, triangles):
                    f"element face {2 * around * along}\n"
                    "property list uchar int vertex_indices\nend_header\n".encode())
         points.tofile(file)
-        for j in range(along):
-            start, other = j * around, (j + 1) % along * around
+        for corners in ring_faces(around, along):
             numbers = []
-            for i in range(around):
-                k = i + 1 if i + 1 < around else 0
-                a, b, c, d = start + i, start + k, other + k, other + i
-                numbers += (3, a, b, c, 3, c, d, a)
+            for i in range(0, len(corners), 3):
+                numbers += (3, *corners[i:i + 3])
             file.write(row.pack(*numbers))
 
 
-def bumpy_mesh(triangles, output):
-    mesh = output.with_suffix(".ply")
-    write_ring(mesh, triangles)
+def ring_triangles(triangles, material):
+    """The ring as triangles of the scene, with the very coordinates of the .ply file."""
+    around, along = mesh_sides(triangles)
+    numbers = ring_points(around, along)
+    points = [list(numbers[i:i + 3]) for i in range(0, len(numbers), 3)]
+    return [{"vertices": [points[k] for k in corners[i:i + 3]], "material": material}
+            for corners in ring_faces(around, along) for i in range(0, len(corners), 3)]
+
+
+def bumpy_mesh(triangles, output, mirror, plain):
+    material = "polished" if mirror else "clay"
+    materials = {"mirror": MIRROR, "floor": FLOOR, material: POLISHED if mirror else CLAY}
     around = [sphere((1.9 * math.cos(a), 0.3, 1.9 * math.sin(a)), 0.3)
               for a in (2 * math.pi * i / 7 for i in range(7))]
-    return scene("bumpy-mesh", [2.6, 2.4, 3.8], [0, 0.2, 0],
-                 materials={"mirror": MIRROR, "floor": FLOOR, "clay": CLAY},
-                 spheres=around + [sphere((0, 0.4, 0), 0.4)], triangles=floor_triangles(0),
-                 meshes=[{"file": mesh.name, "material": "clay"}])
+    mesh = output.with_suffix(".ply")
+    if plain:
+        more = {"triangles": floor_triangles(0) + ring_triangles(triangles, material)}
+    else:
+        write_ring(mesh, triangles)
+        more = {"triangles": floor_triangles(0),
+                "meshes": [{"file": mesh.name, "material": material}]}
+    return scene("bumpy-mesh", [2.6, 2.4, 3.8], [0, 0.2, 0], materials=materials,
+                 spheres=around + [sphere((0, 0.4, 0), 0.4)], **more)
 
 
 SCENES = {"sphere-flake": (sphere_flake, 0, 7), "bumpy-mesh": (bumpy_mesh, 18, 200000000),
@@ -141,13 +168,18 @@ def main():
     parser.add_argument("name", choices=SCENES)
     parser.add_argument("size", type=int)
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="scene file, .json")
+    parser.add_argument("--mirror", action="store_true", help="bumpy-mesh: the mesh is a mirror")
+    parser.add_argument("--plain", action="store_true",
+                        help="bumpy-mesh: triangles in the scene, no .ply file")
     arguments = parser.parse_args()
     make, least, most = SCENES[arguments.name]
     if not least <= arguments.size <= most:
         parser.error(f"size of {arguments.name}: give {least} to {most}")
     if arguments.output.suffix != ".json":
         parser.error("-o: name a .json file")
-    result = make(arguments.size, arguments.output)
+    if (arguments.mirror or arguments.plain) and arguments.name != "bumpy-mesh":
+        parser.error("--mirror and --plain are for bumpy-mesh")
+    result = make(arguments.size, arguments.output, arguments.mirror, arguments.plain)
     with open(arguments.output, "w", encoding="utf-8") as file:
         json.dump(result, file, separators=(",", ":"))
         file.write("\n")

@@ -22,7 +22,8 @@ class Help(CliTest):
     def test_render_help_lists_its_options(self):
         self.assert_helps("render", "--help", words=[
             "--device", "--size", "--aa", "--max-bounces", "--precision", "--math", "--launch",
-            "--schedule", "--threads", "--features", "--crop", "--reference", "--encoding",
+            "--schedule", "--threads", "--features", "--hierarchies",
+            "--caster-lists", "--crop", "--reference", "--encoding",
             "--stats", "--progress", "--no-fallback", "--output", "--light-scale", "--ambient"])
 
     def test_devices_help(self):

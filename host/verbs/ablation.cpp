@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/ablation.h"
+
+#include "host/flatten/flat_scene.h"
+
+namespace rt {
+
+namespace {
+
+constexpr std::size_t most_without_hierarchy = 5000;
+
+using Changes = std::vector<Change>;
+
+void add_features(const Features& needed, Changes& changes) {
+    for (const FeatureName& feature : feature_names) {
+        if (needed.*feature.flag) continue;
+        changes.push_back(
+            {std::string(feature.name) + " compiled in",
+             [&feature](RenderOptions& options) { options.also_features.*feature.flag = true; }});
+    }
+    if (changes.empty()) return;
+    changes.push_back(
+        {"everything compiled in", [](RenderOptions& options) { options.all_features = true; }});
+}
+
+/// Whether some kind has primitives to build a hierarchy over, and none.
+bool lacks_hierarchy(const FlatScene<float>& flat) {
+    return (flat.spheres.size() > 1 && flat.frame.sphere_root == 0) ||
+           (flat.cones.size() > 1 && flat.frame.cone_root == 0) ||
+           (flat.triangles.size() > 1 && flat.frame.triangle_root == 0);
+}
+
+void add_hierarchies(const FlatScene<float>& flat, Changes& changes) {
+    const std::size_t primitives = flat.spheres.size() + flat.cones.size() + flat.triangles.size();
+    if (!flat.nodes.empty() && primitives <= most_without_hierarchy) {
+        changes.push_back(
+            {"no hierarchies", [](RenderOptions& options) { options.hierarchies = false; }});
+    }
+    if (lacks_hierarchy(flat)) {
+        changes.push_back({"hierarchies over few primitives",
+                           [](RenderOptions& options) { options.hierarchies = true; }});
+    }
+}
+
+}  // namespace
+
+std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& device,
+                                       Precision precision) {
+    const FlatScene<float> flat = flatten<float>(scene);
+    Changes changes;
+    if (!device.is_threads) add_features(flat.features, changes);
+    if (flat.stats.casters < flat.stats.lit_triangles) {
+        changes.push_back(
+            {"no caster lists", [](RenderOptions& options) { options.caster_lists = false; }});
+    }
+    add_hierarchies(flat, changes);
+    const int lanes = precision == Precision::float32 ? device.float_lanes : device.double_lanes;
+    if (lanes > 1) {
+        changes.push_back({"one lane instead of " + std::to_string(lanes),
+                           [](RenderOptions& options) { options.lanes = 1; }});
+    }
+    return changes;
+}
+
+}  // namespace rt

@@ -1,0 +1,539 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scripts/embree/tracer.h"
+
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <thread>
+
+#include "host/render/packet_shape.h"
+#include "scripts/embree/lanes.h"
+
+namespace embree_bench {
+
+namespace {
+
+using FlatScene = rt::FlatScene<float>;
+
+constexpr int tile_side = 32;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// How far secondary rays start off their surfaces, in parts of the coordinates: Embree's hits are
+/// not as near the surface as mirrorball's, and it cannot leave a primitive out.
+constexpr float offset_scale = 0x1p-19f;
+constexpr float light_end = 1 - 16 * 0x1p-24f;
+
+struct Rays {
+    Vec3 origin, dir;
+    Reals t_max;
+};
+
+struct Hits {
+    Reals t;
+    Vec3 normal;  ///< of any length
+    Ints geometry, primitive;
+    Ints found;
+};
+
+template <typename Ray>
+void fill(Ray& ray, const Rays& rays) {
+    stored(rays.origin.x, ray.org_x);
+    stored(rays.origin.y, ray.org_y);
+    stored(rays.origin.z, ray.org_z);
+    stored(rays.dir.x, ray.dir_x);
+    stored(rays.dir.y, ray.dir_y);
+    stored(rays.dir.z, ray.dir_z);
+    stored(rays.t_max, ray.tfar);
+    stored(Reals{}, ray.tnear);
+    stored(Reals{}, ray.time);
+    stored(ints(-1), ray.mask);
+    stored(Ints{}, ray.flags);
+}
+
+/// One lane of a packet as a ray of its own.
+RTCRay lane_of(const RTCRay16& rays, int i) {
+    RTCRay ray{};
+    ray.org_x = rays.org_x[i];
+    ray.org_y = rays.org_y[i];
+    ray.org_z = rays.org_z[i];
+    ray.tnear = rays.tnear[i];
+    ray.dir_x = rays.dir_x[i];
+    ray.dir_y = rays.dir_y[i];
+    ray.dir_z = rays.dir_z[i];
+    ray.tfar = rays.tfar[i];
+    ray.mask = rays.mask[i];
+    return ray;
+}
+
+/// Embree's answers for packets, however it is asked.
+template <Mode mode>
+class Asker {
+   public:
+    explicit Asker(RTCScene scene) : scene_(scene) {
+        rtcInitIntersectContext(&coherent_);
+        rtcInitIntersectContext(&mirrors_);
+        const auto coherent = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        const auto incoherent = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        coherent_.flags = mode == Mode::incoherent ? incoherent : coherent;
+        mirrors_.flags = mode == Mode::coherent ? coherent : incoherent;
+    }
+
+    Hits nearest(Ints live, const Rays& rays, bool after_mirror) {
+        alignas(64) std::int32_t valid[lanes];
+        RTCRayHit16 query;
+        fill(query.ray, rays);
+        stored(ints(-1), query.hit.geomID);
+        stored(ints(-1), query.hit.instID[0]);
+        RTCIntersectContext& context = context_of(after_mirror);
+        if constexpr (mode == Mode::single) {
+            for (unsigned left = lane_bits(live); left != 0; left &= left - 1) {
+                nearest_of_lane(query, __builtin_ctz(left), context);
+            }
+        } else {
+            stored(live, valid);
+            rtcIntersect16(valid, scene_, &context, &query);
+        }
+        Hits hits;
+        hits.t = loaded<Reals>(query.ray.tfar);
+        hits.normal = {loaded<Reals>(query.hit.Ng_x), loaded<Reals>(query.hit.Ng_y),
+                       loaded<Reals>(query.hit.Ng_z)};
+        hits.geometry = loaded<Ints>(query.hit.geomID);
+        hits.primitive = loaded<Ints>(query.hit.primID);
+        hits.found = live & (hits.geometry != -1);
+        return hits;
+    }
+
+    Ints blocked(Ints live, const Rays& rays, bool after_mirror) {
+        alignas(64) std::int32_t valid[lanes];
+        RTCRay16 query;
+        fill(query, rays);
+        RTCIntersectContext& context = context_of(after_mirror);
+        if constexpr (mode == Mode::single) {
+            for (unsigned left = lane_bits(live); left != 0; left &= left - 1) {
+                const int i = __builtin_ctz(left);
+                RTCRay ray = lane_of(query, i);
+                rtcOccluded1(scene_, &context, &ray);
+                query.tfar[i] = ray.tfar;
+            }
+        } else {
+            stored(live, valid);
+            rtcOccluded16(valid, scene_, &context, &query);
+        }
+        return live & (loaded<Reals>(query.tfar) < 0.0f);
+    }
+
+   private:
+    RTCIntersectContext& context_of(bool after_mirror) {
+        return after_mirror ? mirrors_ : coherent_;
+    }
+
+    void nearest_of_lane(RTCRayHit16& query, int i, RTCIntersectContext& context) {
+        RTCRayHit one;
+        one.ray = lane_of(query.ray, i);
+        one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(scene_, &context, &one);
+        query.ray.tfar[i] = one.ray.tfar;
+        query.hit.Ng_x[i] = one.hit.Ng_x;
+        query.hit.Ng_y[i] = one.hit.Ng_y;
+        query.hit.Ng_z[i] = one.hit.Ng_z;
+        query.hit.geomID[i] = one.hit.geomID;
+        query.hit.primID[i] = one.hit.primID;
+    }
+
+    RTCScene scene_;
+    RTCIntersectContext coherent_, mirrors_;
+};
+
+/// The materials of a packet's surfaces.
+struct Finish {
+    Vec3 ambient{}, diffuse{}, specular{}, mirror{};
+    Reals shininess{};
+    Ints two_sided{};
+};
+
+struct Surface {
+    Vec3 point, normal;
+    Reals offset;
+    Finish finish;
+};
+
+/// Which primitives a scalar ray tests before it is blocked.
+class WorkCounter {
+   public:
+    explicit WorkCounter(const FlatScene& flat) : flat_(flat) {}
+
+    WorkCounts counts;
+
+    void add_rays(Ints live) {
+        const auto n = static_cast<std::uint64_t>(count(live));
+        counts.rays += n;
+        counts.sphere_tests += n * flat_.spheres.size();
+        counts.triangle_tests += n * flat_.triangles.size();
+    }
+
+    void add_shadow_rays(Ints live, const Rays& rays, const rt::Flat<float>::Light& light) {
+        for (int i = 0; i < lanes; ++i) {
+            if (live[i] != 0) add_shadow_ray(rays, i, light);
+        }
+    }
+
+   private:
+    void add_shadow_ray(const Rays& rays, int i, const rt::Flat<float>::Light& light) {
+        const glm::dvec3 origin(rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]);
+        const glm::dvec3 dir(rays.dir.x[i], rays.dir.y[i], rays.dir.z[i]);
+        const double end = rays.t_max[i];
+        ++counts.shadow_rays;
+        for (const auto& sphere : flat_.spheres) {
+            ++counts.sphere_tests;
+            if (meets(sphere, origin, dir, end)) return;
+        }
+        const bool listed = light.caster_count < flat_.frame.triangle_count;
+        for (int k = 0; k < light.caster_count; ++k) {
+            const int number =
+                listed ? flat_.casters[static_cast<std::size_t>(light.first_caster + k)] : k;
+            ++counts.triangle_tests;
+            if (meets(flat_.triangles[static_cast<std::size_t>(number)], origin, dir, end)) return;
+        }
+    }
+
+    static glm::dvec3 vec(const rt::Flat<float>::Packed3& p) { return {p.x, p.y, p.z}; }
+
+    static bool meets(const rt::Flat<float>::Sphere& sphere, const glm::dvec3& origin,
+                      const glm::dvec3& dir, double end) {
+        const glm::dvec3 f = origin - vec(sphere.center);
+        const double b = -glm::dot(f, dir), r = sphere.radius;
+        const double discriminant = b * b - glm::dot(f, f) + r * r;
+        if (discriminant < 0) return false;
+        const double s = std::sqrt(discriminant), t = b - s > 0 ? b - s : b + s;
+        return t > 1e-6 && t < end;
+    }
+
+    static bool meets(const rt::Flat<float>::Triangle& triangle, const glm::dvec3& origin,
+                      const glm::dvec3& dir, double end) {
+        const glm::dvec3 p0 = vec(triangle.p0);
+        const glm::dvec3 e1 = vec(triangle.p1) - p0, e2 = vec(triangle.p2) - p0;
+        const glm::dvec3 p = glm::cross(dir, e2), s = origin - p0, q = glm::cross(s, e1);
+        const double det = glm::dot(e1, p);
+        const double u = glm::dot(s, p) / det, v = glm::dot(dir, q) / det;
+        const double t = glm::dot(e2, q) / det;
+        return u >= 0 && v >= 0 && u + v <= 1 && t > 1e-6 && t < end;
+    }
+
+    const FlatScene& flat_;
+};
+
+template <Mode mode, bool counting>
+class PacketTracer {
+   public:
+    PacketTracer(const FlatScene& flat, const EmbreeScene& embree)
+        : flat_(flat), materials_(embree.materials().data()), asker_(embree.handle()), work_(flat) {
+        first_triangle_ = static_cast<std::int32_t>(flat.spheres.size());
+    }
+
+    RayCounts rays;
+
+    const WorkCounts& work() const { return work_.counts; }
+
+    Rays eye_rays(Reals x, Reals y) const {
+        const auto& frame = flat_.frame;
+        const Reals sx = 2.0f * x - static_cast<float>(frame.width);
+        const Reals sy = 2.0f * y - static_cast<float>(frame.height);
+        Rays eye;
+        eye.origin = sx * all(frame.origin_dx) + sy * all(frame.origin_dy);
+        eye.dir = normalized(all(frame.direction) + sx * all(frame.direction_dx) +
+                             sy * all(frame.direction_dy));
+        eye.t_max = reals(infinity);
+        return eye;
+    }
+
+    Vec3 color_of(Rays packet, Ints live) {
+        Vec3 color{};
+        Vec3 throughput{reals(1), reals(1), reals(1)};
+        for (int bounce = 0;; ++bounce) {
+            if constexpr (counting) work_.add_rays(live);
+            const Hits hits = asker_.nearest(live, packet, bounce > 0);
+            const Ints missed = live & ~hits.found;
+            if (any(missed)) {
+                color = select(missed, color + throughput * all(flat_.frame.background), color);
+                live = hits.found;
+                if (!any(live)) return color;
+            }
+            const Surface surface = surface_at(packet, hits, live);
+            const Vec3 light = shade(surface, -packet.dir, live, bounce > 0);
+            color = select(live, color + throughput * light, color);
+            if (!flat_.features.mirrors || bounce >= flat_.frame.max_bounces) return color;
+            throughput = throughput * surface.finish.mirror;
+            live &= ~is_black(throughput);
+            if (!any(live)) return color;
+            packet = mirror_rays(surface, packet.dir);
+            rays.mirror += static_cast<std::uint64_t>(count(live));
+        }
+    }
+
+   private:
+    /// The materials of the live lanes, one after the other for all lanes that wear it.
+    Finish finish_of(const Hits& hits, Ints live) const {
+        const Ints is_triangle = hits.geometry == EmbreeScene::triangles;
+        const Ints place = hits.primitive + (is_triangle ? ints(first_triangle_) : Ints{});
+        const Ints material = gathered(materials_, live ? place : Ints{});
+        Finish finish;
+        for (Ints left = live; any(left);) {
+            const std::int32_t one = material[__builtin_ctz(lane_bits(left))];
+            const Ints worn = left & (material == one);
+            left &= ~worn;
+            const auto& flat = flat_.materials[static_cast<std::size_t>(one)];
+            finish.ambient = select(worn, all(flat.ambient), finish.ambient);
+            finish.diffuse = select(worn, all(flat.diffuse), finish.diffuse);
+            finish.specular = select(worn, all(flat.specular), finish.specular);
+            finish.mirror = select(worn, all(flat.mirror), finish.mirror);
+            finish.shininess = worn ? reals(flat.shininess) : finish.shininess;
+            finish.two_sided = worn ? ints(flat.two_sided) : finish.two_sided;
+        }
+        return finish;
+    }
+
+    Surface surface_at(const Rays& packet, const Hits& hits, Ints live) const {
+        Surface surface;
+        surface.finish = finish_of(hits, live);
+        surface.normal = normalized(hits.normal);
+        const Ints turned =
+            (surface.finish.two_sided != 0) & (dot(surface.normal, packet.dir) > 0.0f);
+        surface.normal = select(turned, -surface.normal, surface.normal);
+        const Vec3& o = packet.origin;
+        const Reals size = larger(magnitude(o.x), larger(magnitude(o.y), magnitude(o.z)));
+        surface.offset = offset_scale * (size + hits.t);
+        surface.point = o + (hits.t - surface.offset) * packet.dir;
+        if constexpr (counting) {
+            const_cast<WorkCounter&>(work_).counts.hits += bits(live);
+        }
+        return surface;
+    }
+
+    static Rays mirror_rays(const Surface& surface, const Vec3& dir) {
+        Rays mirror;
+        mirror.dir = normalized(dir + (-2.0f * dot(dir, surface.normal)) * surface.normal);
+        const Ints behind = dot(surface.normal, mirror.dir) < 0.0f;
+        mirror.origin =
+            surface.point + (behind ? -surface.offset : surface.offset) * surface.normal;
+        mirror.t_max = reals(infinity);
+        return mirror;
+    }
+
+    Vec3 shade(const Surface& surface, const Vec3& to_eye, Ints live, bool after_mirror) {
+        Vec3 color = surface.finish.ambient * all(flat_.frame.ambient_light);
+        const Vec3 origin = surface.point + surface.offset * surface.normal;
+        for (const auto& light : flat_.lights) {
+            color = color + light_contribution(surface, light, origin, to_eye, live, after_mirror);
+        }
+        return color;
+    }
+
+    Vec3 light_contribution(const Surface& surface, const rt::Flat<float>::Light& light,
+                            const Vec3& origin, const Vec3& to_eye, Ints live, bool after_mirror) {
+        if constexpr (counting) work_.counts.hits_by_lights += bits(live);
+        const Vec3 to_light = all(light.position) - origin;
+        Ints lit = live & (dot(surface.normal, to_light) > 0.0f);
+        if (!any(lit)) return Vec3{reals(0), reals(0), reals(0)};
+        const Reals distance = root(dot(to_light, to_light));
+        Rays shadow;
+        shadow.origin = origin;
+        shadow.dir = (1.0f / distance) * to_light;
+        const Reals cosine = dot(surface.normal, shadow.dir);
+        lit &= cosine > 0.0f;
+        if (!any(lit)) return Vec3{reals(0), reals(0), reals(0)};
+        shadow.t_max = distance * light_end;
+        rays.shadow += bits(lit);
+        if constexpr (counting) work_.add_shadow_rays(lit, shadow, light);
+        lit &= ~asker_.blocked(lit, shadow, after_mirror);
+        if (!any(lit)) return Vec3{reals(0), reals(0), reals(0)};
+        Vec3 reflected = cosine * surface.finish.diffuse;
+        const Ints shiny = lit & ~is_black(surface.finish.specular);
+        if constexpr (counting) work_.counts.lit += bits(lit);
+        if constexpr (counting) work_.counts.shiny += bits(shiny);
+        if (any(shiny)) {
+            const Reals lobe = specular_lobe(surface, shadow.dir, to_eye);
+            reflected = select(shiny, reflected + lobe * surface.finish.specular, reflected);
+        }
+        return select(lit, all(light.intensity) * reflected, Vec3{});
+    }
+
+    static Reals specular_lobe(const Surface& surface, const Vec3& to_light, const Vec3& to_eye) {
+        const Vec3 sum = to_light + to_eye;
+        const Reals squared = dot(sum, sum);
+        const Vec3 half = (1.0f / root(squared)) * sum;
+        const Vec3 gap = surface.normal - half;
+        const Reals lobe =
+            blinn_lobe(dot(surface.normal, half), 0.5f * dot(gap, gap), surface.finish.shininess);
+        return squared > 0.0f ? lobe : reals(0);
+    }
+
+    static std::uint64_t bits(Ints mask) { return static_cast<std::uint64_t>(count(mask)); }
+
+    const FlatScene& flat_;
+    const std::int32_t* materials_;
+    std::int32_t first_triangle_;
+    Asker<mode> asker_;
+    WorkCounter work_;
+};
+
+/// One thread's share of the picture, in packets of 2x2 pixels x 4 samples where there are four.
+template <typename Tracer>
+class TileRenderer {
+   public:
+    TileRenderer(const FlatScene& flat, Tracer& tracer, std::vector<float>& rgb)
+        : frame_(flat.frame),
+          tracer_(tracer),
+          rgb_(rgb),
+          shape_(rt::packet_shape(lanes, static_cast<int>(flat.frame.samples))) {
+        for (int i = 0; i < lanes; ++i) {
+            const int pixel = i % shape_.pixels();
+            column_[i] = pixel % shape_.width;
+            row_[i] = pixel / shape_.width;
+            sample_[i] = i / shape_.pixels();
+        }
+    }
+
+    void render(int left, int top) {
+        for (int row = top; row < std::min(top + tile_side, frame_.height); row += shape_.height) {
+            for (int column = left; column < std::min(left + tile_side, frame_.width);
+                 column += shape_.width) {
+                render_packet(column, row);
+            }
+        }
+    }
+
+   private:
+    void render_packet(int left, int top) {
+        const Ints column = column_ + left, row = row_ + top;
+        const Ints live = (column < frame_.width) & (row < frame_.height);
+        const Reals x = to_reals(column), y = to_reals(frame_.height - 1 - row);
+        const float side = static_cast<float>(frame_.grid);
+        float sum[3][lanes] = {};
+        for (int first = 0; first < frame_.samples; first += shape_.samples) {
+            const Ints k = sample_ + first;
+            const Reals dx = (to_reals(k % frame_.grid) + 0.5f) / side;
+            const Reals dy = (to_reals(k / frame_.grid) + 0.5f) / side;
+            const Vec3 color = tracer_.color_of(tracer_.eye_rays(x + dx, y + dy), live);
+            tracer_.rays.primary += static_cast<std::uint64_t>(count(live));
+            add(color.x, sum[0]);
+            add(color.y, sum[1]);
+            add(color.z, sum[2]);
+        }
+        for (int pixel = 0; pixel < shape_.pixels(); ++pixel) {
+            if (live[pixel] == 0) continue;
+            const std::size_t at =
+                3 * (static_cast<std::size_t>(row[pixel]) * static_cast<std::size_t>(frame_.width) +
+                     static_cast<std::size_t>(column[pixel]));
+            for (std::size_t c = 0; c < 3; ++c) {
+                rgb_[at + c] = sum[c][pixel] / static_cast<float>(frame_.samples);
+            }
+        }
+    }
+
+    /// Adds the samples of each pixel.
+    void add(Reals v, float* sum) const {
+        alignas(64) float values[lanes];
+        stored(v, values);
+        for (int k = 0; k < shape_.samples; ++k) {
+            for (int pixel = 0; pixel < shape_.pixels(); ++pixel) {
+                sum[pixel] += values[k * shape_.pixels() + pixel];
+            }
+        }
+    }
+
+    const rt::Flat<float>::Frame frame_;
+    Tracer& tracer_;
+    std::vector<float>& rgb_;
+    const rt::PacketShape shape_;
+    Ints column_, row_, sample_;
+};
+
+template <Mode mode, bool counting>
+TracedPicture trace_with(const FlatScene& flat, const EmbreeScene& embree, int threads) {
+    TracedPicture picture;
+    const int across = (flat.frame.width + tile_side - 1) / tile_side;
+    const int down = (flat.frame.height + tile_side - 1) / tile_side;
+    picture.rgb.assign(3 * static_cast<std::size_t>(flat.frame.width) *
+                           static_cast<std::size_t>(flat.frame.height),
+                       0.0f);
+    std::vector<RayCounts> rays(static_cast<std::size_t>(threads));
+    std::vector<WorkCounts> work(static_cast<std::size_t>(threads));
+    std::atomic<int> next = 0;
+    const auto run = [&](std::size_t number) {
+        _mm_setcsr(_mm_getcsr() | 0x8040);  // flush subnormals, as Embree advises
+        PacketTracer<mode, counting> tracer(flat, embree);
+        TileRenderer renderer(flat, tracer, picture.rgb);
+        for (int tile = next++; tile < across * down; tile = next++) {
+            renderer.render(tile % across * tile_side, tile / across * tile_side);
+        }
+        rays[number] = tracer.rays;
+        work[number] = tracer.work();
+    };
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<std::thread> pool;
+    for (std::size_t i = 0; i < rays.size(); ++i) pool.emplace_back(run, i);
+    for (std::thread& thread : pool) thread.join();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    picture.seconds = taken.count();
+    for (const RayCounts& counts : rays) picture.rays += counts;
+    for (const WorkCounts& counts : work) picture.work += counts;
+    return picture;
+}
+
+}  // namespace
+
+RayCounts& RayCounts::operator+=(const RayCounts& other) {
+    primary += other.primary;
+    shadow += other.shadow;
+    mirror += other.mirror;
+    return *this;
+}
+
+WorkCounts& WorkCounts::operator+=(const WorkCounts& other) {
+    sphere_tests += other.sphere_tests;
+    triangle_tests += other.triangle_tests;
+    rays += other.rays;
+    shadow_rays += other.shadow_rays;
+    hits += other.hits;
+    hits_by_lights += other.hits_by_lights;
+    lit += other.lit;
+    shiny += other.shiny;
+    return *this;
+}
+
+/// + - * / and sqrt count one, a multiply-add two; comparisons, conversions and choices nothing.
+/// Counted in kernels/*.cl, of live lanes alone: a triangle test up to its three edge functions, a
+/// sphere test up to its discriminant; making a ray and its shear; the point, offset and average of
+/// a hit; facing a light; a shadow ray; a light's share; its highlight.
+double WorkCounts::flops() const {
+    constexpr double sphere_test = 22, triangle_test = 39, ray = 32, hit = 50, facing = 8;
+    constexpr double shadow_ray = 19, light = 9, highlight = 67;
+    return sphere_test * static_cast<double>(sphere_tests) +
+           triangle_test * static_cast<double>(triangle_tests) + ray * static_cast<double>(rays) +
+           hit * static_cast<double>(hits) + facing * static_cast<double>(hits_by_lights) +
+           shadow_ray * static_cast<double>(shadow_rays) + light * static_cast<double>(lit) +
+           highlight * static_cast<double>(shiny);
+}
+
+TracedPicture trace(const FlatScene& flat, const EmbreeScene& embree, Mode mode, int threads,
+                    bool count_work) {
+    if (count_work) return trace_with<Mode::coherent, true>(flat, embree, threads);
+    switch (mode) {
+        case Mode::coherent:
+            return trace_with<Mode::coherent, false>(flat, embree, threads);
+        case Mode::incoherent:
+            return trace_with<Mode::incoherent, false>(flat, embree, threads);
+        case Mode::mixed:
+            return trace_with<Mode::mixed, false>(flat, embree, threads);
+        case Mode::single:
+            break;
+    }
+    return trace_with<Mode::single, false>(flat, embree, threads);
+}
+
+}  // namespace embree_bench
