@@ -11,8 +11,8 @@
 //
 // Where the ray met several surfaces at once, or a triangle within rounding of its edge, that
 // offset clears only one of them, and whether the neighbour is in the way would be decided by
-// rounding. There the point moves eight offsets back along the ray, to the viewer's side of all of
-// them.
+// rounding. There the point moves eight offsets back along the ray, and as far as surfaces that
+// count as one may lie apart, to the viewer's side of all of them.
 #ifndef RT_SURFACE_CL
 #define RT_SURFACE_CL
 
@@ -177,7 +177,9 @@ Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask 
     Surface surface = hit_surface(scene, ray, hit, live);
     Mask touching = live & (hit->tied | is_on_edge(scene, hit));
     if (any_lane(touching)) {
-        real3 moved = add_scaled(surface.point, (Reals)-8 * surface.offset, ray->dir);
+        Reals tie = hit->tied ? (Reals)((Real)32 * (Real)RT_ROUNDOFF) * hit->t : (Reals)0;
+        Reals back = (Reals)-8 * surface.offset - tie;
+        real3 moved = add_scaled(surface.point, back, ray->dir);
         surface.point = select3(touching, moved, surface.point);
     }
     return surface;

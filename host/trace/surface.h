@@ -143,7 +143,8 @@ template <typename T>
 Surface<T> surface_at(const SceneView<T>& scene, const Ray<T>& ray, const Hit<T>& hit) {
     Surface<T> surface = primitive_surface(scene, ray, hit);
     if (hit.tied != 0 || is_on_edge(scene, hit)) {
-        surface.point = add_scaled(surface.point, T(-8) * surface.offset, ray.dir);
+        const T tie = hit.tied != 0 ? T(32) * Flat<T>::roundoff * hit.t : T(0);
+        surface.point = add_scaled(surface.point, T(-8) * surface.offset - tie, ray.dir);
     }
     return surface;
 }

@@ -23,7 +23,7 @@ class SameHash(CliTest):
         self.assertEqual(len(set(hashes.values())), 1, json.dumps(hashes, indent=1))
 
     def test_on_every_path(self):
-        for scene in ["cornell-box", "mirror-hall", "vertex-normals", "orthographic"]:
+        for scene in ["cornell-box", "mirror-hall", "vertex-normals", "orthographic", "glass"]:
             with self.subTest(scene=scene):
                 self.assert_one_hash(scene, "--size", "37x29")
 
