@@ -250,7 +250,7 @@ TYPED_TEST(IntersectCone, HasTheTwinsBitsOnAnyNumbers) {
     for (std::size_t i = 0; i < count; ++i) {
         const auto origin = random.any_vector<TypeParam>(), dir = random.any_vector<TypeParam>();
         const auto base = random.any_vector<TypeParam>(), axis = random.any_vector<TypeParam>();
-        cases.add({origin, 1, dir, 0}, {base, any(), axis, any(), any(), 0, {}},
+        cases.add({origin, 1, dir, 0, 0}, {base, any(), axis, any(), any(), 0, {}},
                   random.index(4) == 0);
     }
     EXPECT_TRUE(same_bits<TypeParam>(cases.device(), cases.twin()));
