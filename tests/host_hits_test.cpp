@@ -241,7 +241,9 @@ trace::Ray<T> some_ray(const FlatScene<T>& scene, Random& random) {
     ray.from = random.index(4) == 0 ? random.index(count) : Flat<T>::none;
     if (ray.from >= 0 && ray.from < scene.frame.sphere_count) {  // a ray from a sphere starts on it
         const auto& sphere = scene.spheres[std::size_t(ray.from)];
-        origin = in_double(sphere.center) + double(sphere.radius) * random.unit_vector();
+        const glm::dvec3 normal = random.unit_vector();
+        origin = in_double(sphere.center) + double(sphere.radius) * normal;
+        ray.chord = static_cast<T>(-2 * double(sphere.radius) * glm::dot(normal, dir));
     }
     const auto cone_index = ray.from - scene.frame.sphere_count;
     if (cone_index >= 0 && cone_index < scene.frame.cone_count) {  // and so does one from a cone
@@ -371,6 +373,18 @@ Scene floor_scene(const std::vector<Scene::Triangle>& more) {
     add_floor(scene, 1, 1);
     scene.triangles.insert(scene.triangles.end(), more.begin(), more.end());
     return scene;
+}
+
+// Listing takes time in the number of triangles squared.
+TEST(ShadowCasters, AreNotListedAmongManyTrianglesWithoutAHierarchyEither) {
+    Scene scene = floor_scene({});
+    FlattenOptions options;
+    options.hierarchies = false;
+    EXPECT_NE(flatten<float>(scene, options).lights[0].caster_count, 2);
+    for (int i = 0; i < 100; ++i) add_floor(scene, 1, 1);
+    const FlatScene<float> flat = flatten<float>(scene, options);
+    EXPECT_EQ(flat.lights[0].caster_count, flat.frame.triangle_count);
+    EXPECT_TRUE(flat.casters.empty());
 }
 
 TEST(ShadowCasters, LeaveOutAFloorUnlessInDoubt) {

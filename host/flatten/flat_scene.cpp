@@ -331,7 +331,8 @@ class Flattener {
             flat.position = pack_position<T>(view_, light.position);
             flat.intensity = pack<T>(light.intensity);
             flat.caster_count = static_cast<Index>(flat_.triangles.size());
-            if (options_.caster_lists && flat_.frame.triangle_root == 0) {
+            if (options_.caster_lists && flat_.frame.triangle_root == 0 &&
+                flat_.triangles.size() < triangle_crossover) {
                 list_casters(light.position, flat);
             }
             flat_.lights.push_back(flat);
