@@ -141,60 +141,59 @@ Mask ends_on_sphere(const Ray* ray, __global const Sphere* sphere, Reals t, Real
     return (t < b) & ((t_max - t) * (b - t) <= slack);
 }
 
-Mask blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals t_max) {
-    Mask blocked = RT_NO_LANES;
+// Switches off the lanes that are blocked. True when none is left.
+bool block(Reals* t_max, Mask blocked) {
+    *t_max = blocked ? (Reals)-1 : *t_max;
+    return !any_lane(*t_max > (Reals)0);
+}
+
+// The functions blocked_by_* switch off the lanes whose rays meet a primitive of the kind in
+// (0, *t_max]. True when no lane is left on.
+
+bool blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal,
+                        Reals* t_max) {
     Index first, end;
     enter_kind(traversal, scene->frame.sphere_root, scene->frame.sphere_count);
-    while (next_range(traversal, scene->nodes, t_max, &first, &end)) {
+    while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index prim = first; prim < end; ++prim) {
             __global const Sphere* sphere = &scene->spheres[prim];
             Reals t;
             Mask met = intersect_sphere(ray, sphere, prim, &t);
             if (!any_lane(met)) continue;
-            met &= (t > (Reals)0) & (t <= t_max);
+            met &= (t > (Reals)0) & (t <= *t_max);
             if (!any_lane(met)) continue;
-            met &= !ends_on_sphere(ray, sphere, t, t_max);
-            if (!any_lane(met)) continue;
-            blocked |= met;
-            t_max = met ? (Reals)-1 : t_max;
-            if (!any_lane(t_max > (Reals)0)) return blocked;
+            if (block(t_max, met & !ends_on_sphere(ray, sphere, t, *t_max))) return true;
         }
     }
-    return blocked;
+    return false;
 }
 
-Mask blocked_by_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals t_max) {
-    Mask blocked = RT_NO_LANES;
+bool blocked_by_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals* t_max) {
     Index first, end;
     enter_kind(traversal, scene->frame.cone_root, scene->frame.cone_count);
-    while (next_range(traversal, scene->nodes, t_max, &first, &end)) {
+    while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index i = first; i < end; ++i) {
             Reals t;
             Mask leaving = ray->from == scene->frame.sphere_count + i;
             Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t);
             if (!any_lane(met)) continue;
-            met &= (t > (Reals)0) & (t <= t_max);
-            if (!any_lane(met)) continue;
-            blocked |= met;
-            t_max = met ? (Reals)-1 : t_max;
-            if (!any_lane(t_max > (Reals)0)) return blocked;
+            if (block(t_max, met & (t > (Reals)0) & (t <= *t_max))) return true;
         }
     }
-    return blocked;
+    return false;
 }
 
 // Triangles without a hierarchy come from the light's list of those that can cast a shadow, where
 // it has one.
-Mask blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals t_max,
-                          Index first_caster, Index caster_count) {
-    Mask blocked = RT_NO_LANES;
+bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* traversal,
+                          Reals* t_max, Index first_caster, Index caster_count) {
     bool is_brute = !RT_HAS_HIERARCHY || scene->frame.triangle_root == 0;
     bool listed = is_brute && caster_count != scene->frame.triangle_count;
-    if (is_brute && caster_count == 0) return blocked;
-    RayShear shear = make_shear(ray, t_max > (Reals)0);
+    if (is_brute && caster_count == 0) return false;
+    RayShear shear = make_shear(ray, *t_max > (Reals)0);
     Index first, end;
     enter_kind(traversal, scene->frame.triangle_root, caster_count);
-    while (next_range(traversal, scene->nodes, t_max, &first, &end)) {
+    while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index axes = shear.axes; axes != 0; axes >>= 2) {
             Index axis = (axes & 3) - 1;
             for (Index i = first; i < end; ++i) {
@@ -203,35 +202,25 @@ Mask blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
                 Mask met = intersect_triangle(&shear, axis, &scene->triangles[index], &t, &u, &v);
                 if (!any_lane(met)) continue;
                 Index prim = first_triangle(scene) + index;
-                met &= (t > (Reals)0) & (t <= t_max) & (shear.axis == axis) & (ray->from != prim);
-                if (!any_lane(met)) continue;
-                blocked |= met;
-                t_max = met ? (Reals)-1 : t_max;
-                if (!any_lane(t_max > (Reals)0)) return blocked;
+                met &= (t > (Reals)0) & (t <= *t_max) & (shear.axis == axis) & (ray->from != prim);
+                if (any_lane(met) && block(t_max, met)) return true;
             }
         }
     }
-    return blocked;
+    return false;
 }
 
 // Whether anything lies on the rays in (0, t_max]. The triangles to test, where they have no
 // hierarchy: caster_count of the list of casters from first_caster on, or all of them.
 Mask any_hit(const SceneView* scene, const Ray* ray, Index first_caster, Index caster_count) {
-    Mask blocked = RT_NO_LANES;
     Reals t_max = ray->t_max;
     Traversal traversal = begin_traversal(ray, t_max > (Reals)0);
-    if (RT_HAS_SPHERES) {
-        blocked |= blocked_by_spheres(scene, ray, &traversal, t_max);
-        t_max = blocked ? (Reals)-1 : t_max;
+    bool is_done = RT_HAS_SPHERES && blocked_by_spheres(scene, ray, &traversal, &t_max);
+    is_done = is_done || (RT_HAS_CONES && blocked_by_cones(scene, ray, &traversal, &t_max));
+    if (RT_HAS_TRIANGLES && !is_done) {
+        blocked_by_triangles(scene, ray, &traversal, &t_max, first_caster, caster_count);
     }
-    if (RT_HAS_CONES && any_lane(t_max > (Reals)0)) {
-        blocked |= blocked_by_cones(scene, ray, &traversal, t_max);
-        t_max = blocked ? (Reals)-1 : t_max;
-    }
-    if (RT_HAS_TRIANGLES && any_lane(t_max > (Reals)0)) {
-        blocked |= blocked_by_triangles(scene, ray, &traversal, t_max, first_caster, caster_count);
-    }
-    return blocked;
+    return (ray->t_max > (Reals)0) & (t_max < (Reals)0);
 }
 
 #endif

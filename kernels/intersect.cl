@@ -19,9 +19,6 @@
 #include "kernels/math.cl"
 #include "kernels/scene_view.h"
 
-Reals min_of(Reals a, Reals b) { return a < b ? a : b; }
-Reals max_of(Reals a, Reals b) { return a > b ? a : b; }
-
 // A huge sphere by the constant term of its quadratic, |origin|^2 - 2 origin.center + power: the
 // host made the power, |center|^2 - radius^2, in double, and near the surface origin - center would
 // round away the height above it.

@@ -8,6 +8,9 @@
 
 #include "kernels/lanes.h"
 
+Reals min_of(Reals a, Reals b) { return a < b ? a : b; }
+Reals max_of(Reals a, Reals b) { return a > b ? a : b; }
+
 real3 make3(Reals x, Reals y, Reals z) {
     real3 v = {x, y, z};
     return v;

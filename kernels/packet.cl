@@ -69,6 +69,12 @@ Reals add_samples(Reals sum, Reals weight, Reals v, Index samples) {
     return fma(weight, v, sum);
 }
 
+void count_lanes(RayCounts* counts, const PacketCounts* used) {
+    counts->shadow += (RT_COUNT)sum_lanes(used->shadow);
+    counts->mirror += (RT_COUNT)sum_lanes(used->mirror);
+    counts->transmitted += (RT_COUNT)sum_lanes(used->transmitted);
+}
+
 // The pixels (x, y) of a packet, in its first lanes: their samples weighed and averaged.
 real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indices y, Mask live,
                    RayCounts* counts) {
@@ -83,9 +89,7 @@ real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indi
         sum.y = add_samples(sum.y, weight, color.y, packet->samples);
         sum.z = add_samples(sum.z, weight, color.z, packet->samples);
         total = add_samples(total, weight, (Reals)1, packet->samples);
-        counts->shadow += (RT_COUNT)sum_lanes(used.shadow);
-        counts->mirror += (RT_COUNT)sum_lanes(used.mirror);
-        counts->transmitted += (RT_COUNT)sum_lanes(used.transmitted);
+        count_lanes(counts, &used);
     }
     return divide3(sum, total);
 }

@@ -62,8 +62,8 @@ __kernel void render_samples(__global Real* restrict samples, __global RayCounts
                                k, lanes.live, &used);
     Indices places = (k * tile.height + lanes.row) * tile.width + lanes.column;
     store_lanes(samples, color, lanes.live ? places : (Indices)-1, RT_LANES);
-    RayCounts sums = {(RT_COUNT)sum_lanes(used.shadow), (RT_COUNT)sum_lanes(used.mirror),
-                      (RT_COUNT)sum_lanes(used.transmitted)};
+    RayCounts sums = {0, 0, 0};
+    count_lanes(&sums, &used);
     add_counts(counts, item, sums);
 }
 

@@ -77,7 +77,8 @@ ProbeHit pack_hit(Hit hit) {
 }
 
 RayCounts pack_counts(PacketCounts counts) {
-    RayCounts packed = {(ulong)counts.shadow, (ulong)counts.mirror, (ulong)counts.transmitted};
+    RayCounts packed = {0, 0, 0};
+    count_lanes(&packed, &counts);
     return packed;
 }
 

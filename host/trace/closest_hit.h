@@ -27,55 +27,14 @@ struct PreparedRay {
     }
 };
 
-/// Distance to primitive `prim`, or -1 (or NaN) where it is missed.
-template <typename T>
-T intersect_primitive(const SceneView<T>& scene, const Ray<T>& ray, const RayShear<T>& shear,
-                      typename Flat<T>::Index prim, T& u, T& v) {
-    if (prim < scene.frame.sphere_count) {
-        return intersect_sphere(ray, scene.spheres[prim], prim);
-    }
-    if (prim < first_triangle(scene.frame)) {
-        return intersect_cone(ray, scene.cones[prim - scene.frame.sphere_count], prim == ray.from);
-    }
-    if (prim == ray.from) return T(-1);
-    return intersect_triangle(shear, scene.triangles[prim - first_triangle(scene.frame)], u, v);
-}
-
-/// Calls visit(i) for spheres 0 <= i < sphere_count, at least those that the ray may hit no further
-/// away than `limit`, until a call returns true; that is returned.
-template <typename T, typename Visit>
-RT_INLINE bool visit_spheres(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
-                             const Visit& visit) {
-    if (scene.frame.sphere_root != 0) {
-        return visit_leaves(scene, ray.box, scene.frame.sphere_root, limit, visit);
-    }
-    for (typename Flat<T>::Index i = 0; i < scene.frame.sphere_count; ++i) {
-        if (visit(i)) return true;
-    }
-    return false;
-}
-
-/// The same for cones.
-template <typename T, typename Visit>
-RT_INLINE bool visit_cones(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
-                           const Visit& visit) {
-    if (scene.frame.cone_root != 0) {
-        return visit_leaves(scene, ray.box, scene.frame.cone_root, limit, visit);
-    }
-    for (typename Flat<T>::Index i = 0; i < scene.frame.cone_count; ++i) {
-        if (visit(i)) return true;
-    }
-    return false;
-}
-
-/// The same for triangles.
-template <typename T, typename Visit>
-RT_INLINE bool visit_triangles(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
-                               const Visit& visit) {
-    if (scene.frame.triangle_root != 0) {
-        return visit_leaves(scene, ray.box, scene.frame.triangle_root, limit, visit);
-    }
-    for (typename Flat<T>::Index i = 0; i < scene.frame.triangle_count; ++i) {
+/// Calls visit(i) for primitives 0 <= i < count of one kind, with the hierarchy `root` or none, at
+/// least for those that the ray may hit no further away than `limit`, until a call returns true;
+/// that is returned.
+template <typename T, typename Index, typename Visit>
+RT_INLINE bool visit_kind(const SceneView<T>& scene, const PreparedRay<T>& ray, Index root,
+                          Index count, const T& limit, const Visit& visit) {
+    if (root != 0) return visit_leaves(scene, ray.box, root, limit, visit);
+    for (Index i = 0; i < count; ++i) {
         if (visit(i)) return true;
     }
     return false;
@@ -86,21 +45,22 @@ template <typename T, typename Visit>
 RT_INLINE void visit_hits(const SceneView<T>& scene, const PreparedRay<T>& ray, const T& limit,
                           const Visit& visit) {
     using Index = typename Flat<T>::Index;
-    visit_spheres(scene, ray, limit, [&](Index i) {
+    const auto& frame = scene.frame;
+    visit_kind(scene, ray, frame.sphere_root, frame.sphere_count, limit, [&](Index i) {
         const T t = intersect_sphere(ray.ray, scene.spheres[i], i);
         if (t > T(0) && t <= limit) visit(i, t, T(0), T(0));
         return false;
     });
-    const Index first_cone = scene.frame.sphere_count;
-    visit_cones(scene, ray, limit, [&](Index i) {
+    const Index first_cone = frame.sphere_count;
+    visit_kind(scene, ray, frame.cone_root, frame.cone_count, limit, [&](Index i) {
         const T t = intersect_cone(ray.ray, scene.cones[i], first_cone + i == ray.ray.from);
         if (t > T(0) && t <= limit) visit(first_cone + i, t, T(0), T(0));
         return false;
     });
-    const Index first = first_triangle(scene.frame);
+    const Index first = first_triangle(frame);
     const Index from = ray.ray.from - first;
     const bool from_eye = ray.ray.from == Flat<T>::eye;
-    visit_triangles(scene, ray, limit, [&](Index i) {
+    visit_kind(scene, ray, frame.triangle_root, frame.triangle_count, limit, [&](Index i) {
         if (i == from) return false;
         if (from_eye && scene.triangles[i].plane == T(0)) return false;
         T u, v;
@@ -155,19 +115,24 @@ bool ends_on_sphere(const Ray<T>& ray, const typename Flat<T>::Sphere& sphere, T
 
 template <typename T>
 RT_INLINE bool any_sphere_hit(const SceneView<T>& scene, const PreparedRay<T>& ray) {
-    return visit_spheres(scene, ray, ray.ray.t_max, [&](typename Flat<T>::Index i) {
-        const T t = intersect_sphere(ray.ray, scene.spheres[i], i);
-        return t > T(0) && t <= ray.ray.t_max && !ends_on_sphere(ray.ray, scene.spheres[i], t);
-    });
+    const auto& frame = scene.frame;
+    return visit_kind(scene, ray, frame.sphere_root, frame.sphere_count, ray.ray.t_max,
+                      [&](typename Flat<T>::Index i) {
+                          const T t = intersect_sphere(ray.ray, scene.spheres[i], i);
+                          return t > T(0) && t <= ray.ray.t_max &&
+                                 !ends_on_sphere(ray.ray, scene.spheres[i], t);
+                      });
 }
 
 template <typename T>
 RT_INLINE bool any_cone_hit(const SceneView<T>& scene, const PreparedRay<T>& ray) {
-    const auto from = ray.ray.from - scene.frame.sphere_count;
-    return visit_cones(scene, ray, ray.ray.t_max, [&](typename Flat<T>::Index i) {
-        const T t = intersect_cone(ray.ray, scene.cones[i], i == from);
-        return t > T(0) && t <= ray.ray.t_max;
-    });
+    const auto& frame = scene.frame;
+    const auto from = ray.ray.from - frame.sphere_count;
+    return visit_kind(scene, ray, frame.cone_root, frame.cone_count, ray.ray.t_max,
+                      [&](typename Flat<T>::Index i) {
+                          const T t = intersect_cone(ray.ray, scene.cones[i], i == from);
+                          return t > T(0) && t <= ray.ray.t_max;
+                      });
 }
 
 /// Whether the ray hits triangle i, other than the one it leaves, in (0, t_max].
@@ -184,9 +149,10 @@ RT_INLINE bool hits_triangle(const SceneView<T>& scene, const PreparedRay<T>& ra
 template <typename T>
 bool any_hit(const SceneView<T>& scene, const Ray<T>& r) {
     const PreparedRay<T> ray(scene, r);
+    const auto& frame = scene.frame;
     return any_sphere_hit(scene, ray) || any_cone_hit(scene, ray) ||
-           visit_triangles(scene, ray, ray.ray.t_max,
-                           [&](typename Flat<T>::Index i) { return hits_triangle(scene, ray, i); });
+           visit_kind(scene, ray, frame.triangle_root, frame.triangle_count, ray.ray.t_max,
+                      [&](typename Flat<T>::Index i) { return hits_triangle(scene, ray, i); });
 }
 
 /// The same for a ray to a light, which needs to look at the light's casters only.

@@ -7,16 +7,6 @@
 // Twin of kernels/intersect.cl: one ray against one primitive; the method is described there.
 namespace rt::trace {
 
-template <typename T>
-RT_INLINE T min_of(T a, T b) {
-    return a < b ? a : b;
-}
-
-template <typename T>
-RT_INLINE T max_of(T a, T b) {
-    return a > b ? a : b;
-}
-
 /// A huge sphere by the constant term of its quadratic, |origin|^2 - 2 origin.center + power.
 template <typename T>
 T intersect_huge_sphere(const Ray<T>& ray, const typename Flat<T>::Sphere& sphere) {

@@ -20,6 +20,16 @@ RT_INLINE auto load3(const P& p) {
 }
 
 template <typename T>
+RT_INLINE T min_of(T a, T b) {
+    return a < b ? a : b;
+}
+
+template <typename T>
+RT_INLINE T max_of(T a, T b) {
+    return a > b ? a : b;
+}
+
+template <typename T>
 RT_INLINE T dot3(const Vec3<T>& a, const Vec3<T>& b) {
     return std::fma(a.z, b.z, std::fma(a.y, b.y, a.x * b.x));
 }
