@@ -22,6 +22,7 @@
 
 typedef struct {
     real3 point;
+    real3 point_low;  // of a sphere: what rounding took from the point; else 0
     real3 normal;     // shading normal, unit: interpolated where the triangle has vertex normals
     real3 geometric;  // geometric normal, unit, on the shading normal's side
     Reals offset;     // bound on the distance between point and surface
@@ -29,16 +30,34 @@ typedef struct {
     Indices material;
 } Surface;
 
+// The normal where the ray meets the sphere at t, from the closest approach and the half chord.
+// What rounding took from the ray and from the centre is added where only lengths of the radius are
+// left, so that small, distant balls keep their normals, and mirror rays between them their ways.
+real3 sphere_normal(const Ray* ray, Reals t, __global const Sphere* sphere) {
+    real3 f = sub3(ray->origin, load3(sphere->center));
+    Reals b = -dot3(f, ray->dir);
+    real3 l = add_scaled(f, b, ray->dir);
+    l = add_scaled(add3(ray->origin_low, l), t, ray->dir_low);
+    l = sub3(l, load3(sphere->center_low));
+    l = add_scaled(l, -dot3(l, ray->dir), ray->dir);
+    Reals squared = (Reals)(sphere->radius * sphere->radius) - dot3(l, l);
+    Reals s = squared > (Reals)0 ? sqrt(squared) : (Reals)0;
+    return normalize3(add_scaled(l, t < b ? -s : s, ray->dir));
+}
+
 Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
     real3 center = load3(sphere->center);
     Surface surface;
-    surface.normal = normalize3(add_scaled(sub3(ray->origin, center), t, ray->dir));
+    surface.normal = sphere_normal(ray, t, sphere);
     surface.geometric = surface.normal;
-    surface.point = add_scaled(center, (Reals)sphere->radius, surface.normal);
-    Reals spread = dot3(abs3(surface.normal), abs3(surface.point));
+    real3 out = add_scaled(load3(sphere->center_low), (Reals)sphere->radius, surface.normal);
+    surface.point = add3(center, out);
+    surface.point_low = add3(sub3(center, surface.point), out);
+    Reals spread = dot3(abs3(surface.normal), add3(abs3(center), abs3(surface.point)));
     surface.offset = (Real)RT_ROUNDOFF * fma((Reals)5, (Reals)sphere->radius, spread);
     if (RT_HAS_HUGE_SPHERES && sphere->is_huge != 0) {
         surface.point = add_scaled(ray->origin, t, ray->dir);
+        surface.point_low = make3((Reals)0, (Reals)0, (Reals)0);
         surface.normal = normalize3(sub3(surface.point, center));
         surface.geometric = surface.normal;
         real3 error =
@@ -69,6 +88,7 @@ Surface cone_surface(const Ray* ray, Reals t, __global const Cone* cone) {
     real3 center = add_scaled(base, height, axis);
     real3 point = add_scaled(center, radius, outwards);
     surface.point = select3(is_on_axis, center, point);
+    surface.point_low = make3((Reals)0, (Reals)0, (Reals)0);
     real3 size = add3(abs3(center), abs3(surface.point));
     Reals extent =
         (Real)8 * fma(fabs((Reals)cone->slope), (Reals)cone->length, (Reals)cone->base_radius);
@@ -100,6 +120,7 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
     Surface surface;
     surface.point = add_scaled(p0, hit->u, sub3(load3(triangle->p1), p0));
     surface.point = add_scaled(surface.point, hit->v, sub3(load3(triangle->p2), p0));
+    surface.point_low = make3((Reals)0, (Reals)0, (Reals)0);
     surface.offset = (Reals)triangle->offset;
     Reals distance = length3(ray->origin) + hit->t;
     Mask is_large = largest_coordinate(triangle) > (Reals)8 * distance;
@@ -138,6 +159,7 @@ Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit
 Surface select_surface(Mask mask, Surface yes, Surface no) {
     Surface chosen;
     chosen.point = select3(mask, yes.point, no.point);
+    chosen.point_low = select3(mask, yes.point_low, no.point_low);
     chosen.normal = select3(mask, yes.normal, no.normal);
     chosen.geometric = select3(mask, yes.geometric, no.geometric);
     chosen.offset = mask ? yes.offset : no.offset;
@@ -193,6 +215,8 @@ Ray leave_surface(const Surface* surface, real3 origin, real3 dir, Indices prim)
     Ray ray;
     ray.origin = origin;
     ray.dir = dir;
+    ray.dir_low = make3((Reals)0, (Reals)0, (Reals)0);
+    ray.origin_low = add3(sub3(surface->point, origin), surface->point_low);
     ray.t_max = (Reals)INFINITY;
     ray.chord = -surface->diameter * dot3(surface->geometric, dir);
     ray.from = prim;

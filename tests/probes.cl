@@ -25,6 +25,7 @@ typedef struct {
     Packed3 dir;
     Index from;
     Real chord;
+    Packed3 dir_low, origin_low;
 } ProbeRay;
 
 typedef struct {
@@ -34,6 +35,7 @@ typedef struct {
     Index material;
     Packed3 geometric;
     Real diameter;
+    Packed3 point_low;
 } ProbeSurface;
 
 typedef struct {
@@ -60,6 +62,8 @@ Ray unpack_ray(ProbeRay packed) {
     Ray ray;
     ray.origin = load3(packed.origin);
     ray.dir = load3(packed.dir);
+    ray.dir_low = load3(packed.dir_low);
+    ray.origin_low = load3(packed.origin_low);
     ray.t_max = packed.t_max;
     ray.from = packed.from;
     ray.chord = packed.chord;
@@ -88,7 +92,8 @@ Finish probe_finish(const SceneView* scene, const Surface* surface) {
 }
 
 ProbeRay pack_ray(Ray ray) {
-    ProbeRay packed = {pack(ray.origin), ray.t_max, pack(ray.dir), ray.from, ray.chord};
+    ProbeRay packed = {pack(ray.origin), ray.t_max,         pack(ray.dir),       ray.from,
+                       ray.chord,        pack(ray.dir_low), pack(ray.origin_low)};
     return packed;
 }
 
@@ -100,12 +105,13 @@ Surface unpack_surface(ProbeSurface packed) {
     surface.offset = packed.offset;
     surface.material = packed.material;
     surface.diameter = packed.diameter;
+    surface.point_low = load3(packed.point_low);
     return surface;
 }
 
 ProbeSurface pack_surface(Surface s) {
-    ProbeSurface packed = {pack(s.point), s.offset,          pack(s.normal),
-                           s.material,    pack(s.geometric), s.diameter};
+    ProbeSurface packed = {pack(s.point),     s.offset,   pack(s.normal),   s.material,
+                           pack(s.geometric), s.diameter, pack(s.point_low)};
     return packed;
 }
 

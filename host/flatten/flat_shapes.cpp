@@ -61,6 +61,7 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
     const double radius = sphere.radius * view.scale;
     const glm::dvec3 center = view.to_view(sphere.center);
     const double distance = glm::length(center);
+    flat.center_low = pack_low<T>(center);
     flat.radius = static_cast<T>(radius);
     flat.is_huge = radius > huge_radius && std::abs(distance - radius) < radius ? 1 : 0;
     flat.power = static_cast<T>((distance - radius) * (distance + radius));
