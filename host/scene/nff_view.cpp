@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "host/scene/geometry_checks.h"
-#include "host/scene/image_limits.h"
+#include "host/scene/scene_limits.h"
 
 namespace rt {
 namespace {
