@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <deque>
+#include <filesystem>
 #include <span>
 
 #include "host/error.h"
@@ -203,7 +204,7 @@ class ClRenderer : public Renderer<T> {
             program_options.features = either_of(scene.features, options.also);
         }
         const bool is_pocl = device_.platform == pocl_platform;
-        const PoclCacheWatch cache(is_pocl ? options.pocl_cache : "");
+        const auto start = std::filesystem::file_time_type::clock::now();
         const Stopwatch watch;
         const cl::Program program =
             build_program(context_, device_, render_kernels, program_options);
@@ -219,9 +220,7 @@ class ClRenderer : public Renderer<T> {
         if (options.will_refine) launch_listed({}, frame_, cl::Buffer(), cl::Buffer());
         queue_.finish();
         times_.build = watch.seconds();
-        times_.build_cache = !is_pocl || options.pocl_cache.empty() ? BuildCache::unknown
-                             : cache.grew()                         ? BuildCache::cold
-                                                                    : BuildCache::warm;
+        times_.build_cache = is_pocl ? pocl_build_since(start) : BuildCache::unknown;
     }
 
     void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::Frame& frame) {
