@@ -56,6 +56,15 @@ TEST(TileQueue, HandsOutEveryTileOnceToManyThreads) {
     EXPECT_EQ(queue.rays().total(), 6u * 4800);
 }
 
+TEST(TileQueue, TellsOnceThatTheFirstTileIsTaken) {
+    static const StopFlag go = 0;
+    int told = 0;
+    TileQueue queue(make_tiles({0, 0, 64, 64}, 8, 8), go, [&] { ++told; });
+    EXPECT_EQ(told, 0);
+    while (queue.next()) EXPECT_EQ(told, 1);
+    EXPECT_EQ(told, 1);
+}
+
 TEST(TileQueue, GivesNothingOnceStopped) {
     static StopFlag stop = 0;
     TileQueue queue(make_tiles({0, 0, 64, 64}, 8, 8), stop);

@@ -20,6 +20,7 @@
 #include "host/image/atomic_file.h"
 #include "host/image/oiio_loader.h"
 #include "host/image/output_path.h"
+#include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
 
 namespace {
@@ -544,6 +545,21 @@ TEST(ImageLibrary, MayBeCalledFromManyThreads) {
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(rt::image_library(ExitCode::output).version, rt::oiio::interface_version);
+}
+
+TEST(ImageLibrary, LoadsBesideOtherWork) {
+    rt::ImageLibraryLoading loading;
+    loading.begin_for("");
+    loading.begin_for("picture.pfm");
+    loading.begin_for("picture.png");
+    loading.begin_for("picture.png");
+    EXPECT_EQ(rt::image_library(ExitCode::output).version, rt::oiio::interface_version);
+}
+
+TEST(NeedsImageLibrary, AllButPfm) {
+    EXPECT_TRUE(rt::needs_image_library(rt::picture_format_of_name("a.png")));
+    EXPECT_TRUE(rt::needs_image_library(rt::picture_format_of_name("a.exr")));
+    EXPECT_FALSE(rt::needs_image_library(rt::picture_format_of_name("a.pfm")));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "host/render/tile_queue.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rt {
 
@@ -16,8 +17,9 @@ std::vector<Rect> make_tiles(const Rect& region, int tile_width, int tile_height
     return tiles;
 }
 
-TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop)
-    : tiles_(std::move(tiles)), stop_(stop) {
+TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop,
+                     std::function<void()> on_first_tile)
+    : tiles_(std::move(tiles)), stop_(stop), on_first_tile_(std::move(on_first_tile)) {
     for (const Rect& tile : tiles_) pixels_ += tile.pixels();
 }
 
@@ -25,6 +27,7 @@ std::optional<Rect> TileQueue::next() {
     if (stopped()) return std::nullopt;
     const std::size_t index = next_.fetch_add(1);
     if (index >= tiles_.size()) return std::nullopt;
+    if (index == 0 && on_first_tile_) on_first_tile_();
     return tiles_[index];
 }
 

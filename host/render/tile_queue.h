@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,7 +31,10 @@ using StopFlag = volatile std::sig_atomic_t;
 /// is set, and keeps count of what is finished. Every member may be called from any thread.
 class TileQueue {
    public:
-    TileQueue(std::vector<Rect> tiles, const StopFlag& stop);
+    /// `on_first_tile` is called once, by the thread that takes the first tile. All threads of the
+    /// renderer exist by then.
+    TileQueue(std::vector<Rect> tiles, const StopFlag& stop,
+              std::function<void()> on_first_tile = {});
 
     /// The next tile; empty when there is none or the work was stopped. A renderer finishes every
     /// tile it has taken.
@@ -50,6 +54,7 @@ class TileQueue {
    private:
     const std::vector<Rect> tiles_;
     const StopFlag& stop_;
+    const std::function<void()> on_first_tile_;
     std::int64_t pixels_ = 0;
     std::atomic<std::size_t> next_ = 0;
     std::atomic<std::size_t> tiles_finished_ = 0;
