@@ -231,7 +231,9 @@ class ClRenderer : public Renderer<T> {
             resolve_.setArg(1, samples_);
             resolve_.setArg(2, frame_);
         }
-        launch({}, cl::Buffer());
+        FlatTile nothing{};
+        nothing.width = 1;  // kernels divide by the width
+        launch(nothing, cl::Buffer());
         if (options.will_refine) launch_listed({}, frame_, cl::Buffer(), cl::Buffer());
         queue_.finish();
         times_.build = watch.seconds();
