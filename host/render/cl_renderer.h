@@ -32,7 +32,6 @@ struct ClOptions {
     bool all_features = false;         ///< compile what the scene does not need, too
     Features also = no_features();     ///< compile these, needed or not
     bool warnings_are_errors = false;  ///< for tests
-    std::string pocl_cache;            ///< PoCL's kernel cache folder; may be empty
 };
 
 /// A renderer on an OpenCL device: builds the kernels for the scene's features and uploads it. The
