@@ -2,7 +2,6 @@
 #include "host/verbs/technique_cost.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <functional>
@@ -11,6 +10,7 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
+#include "host/processor_time.h"
 #include "host/render/device_spec.h"
 #include "host/render/picture_loop.h"
 #include "host/render/stopwatch.h"
@@ -26,22 +26,26 @@ namespace {
 
 constexpr const char* paper_scene = "scenes/cornell-box.json";
 
-/// One way to render the picture.
+/// One way to render the picture; returns the seconds of tracing it.
 struct Contender {
     TechniqueCost cost;
-    std::function<void()> trace;
+    std::function<double()> trace;
 };
 
 /// The first contender is the robust one.
 using Contenders = std::vector<Contender>;
 
-std::function<void()> tracing(std::shared_ptr<Renderer<float>> renderer, const Scene& scene) {
-    return [renderer = std::move(renderer), &scene] {
+std::function<double()> tracing(std::shared_ptr<Renderer<float>> renderer, const Scene& scene,
+                                bool of_processor) {
+    return [renderer = std::move(renderer), &scene, of_processor] {
         const Rect region{0, 0, scene.width, scene.height};
         const Rect tile = renderer->tile_size(scene.width);
         TileQueue queue(make_tiles(region, tile.width, tile.height), stop_flag());
         Film<float> film(scene.width, scene.height);
+        const Stopwatch watch;
+        const double start = processor_seconds();
         render_all(*renderer, scene.aa, queue, region, film);
+        return of_processor ? processor_seconds() - start : watch.seconds();
     };
 }
 
@@ -49,7 +53,7 @@ Contender without(const Techniques& naive, const char* name, const char* how, co
                   const FlatScene<float>& flat, const ClDevice& device) {
     ClOptions options;
     options.naive = naive;
-    return {{name, how, 0}, tracing(make_cl_renderer(flat, device, options), scene)};
+    return {{name, how, 0}, tracing(make_cl_renderer(flat, device, options), scene, device.is_cpu)};
 }
 
 /// Built-in powers can cost more than all techniques together, so all are made naive with and
@@ -74,32 +78,19 @@ Contenders on_threads(const Scene& scene, const FlatScene<float>& flat, int thre
     ThreadsOptions options;
     options.threads = threads;
     Contenders contenders;
-    contenders.push_back({{"", "", 0}, tracing(make_threads_renderer(flat, options), scene)});
+    contenders.push_back({{"", "", 0}, tracing(make_threads_renderer(flat, options), scene, true)});
     contenders.push_back({{"all", "a textbook's", 0}, [&scene, threads] {
-                              naive_picture<float>(scene, NaiveStart::along_normal, threads);
+                              return naive_picture<float>(scene, NaiveStart::along_normal, threads)
+                                  .processor_seconds;
                           }});
     return contenders;
 }
 
-/// Of all threads of the program together.
-double processor_seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-double seconds_of(const Contender& contender, bool of_processor) {
-    const Stopwatch watch;
-    const double start = processor_seconds();
-    contender.trace();
-    return of_processor ? processor_seconds() - start : watch.seconds();
-}
-
 /// Renders each once to warm up, then in turn; keeps the fastest. False at a stop signal.
-bool run_contenders(Contenders& contenders, int repeats, bool of_processor) {
+bool run_contenders(Contenders& contenders, int repeats) {
     for (int round = 0; round <= repeats; ++round) {
         for (Contender& contender : contenders) {
-            const double seconds = seconds_of(contender, of_processor);
+            const double seconds = contender.trace();
             if (stop_flag() != 0) return false;
             double& fastest = contender.cost.seconds;
             fastest = round <= 1 ? seconds : std::min(fastest, seconds);
@@ -147,7 +138,7 @@ StressResult measure_technique_costs(const StressOptions& options) {
             const bool is_processor = device.is_threads || opened(device).is_cpu;
             Contenders contenders = device.is_threads ? on_threads(scene, flat, device.threads)
                                                       : on_device(scene, flat, opened(device));
-            if (!run_contenders(contenders, options.repeats, is_processor)) break;
+            if (!run_contenders(contenders, options.repeats)) break;
             CostTable table = empty_table(path, scene, device, options.repeats);
             table.of_processor = is_processor;
             table.robust_seconds = contenders.front().cost.seconds;
