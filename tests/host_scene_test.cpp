@@ -16,6 +16,7 @@
 #include "host/scene/json_file.h"
 #include "host/scene/mistakes.h"
 #include "host/scene/words.h"
+#include "tests/refusals.h"
 
 namespace rt {
 namespace {
@@ -37,47 +38,8 @@ Scene parse_camera(const std::string& members) {
         R"({"image": {"width": 400, "height": 100}, "camera": {)" + members + "}}", "test.json");
 }
 
-struct Refusal {
-    ExitCode exit_code = ExitCode::done;
-    std::string message;
-};
-
-template <class F>
-Refusal refusal_of(F action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return {error.exit_code(), error.what()};
-    }
-    return {};
-}
-
 Refusal refusal_of_text(const std::string& text) {
     return refusal_of([&] { parse_json_scene(text, "t.json"); });
-}
-
-std::vector<fs::path> json_files(const std::string& folder) {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const fs::path& path = entry.path();
-        if (path.extension() == ".json" && path.filename() != "scene.schema.json") {
-            files.push_back(path);
-        }
-    }
-    return files;
-}
-
-/// "line:column: text" from the leading `// expect` lines, or from the .expect file beside.
-std::vector<std::string> expectations(fs::path path) {
-    std::vector<std::string> result;
-    std::ifstream file(path);
-    const std::string mark = "// expect ";
-    for (std::string line; std::getline(file, line) && line.starts_with(mark);) {
-        result.push_back(line.substr(mark.size()));
-    }
-    std::ifstream beside(path.replace_extension(".expect"));
-    for (std::string line; std::getline(beside, line);) result.push_back(line);
-    return result;
 }
 
 void expect_near(const Scene::Window& window, double left, double right, double bottom,
@@ -89,21 +51,10 @@ void expect_near(const Scene::Window& window, double left, double right, double 
 }
 
 TEST(ParseJsonScene, BadFilesAreRefusedAsExpected) {
-    const auto files = json_files(MIRRORBALL_BAD_SCENES_DIR);
-    EXPECT_GE(files.size(), 40u);
+    const auto files = malformed_files(".json");
+    EXPECT_GE(files.size(), 130u);
     for (const fs::path& path : files) {
-        SCOPED_TRACE(path.string());
-        const Refusal refusal = refusal_of([&] { load_json_scene(path.string()); });
-        EXPECT_EQ(refusal.exit_code, ExitCode::input);
-        const auto expected = expectations(path);
-        EXPECT_FALSE(expected.empty());
-        for (const std::string& text : expected) {
-            const std::string line = path.string() + ":" + text;
-            EXPECT_NE(refusal.message.find(line), std::string::npos)
-                << "expected " << line << "\nbut got  " << refusal.message;
-        }
-        const auto lines = std::count(refusal.message.begin(), refusal.message.end(), '\n') + 1;
-        EXPECT_EQ(static_cast<std::size_t>(lines), expected.size()) << refusal.message;
+        expect_announced(path, refusal_of([&] { load_json_scene(path.string()); }));
     }
 }
 
@@ -236,8 +187,19 @@ TEST(CameraWindow, FollowsAnotherImageSizeUnlessGiven) {
     expect_near(fixed.camera.window, -3, 1, -1, 2);
 }
 
+std::vector<fs::path> committed_scenes() {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(MIRRORBALL_SCENES_DIR)) {
+        const fs::path& path = entry.path();
+        if (path.extension() == ".json" && path.filename() != "scene.schema.json") {
+            files.push_back(path);
+        }
+    }
+    return files;
+}
+
 TEST(LoadJsonScene, EveryCommittedSceneLoads) {
-    const auto files = json_files(MIRRORBALL_SCENES_DIR);
+    const auto files = committed_scenes();
     EXPECT_GE(files.size(), 10u);
     for (const fs::path& path : files) {
         SCOPED_TRACE(path.string());

@@ -201,13 +201,13 @@ TYPED_TEST(IntersectTriangle, HasTheTwinsBitsOnAnyNumbers) {
 
 /// A closed mesh, star-shaped about its centre, and a point well inside to look from.
 struct Shell {
-    Mesh mesh;
+    StressMesh mesh;
     glm::dvec3 center;
     double size;
 
     Shell(double size, const glm::dvec3& center) : center(center), size(size) {
         Random random(5);
-        mesh = subdivided(subdivided(icosahedron()));
+        mesh = ball_mesh(2);
         for (auto& vertex : mesh.vertices)
             vertex = center + size * random.uniform(0.9, 1.1) * vertex;
     }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <glm/geometric.hpp>
-#include <map>
-#include <utility>
+#include <vector>
 
+#include "host/stress/meshes.h"
 #include "tests/exact.h"
 #include "tests/probe_types.h"
 
@@ -50,53 +49,8 @@ typename Flat<T>::Triangle make_triangle(const glm::dvec3& p0, const glm::dvec3&
     return triangle;
 }
 
-/// A closed mesh with shared vertices.
-struct Mesh {
-    std::vector<glm::dvec3> vertices;
-    std::vector<std::array<int, 3>> faces;
-};
-
-inline Mesh icosahedron() {
-    const double g = (1 + std::sqrt(5.0)) / 2;
-    Mesh mesh{{{-1, g, 0},
-               {1, g, 0},
-               {-1, -g, 0},
-               {1, -g, 0},
-               {0, -1, g},
-               {0, 1, g},
-               {0, -1, -g},
-               {0, 1, -g},
-               {g, 0, -1},
-               {g, 0, 1},
-               {-g, 0, -1},
-               {-g, 0, 1}},
-              {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-               {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-               {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
-    for (auto& vertex : mesh.vertices) vertex = glm::normalize(vertex);
-    return mesh;
-}
-
-/// Each face in four, the new vertices on the unit sphere.
-inline Mesh subdivided(Mesh mesh) {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-        const auto [entry, is_new] =
-            middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices.size()));
-        if (is_new) mesh.vertices.push_back(glm::normalize(mesh.vertices[a] + mesh.vertices[b]));
-        return entry->second;
-    };
-    std::vector<std::array<int, 3>> faces;
-    for (const auto& [a, b, c] : mesh.faces) {
-        const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-        faces.insert(faces.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-    }
-    mesh.faces = std::move(faces);
-    return mesh;
-}
-
 template <typename T>
-std::vector<typename Flat<T>::Triangle> triangles_of(const Mesh& mesh) {
+std::vector<typename Flat<T>::Triangle> triangles_of(const StressMesh& mesh) {
     std::vector<typename Flat<T>::Triangle> triangles;
     for (const auto& [a, b, c] : mesh.faces) {
         triangles.push_back(make_triangle<T>(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));

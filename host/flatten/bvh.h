@@ -33,12 +33,13 @@ struct BvhShape {
 
 /// Builds a hierarchy over the boxes, one or more of them, by the surface-area heuristic, appends
 /// its nodes to `nodes` and returns the place of its root (odd). The boxes are put into the order
-/// of the leaves, whose `first` counts them from 0. At most RT_BVH_STACK deep, whatever the boxes
+/// of the leaves, whose `first` counts them from 0. At most max_bvh_depth deep, whatever the boxes
 /// are, as long as they are finite.
 template <typename T>
 typename Flat<T>::Index build_bvh(std::span<BvhBox<T>> boxes, const BvhSettings& settings,
                                   std::vector<typename Flat<T>::BvhNode>& nodes);
 
+/// Looks over the hierarchy below a root.
 template <typename T>
 BvhShape shape_of(std::span<const typename Flat<T>::BvhNode> nodes, typename Flat<T>::Index root,
                   const BvhSettings& settings);

@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <limits>
+#include <utility>
 
 #include "host/error.h"
 #include "host/flatten/boxes.h"
 #include "host/flatten/casters.h"
+#include "host/flatten/flat_frame.h"
+#include "host/flatten/flat_materials.h"
 #include "host/flatten/flat_shapes.h"
 #include "host/flatten/view_frame.h"
 #include "host/memory_limit.h"
@@ -21,113 +20,6 @@
 namespace rt {
 
 namespace {
-
-bool is_black(const glm::dvec3& color) { return color == glm::dvec3(0); }
-
-template <typename T>
-typename Flat<T>::Material flatten_material(const Scene::Material& material) {
-    typename Flat<T>::Material flat{};
-    flat.ambient = pack<T>(material.ambient);
-    flat.shininess = static_cast<T>(material.shininess);
-    flat.diffuse = pack<T>(material.diffuse);
-    flat.two_sided = material.two_sided ? 1 : 0;
-    flat.specular = pack<T>(material.specular);
-    flat.ior = static_cast<T>(material.ior);
-    flat.mirror = pack<T>(material.mirror);
-    flat.transmission = pack<T>(material.transmission);
-    return flat;
-}
-
-/// Half a pixel's sides on the view plane. Pixels are square, to the last bit, unless the author
-/// gave a window: else rays on a picture's diagonal would miss edges that lie there by 1e-16.
-glm::dvec2 half_pixel(const Scene& scene, const Scene::Window& window) {
-    using Fixed = Scene::FieldOfView::Fixed;
-    const double x = (window.right - window.left) / (2.0 * scene.width);
-    const double y = (window.top - window.bottom) / (2.0 * scene.height);
-    switch (scene.camera.field_of_view.fixed) {
-        case Fixed::window:
-            return {x, y};
-        case Fixed::horizontal:
-        case Fixed::view_width:
-            return {x, x};
-        case Fixed::vertical:
-        case Fixed::view_height:
-            return {y, y};
-    }
-    return {x, y};
-}
-
-/// An adaptive mode begins with one sample a pixel.
-template <typename Frame>
-void set_sampling(const Scene& scene, Frame& frame) {
-    frame.grid = scene.aa.pattern == AaMode::Pattern::sobol ? 0 : scene.aa.count;
-    frame.samples = scene.aa.samples();
-    frame.seed = scene.sampling_seed;
-    switch (scene.filter) {
-        case Filter::box:
-            frame.filter = f32::RT_FILTER_BOX;
-            break;
-        case Filter::tent:
-            frame.filter = f32::RT_FILTER_TENT;
-            break;
-        case Filter::gaussian:
-            frame.filter = f32::RT_FILTER_GAUSSIAN;
-            break;
-        case Filter::mitchell:
-            frame.filter = f32::RT_FILTER_MITCHELL;
-            break;
-    }
-}
-
-template <typename T>
-typename Flat<T>::Frame flatten_frame(const ViewFrame& view, const Scene& scene) {
-    const Scene::Window window = camera_window(scene.camera, scene.width, scene.height);
-    const glm::dvec2 step = half_pixel(scene, window);
-    const glm::dvec3 dx = view.right * step.x;
-    const glm::dvec3 dy = view.up * step.y;
-    typename Flat<T>::Frame frame{};
-    if (scene.camera.projection == Scene::Projection::perspective) {
-        frame.direction = pack<T>(view.forward + view.right * (0.5 * (window.left + window.right)) +
-                                  view.up * (0.5 * (window.bottom + window.top)));
-        frame.direction_dx = pack<T>(dx);
-        frame.direction_dy = pack<T>(dy);
-    } else {
-        frame.direction = pack<T>(view.forward);
-        frame.origin_dx = pack<T>(dx * view.scale);
-        frame.origin_dy = pack<T>(dy * view.scale);
-    }
-    frame.width = scene.width;
-    frame.height = scene.height;
-    set_sampling(scene, frame);
-    frame.max_bounces = scene.max_bounces;
-    frame.background = pack<T>(scene.background);
-    frame.ambient_light = pack<T>(scene.ambient_light);
-    return frame;
-}
-
-/// The materials that some primitive wears.
-std::vector<const Scene::Material*> worn_materials(const Scene& scene) {
-    std::vector<bool> worn(scene.materials.size(), false);
-    const auto wear = [&](int material) { worn[static_cast<std::size_t>(material)] = true; };
-    for (const auto& sphere : scene.spheres) wear(sphere.material);
-    for (const auto& cone : scene.cones) wear(cone.material);
-    for (const auto& triangle : scene.triangles) wear(triangle.material);
-    for (const auto& mesh : scene.meshes) {
-        for (const int material : mesh.face_materials) wear(material);
-    }
-    std::vector<const Scene::Material*> materials;
-    for (std::size_t i = 0; i < worn.size(); ++i) {
-        if (worn[i]) materials.push_back(&scene.materials[i]);
-    }
-    return materials;
-}
-
-bool reflects_light(const Scene::Material* material) {
-    return !is_black(material->diffuse) || !is_black(material->specular);
-}
-
-bool is_mirror(const Scene::Material* material) { return !is_black(material->mirror); }
-bool is_glass(const Scene::Material* material) { return !is_black(material->transmission); }
 
 /// Primitives that a thread works on at once.
 constexpr std::size_t run_length = 1 << 13;
@@ -143,14 +35,16 @@ class Flattener {
         if (options_.threads == 0) options_.threads = available_cores();
         check_limits();
         view_ = make_view_frame(scene, triangles_, options_.threads);
-        worn_ = worn_materials(scene);
+        material_use_ = material_use(scene);
         check_ray_tree();
     }
 
     FlatScene<T> run() {
         flat_.frame = flatten_frame<T>(view_, scene_);
-        flatten_spheres();
-        flatten_cones();
+        listed_spheres_ = flatten_kind(scene_.spheres, sphere_crossover, flatten_sphere<T>,
+                                       flat_.spheres, flat_.frame.sphere_root, flat_.stats.spheres);
+        listed_cones_ = flatten_kind(scene_.cones, cone_crossover, flatten_cone<T>, flat_.cones,
+                                     flat_.frame.cone_root, flat_.stats.cones);
         flatten_triangles();
         for (const auto& material : scene_.materials) {
             flat_.materials.push_back(flatten_material<T>(material));
@@ -190,13 +84,7 @@ class Flattener {
 
     /// Where light is both reflected and transmitted one of the two rays must wait.
     void check_ray_tree() const {
-        const auto splits = [](const Scene::Material* material) {
-            return is_mirror(material) && is_glass(material);
-        };
-        if (scene_.max_bounces <= f32::RT_TREE_STACK ||
-            std::none_of(worn_.begin(), worn_.end(), splits)) {
-            return;
-        }
+        if (scene_.max_bounces <= f32::RT_TREE_STACK || !material_use_.splits) return;
         throw Error(
             ExitCode::limit,
             fmt::format("max_bounces is {}, but at most {} where a material both mirrors "
@@ -254,27 +142,19 @@ class Flattener {
                            [](const auto& triangle) { return triangle.plane == T(0); });
     }
 
-    void flatten_spheres() {
-        flat_.spheres.resize(scene_.spheres.size());
-        for_each(flat_.spheres.size(), [&](std::size_t i) {
-            flat_.spheres[i] = flatten_sphere<T>(view_, scene_.spheres[i]);
-        });
-        listed_spheres_ = build_hierarchy(
-            flat_.spheres.size(), sphere_crossover,
-            [&](std::size_t i) { return box_of<T>(flat_.spheres[i]); }, flat_.frame.sphere_root,
-            flat_.stats.spheres);
-        reorder(flat_.spheres, listed_spheres_);
-    }
-
-    void flatten_cones() {
-        flat_.cones.resize(scene_.cones.size());
-        for_each(flat_.cones.size(),
-                 [&](std::size_t i) { flat_.cones[i] = flatten_cone<T>(view_, scene_.cones[i]); });
-        listed_cones_ = build_hierarchy(
-            flat_.cones.size(), cone_crossover,
-            [&](std::size_t i) { return box_of<T>(flat_.cones[i]); }, flat_.frame.cone_root,
-            flat_.stats.cones);
-        reorder(flat_.cones, listed_cones_);
+    /// Flattens one kind of primitive, then puts it into the order of its hierarchy's leaves.
+    template <typename Listing, typename Primitive>
+    Listed flatten_kind(const std::vector<Listing>& listing, std::size_t crossover,
+                        Primitive (*flatten_one)(const ViewFrame&, const Listing&),
+                        std::vector<Primitive>& primitives, Index& root, BvhShape& shape) {
+        primitives.resize(listing.size());
+        for_each(primitives.size(),
+                 [&](std::size_t i) { primitives[i] = flatten_one(view_, listing[i]); });
+        const Listed listed = build_hierarchy(
+            primitives.size(), crossover, [&](std::size_t i) { return box_of<T>(primitives[i]); },
+            root, shape);
+        reorder(primitives, listed);
+        return listed;
     }
 
     /// The boxes come first, from vertices rounded for them alone, so that the triangles can be
@@ -324,7 +204,7 @@ class Flattener {
     }
 
     void flatten_lights() {
-        if (std::none_of(worn_.begin(), worn_.end(), reflects_light)) return;
+        if (!material_use_.reflects_lights) return;
         for (const Scene::Light& light : scene_.lights) {
             if (is_black(light.intensity)) continue;
             typename Flat<T>::Light flat{};
@@ -342,27 +222,14 @@ class Flattener {
     }
 
     void list_casters(const glm::dvec3& position, typename Flat<T>::Light& light) {
-        const auto casters = shadow_casters(scene_, triangles_, eye_ray_origins(), position);
+        const auto casters =
+            shadow_casters(scene_, triangles_, eye_ray_origins(view_, scene_), position);
         if (casters.size() == flat_.triangles.size()) return;
         light.first_caster = static_cast<Index>(flat_.casters.size());
         light.caster_count = static_cast<Index>(casters.size());
         for (const std::size_t triangle : casters) {
             flat_.casters.push_back(static_cast<Index>(triangle));
         }
-    }
-
-    /// Points that have all starts of eye rays among or between them.
-    std::vector<glm::dvec3> eye_ray_origins() const {
-        const Scene::Camera& camera = scene_.camera;
-        if (camera.projection == Scene::Projection::perspective) return {camera.from};
-        const Scene::Window window = camera_window(camera, scene_.width, scene_.height);
-        std::vector<glm::dvec3> origins;
-        for (const double x : {window.left, window.right}) {
-            for (const double y : {window.bottom, window.top}) {
-                origins.push_back(camera.from + view_.right * x + view_.up * y);
-            }
-        }
-        return origins;
     }
 
     void number_primitives() {
@@ -391,17 +258,15 @@ class Flattener {
         features.vertex_normals = !flat_.vertex_normals.empty();
         features.hierarchy = !flat_.nodes.empty();
         features.lights = !flat_.lights.empty();
-        features.mirrors =
-            scene_.max_bounces > 0 && std::any_of(worn_.begin(), worn_.end(), is_mirror);
-        features.glass =
-            scene_.max_bounces > 0 && std::any_of(worn_.begin(), worn_.end(), is_glass);
+        features.mirrors = scene_.max_bounces > 0 && material_use_.mirrors;
+        features.glass = scene_.max_bounces > 0 && material_use_.transmits;
     }
 
     const Scene& scene_;
     FlattenOptions options_;
     const TriangleList triangles_;
     ViewFrame view_;
-    std::vector<const Scene::Material*> worn_;
+    MaterialUse material_use_;
     Listed listed_spheres_, listed_cones_, listed_triangles_;
     FlatScene<T> flat_{};
 };

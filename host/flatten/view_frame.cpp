@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <vector>
 
 #include "host/parallel.h"
 
@@ -107,6 +106,19 @@ ViewFrame make_view_frame(const Scene& scene, const TriangleList& triangles, int
     const Octaves octaves = distance_octaves(scene, triangles, frame.eye, threads);
     frame.scale = std::ldexp(1.0, -octaves.median());
     return frame;
+}
+
+std::vector<glm::dvec3> eye_ray_origins(const ViewFrame& view, const Scene& scene) {
+    const Scene::Camera& camera = scene.camera;
+    if (camera.projection == Scene::Projection::perspective) return {camera.from};
+    const Scene::Window window = camera_window(camera, scene.width, scene.height);
+    std::vector<glm::dvec3> origins;
+    for (const double x : {window.left, window.right}) {
+        for (const double y : {window.bottom, window.top}) {
+            origins.push_back(camera.from + view.right * x + view.up * y);
+        }
+    }
+    return origins;
 }
 
 }  // namespace rt

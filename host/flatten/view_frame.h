@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "host/flatten/triangle_list.h"
 #include "host/scene/scene.h"
@@ -23,5 +24,8 @@ struct ViewFrame {
 
 /// `triangles` are the scene's.
 ViewFrame make_view_frame(const Scene& scene, const TriangleList& triangles, int threads);
+
+/// Points, in scene units, that have all starts of eye rays among or between them.
+std::vector<glm::dvec3> eye_ray_origins(const ViewFrame& view, const Scene& scene);
 
 }  // namespace rt

@@ -9,7 +9,7 @@
 namespace rt {
 
 /// What flatten built over the primitives and which triangles cast shadows, in a line: such as
-/// "hierarchy over triangles (1059607 nodes, 23 deep, built in 0.33 s)".
+/// "hierarchy over triangles (1059607 nodes, 23 deep), built in 0.330 s".
 std::string hierarchies_text(const FlattenStats& stats);
 std::string casters_text(const FlattenStats& stats);
 

@@ -4,25 +4,19 @@
 #include <cmath>
 
 #include "host/flatten/features.h"
+#include "host/report/flatten_text.h"
 #include "host/report/html.h"
 #include "host/report/plot_axis.h"
 #include "host/report/report_labels.h"
 #include "host/report/report_sections.h"
 #include "host/report/statistics.h"
+#include "host/report/stats_text.h"
 
 namespace rt {
 
 namespace {
 
 double build_seconds(const RenderStats& run) { return run.phases.renderer.build; }
-
-std::string names_text(const Features& features, bool used) {
-    std::string text;
-    for (const std::string& name : names_of(features, used)) {
-        text += (text.empty() ? "" : ", ") + name;
-    }
-    return text.empty() ? "nothing" : text;
-}
 
 std::string build_text(const std::vector<RenderStats>& runs) {
     return fmt::format("{} ({})", duration_text(spread_of(runs, build_seconds).median),
@@ -67,6 +61,22 @@ std::string trial_html(const FeatureTrial& trial, const std::string& source) {
                        same ? "the same, bit for bit" : "<strong>not the same</strong>");
 }
 
+/// How much of a feature the scene has, where that can be said.
+std::string in_scene_text(const RenderStats& stats, bool Features::*flag) {
+    const auto count = [](std::size_t n) { return n > 0 ? std::to_string(n) : "none"; };
+    if (flag == &Features::spheres) return count(stats.scene.spheres);
+    if (flag == &Features::cones) return count(stats.scene.cones);
+    if (flag == &Features::triangles) return count(stats.scene.triangles);
+    if (flag == &Features::vertex_normals) return count(stats.scene.smooth_triangles);
+    if (flag == &Features::lights) return count(stats.scene.lights);
+    if (!(stats.features.*flag)) return "none";
+    if (flag == &Features::hierarchy) return hierarchies_text(stats.scene.flatten);
+    if (flag == &Features::mirrors || flag == &Features::glass) {
+        return fmt::format("up to {} bounces", stats.max_bounces);
+    }
+    return "";
+}
+
 }  // namespace
 
 std::string features_section(const ReportScene& scene, std::size_t index) {
@@ -74,24 +84,11 @@ std::string features_section(const ReportScene& scene, std::size_t index) {
     const std::string source = fmt::format("features-{}#", index);
     std::string html = "<h3>What the scene needs, and what was left out</h3>\n";
     HtmlTable table{"Features of the kernels", {"feature", "compiled", "in the scene"}, {}};
-    const auto row = [&](bool Features::*flag, const char* name, std::size_t count) {
-        const bool used = stats.features.*flag;
-        table.rows.push_back({{name, ""},
-                              {used ? "used" : "left out", ""},
-                              {count > 0 ? std::to_string(count) : "none", ""}});
-    };
-    row(&Features::spheres, "spheres", stats.scene.spheres);
-    row(&Features::cones, "cones", stats.scene.cones);
-    row(&Features::triangles, "triangles", stats.scene.triangles);
-    row(&Features::vertex_normals, "vertex normals", stats.scene.smooth_triangles);
-    row(&Features::lights, "lights", stats.scene.lights);
-    table.rows.push_back(
-        {{"mirrors", ""},
-         {stats.features.mirrors ? "used" : "left out", ""},
-         {stats.features.mirrors ? fmt::format("up to {} bounces", stats.max_bounces) : "none",
-          ""}});
-    table.rows.push_back(
-        {{"glass", ""}, {stats.features.glass ? "used" : "left out", ""}, {"", ""}});
+    for (const FeatureName& feature : feature_names) {
+        table.rows.push_back({{feature.name, ""},
+                              {stats.features.*feature.flag ? "used" : "left out", ""},
+                              {in_scene_text(stats, feature.flag), ""}});
+    }
     html += html_table(table);
     html += fmt::format(
         "<p>The flattened scene is {} bytes in {}. A feature left out is not "

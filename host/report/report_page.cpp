@@ -13,6 +13,7 @@
 #include "host/report/report_style.h"
 #include "host/report/run_json.h"
 #include "host/report/stats_json.h"
+#include "host/report/stats_text.h"
 #include "host/report/stress_json.h"
 
 namespace rt {
@@ -87,11 +88,11 @@ std::string scene_html(const Report& report, std::size_t index) {
     return fmt::format(
                "<section id=\"scene-{}\" aria-labelledby=\"scene-{}-head\">\n"
                "<h2 id=\"scene-{}-head\">{}</h2>\n"
-               "<p class=\"note\">{}: {} spheres, {} triangles, {} lights; {} x {} pixels, up to "
-               "{} mirror bounces; scene hash <code>{}</code></p>\n",
+               "<p class=\"note\">{}: {}; {} x {} pixels, up to {} bounces; scene hash "
+               "<code>{}</code></p>\n",
                index, index, index, html_text(scene_name(scene)), html_text(stats.path),
-               stats.spheres, stats.triangles, stats.lights, scene.plain.stats.width,
-               scene.plain.stats.height, scene.plain.stats.max_bounces, hash_text(stats.hash)) +
+               holdings_text(scene.plain.stats), scene.plain.stats.width, scene.plain.stats.height,
+               scene.plain.stats.max_bounces, hash_text(stats.hash)) +
            glance(report, index) + pictures_section(scene, index) + timing_section(scene, index) +
            error_time_section(scene, index) + features_section(scene, index) + "</section>\n";
 }

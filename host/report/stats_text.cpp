@@ -9,12 +9,6 @@ namespace rt {
 
 namespace {
 
-std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text.empty() ? "nothing" : text;
-}
-
 std::string device_text(const DeviceStats& device) {
     if (!device.schedule.empty()) {
         return fmt::format("{} thread{}, {}", device.threads, device.threads == 1 ? "" : "s",
@@ -62,6 +56,21 @@ std::string rays_text(const RenderStats& stats) {
 
 }  // namespace
 
+std::string names_text(const Features& features, bool used) {
+    std::string text;
+    for (const std::string& name : names_of(features, used)) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text.empty() ? "nothing" : text;
+}
+
+std::string holdings_text(const RenderStats& stats) {
+    return fmt::format("{} spheres, {} cones, {} triangles, {} lights{}{}", stats.scene.spheres,
+                       stats.scene.cones, stats.scene.triangles, stats.scene.lights,
+                       stats.features.mirrors ? ", mirrors" : "",
+                       stats.features.glass ? ", glass" : "");
+}
+
 std::string summary_line(const RenderStats& stats) {
     return fmt::format(
         "{}: {}x{} {} {} on {}: {:.2f} Mrays in {:.3f} s ({:.1f} Mrays/s), total "
@@ -82,16 +91,15 @@ std::string error_line(const ImageError& error) {
 
 std::string stats_text(const RenderStats& stats) {
     std::string text = fmt::format(
-        "scene   {} ({} spheres, {} triangles, {} lights; hash {})\n"
+        "scene   {} ({}; hash {})\n"
         "picture {}x{}, {}, {} bounces, {}, {} math, image hash {}\n"
         "device  {}\n",
-        stats.scene.name, stats.scene.spheres, stats.scene.triangles, stats.scene.lights,
-        hash_text(stats.scene.hash), stats.region.width, stats.region.height, to_string(stats.aa),
-        stats.max_bounces, stats.double_precision ? "double" : "float",
-        stats.fast_math ? "fast" : "strict", hash_text(stats.image_hash),
-        device_text(stats.device));
-    text += fmt::format("needs   {}\nleaves out {}{}\n", joined(names_of(stats.features, true)),
-                        joined(names_of(stats.features, false)),
+        stats.scene.name, holdings_text(stats), hash_text(stats.scene.hash), stats.region.width,
+        stats.region.height, to_string(stats.aa), stats.max_bounces,
+        stats.double_precision ? "double" : "float", stats.fast_math ? "fast" : "strict",
+        hash_text(stats.image_hash), device_text(stats.device));
+    text += fmt::format("needs   {}\nleaves out {}{}\n", names_text(stats.features, true),
+                        names_text(stats.features, false),
                         stats.all_features ? " (compiled in all the same: --features all)" : "");
     text += fmt::format("builds  {}\ncasts   {}\n", hierarchies_text(stats.scene.flatten),
                         casters_text(stats.scene.flatten));

@@ -3,9 +3,16 @@
 
 #include <string>
 
+#include "host/flatten/features.h"
 #include "host/report/render_stats.h"
 
 namespace rt {
+
+/// "spheres, cones", the switches that are on (used) or off; "nothing" when there are none.
+std::string names_text(const Features& features, bool used);
+
+/// "4 spheres, 4 cones, 128 triangles, 2 lights, mirrors, glass": how much of what can be seen.
+std::string holdings_text(const RenderStats& stats);
 
 /// One line: what was rendered where, how fast, and the picture's hash.
 std::string summary_line(const RenderStats& stats);

@@ -39,6 +39,12 @@ def all_scenes():
     return sorted(p for p in SETTINGS["scenes"].glob("*.json") if p.name != "scene.schema.json")
 
 
+def malformed_files(ending, beginning=""):
+    """The files of tests/scenes_bad whose names begin and end so."""
+    folder = SETTINGS["scenes"].parent / "tests" / "scenes_bad"
+    return sorted(folder.glob(f"{beginning}*{ending}"))
+
+
 def image_hash(text):
     """The hash in a summary line or in --stats text; None when there is none."""
     found = re.search(r"image (?:hash )?([0-9a-f]{16})\b", text)

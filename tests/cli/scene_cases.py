@@ -2,8 +2,9 @@
 """Scene files: what is refused and how (exit 3), and `scene info`, `scene check`."""
 import json
 import os
+import shutil
 
-from harness import CAMERA, GREY, CliTest, all_scenes, scene_path
+from harness import CAMERA, GREY, CliTest, all_scenes, malformed_files, scene_path
 
 
 class Unreadable(CliTest):
@@ -109,6 +110,41 @@ class Mistakes(CliTest):
 
     def test_nesting_bomb(self):
         self.assert_mistake("[" * 100000, "1:65")
+
+
+class MalformedFiles(CliTest):
+    """What is said of each, and where, is tested with the readers."""
+
+    def assert_all_refused(self, files, at_least):
+        self.assertGreaterEqual(len(files), at_least)
+        for path in files:
+            with self.subTest(path=path.name):
+                result = self.run_cli("scene", "check", path)
+                self.assertEqual((result.returncode, result.stdout), (3, ""))
+                self.assertIn(f"{path}:", result.stderr)
+
+    def test_json(self):
+        self.assert_all_refused(malformed_files(".json"), 130)
+
+    def test_nff(self):
+        self.assert_all_refused(malformed_files(".nff"), 60)
+
+    def test_obj(self):
+        self.assert_all_refused(malformed_files(".obj"), 44)
+
+    def test_ply(self):
+        self.assert_all_refused(malformed_files(".ply"), 52)
+
+    def test_mtl_of_an_obj(self):
+        libraries = malformed_files(".mtl", "mtl-")
+        self.assertGreaterEqual(len(libraries), 16)
+        for path in libraries:
+            with self.subTest(path=path.name):
+                shutil.copy(path, self.folder)
+                obj = self.write_text("a.obj", f"mtllib {path.name}\nusemtl m\n" + TRIANGLE)
+                result = self.run_cli("scene", "check", obj)
+                self.assertEqual((result.returncode, result.stdout), (3, ""))
+                self.assertIn(f"{path.name}:", result.stderr)
 
 
 class NeutralFileFormat(CliTest):

@@ -102,6 +102,11 @@ class TextStats(CliTest):
                 self.assertIn(word, result.stdout)
             self.assertIsNotNone(image_hash(result.stdout))
 
+    def test_all_that_the_scene_holds_is_told(self):
+        result = self.render("glass", "--size", "8", "--stats")
+        self.assertIn("(4 spheres, 4 cones, 128 triangles, 2 lights, mirrors, glass; hash ",
+                      result.stdout)
+
     def test_option_before_the_scene(self):
         result = self.run_cli("render", "--stats", scene_path("empty"), "--size", "4")
         self.assertEqual(result.returncode, 0, result.stderr)

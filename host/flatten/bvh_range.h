@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <limits>
+
+#include "host/flatten/bvh.h"
+
+// Vectors wider than the build's instruction set are passed around, but only within the bvh_ files.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+// The vocabulary of build_bvh: bounds in registers, and a run of boxes with its own.
+namespace rt::bvh {
+
+/// Four numbers in one register; the fourth is 0.
+template <typename T>
+struct Lanes {
+    typedef T Vector __attribute__((vector_size(4 * sizeof(T))));
+    typedef typename Flat<T>::Index Mask __attribute__((vector_size(4 * sizeof(T))));
+};
+template <typename T>
+using Vector = typename Lanes<T>::Vector;
+
+template <typename T>
+Vector<T> load(const typename Flat<T>::Packed3& row) {
+    typename Lanes<T>::Mask bits;
+    std::memcpy(&bits, &row, sizeof bits);
+    bits &= typename Lanes<T>::Mask{-1, -1, -1, 0};
+    Vector<T> v;
+    std::memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+template <typename T>
+struct Bounds {
+    Vector<T> low, high;
+
+    static constexpr T huge = std::numeric_limits<T>::infinity();
+    Bounds() : low{huge, huge, huge, huge}, high{-huge, -huge, -huge, -huge} {}
+
+    void add(const Vector<T>& point_low, const Vector<T>& point_high) {
+        low = point_low < low ? point_low : low;
+        high = point_high > high ? point_high : high;
+    }
+    void add(const Bounds& other) { add(other.low, other.high); }
+
+    /// Half the surface, lengths being multiplied by `scale` first.
+    T area(T scale) const {
+        const Vector<T> d = (high - low) * scale;
+        return d[0] * (d[1] + d[2]) + d[1] * d[2];
+    }
+};
+
+/// Boxes first .. last with their bounds and those of their centres (times two).
+template <typename T>
+struct Range {
+    std::size_t first = 0, last = 0;
+    int depth = 0;
+    Bounds<T> bounds, centers;
+
+    std::size_t count() const { return last - first; }
+
+    void add(const BvhBox<T>& box) {
+        const Vector<T> box_low = load<T>(box.low), box_high = load<T>(box.high);
+        bounds.add(box_low, box_high);
+        centers.add(box_low + box_high, box_low + box_high);
+    }
+};
+
+template <typename T>
+Vector<T> center_of(const BvhBox<T>& box) {
+    return load<T>(box.low) + load<T>(box.high);
+}
+
+}  // namespace rt::bvh

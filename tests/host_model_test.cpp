@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "host/scene/model_file.h"
+#include "host/scene/scene_file.h"
+#include "tests/refusals.h"
+
+namespace rt {
+namespace {
+
+namespace fs = std::filesystem;
+using Positions = std::vector<glm::dvec3>;
+
+/// A folder of its own, gone after the test.
+class ModelFiles : public testing::Test {
+   protected:
+    ModelFiles() { fs::create_directories(folder_); }
+    ~ModelFiles() override { fs::remove_all(folder_); }
+
+    std::string write(const std::string& name, const std::string& text) const {
+        fs::create_directories((folder_ / name).parent_path());
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return (folder_ / name).string();
+    }
+
+    const fs::path folder_ =
+        fs::temp_directory_path() / ("mirrorball-models-" + std::to_string(::getpid()));
+};
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+const std::string ply_triangle =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+std::string scene_with(const std::string& meshes) {
+    return R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40},
+               "materials": {"grey": {"diffuse": 0.5}, "red": {"diffuse": [1, 0, 0]}},
+               "meshes": [)" +
+           meshes + "]}";
+}
+
+TEST_F(ModelFiles, MeshesStandInAJsonScene) {
+    write("models/a.obj", "mtllib a.mtl\nusemtl blue\n" + square + "f 1 2 3 4\n");
+    write("models/a.mtl", "newmtl blue\nKd 0 0 1\n");
+    write("b.PLY", ply_triangle);
+    const std::string path = write("scene.json", scene_with(R"(
+        {"file": "models/a.obj", "transform": {"scale": 2, "translate": [1, 2, 3]}},
+        {"file": "b.PLY", "material": "red",
+         "transform": [0, -1, 0, 5,  1, 0, 0, 6,  0, 0, 1, 7,  0, 0, 0, 1]},
+        {"file": "models/a.obj", "material": "grey"})"));
+    const Scene scene = load_scene(path);
+    ASSERT_EQ(scene.meshes.size(), 3u);
+    EXPECT_EQ(scene.meshes[0].positions[2], glm::dvec3(3, 4, 3));
+    EXPECT_EQ(scene.meshes[1].positions, (Positions{{5, 6, 7}, {5, 7, 7}, {4, 6, 7}}));
+    ASSERT_EQ(scene.materials.size(), 3u);
+    EXPECT_EQ(scene.materials[2].name, "blue");
+    EXPECT_EQ(scene.meshes[0].face_materials, std::vector<int>{2});
+    EXPECT_EQ(scene.meshes[1].face_materials, std::vector<int>{1});
+    EXPECT_EQ(scene.meshes[2].face_materials, std::vector<int>{0});
+    EXPECT_EQ(triangle_count(scene), 5u);
+}
+
+TEST_F(ModelFiles, ObjWithoutMaterialsNeedsOneFromTheScene) {
+    write("a.obj", square + "f 1 2 3\n");
+    const std::string path = write("scene.json", scene_with(R"({"file": "a.obj"})"));
+    const Refusal refusal = refusal_of([&] { load_scene(path); });
+    EXPECT_EQ(refusal.exit_code, ExitCode::input);
+    EXPECT_TRUE(refusal.message.starts_with(path + ":3:"));
+    EXPECT_NE(refusal.message.find("a mesh has no \"material\""), std::string::npos);
+}
+
+TEST_F(ModelFiles, AMaterialOfTheSceneMakesLibrariesNeedless) {
+    write("a.obj", "mtllib nowhere.mtl\nusemtl x\n" + square + "f 1 2 3\n");
+    const std::string path =
+        write("scene.json", scene_with(R"({"file": "a.obj", "material": "red"})"));
+    EXPECT_EQ(load_scene(path).meshes[0].face_materials, std::vector<int>{1});
+}
+
+TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
+    write("secret.ply", ply_triangle);
+    fs::create_directories(folder_ / "scene");
+    fs::create_symlink(folder_ / "secret.ply", folder_ / "scene/link.ply");
+    fs::create_symlink(folder_, folder_ / "scene/up");
+    for (const std::string name : {"link.ply", "up/secret.ply"}) {
+        const std::string path = write(
+            "scene/scene.json", scene_with(R"({"material": "red", "file": ")" + name + "\"}"));
+        const Refusal refusal = refusal_of([&] { load_scene(path); });
+        EXPECT_EQ(refusal.exit_code, ExitCode::input);
+        EXPECT_NE(refusal.message.find("lies outside of the scene's folder"), std::string::npos);
+    }
+    fs::create_symlink("../scene/inside.ply", folder_ / "scene/alias.ply");
+    write("scene/inside.ply", ply_triangle);
+    const std::string path =
+        write("scene/scene.json", scene_with(R"({"material": "red", "file": "alias.ply"})"));
+    EXPECT_EQ(triangle_count(load_scene(path)), 1u);
+}
+
+TEST_F(ModelFiles, PipesAndFoldersDoNotHang) {
+    ASSERT_EQ(mkfifo((folder_ / "pipe.ply").c_str(), 0600), 0);
+    fs::create_directories(folder_ / "folder.ply");
+    for (const std::string name : {"pipe.ply", "folder.ply"}) {
+        const std::string path =
+            write("scene.json", scene_with(R"({"material": "red", "file": ")" + name + "\"}"));
+        const Refusal refusal = refusal_of([&] { load_scene(path); });
+        EXPECT_NE(refusal.message.find("is not a regular file"), std::string::npos);
+        const Refusal alone = refusal_of([&] { load_scene((folder_ / name).string()); });
+        EXPECT_EQ(alone.exit_code, ExitCode::input);
+    }
+}
+
+TEST_F(ModelFiles, FileAboveTheSizeCapIsOverTheLimit) {
+    const std::string path = write("large.ply", ply_triangle);
+    fs::resize_file(path, max_model_bytes + 1);  // sparse: takes no room
+    const Refusal refusal = refusal_of([&] { load_scene(path); });
+    EXPECT_EQ(refusal.exit_code, ExitCode::limit);
+}
+
+TEST_F(ModelFiles, DegenerateTrianglesAreANoteNotAMistake) {
+    const std::string path = write("a.obj", square + "f 1 2 3\nf 1 1 2\nf 2 2 2\n");
+    const Scene scene = load_scene(path);
+    EXPECT_EQ(triangle_count(scene), 1u);
+    ASSERT_EQ(scene.notes.size(), 1u);
+    EXPECT_EQ(scene.notes[0], path + ": 2 triangles without area left out");
+}
+
+TEST_F(ModelFiles, AModelAloneFillsThePicture) {
+    const std::string path = write("shape.ply", ply_triangle);
+    const Scene scene = load_scene(path);
+    EXPECT_EQ(scene.name, "shape");
+    EXPECT_EQ(scene.lights.size(), 2u);
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_TRUE(scene.materials[0].two_sided);
+    EXPECT_EQ(scene.meshes[0].face_materials, std::vector<int>{0});
+    EXPECT_EQ(scene.camera.at, glm::dvec3(0.5, 0.5, 0));
+    const glm::dvec3 view = scene.camera.from - scene.camera.at;
+    EXPECT_NEAR(std::asin(std::sqrt(0.5) / glm::length(view)), 20 * 3.14159265358979 / 180, 1e-12);
+    EXPECT_GT(view.y, 0);
+    EXPECT_GT(view.x, 0);
+    EXPECT_GT(view.z, view.x);
+}
+
+TEST_F(ModelFiles, AnObjAloneFindsItsLibraryBesideIt) {
+    write("sub/a.mtl", "newmtl blue\nKd 0 0 1\nKs 0.5\nillum 3\n");
+    const Scene scene =
+        load_scene(write("sub/a.obj", "mtllib a.mtl\nusemtl blue\n" + square + "f 1 2 3\n"));
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.materials[0].mirror, glm::dvec3(0.5));
+}
+
+}  // namespace
+}  // namespace rt

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "host/scene/mtl_file.h"
+#include "host/scene/text_file.h"
+#include "tests/refusals.h"
+
+namespace rt {
+namespace {
+
+Scene::Material mtl(const std::string& lines) {
+    return parse_mtl("newmtl m\n" + lines, "t.mtl").materials.at(0);
+}
+
+TEST(ParseMtl, BadFilesAreRefusedAsExpected) {
+    const auto files = malformed_files(".mtl", "mtl-");
+    EXPECT_GE(files.size(), 16u);
+    for (const auto& path : files) {
+        expect_announced(path, refusal_of([&] {
+                             parse_mtl(read_text_file(path.string(), 1000), path.string());
+                         }));
+    }
+}
+
+TEST(ParseMtl, ColoursAndHighlights) {
+    const auto material = mtl("Ka 0.1 0.2 0.3\nKd .4 .5 .6\nKs 0.7\nNs 96.5\nillum 2\n");
+    EXPECT_EQ(material.name, "m");
+    EXPECT_EQ(material.ambient, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(material.diffuse, glm::dvec3(0.4, 0.5, 0.6));
+    EXPECT_EQ(material.specular, glm::dvec3(0.7));
+    EXPECT_EQ(material.shininess, 96.5);
+    EXPECT_EQ(material.mirror, glm::dvec3(0));
+    EXPECT_EQ(material.transmission, glm::dvec3(0));
+    EXPECT_TRUE(material.two_sided);
+}
+
+TEST(ParseMtl, IlluminationModelsChooseWhatIsTraced) {
+    const std::string words = "Kd 0.8\nKs 0.5\nNi 1.5\nd 0.25\nillum ";
+    for (int illum = 0; illum <= 10; ++illum) {
+        SCOPED_TRACE(illum);
+        const auto material = mtl(words + std::to_string(illum) + "\n");
+        const bool glass = illum == 4 || illum == 6 || illum == 7 || illum == 9;
+        EXPECT_EQ(material.specular, glm::dvec3(illum >= 2 ? 0.5 : 0));
+        EXPECT_EQ(material.mirror, glm::dvec3(illum >= 3 && illum <= 8 ? 0.5 : 0));
+        EXPECT_EQ(material.transmission, glm::dvec3(glass ? 0.75 : 0));
+        EXPECT_EQ(material.diffuse, glm::dvec3(glass ? 0.2 : 0.8));
+        EXPECT_EQ(material.ior, glass ? 1.5 : 1.0);
+        EXPECT_EQ(material.two_sided, !glass);
+    }
+}
+
+TEST(ParseMtl, TransparencyIsTheRestOfDissolveWhichWins) {
+    EXPECT_EQ(mtl("illum 6\nTr 0.75\n").transmission, glm::dvec3(0.75));
+    EXPECT_EQ(mtl("illum 6\nd 1\nTr 1\n").transmission, glm::dvec3(0));
+    EXPECT_EQ(mtl("illum 6\nTr 1\nd -halo 0.5\nTf 1 0.5 0\n").transmission,
+              glm::dvec3(0.5, 0.25, 0));
+}
+
+TEST(ParseMtl, WhatIsNotDrawnIsCounted) {
+    const auto library = parse_mtl("newmtl m\nmap_Kd a b.png\nKe 0 0 0\nKd 1\n", "t.mtl");
+    ASSERT_EQ(library.notes.size(), 1u);
+    EXPECT_TRUE(library.notes[0].starts_with("t.mtl: 2 statements left out, the first 'map_Kd'"));
+}
+
+}  // namespace
+}  // namespace rt

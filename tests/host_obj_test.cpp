@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "host/scene/obj_file.h"
+#include "host/scene/scene_file.h"
+#include "tests/refusals.h"
+
+namespace rt {
+namespace {
+
+using Positions = std::vector<glm::dvec3>;
+using Faces = std::vector<Scene::Mesh::Face>;
+
+constexpr std::uint32_t none = Scene::Mesh::no_normal;
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+Model obj(const std::string& text) { return parse_obj(text, "t.obj", {}); }
+
+/// An OBJ whose every library is this text.
+Model obj_with(const std::string& text, const std::string& library) {
+    return parse_obj(text, "t.obj", [&](const std::string& name) {
+        return LibraryFile{name, library, {}};
+    });
+}
+
+TEST(ParseObj, BadFilesAreRefusedAsExpected) {
+    const auto files = malformed_files(".obj");
+    EXPECT_GE(files.size(), 44u);
+    for (const auto& path : files) {
+        expect_announced(path, refusal_of([&] { load_scene(path.string()); }));
+    }
+}
+
+TEST(ParseObj, AtMostTwentyMistakesAreReported) {
+    std::string text;
+    for (int i = 0; i < 100; ++i) text += "v nan 0 0\n";
+    const Refusal refusal = refusal_of([&] { obj(text); });
+    EXPECT_EQ(std::count(refusal.message.begin(), refusal.message.end(), '\n'), 19);
+}
+
+TEST(ParseObj, EveryFormOfIndicesMeansTheSameFace) {
+    const std::string head = square + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0 0 2\nvn 0 0 3\n";
+    const Faces expected = {{0, 1, 2}};
+    for (const std::string face : {"1 2 3", "1/1 2/2 3/3", "-4 -3 -2", "-4/-3 -3/-2 -2/-1"}) {
+        const Scene::Mesh mesh = obj(head + "f " + face + "\n").mesh;
+        EXPECT_EQ(mesh.faces, expected) << face;
+        EXPECT_TRUE(mesh.face_normals.empty()) << face;
+    }
+    for (const std::string face :
+         {"1//1 2//2 3//3", "1/1/1 2/2/2 3/3/3", "-4//-3 -3//-2 -2//-1", "-4/1/-3 2/-2/2 3//3"}) {
+        const Scene::Mesh mesh = obj(head + "f " + face + "\n").mesh;
+        EXPECT_EQ(mesh.faces, expected) << face;
+        EXPECT_EQ(mesh.face_normals, expected) << face;
+    }
+}
+
+TEST(ParseObj, NegativeIndicesCountFromWhereTheyStand) {
+    const Scene::Mesh mesh =
+        obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -4 -3 -1\n").mesh;
+    EXPECT_EQ(mesh.faces, (Faces{{0, 1, 2}, {0, 1, 3}}));
+}
+
+TEST(ParseObj, PolygonsAreCutWithTheirNormals) {
+    const Scene::Mesh mesh =
+        obj(square + "vn 1 0 0\nvn 0 1 0\nvn 0 0 1\nvn 1 1 1\nf 1//4 2//3 3//2 4//1\n").mesh;
+    EXPECT_EQ(mesh.faces, (Faces{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(mesh.face_normals, (Faces{{3, 2, 1}, {3, 1, 0}}));
+}
+
+TEST(ParseObj, FlatFacesAmongSmoothOnesHaveNoNormals) {
+    const Scene::Mesh mesh = obj(square + "vn 0 0 1\nf 1 2 3\nf 1//1 2//1 3//1\nf 1 3 4\n").mesh;
+    EXPECT_EQ(mesh.face_normals, (Faces{{none, none, none}, {0, 0, 0}, {none, none, none}}));
+}
+
+TEST(ParseObj, LinesAreTakenAsTheyCome) {
+    const Scene::Mesh mesh = obj("\xEF\xBB\xBF# comment \\\n\n  v 0 0 0 # no w\r\nv\t1 0 \\\n 0\r"
+                                 "v +1 1e0 -0 1.0\nv 0 1 1e-999 0.5 0.5 0.5\ng a b\no name\n"
+                                 "s off\nusemtl x\nf 1 2 \\\r\n3\nf 1 3 4")
+                                 .mesh;
+    EXPECT_EQ(mesh.positions, (Positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+    EXPECT_EQ(mesh.faces, (Faces{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(mesh.face_materials, std::vector<int>{-1});
+}
+
+TEST(ParseObj, PointsAndLinesAreCounted) {
+    const Model model = obj(square + "p 1\nl 1 2\nf 1 2 3\n");
+    ASSERT_EQ(model.notes.size(), 1u);
+    EXPECT_EQ(model.notes[0], "t.obj: 2 lines of points or lines (p, l) left out");
+}
+
+TEST(ParseObj, FacesWearTheMaterialsTheyName) {
+    const Model model = obj_with(
+        "mtllib lib\n" + square + "f 1 2 3\nusemtl b\nf 1 2 3\nf 1 2 4\nusemtl a b\nf 1 3 4\n",
+        "newmtl a b\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
+    ASSERT_EQ(model.materials.size(), 3u);
+    EXPECT_EQ(model.materials[2].name, "default");
+    EXPECT_EQ(model.mesh.face_materials, (std::vector<int>{2, 1, 1, 0}));
+}
+
+TEST(ParseObj, OneMaterialForAllIsOneIndex) {
+    const Model model =
+        obj_with("usemtl b\n" + square + "f 1 2 3 4\nmtllib lib\n", "newmtl a\nnewmtl b\n");
+    EXPECT_EQ(model.mesh.face_materials, std::vector<int>{1});
+    EXPECT_EQ(model.materials.size(), 2u);
+}
+
+TEST(ParseObj, LibrariesAreOneNameOrSeveralAndTheFirstDefinitionCounts) {
+    std::vector<std::string> asked;
+    const auto open = [&](const std::string& name) {
+        asked.push_back(name);
+        if (name.find(' ') != name.npos) return LibraryFile{{}, {}, "no such file"};
+        return LibraryFile{name, "newmtl m\nKd " + std::string(name == "a" ? "1" : "0.5"), {}};
+    };
+    const Model model =
+        parse_obj("mtllib a b\nmtllib a\nusemtl m\n" + square + "f 1 2 3\n", "t.obj", open);
+    EXPECT_EQ(asked, (std::vector<std::string>{"a b", "a", "b"}));
+    ASSERT_EQ(model.materials.size(), 1u);
+    EXPECT_EQ(model.materials[0].diffuse, glm::dvec3(1));
+}
+
+}  // namespace
+}  // namespace rt

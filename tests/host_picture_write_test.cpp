@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "host/image/oiio_loader.h"
+#include "host/image/output_path.h"
+#include "host/image/picture_io.h"
+#include "tests/picture_files.h"
+#include "tests/refusals.h"
+
+namespace rt {
+namespace {
+
+namespace fs = std::filesystem;
+using WritePicture = ScratchFolder;
+using CheckPicturePath = ScratchFolder;
+
+std::string text_of(const PictureMetadata& metadata, const std::string& name) {
+    for (const auto& [key, text] : metadata) {
+        if (key == name) return text;
+    }
+    return "(none)";
+}
+
+TEST_F(WritePicture, FloatFilesKeepEveryBit) {
+    for (const int channels : {1, 3}) {
+        const Picture picture = difficult_picture(channels);
+        for (const char* name : {"a.exr", "a.pfm"}) {
+            write_picture(path(name), picture, Encoding::srgb);
+            const Picture back = read_picture(path(name));
+            EXPECT_EQ(back.width, 5);
+            EXPECT_EQ(back.height, 3);
+            EXPECT_EQ(back.channels, channels) << name;
+            EXPECT_EQ(bits(back), bits(picture)) << name;
+        }
+    }
+}
+
+TEST_F(WritePicture, NonFiniteValuesSurviveInFloatFiles) {
+    Picture picture{2, 1, 1, {std::numeric_limits<float>::infinity(), std::nanf("")}};
+    for (const char* name : {"a.exr", "a.pfm"}) {
+        write_picture(path(name), picture, Encoding::display);
+        EXPECT_EQ(bits(read_picture(path(name))), bits(picture)) << name;
+    }
+}
+
+TEST_F(WritePicture, PfmIsLittleEndianAndStartsAtTheBottom) {
+    write_picture(path("a.pfm"), {1, 2, 1, {1.0f, 2.0f}}, Encoding::display);
+    EXPECT_EQ(contents(path("a.pfm")), std::string("Pf\n1 2\n-1.0\n\0\0\0\x40\0\0\x80\x3f", 20));
+}
+
+TEST_F(WritePicture, PngRoundsToTheNearestOf255) {
+    // Either side of every boundary (k + 0.5) / 255: the product is exact in long double.
+    Picture picture{255, 2, 1, {}};
+    std::vector<int> expected;
+    for (const float end : {0.0f, 1.0f}) {
+        for (int k = 0; k < 255; ++k) {
+            const auto boundary = static_cast<float>((k + 0.5L) / 255.0L);
+            const float value = std::nextafter(boundary, end);
+            picture.pixels.push_back(value);
+            expected.push_back(value * 255.0L >= k + 0.5L ? k + 1 : k);
+        }
+    }
+    for (const Encoding encoding : {Encoding::display, Encoding::linear}) {
+        write_picture(path("a.png"), picture, encoding);
+        const Picture back = read_picture(path("a.png"));
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            EXPECT_EQ(back.pixels[i], static_cast<float>(expected[i]) / 255.0f) << i;
+        }
+    }
+}
+
+TEST_F(WritePicture, PngKeepsRowsAndChannelsInPlace) {
+    Picture picture = ramp_picture(3, 2);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] = i / 255.0f;
+    write_picture(path("a.png"), picture, Encoding::display);
+    EXPECT_EQ(bits(read_picture(path("a.png"))), bits(picture));
+}
+
+TEST_F(WritePicture, PngAlphaIsNeitherCurvedNorMultiplied) {
+    const Picture picture{1, 1, 4, {1.0f, 0.5f, 0.0f, 0.5f}};
+    write_picture(path("a.png"), picture, Encoding::srgb);
+    const Picture back = read_picture(path("a.png"));
+    EXPECT_EQ(back.pixels, (std::vector<float>{1.0f, 188 / 255.0f, 0.0f, 128 / 255.0f}));
+}
+
+TEST_F(WritePicture, SamePictureGivesTheSameBytes) {
+    const PictureMetadata metadata{{"mirrorball:Scene", "spheres"}, {"mirrorball:Rays", "7"}};
+    const char* const names[] = {"a.png", "a.exr", "a.pfm"};
+    for (const char* name : names) {
+        write_picture(path(name), ramp_picture(40, 30), Encoding::srgb, metadata);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    for (const std::string name : names) {
+        const std::string other = path("b" + name.substr(1));
+        write_picture(other, ramp_picture(40, 30), Encoding::srgb, metadata);
+        EXPECT_EQ(contents(path(name)), contents(other)) << name;
+        const PictureMetadata back = read_picture_metadata(other);
+        EXPECT_EQ(text_of(back, "DateTime"), "(none)");
+        EXPECT_EQ(text_of(back, "Software"), "(none)");
+    }
+}
+
+TEST_F(WritePicture, OnlyDeclaredEncodingsAreInTheFile) {
+    const auto chunks = [&](Encoding encoding) {
+        write_picture(path("a.png"), ramp_picture(2, 2), encoding);
+        const std::string bytes = contents(path("a.png"));
+        return std::pair(bytes.find("sRGB") != bytes.npos, bytes.find("gAMA") != bytes.npos);
+    };
+    EXPECT_EQ(chunks(Encoding::display), std::pair(false, false));
+    EXPECT_TRUE(chunks(Encoding::srgb).first);
+    EXPECT_EQ(chunks(Encoding::linear), std::pair(false, true));
+    const std::string bytes = contents(path("a.png"));
+    const std::string gamma = bytes.substr(bytes.find("gAMA") + 4, 4);
+    EXPECT_EQ(gamma, std::string("\0\1\x86\xa0", 4));  // 100000, a gamma of 1.0
+}
+
+TEST_F(WritePicture, CapitalExtensionsAreTheSameFormats) {
+    for (const char* name : {"A.PNG", "A.Exr", "A.PFM"}) {
+        write_picture(path(name), ramp_picture(2, 2), Encoding::display);
+        EXPECT_EQ(read_picture(path(name)).width, 2) << name;
+    }
+}
+
+TEST_F(WritePicture, NamesWithSpacesAndUmlautsWork) {
+    const std::string name = path("zwei B\xc3\xa4lle #1 %04d.exr");
+    write_picture(name, ramp_picture(2, 2), Encoding::display);
+    EXPECT_EQ(read_picture(name).width, 2);
+}
+
+TEST_F(WritePicture, OtherExtensionsAreWrongUsage) {
+    for (const char* name : {"a.jpg", "a", "a.png.gz", ".png", "png"}) {
+        const auto [code, message] =
+            refusal_of([&] { write_picture(path(name), ramp_picture(2, 2), Encoding::display); });
+        EXPECT_EQ(code, ExitCode::usage) << name;
+        EXPECT_NE(message.find(".png, .exr or .pfm"), message.npos) << message;
+    }
+    EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(WritePicture, ImpossiblePicturesAndNamesAreOurBugs) {
+    const auto code = [&](const Picture& picture, const std::string& name) {
+        const PictureMetadata metadata{{name, "text"}};
+        return refusal_of(
+                   [&] { write_picture(path("a.exr"), picture, Encoding::display, metadata); })
+            .exit_code;
+    };
+    EXPECT_EQ(code(ramp_picture(2, 2), "mirrorball:Scene"), ExitCode::done);
+    EXPECT_EQ(code({2, 2, 3, {1.0f}}, "mirrorball:Scene"), ExitCode::bug);
+    EXPECT_EQ(code({0, 0, 3, {}}, "mirrorball:Scene"), ExitCode::bug);
+    for (const char* name : {"DateTime", "mirrorball:", "mirrorball:a b", "mirrorball", "",
+                             "mirrorball:TwentyOneLettersLong1"}) {
+        EXPECT_EQ(code(ramp_picture(2, 2), name), ExitCode::bug) << name;
+    }
+}
+
+TEST_F(WritePicture, FullDiskIsReportedAndTheOldFileStays) {
+    rlimit old{};
+    ::getrlimit(RLIMIT_FSIZE, &old);
+    const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+    for (const char* name : {"a.png", "a.exr", "a.pfm"}) {
+        write_picture(path(name), ramp_picture(2, 2), Encoding::display);
+        const std::string before = contents(path(name));
+        image_library(ExitCode::output);
+        const rlimit small{100, old.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &small);
+        const auto [code, message] =
+            refusal_of([&] { write_picture(path(name), ramp_picture(90, 90), Encoding::display); });
+        ::setrlimit(RLIMIT_FSIZE, &old);
+        EXPECT_EQ(code, ExitCode::output) << name;
+        EXPECT_NE(message.find("cannot write: File too large; "), message.npos) << message;
+        EXPECT_EQ(contents(path(name)), before) << name;
+    }
+    std::signal(SIGXFSZ, old_handler);
+    EXPECT_EQ(files(), 3u);
+}
+
+TEST_F(WritePicture, MetadataSurvivesInPngAndExr) {
+    const PictureMetadata metadata{
+        {"mirrorball:Options", "--size 64\nsecond line"},
+        {"mirrorball:Scene", "Kugeln \xc3\xbc\xe2\x82\xac \"quoted\" <b>"},
+        {"mirrorball:Settings", std::string(100000, 'x')},
+        {"mirrorball:TwentyLettersAreFine", "1"},
+        {"mirrorball:Empty", ""},
+    };
+    for (const char* name : {"a.png", "a.exr"}) {
+        write_picture(path(name), ramp_picture(4, 4), Encoding::display, metadata);
+        const PictureMetadata back = read_picture_metadata(path(name));
+        for (std::size_t i = 0; i < 4; ++i) {
+            EXPECT_EQ(text_of(back, metadata[i].first), metadata[i].second) << name;
+        }
+        EXPECT_EQ(text_of(back, "mirrorball:Empty"), "(none)");
+    }
+    write_picture(path("a.pfm"), ramp_picture(4, 4), Encoding::display, metadata);
+    EXPECT_TRUE(read_picture_metadata(path("a.pfm")).empty());
+}
+
+TEST_F(CheckPicturePath, RefusesWhatCouldNotBeWritten) {
+    const auto code = [&](const std::string& name) {
+        return refusal_of([&] { check_picture_path(name); }).exit_code;
+    };
+    fs::create_directory(path("d.png"));
+    put(path("file"), "");
+    EXPECT_EQ(code(path("a.png")), ExitCode::done);
+    const fs::path before = fs::current_path();
+    fs::current_path(directory_);
+    EXPECT_EQ(code("a.png"), ExitCode::done);
+    fs::current_path(before);
+    EXPECT_EQ(code(path("a.gif")), ExitCode::usage);
+    EXPECT_EQ(code(""), ExitCode::usage);
+    EXPECT_EQ(code(path("missing/a.png")), ExitCode::output);
+    EXPECT_EQ(code(path("file/a.png")), ExitCode::output);
+    EXPECT_EQ(code(path("d.png")), ExitCode::output);
+    EXPECT_EQ(code(path("d.png/.exr")), ExitCode::usage);
+    EXPECT_EQ(code(path(std::string(300, 'a') + ".png")), ExitCode::output);
+    EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(CheckPicturePath, RefusesReadOnlyPlaces) {
+    if (::geteuid() == 0) GTEST_SKIP() << "root ignores permissions";
+    put(path("a.png"), "");
+    fs::permissions(path("a.png"), fs::perms::owner_read);
+    EXPECT_EQ(refusal_of([&] { check_picture_path(path("a.png")); }).exit_code, ExitCode::output);
+    fs::permissions(directory_, fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_EQ(refusal_of([&] { check_picture_path(path("b.png")); }).exit_code, ExitCode::output);
+    fs::permissions(directory_, fs::perms::owner_all);
+}
+
+TEST(ImageLibrary, MayBeCalledFromManyThreads) {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 8; ++i) {
+        threads.emplace_back([] { image_library(ExitCode::output); });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(image_library(ExitCode::output).version, oiio::interface_version);
+}
+
+}  // namespace
+}  // namespace rt

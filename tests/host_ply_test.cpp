@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/scene/ply_file.h"
+#include "host/scene/scene_file.h"
+#include "tests/refusals.h"
+
+namespace rt {
+namespace {
+
+using Positions = std::vector<glm::dvec3>;
+using Faces = std::vector<Scene::Mesh::Face>;
+
+TEST(ParsePly, BadFilesAreRefusedAsExpected) {
+    const auto files = malformed_files(".ply");
+    EXPECT_GE(files.size(), 52u);
+    for (const auto& path : files) {
+        expect_announced(path, refusal_of([&] { load_scene(path.string()); }));
+    }
+}
+
+/// Builds the data of a PLY file value by value, as text or as bytes of either order.
+class PlyData {
+   public:
+    explicit PlyData(std::string format) : format_(std::move(format)) {}
+
+    template <typename T>
+    PlyData& add(T value) {
+        if (format_ == "ascii") {
+            text_ += std::to_string(value) + " ";
+            return *this;
+        }
+        std::array<char, sizeof(T)> bytes;
+        std::memcpy(bytes.data(), &value, sizeof(T));
+        const bool little = format_ == "binary_little_endian";
+        if (little != (std::endian::native == std::endian::little)) {
+            std::reverse(bytes.begin(), bytes.end());
+        }
+        text_.append(bytes.begin(), bytes.end());
+        return *this;
+    }
+
+    void end_row() {
+        if (format_ == "ascii") text_ += "\n";
+    }
+
+    std::string file(const std::string& header, const std::string& line_end = "\n") const {
+        std::string text = "ply\nformat " + format_ + " 1.0\n" + header + "end_header\n";
+        for (std::size_t at = 0; line_end != "\n" && (at = text.find('\n', at)) != text.npos;) {
+            text.replace(at, 1, line_end);
+            at += line_end.size();
+        }
+        return text + text_;
+    }
+
+   private:
+    std::string format_, text_;
+};
+
+constexpr const char* formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+
+/// Every scalar type, in vertices, lists and their lengths, with elements and properties between
+/// that nobody asked for.
+std::string ply_of_all_types(const std::string& format, const std::string& line_end) {
+    PlyData data(format);
+    data.add<std::int16_t>(2).add<double>(0.5).add<double>(0.25).end_row();
+    for (int i = 0; i < 4; ++i) {
+        data.add<std::uint8_t>(200).add<double>(i % 2).add<std::uint8_t>(2);
+        data.add<float>(1.5f).add<float>(2.5f).add<float>(static_cast<float>(i / 2));
+        data.add<std::int8_t>(-3).add<float>(0).add<double>(0).add<std::int16_t>(1).end_row();
+    }
+    data.add<std::int32_t>(-7).end_row();
+    data.add<std::uint32_t>(1).add<float>(9).add<std::int8_t>(3);
+    data.add<std::uint16_t>(0).add<std::uint16_t>(1).add<std::uint16_t>(2).end_row();
+    data.add<std::uint32_t>(0).add<std::int8_t>(4);
+    data.add<std::uint16_t>(0).add<std::uint16_t>(1).add<std::uint16_t>(3).add<std::uint16_t>(2);
+    data.end_row();
+    return data.file(
+        "comment made by hand\nobj_info nothing\n"
+        "element before 1\nproperty list short float64 stuff\n"
+        "element vertex 4\nproperty uchar red\nproperty double x\n"
+        "property list uint8 float32 uv\nproperty float y\nproperty char z\n"
+        "property float nx\nproperty float64 ny\nproperty int16 nz\n"
+        "element between 1\nproperty int32 n\n"
+        "element face 2\nproperty list uint float texture\n"
+        "property list int8 ushort vertex_index\n",
+        line_end);
+}
+
+TEST(ParsePly, AllFormatsAndTypesGiveTheSameMesh) {
+    for (const std::string format : formats) {
+        for (const std::string line_end : {"\n", "\r\n", "\r"}) {
+            SCOPED_TRACE(format);
+            const Scene::Mesh mesh = parse_ply(ply_of_all_types(format, line_end), "t.ply").mesh;
+            EXPECT_EQ(mesh.positions, (Positions{{0, 0, -3}, {1, 0, -3}, {0, 1, -3}, {1, 1, -3}}));
+            EXPECT_EQ(mesh.normals, Positions(4, glm::dvec3(0, 0, 1)));
+            EXPECT_EQ(mesh.faces, (Faces{{0, 1, 2}, {0, 1, 3}, {0, 3, 2}}));
+            EXPECT_EQ(mesh.face_normals, mesh.faces);
+            EXPECT_EQ(mesh.face_materials, std::vector<int>{-1});
+        }
+    }
+}
+
+TEST(ParsePly, EveryCutOfABinaryFileIsRefused) {
+    for (const std::string format : {"binary_little_endian", "binary_big_endian"}) {
+        const std::string whole = ply_of_all_types(format, "\n");
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            const Refusal refusal = refusal_of([&] { parse_ply(whole.substr(0, size), "t.ply"); });
+            EXPECT_EQ(refusal.exit_code, ExitCode::input) << size;
+        }
+    }
+}
+
+TEST(ParsePly, BytesAfterTheEndAreNoted) {
+    const std::string whole = ply_of_all_types("binary_little_endian", "\n");
+    EXPECT_TRUE(parse_ply(whole + "\n", "t.ply").notes.empty());
+    const Model model = parse_ply(whole + "more of it", "t.ply");
+    ASSERT_EQ(model.notes.size(), 1u);
+    EXPECT_EQ(model.notes[0], "t.ply: 10 bytes after the last element left out");
+}
+
+TEST(ParsePly, PositionsAreFloatsExactly) {
+    PlyData data("binary_big_endian");
+    for (const float x : {0.1f, 1e-30f, -3e29f, 1.f, 2.f, 3.f, 4.f, 5.f, 7.f}) data.add(x);
+    data.add<std::uint8_t>(3).add<int>(2).add<int>(0).add<int>(1);
+    const Scene::Mesh mesh =
+        parse_ply(data.file("element vertex 3\nproperty float x\nproperty float y\n"
+                            "property float z\nelement face 1\n"
+                            "property list uchar int vertex_indices\n"),
+                  "t.ply")
+            .mesh;
+    EXPECT_EQ(mesh.positions[0], glm::dvec3(0.1f, 1e-30f, -3e29f));
+    EXPECT_EQ(mesh.faces, (Faces{{2, 0, 1}}));
+}
+
+}  // namespace
+}  // namespace rt
