@@ -5,7 +5,7 @@
 add_executable(embed_kernels ${CMAKE_CURRENT_LIST_DIR}/../host/embed_kernels.cpp)
 
 function(embed_kernels ENTRY NAME)
-    file(GLOB kernel_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/kernels/*)
+    file(GLOB_RECURSE kernel_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/kernels/*)
     set(out ${CMAKE_BINARY_DIR}/${NAME}.cpp)
     add_custom_command(
         OUTPUT ${out}

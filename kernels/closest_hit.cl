@@ -1,58 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays against the scene: each kind of primitive in turn, through its hierarchy where it has one.
-//
-// Ties: surfaces within 32 half-ulps of the nearest one are one surface, and the first listed among
-// them is hit. That set does not depend on the order of the tests, so neither does the picture: a
-// first pass finds the two smallest distances, and only where they lie that close a second pass
-// looks for the first listed. Rays through the shared edges of the paper's box do it (they project
-// onto the picture's diagonals); hardly any other ray does.
+// Rays against the scene: each kind of primitive in turn, through its hierarchy where it has one;
+// what they find goes to kernels/search.cl.
 #ifndef RT_CLOSEST_HIT_CL
 #define RT_CLOSEST_HIT_CL
 
 #include "kernels/bvh.cl"
 #include "kernels/cone.cl"
-
-#define RT_TIE ((Real)1 + (Real)32 * (Real)RT_ROUNDOFF)
-
-// What a pass over the primitives has found.
-typedef struct {
-    Hit hit;
-    Reals second;     // nearest: the next distance after hit.t
-    Indices number;   // listing: what the hit was listed under
-    Reals limit;      // hits further away do not count; negative: the lane is off
-    bool is_listing;  // look for the first listed, not for the nearest
-} Search;
-
-// What a primitive was listed under: hierarchies reorder them.
-Index listed_number(const SceneView* scene, Index prim) {
-    if (!RT_HAS_HIERARCHY) return prim;
-    bool reordered =
-        (scene->frame.sphere_root | scene->frame.cone_root | scene->frame.triangle_root) != 0;
-    return reordered ? scene->listed[prim] : prim;
-}
-
-// Takes note of primitive prim, which the lines of some lanes meet at t (behind the origin,
-// or NaN, perhaps).
-void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Reals u, Reals v,
-               Index prim) {
-    Mask met = lanes & (t > (Reals)0) & (t <= search->limit);
-    if (!any_lane(met)) return;
-    Mask better = met & (t < search->hit.t);
-    if (search->is_listing) {
-        Index number = listed_number(scene, prim);
-        better = met & (number < search->number);
-        search->number = better ? (Indices)number : search->number;
-    } else {
-        Reals runner_up = t < search->second ? t : search->second;
-        search->second = better ? search->hit.t : (met ? runner_up : search->second);
-        search->limit = better ? t * RT_TIE : search->limit;
-    }
-    search->hit.t = better ? t : search->hit.t;
-    search->hit.u = better ? u : search->hit.u;
-    search->hit.v = better ? v : search->hit.v;
-    search->hit.prim = better ? (Indices)prim : search->hit.prim;
-}
+#include "kernels/search.cl"
 
 void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal, Search* search) {
     Index first, end;
@@ -131,14 +86,6 @@ Hit closest_hit(const SceneView* scene, const Ray* ray, Mask live) {
     }
     search.hit.tied = tied;
     return search.hit;
-}
-
-// Where a ray to a light ends on the sphere rather than being blocked by it: the light lies on the
-// sphere, within the rounding of its nearer root.
-Mask ends_on_sphere(const Ray* ray, __global const Sphere* sphere, Reals t, Reals t_max) {
-    Reals b = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
-    Reals slack = (Reals)((Real)8 * (Real)RT_ROUNDOFF * sphere->radius * sphere->radius);
-    return (t < b) & ((t_max - t) * (b - t) <= slack);
 }
 
 // Switches off the lanes that are blocked. True when none is left.

@@ -76,6 +76,14 @@ Mask intersect_sphere(const Ray* ray, __global const Sphere* sphere, Index prim,
     return met;
 }
 
+// Where a ray to a light ends on the sphere rather than being blocked by it: the light lies on the
+// sphere, within the rounding of its nearer root.
+Mask ends_on_sphere(const Ray* ray, __global const Sphere* sphere, Reals t, Reals t_max) {
+    Reals b = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
+    Reals slack = (Reals)((Real)8 * (Real)RT_ROUNDOFF * sphere->radius * sphere->radius);
+    return (t < b) & ((t_max - t) * (b - t) <= slack);
+}
+
 // The rays' frames: axis z is where a ray's direction is largest, x and y the next two in turn.
 typedef struct {
     real3 origin;  // its components in that order

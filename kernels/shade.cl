@@ -8,9 +8,9 @@
 #define RT_SHADE_CL
 
 #include "kernels/closest_hit.cl"
+#include "kernels/hit_surface.cl"
 #include "kernels/material.cl"
 #include "kernels/power.cl"
-#include "kernels/surface.cl"
 
 // max(0, n.h)^p with h halfway between the unit directions to the light and to the eye.
 Reals specular_lobe(real3 normal, real3 to_light, real3 to_eye, Reals shininess) {

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a hit to a point on the surface, its normals, and where a further ray may start.
+// From a hit to a point on the surface and its normals.
 //
 // A triangle's point is its barycentric combination, 10 to 10^5 times nearer to the plane than
 // origin + t dir; except on triangles much larger than the distance, where origin + t dir projected
 // onto the plane is nearer. A sphere's point is put back at distance r from the centre, a cone's at
-// its radius from the axis. Each point
-// carries a bound on how far it may lie off its surface; secondary rays start that far out along
-// the geometric normal and one ulp further (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8).
-//
-// Where the ray met several surfaces at once, or a triangle within rounding of its edge, that
-// offset clears only one of them, and whether the neighbour is in the way would be decided by
-// rounding. There the point moves eight offsets back along the ray, and as far as surfaces that
-// count as one may lie apart, to the viewer's side of all of them.
+// its radius from the axis. Each point carries a bound on how far it may lie off its surface.
 #ifndef RT_SURFACE_CL
 #define RT_SURFACE_CL
 
-#include "kernels/bits.cl"
 #include "kernels/cone.cl"
 #include "kernels/scene_view.h"
 
@@ -142,85 +134,6 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
         surface.geometric = select3(turned, negate3(normal), normal);
     }
     return surface;
-}
-
-// The surface of one primitive in the lanes that hit it.
-Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Index prim) {
-    if (RT_HAS_SPHERES && prim < scene->frame.sphere_count) {
-        return sphere_surface(ray, hit->t, &scene->spheres[prim]);
-    }
-    Index index = prim - first_triangle(scene);
-    if (RT_HAS_CONES && index < 0) {
-        return cone_surface(ray, hit->t, &scene->cones[prim - scene->frame.sphere_count]);
-    }
-    return triangle_surface(ray, hit, &scene->triangles[index], scene->vertex_normals);
-}
-
-Surface select_surface(Mask mask, Surface yes, Surface no) {
-    Surface chosen;
-    chosen.point = select3(mask, yes.point, no.point);
-    chosen.point_low = select3(mask, yes.point_low, no.point_low);
-    chosen.normal = select3(mask, yes.normal, no.normal);
-    chosen.geometric = select3(mask, yes.geometric, no.geometric);
-    chosen.offset = mask ? yes.offset : no.offset;
-    chosen.diameter = mask ? yes.diameter : no.diameter;
-    chosen.material = mask ? yes.material : no.material;
-    return chosen;
-}
-
-// Every live lane's surface: one primitive after the other, for all the lanes that hit it.
-Surface hit_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
-    Surface surface;
-    surface.material = (Indices)0;
-    for (Mask left = live; any_lane(left);) {
-        Index prim = least_lane(left, hit->prim);
-        Mask lanes = left & (hit->prim == prim);
-        left &= !lanes;
-        surface = select_surface(lanes, primitive_surface(scene, ray, hit, prim), surface);
-    }
-    return surface;
-}
-
-// Where a triangle was hit within rounding of its edge, where a neighbour may begin.
-Mask is_on_edge(const SceneView* scene, const Hit* hit) {
-    Reals rim = (Reals)((Real)64 * (Real)RT_ROUNDOFF);
-    Mask at_rim = (hit->u < rim) | (hit->v < rim) | ((Reals)1 - hit->u - hit->v < rim);
-    return at_rim & (hit->prim >= first_triangle(scene));
-}
-
-// The hits' surfaces, their points moved clear of other surfaces they touch.
-Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
-    Surface surface = hit_surface(scene, ray, hit, live);
-    Mask touching = live & (hit->tied | is_on_edge(scene, hit));
-    if (any_lane(touching)) {
-        Reals tie = hit->tied ? (Reals)((Real)32 * (Real)RT_ROUNDOFF) * hit->t : (Reals)0;
-        Reals back = (Reals)-8 * surface.offset - tie;
-        real3 moved = add_scaled(surface.point, back, ray->dir);
-        surface.point = select3(touching, moved, surface.point);
-    }
-    return surface;
-}
-
-// Where a ray starts that leaves the surface on the side that `side` points to.
-real3 offset_origin(const Surface* surface, real3 side) {
-    Mask behind = dot3(surface->geometric, side) < (Reals)0;
-    real3 step = scale3(behind ? -surface->offset : surface->offset, surface->geometric);
-    real3 p = add3(surface->point, step);
-    return make3(one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),
-                 one_ulp_towards(p.z, step.z));
-}
-
-// A ray that leaves the surface of primitive prim in the unit direction dir, from `origin`.
-Ray leave_surface(const Surface* surface, real3 origin, real3 dir, Indices prim) {
-    Ray ray;
-    ray.origin = origin;
-    ray.dir = dir;
-    ray.dir_low = make3((Reals)0, (Reals)0, (Reals)0);
-    ray.origin_low = add3(sub3(surface->point, origin), surface->point_low);
-    ray.t_max = (Reals)INFINITY;
-    ray.chord = -surface->diameter * dot3(surface->geometric, dir);
-    ray.from = prim;
-    return ray;
 }
 
 #endif

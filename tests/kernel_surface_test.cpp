@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// kernels/surface.cl: points, normals and the offset of secondary rays against 113-bit geometry,
-// and bit for bit against host/trace/surface.h. Bars are in roundoffs.
+// kernels/surface.cl and hit_surface.cl: points, normals and the offset of secondary rays against
+// 113-bit geometry, and bit for bit against host/trace/hit_surface.h. Bars are in roundoffs.
+#include "host/trace/hit_surface.h"
 #include "host/trace/intersect.h"
-#include "host/trace/surface.h"
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"
 #include "tests/test_scenes.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "host/trace/surface.h"
+#include "host/trace/hit_surface.h"
 
 // What travels between the kernel tests and tests/probes.cl besides the shared structs, and short
 // ways to make it.

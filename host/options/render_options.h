@@ -7,6 +7,7 @@
 #include "host/flatten/features.h"
 #include "host/image/encoding.h"
 #include "host/render/cl_renderer.h"
+#include "host/render/techniques.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
 #include "host/scene/aa_mode.h"
@@ -41,6 +42,7 @@ struct RenderOptions {
     int threads = 0;  ///< 0: all cores
     bool all_features = false;
     Features also_features = no_features();  ///< compiled, needed or not
+    Techniques naive;                        ///< what OpenCL devices do without (stress)
     std::optional<bool> hierarchies;         ///< not given: where they are faster
     bool caster_lists = true;
     std::optional<Rect> crop;

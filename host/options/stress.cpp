@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include "host/options/lists.h"
 #include "host/options/verb_options.h"
 #include "host/render/device_spec.h"
+#include "host/render/techniques.h"
 
 namespace rt {
 
@@ -33,6 +36,23 @@ void add_stress(CLI::App& app, Options& options) {
     verb.add_flag("--quick", stress.quick, "the cases that take under a minute in all");
     verb.add_flag("--naive", stress.naive,
                   "also textbook formulas, for comparison, and what robustness costs");
+    verb.add_option_function<std::string>(
+            "--cost",
+            [&](const std::string& text) {
+                stress.cost = true;
+                stress.cost_scene = text;
+            },
+            "instead of the cases: what each robust technique costs, timed in turn with the "
+            "textbook's on scenes/cornell-box.json and SCENE")
+        ->expected(0, 1)
+        ->type_name("[SCENE]");
+    add_count(verb, "--repeats", stress.repeats, 1, 1000, "pictures timed of each with --cost");
+    add_text(verb, "--without", "TECHNIQUE,...",
+             "run the cases on OpenCL devices with textbook formulas in place of " +
+                 fmt::format("{}", fmt::join(names_of(all_techniques()), ", ")),
+             [&](const std::string& text) {
+                 stress.without = techniques_named("--without", split_list("--without", text));
+             });
     verb.add_flag("--list", stress.list, "name the cases, run none");
     verb.add_option_function<std::string>(
             "--json", [&](const std::string& text) { stress.json = text.empty() ? "-" : text; },

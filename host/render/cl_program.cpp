@@ -20,6 +20,11 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     for (const FeatureName& feature : feature_names) {
         if (!(options.features.*feature.flag)) text += fmt::format(" -D{}=0", feature.macro);
     }
+    for (const Technique& technique : techniques) {
+        if (technique.macro && options.naive.*technique.flag) {
+            text += fmt::format(" -D{}=1", technique.macro);
+        }
+    }
     return text;
 }
 

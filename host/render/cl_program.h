@@ -5,11 +5,15 @@
 
 #include "host/flatten/features.h"
 #include "host/render/cl_device.h"
+#include "host/render/techniques.h"
 
 namespace rt {
 
 /// kernels/render.cl with its includes, embedded at build time (host/embed_kernels.cpp).
 extern const char* const render_kernels;
+
+/// kernels/naive/render.cl, likewise: the same entry points for programs that are naive somewhere.
+extern const char* const naive_kernels;
 
 /// What a program is compiled for. `features` says what may be left out.
 struct ProgramOptions {
@@ -18,6 +22,7 @@ struct ProgramOptions {
     bool warnings_are_errors = false;  ///< for tests
     int lanes = 1;                     ///< rays of a packet: 1, 2, 4, 8 or 16
     Features features;
+    Techniques naive;  ///< of naive_kernels: what to do without
 };
 
 /// The options of clBuildProgram; the same for the same arguments, since drivers cache by them.

@@ -213,7 +213,8 @@ class ClRenderer : public Renderer<T> {
         ProgramOptions program_options;
         program_options.double_precision = sizeof(T) == sizeof(double);
         program_options.lanes = lanes_;
-        program_options.fast_math = options.fast_math;
+        program_options.fast_math = options.fast_math || options.naive.arithmetic;
+        program_options.naive = options.naive;
         program_options.warnings_are_errors = options.warnings_are_errors;
         if (!options.all_features) {
             program_options.features = either_of(scene.features, options.also);
@@ -222,7 +223,8 @@ class ClRenderer : public Renderer<T> {
         const auto start = std::filesystem::file_time_type::clock::now();
         const Stopwatch watch;
         const cl::Program program =
-            build_program(context_, device_, render_kernels, program_options);
+            build_program(context_, device_, options.naive.any() ? naive_kernels : render_kernels,
+                          program_options);
         render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
         set_scene_arguments(render_, frame_);
         listed_ = cl::Kernel(program, "render_listed");

@@ -7,6 +7,7 @@
 #include "host/flatten/flat_scene.h"
 #include "host/render/cl_device.h"
 #include "host/render/renderer.h"
+#include "host/render/techniques.h"
 
 namespace rt {
 
@@ -32,6 +33,7 @@ struct ClOptions {
     bool all_features = false;         ///< compile what the scene does not need, too
     Features also = no_features();     ///< compile these, needed or not
     bool warnings_are_errors = false;  ///< for tests
+    Techniques naive;                  ///< what to do without, for comparison
 };
 
 /// A renderer on an OpenCL device: builds the kernels for the scene's features and uploads it. The

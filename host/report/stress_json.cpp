@@ -72,6 +72,26 @@ Json case_json(const StressCaseResult& one) {
             {"rows", rows}};
 }
 
+Json cost_json(const CostTable& table) {
+    Json rows = Json::array();
+    for (const TechniqueCost& row : table.rows) {
+        rows.push_back({{"technique", row.technique},
+                        {"naive", row.naive},
+                        {"seconds", row.seconds},
+                        {"ratio", table.ratio(row)}});
+    }
+    return {{"scene", table.scene},
+            {"renderer", table.renderer},
+            {"device", table.device},
+            {"width", table.width},
+            {"height", table.height},
+            {"aa", table.aa},
+            {"repeats", table.repeats},
+            {"of_processor", table.of_processor},
+            {"robust_seconds", table.robust_seconds},
+            {"rows", rows}};
+}
+
 Json family_json(const StressFamilyResult& family) {
     Json cases = Json::array();
     for (const StressCaseResult& one : family.cases) cases.push_back(case_json(one));
@@ -102,6 +122,8 @@ Json stress_json(const StressResult& result) {
                                       {"naive_seconds", result.cost->naive_seconds},
                                       {"ratio", result.cost->ratio()}}
                                : Json();
+    json["costs"] = Json::array();
+    for (const CostTable& table : result.costs) json["costs"].push_back(cost_json(table));
     return json;
 }
 

@@ -105,7 +105,7 @@ Scene highlight(double shininess) {
     scene.lights = {{{0, 0, 8}, glm::dvec3(1)}};
     add_sphere(scene, {0, 0, 0}, 1, shiny);
     const double degrees = 60 / std::sqrt(shininess);
-    set_view(scene, {0, 0.0625, 8}, {0, 0.03125, 1}, std::min(20.0, degrees));
+    set_view(scene, {0, 0.0625, 8}, {0, 0.0625 / 16, 1}, std::min(20.0, degrees));
     return scene;
 }
 

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stress/naive_tracer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "host/flatten/triangle_list.h"
 #include "host/parallel.h"
+#include "host/processor_time.h"
 #include "host/render/stopwatch.h"
+#include "host/stress/naive_hierarchy.h"
 
 namespace rt {
 
@@ -52,6 +57,9 @@ struct NaiveHit {
     const NaiveFace<T>* face = nullptr;
 };
 
+/// Below, boxes do not pay.
+constexpr std::size_t few_faces = 24;
+
 template <typename T>
 class NaiveTracer {
    public:
@@ -66,7 +74,12 @@ class NaiveTracer {
         for (const auto& sphere : scene.spheres) {
             balls_.push_back({Vec<T>(sphere.center), T(sphere.radius), sphere.material});
         }
-        for (const auto& triangle : scene.triangles) faces_.push_back(make_face(triangle));
+        const TriangleList triangles(scene);
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            faces_.push_back(
+                make_face({triangles.corners(i), triangles.normals(i), triangles.material(i)}));
+        }
+        if (faces_.size() >= few_faces) build_hierarchy();
         for (const auto& light : scene.lights) {
             lamps_.push_back({Vec<T>(light.position), Vec<T>(light.intensity)});
         }
@@ -100,6 +113,28 @@ class NaiveTracer {
         }
         face.material = triangle.material;
         return face;
+    }
+
+    void build_hierarchy() {
+        std::vector<typename NaiveHierarchy<T>::Corners> corners;
+        for (const auto& face : faces_) {
+            corners.push_back({face.corner, face.corner + face.edge1, face.corner + face.edge2});
+        }
+        std::vector<std::size_t> order;
+        hierarchy_.emplace(corners, order);
+        std::vector<NaiveFace<T>> faces;
+        for (const std::size_t i : order) faces.push_back(faces_[i]);
+        faces_ = std::move(faces);
+    }
+
+    /// Calls visit(face) for those the ray may hit before `limit`, until a call returns true; that
+    /// is returned.
+    template <typename Visit>
+    bool visit_faces(const Vec<T>& origin, const Vec<T>& dir, const T& limit,
+                     const Visit& visit) const {
+        if (!hierarchy_) return std::any_of(faces_.begin(), faces_.end(), visit);
+        return hierarchy_->visit(origin, dir, limit,
+                                 [&](std::size_t i) { return visit(faces_[i]); });
     }
 
     void set_camera(const Scene& scene) {
@@ -163,11 +198,12 @@ class NaiveTracer {
             const T t = hit_ball(origin, dir, ball);
             if (t > least() && t < best.t) best = {t, 0, 0, &ball, nullptr};
         }
-        for (const auto& face : faces_) {
+        visit_faces(origin, dir, best.t, [&](const NaiveFace<T>& face) {
             T u = 0, v = 0;
             const T t = hit_face(origin, dir, face, u, v);
             if (t > least() && t < best.t) best = {t, u, v, nullptr, &face};
-        }
+            return false;
+        });
         return best;
     }
 
@@ -176,12 +212,11 @@ class NaiveTracer {
             const T t = hit_ball(origin, dir, ball);
             if (t > least() && t < distance) return true;
         }
-        for (const auto& face : faces_) {
+        return visit_faces(origin, dir, distance, [&](const NaiveFace<T>& face) {
             T u, v;
             const T t = hit_face(origin, dir, face, u, v);
-            if (t > least() && t < distance) return true;
-        }
-        return false;
+            return t > least() && t < distance;
+        });
     }
 
     Vec<T> lit(const Vec<T>& point, const Vec<T>& normal, const Vec<T>& geometric,
@@ -235,6 +270,7 @@ class NaiveTracer {
     const int max_bounces_, width_, height_, grid_;
     std::vector<NaiveBall<T>> balls_;
     std::vector<NaiveFace<T>> faces_;
+    std::optional<NaiveHierarchy<T>> hierarchy_;  ///< where there are many faces
     std::vector<NaiveMaterial<T>> materials_;
     std::vector<NaiveLamp<T>> lamps_;
     Vec<T> from_, forward_, right_, up_;
@@ -247,10 +283,11 @@ class NaiveTracer {
 template <typename T>
 NaivePicture naive_picture(const Scene& scene, NaiveStart start, int threads) {
     const NaiveTracer<T> tracer(scene, start);
-    NaivePicture result{{scene.width, scene.height, 3, {}}, 0};
+    NaivePicture result{{scene.width, scene.height, 3, {}}, 0, 0};
     const auto width = static_cast<std::size_t>(scene.width);
     result.picture.pixels.resize(3 * width * static_cast<std::size_t>(scene.height));
     const Stopwatch watch;
+    const double start_seconds = processor_seconds();
     std::atomic<int> next_row = 0;
     run_on_threads(threads > 0 ? threads : available_cores(), [&](int) {
         for (int y = next_row++; y < scene.height; y = next_row++) {
@@ -265,6 +302,7 @@ NaivePicture naive_picture(const Scene& scene, NaiveStart start, int threads) {
         }
     });
     result.seconds = watch.seconds();
+    result.processor_seconds = processor_seconds() - start_seconds;
     return result;
 }
 

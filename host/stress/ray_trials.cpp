@@ -12,7 +12,7 @@
 #include "host/flatten/flat_scene.h"
 #include "host/parallel.h"
 #include "host/stress/wide_real.h"
-#include "host/trace/surface.h"
+#include "host/trace/hit_surface.h"
 #include "host/trace/whitted.h"
 
 namespace rt {

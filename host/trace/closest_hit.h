@@ -104,15 +104,6 @@ Hit<T> closest_hit(const SceneView<T>& scene, const Ray<T>& r) {
     return best;
 }
 
-/// Whether a ray to a light ends on the sphere rather than being blocked by it at t: the light lies
-/// on the sphere, within the rounding of its nearer root.
-template <typename T>
-bool ends_on_sphere(const Ray<T>& ray, const typename Flat<T>::Sphere& sphere, T t) {
-    const T b = dot3(load3(sphere.center) - ray.origin, ray.dir);
-    const T slack = T(8) * Flat<T>::roundoff * sphere.radius * sphere.radius;
-    return t < b && (ray.t_max - t) * (b - t) <= slack;
-}
-
 template <typename T>
 RT_INLINE bool any_sphere_hit(const SceneView<T>& scene, const PreparedRay<T>& ray) {
     const auto& frame = scene.frame;

@@ -45,6 +45,15 @@ RT_INLINE T intersect_sphere(const Ray<T>& ray, const typename Flat<T>::Sphere& 
     return near > T(0) ? near : b + s;
 }
 
+/// Whether a ray to a light ends on the sphere rather than being blocked by it at t: the light lies
+/// on the sphere, within the rounding of its nearer root.
+template <typename T>
+bool ends_on_sphere(const Ray<T>& ray, const typename Flat<T>::Sphere& sphere, T t) {
+    const T b = dot3(load3(sphere.center) - ray.origin, ray.dir);
+    const T slack = T(8) * Flat<T>::roundoff * sphere.radius * sphere.radius;
+    return t < b && (ray.t_max - t) * (b - t) <= slack;
+}
+
 /// The ray's frame: axis z is where its direction is largest, x and y the next two in turn.
 template <typename T>
 struct RayShear {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/trace/closest_hit.h"
+#include "host/trace/hit_surface.h"
 #include "host/trace/power.h"
-#include "host/trace/surface.h"
 
 // Twin of kernels/shade.cl: ambient, diffuse and specular light at a point.
 namespace rt::trace {

@@ -142,6 +142,7 @@ class Job {
         cl_options.will_refine = stats_.aa.pattern == AaMode::Pattern::adaptive;
         cl_options.all_features = options_.all_features;
         cl_options.also = options_.also_features;
+        cl_options.naive = options_.naive;
         if (!options_.fast_math && !device.rounds_correctly) {
             say_verbose(device.name +
                         " does not promise correctly rounded division and square "

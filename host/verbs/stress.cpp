@@ -5,6 +5,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/report/cost_text.h"
 #include "host/report/result_file.h"
 #include "host/report/run_json.h"
 #include "host/report/statistics.h"
@@ -17,6 +18,7 @@
 #include "host/verbs/measure.h"
 #include "host/verbs/picture_job.h"
 #include "host/verbs/stress_run.h"
+#include "host/verbs/technique_cost.h"
 #include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"
 
@@ -70,12 +72,25 @@ StressResult measure_stress(const StressOptions& options) {
     return result;
 }
 
+namespace {
+
+int run_cost(const StressOptions& options) {
+    check_result_path(options.json, json_start("mirrorball-stress"));
+    const StressResult result = measure_technique_costs(options);
+    if (options.json != "-") print_result(cost_text(result.costs));
+    write_result(options.json, options.json.empty() ? "" : json_text(stress_json(result)));
+    return result.interrupted ? 128 + stop_flag() : static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
 int run_stress(const StressOptions& options) {
     const std::vector<StressFamily> families = families_for(options);
     if (options.list) {
         print_result(stress_list(families));
         return 0;
     }
+    if (options.cost) return run_cost(options);
     check_result_path(options.json, json_start("mirrorball-stress"));
     make_folder(options.output);
     const StressResult result = measure_stress(options);

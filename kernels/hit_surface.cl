@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the rays of a packet hit, and where further rays start from there.
+//
+// A further ray starts as far off the surface as the point may lie off it, along the geometric
+// normal, and one ulp further (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8). Where the ray
+// met several surfaces at once, or a triangle within rounding of its edge, that
+// offset clears only one of them, and whether the neighbour is in the way would be decided by
+// rounding. There the point moves eight offsets back along the ray, and as far as surfaces that
+// count as one may lie apart, to the viewer's side of all of them.
+#ifndef RT_HIT_SURFACE_CL
+#define RT_HIT_SURFACE_CL
+
+#include "kernels/bits.cl"
+#include "kernels/surface.cl"
+
+// The surface of one primitive in the lanes that hit it.
+Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Index prim) {
+    if (RT_HAS_SPHERES && prim < scene->frame.sphere_count) {
+        return sphere_surface(ray, hit->t, &scene->spheres[prim]);
+    }
+    Index index = prim - first_triangle(scene);
+    if (RT_HAS_CONES && index < 0) {
+        return cone_surface(ray, hit->t, &scene->cones[prim - scene->frame.sphere_count]);
+    }
+    return triangle_surface(ray, hit, &scene->triangles[index], scene->vertex_normals);
+}
+
+Surface select_surface(Mask mask, Surface yes, Surface no) {
+    Surface chosen;
+    chosen.point = select3(mask, yes.point, no.point);
+    chosen.point_low = select3(mask, yes.point_low, no.point_low);
+    chosen.normal = select3(mask, yes.normal, no.normal);
+    chosen.geometric = select3(mask, yes.geometric, no.geometric);
+    chosen.offset = mask ? yes.offset : no.offset;
+    chosen.diameter = mask ? yes.diameter : no.diameter;
+    chosen.material = mask ? yes.material : no.material;
+    return chosen;
+}
+
+// Every live lane's surface: one primitive after the other, for all the lanes that hit it.
+Surface hit_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
+    Surface surface;
+    surface.material = (Indices)0;
+    for (Mask left = live; any_lane(left);) {
+        Index prim = least_lane(left, hit->prim);
+        Mask lanes = left & (hit->prim == prim);
+        left &= !lanes;
+        surface = select_surface(lanes, primitive_surface(scene, ray, hit, prim), surface);
+    }
+    return surface;
+}
+
+// Where a triangle was hit within rounding of its edge, where a neighbour may begin.
+Mask is_on_edge(const SceneView* scene, const Hit* hit) {
+    Reals rim = (Reals)((Real)64 * (Real)RT_ROUNDOFF);
+    Mask at_rim = (hit->u < rim) | (hit->v < rim) | ((Reals)1 - hit->u - hit->v < rim);
+    return at_rim & (hit->prim >= first_triangle(scene));
+}
+
+// The hits' surfaces, their points moved clear of other surfaces they touch.
+Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
+    Surface surface = hit_surface(scene, ray, hit, live);
+    Mask touching = live & (hit->tied | is_on_edge(scene, hit));
+    if (any_lane(touching)) {
+        Reals tie = hit->tied ? (Reals)((Real)32 * (Real)RT_ROUNDOFF) * hit->t : (Reals)0;
+        Reals back = (Reals)-8 * surface.offset - tie;
+        real3 moved = add_scaled(surface.point, back, ray->dir);
+        surface.point = select3(touching, moved, surface.point);
+    }
+    return surface;
+}
+
+// Where a ray starts that leaves the surface on the side that `side` points to.
+real3 offset_origin(const Surface* surface, real3 side) {
+    Mask behind = dot3(surface->geometric, side) < (Reals)0;
+    real3 step = scale3(behind ? -surface->offset : surface->offset, surface->geometric);
+    real3 p = add3(surface->point, step);
+    return make3(one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),
+                 one_ulp_towards(p.z, step.z));
+}
+
+// A ray that leaves the surface of primitive prim in the unit direction dir, from `origin`.
+Ray leave_surface(const Surface* surface, real3 origin, real3 dir, Indices prim) {
+    Ray ray;
+    ray.origin = origin;
+    ray.dir = dir;
+    ray.dir_low = make3((Reals)0, (Reals)0, (Reals)0);
+    ray.origin_low = add3(sub3(surface->point, origin), surface->point_low);
+    ray.t_max = (Reals)INFINITY;
+    ray.chord = -surface->diameter * dot3(surface->geometric, dir);
+    ray.from = prim;
+    return ray;
+}
+
+#endif

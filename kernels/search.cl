@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a pass over the primitives keeps of their hits.
+//
+// Ties: surfaces within 32 half-ulps of the nearest one are one surface, and the first listed among
+// them is hit. That set does not depend on the order of the tests, so neither does the picture: a
+// first pass finds the two smallest distances, and only where they lie that close a second pass
+// looks for the first listed. Rays through the shared edges of the paper's box do it (they project
+// onto the picture's diagonals); hardly any other ray does.
+#ifndef RT_SEARCH_CL
+#define RT_SEARCH_CL
+
+#include "kernels/math.cl"
+#include "kernels/scene_view.h"
+
+#define RT_TIE ((Real)1 + (Real)32 * (Real)RT_ROUNDOFF)
+
+// What a pass over the primitives has found.
+typedef struct {
+    Hit hit;
+    Reals second;     // nearest: the next distance after hit.t
+    Indices number;   // listing: what the hit was listed under
+    Reals limit;      // hits further away do not count; negative: the lane is off
+    bool is_listing;  // look for the first listed, not for the nearest
+} Search;
+
+// What a primitive was listed under: hierarchies reorder them.
+Index listed_number(const SceneView* scene, Index prim) {
+    if (!RT_HAS_HIERARCHY) return prim;
+    bool reordered =
+        (scene->frame.sphere_root | scene->frame.cone_root | scene->frame.triangle_root) != 0;
+    return reordered ? scene->listed[prim] : prim;
+}
+
+// Takes note of primitive prim, which the lines of some lanes meet at t (behind the origin,
+// or NaN, perhaps).
+void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Reals u, Reals v,
+               Index prim) {
+    Mask met = lanes & (t > (Reals)0) & (t <= search->limit);
+    if (!any_lane(met)) return;
+    Mask better = met & (t < search->hit.t);
+    if (search->is_listing) {
+        Index number = listed_number(scene, prim);
+        better = met & (number < search->number);
+        search->number = better ? (Indices)number : search->number;
+    } else {
+        Reals runner_up = t < search->second ? t : search->second;
+        search->second = better ? search->hit.t : (met ? runner_up : search->second);
+        search->limit = better ? t * RT_TIE : search->limit;
+    }
+    search->hit.t = better ? t : search->hit.t;
+    search->hit.u = better ? u : search->hit.u;
+    search->hit.v = better ? v : search->hit.v;
+    search->hit.prim = better ? (Indices)prim : search->hit.prim;
+}
+
+#endif
