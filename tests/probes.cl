@@ -141,23 +141,11 @@ __kernel void probe_layout(PROBE_ITEMS, __global ProbeField* out) {
         PROBE_ITEM;                                                                           \
         out[i] = function(x[i]);                                                              \
     }
-PROBE_UNARY(mantissa_of)
-PROBE_UNARY(atanh_tail)
-PROBE_UNARY(exp_series)
-PROBE_UNARY(twice_atanh)
-PROBE_UNARY(exp_negative)
+PROBE_UNARY(log2_tail)
+PROBE_UNARY(log2_series)
+PROBE_UNARY(exp2_series)
 
 // bits.cl, power.cl
-
-__kernel void probe_exponent_of(PROBE_ITEMS, __global const Real* x, __global Index* out) {
-    PROBE_ITEM;
-    out[i] = exponent_of(x[i]);
-}
-
-__kernel void probe_power_of_two(PROBE_ITEMS, __global const Index* k, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = power_of_two(k[i]);
-}
 
 __kernel void probe_one_ulp_towards(PROBE_ITEMS, __global const Real* x,
                                     __global const Real* direction, __global Real* out) {
@@ -165,17 +153,24 @@ __kernel void probe_one_ulp_towards(PROBE_ITEMS, __global const Real* x,
     out[i] = one_ulp_towards(x[i], direction[i]);
 }
 
-__kernel void probe_log_cosine(PROBE_ITEMS, __global const Real* cosine, __global const Real* gap,
-                               __global Real* out) {
+__kernel void probe_log2_cosine(PROBE_ITEMS, __global const Real* along,
+                                __global const Real* across, __global const Real* squared,
+                                __global Real* out) {
     PROBE_ITEM;
-    out[i] = log_cosine(cosine[i], gap[i]);
+    out[i] = log2_cosine(along[i], across[i], squared[i]);
 }
 
-__kernel void probe_blinn_lobe(PROBE_ITEMS, __global const Real* n_dot_h,
-                               __global const Real* half_gap, __global const Real* exponent,
+__kernel void probe_exp2_of_product(PROBE_ITEMS, __global const Real* a, __global const Real* b,
+                                    __global Real* out) {
+    PROBE_ITEM;
+    out[i] = exp2_of_product(a[i], b[i]);
+}
+
+__kernel void probe_blinn_lobe(PROBE_ITEMS, __global const Real* along, __global const Real* across,
+                               __global const Real* squared, __global const Real* exponent,
                                __global Real* out) {
     PROBE_ITEM;
-    out[i] = blinn_lobe(n_dot_h[i], half_gap[i], exponent[i]);
+    out[i] = blinn_lobe(along[i], across[i], squared[i], exponent[i]);
 }
 
 // math.cl
