@@ -153,6 +153,15 @@ TYPED_TEST(AddScaled, HasTheTwinsBits) {
         })));
 }
 
+// a * b + c must not become one fma behind our back, or devices give pictures of their own.
+KERNEL_SUITE(Contraction);
+TYPED_TEST(Contraction, IsOff) {
+    // (1 + e)^2 = 1 + 2 e + e^2, of which e^2 is rounded away
+    constexpr TypeParam e = sizeof(TypeParam) == sizeof(float) ? 0x1p-12 : 0x1p-27;
+    const std::vector<TypeParam> a{1 + e}, c{-1 - 2 * e};
+    EXPECT_EQ((run<TypeParam, TypeParam>("multiply_add", 1, a, a, c)), std::vector<TypeParam>{0});
+}
+
 KERNEL_SUITE(Length3);
 TYPED_TEST(Length3, IsWithinTwoAndAHalfRoundings) {
     Random random(7);

@@ -192,6 +192,12 @@ __kernel void probe_add_scaled(PROBE_ITEMS, __global const Packed3* a, __global 
     out[i] = pack(add_scaled(load3(a[i]), s[i], load3(b[i])));
 }
 
+__kernel void probe_multiply_add(PROBE_ITEMS, __global const Real* a, __global const Real* b,
+                                 __global const Real* c, __global Real* out) {
+    PROBE_ITEM;
+    out[i] = a[i] * b[i] + c[i];
+}
+
 __kernel void probe_length3(PROBE_ITEMS, __global const Packed3* a, __global Real* out) {
     PROBE_ITEM;
     out[i] = length3(load3(a[i]));

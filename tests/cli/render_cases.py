@@ -99,6 +99,18 @@ class Extremes(CliTest):
                      "--schedule", "buffers")
 
 
+class NonFinite(CliTest):
+    def test_is_said_and_is_the_exit_code(self):
+        scene = self.write_scene(
+            image={"width": 8, "height": 6}, ambient_light=1e30,
+            materials={"bright": {"ambient": 1e30}},
+            spheres=[{"center": [0, 0, 0], "radius": 1, "material": "bright"}])
+        for device in ["threads", "pocl"]:
+            result = self.run_cli("render", scene, "--device", device, "-o", "a.png")
+            self.assertEqual(result.returncode, 6, result.stderr)
+            self.assertIn("16 pixels are not finite, the first at 2,1", result.stderr)
+
+
 class Reference(CliTest):
     def compare(self, reference, *options):
         return self.run_cli("render", self.scene, "--size", "16", "--device", "threads",

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The guards of the arithmetic: where each one is in the kernels, in their twin or in the host, how
+to take it out, and the tests that must then fail.
+
+A guard is out of both twins at once, so what must fail is a test against something independent."""
+import dataclasses
+
+K, T, F = "kernels/", "host/trace/", "host/flatten/"
+
+
+@dataclasses.dataclass
+class Guard:
+    """`edits`: (file, text, text in its place), every occurrence. `tests`: a test program with a
+    filter, or "stress" with cases, or "cli" with a test's name; each must fail."""
+    name: str
+    edits: list
+    tests: list
+
+
+GUARDS = [
+    Guard("coordinates are rounded after they are moved to the eye", [
+        (F + "view_frame.h", "return (scene_point - eye) * scale;",
+         "return (glm::dvec3(glm::vec3(scene_point)) - glm::dvec3(glm::vec3(eye))) * scale;"),
+    ], [("invariance_test", "MovedScene.Shifted*")]),
+    Guard("lengths are scaled to about 1", [
+        (F + "view_frame.cpp", "frame.scale = std::ldexp(1.0, -octaves.median());",
+         "frame.scale = 1;"),
+    ], [("invariance_test", "MovedScene.ScaledByAPowerOfTen*")]),
+    Guard("a flat triangle is skipped by rays that leave it", [
+        (K + "closest_hit.cl", " & (ray->from != prim)", ""),
+        (K + "closest_hit.cl", "met &= (shear->axis == axis) & (ray->from != prim);",
+         "met &= shear->axis == axis;"),
+        (T + "closest_hit.h", "if (i == from) return false;", ""),
+        (T + "closest_hit.h", "if (i == ray.ray.from - first_triangle(scene.frame)) return false;",
+         ""),
+    ], [("kernel_scene_test", "IntersectPrimitive.*")]),
+    Guard("a ray from a sphere carries its chord", [
+        (K + "intersect.cl", "Mask leaving = ray->from == prim;", "Mask leaving = RT_NO_LANES;"),
+        (T + "intersect.h", "if (ray.from == prim) return ray.chord;", ""),
+    ], [("kernel_intersect_test", "IntersectSphere.LeavingItRunsAlongTheChord"),
+        ("stress", "leaving-sphere/1,leaving-far-sphere/1")]),
+    Guard("rays start a bounded distance off the surface", [
+        (K + "hit_surface.cl", "behind ? -surface->offset : surface->offset",
+         "behind ? (Reals)-0.0f : (Reals)0"),
+        (T + "hit_surface.h", "const Vec3<T> step = distance * surface.geometric;",
+         "const Vec3<T> step = T(0) * distance * surface.geometric;"),
+    ], [("kernel_surface_test", "OffsetOrigin.*:TriangleSurface.LiesWithin*")]),
+    Guard("and one ulp further", [
+        (K + "hit_surface.cl",
+         "return make3(one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),\n"
+         "                 one_ulp_towards(p.z, step.z));", "return p;"),
+        (T + "hit_surface.h",
+         "return {one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),\n"
+         "            one_ulp_towards(p.z, step.z)};", "return p;"),
+    ], [("kernel_surface_test", "OffsetOrigin.*:TriangleSurface.LiesWithin*")]),
+    Guard("points near an edge move clear of the neighbour", [
+        (K + "hit_surface.cl", "live & (hit->tied | is_on_edge(scene, hit))", "live & hit->tied"),
+        (T + "hit_surface.h", "if (hit.tied != 0 || is_on_edge(scene, hit)) {",
+         "if (hit.tied != 0) {"),
+    ], [("kernel_surface_test", "SurfaceAt.*"),
+        ("picture_test", "PaperSceneOblong.*")]),
+    Guard("points on several surfaces move clear of them", [
+        (K + "hit_surface.cl", "live & (hit->tied | is_on_edge(scene, hit))",
+         "live & is_on_edge(scene, hit)"),
+        (T + "hit_surface.h", "if (hit.tied != 0 || is_on_edge(scene, hit)) {",
+         "if (is_on_edge(scene, hit)) {"),
+    ], [("kernel_surface_test", "SurfaceAt.*"), ("stress", "ties,crossing")]),
+    Guard("and by what a tie may hide", [
+        (K + "hit_surface.cl", "(Reals)((Real)32 * (Real)RT_ROUNDOFF) * hit->t : (Reals)0",
+         "(Reals)0 : (Reals)0"),
+        (T + "hit_surface.h", "T(32) * Flat<T>::roundoff * hit.t : T(0)", "T(0) : T(0)"),
+    ], [("kernel_surface_test", "SurfaceAt.*"), ("stress", "ties,crossing")]),
+    Guard("pixels are square to the last bit", [
+        (F + "flat_frame.cpp", "return {x, x};", "return {x, y};"),
+        (F + "flat_frame.cpp", "return {y, y};", "return {x, y};"),
+    ], [("picture_test", "PaperSceneOblong.*")]),
+    Guard("sphere: D from the closest approach", [
+        (K + "intersect.cl",
+         "Reals discriminant = (Reals)(sphere->radius * sphere->radius) - dot3(l, l);",
+         "Reals discriminant = b * b - (dot3(f, f) - (Reals)(sphere->radius * sphere->radius));"),
+        (T + "intersect.h", "const T discriminant = sphere.radius * sphere.radius - dot3(l, l);",
+         "const T discriminant = b * b - (dot3(f, f) - sphere.radius * sphere.radius);"),
+    ], [("kernel_intersect_test", "IntersectSphere.IsRightAt*"),
+        ("stress", "sphere-size,sphere-rays")]),
+    Guard("a huge sphere by its power", [
+        (F + "flat_shapes.cpp",
+         "flat.is_huge = radius > huge_radius && std::abs(distance - radius) < radius ? 1 : 0;",
+         "flat.is_huge = 0;"),
+    ], [("stress", "huge-ball-floor")]),
+    Guard("the point of a huge sphere is not put back", [
+        (K + "surface.cl", "if (RT_HAS_HUGE_SPHERES && sphere->is_huge != 0) {", "if (false) {"),
+        (T + "surface.h", "if (sphere.is_huge != 0) {", "if (false) {"),
+    ], [("stress", "huge-ball-floor")]),
+    Guard("cone: moved to the closest approach", [
+        (K + "cone.cl", "leaving ? (Reals)0 : cone_shift(ray, w, g, c, cone);", "(Reals)0;"),
+        (T + "cone.h", "leaving ? T(0) : cone_shift(ray, w, g, c, cone);", "T(0);"),
+    ], [("kernel_cone_test", "IntersectCone.IsRight*")]),
+    Guard("cone: cross products by differences of products", [
+        (K + "cone.cl",
+         "return make3(difference_of_products(a.y, b.z, a.z, b.y),\n"
+         "                 difference_of_products(a.z, b.x, a.x, b.z),\n"
+         "                 difference_of_products(a.x, b.y, a.y, b.x));",
+         "return make3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);"),
+        (T + "cone.h",
+         "return {difference_of_products(a.y, b.z, a.z, b.y), "
+         "difference_of_products(a.z, b.x, a.x, b.z),\n"
+         "            difference_of_products(a.x, b.y, a.y, b.x)};",
+         "return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};"),
+    ], [("kernel_cone_test", "Cross3.*")]),
+    Guard("refraction by the tangential part of the direction", [
+        (K + "whitted.cl", "(Reals)1 - eta * eta * dot3(along, along)",
+         "(Reals)1 - eta * eta * ((Reals)1 - cosine * cosine)"),
+        (T + "whitted.h", "T(1) - eta * eta * dot3(along, along)",
+         "T(1) - eta * eta * (T(1) - cosine * cosine)"),
+    ], [("kernel_glass_test", "RefractedRay.ObeysSnell")]),
+    Guard("index of refraction 1 leaves the direction alone", [
+        (K + "whitted.cl", "select3(eta == (Reals)1, dir, normalize3(bent))", "normalize3(bent)"),
+        (T + "whitted.h", "eta == T(1) ? dir : normalize3(bent)", "normalize3(bent)"),
+    ], [("kernel_glass_test", "RefractedRay.GoesStraightOn*")]),
+    Guard("refracted rays cross the face", [
+        (K + "whitted.cl", "attempt == 1 ||", "attempt == 0 ||"),
+        (T + "whitted.h",
+         "if (total || dot3(refracted, surface.geometric) * arriving > T(0)) break;", "break;"),
+    ], [("kernel_glass_test", "RefractedRay.CrossesTheFace*")]),
+    Guard("triangle: edge functions by differences of products", [
+        (K + "math.cl", "return fma(a, b, -cd) + fma(-c, d, cd);", "return a * b - cd;"),
+        (T + "math.h", "return std::fma(a, b, -cd) + std::fma(-c, d, cd);", "return a * b - cd;"),
+    ], [("kernel_triangle_test", "ClosedMesh.*"), ("kernel_math_test", "DifferenceOfProducts.*"),
+        ("stress", "rays-at-edges")]),
+    Guard("triangle: the point from its weights", [
+        (K + "surface.cl",
+         "surface.point = add_scaled(surface.point, hit->v, sub3(load3(triangle->p2), p0));",
+         "surface.point = add_scaled(ray->origin, hit->t, ray->dir);"),
+        (T + "surface.h",
+         "surface.point = add_scaled(surface.point, hit.v, load3(triangle.p2) - p0);",
+         "surface.point = add_scaled(ray.origin, hit.t, ray.dir);"),
+    ], [("kernel_surface_test", "TriangleSurface.LiesWithin*")]),
+    Guard("triangle: the point projected where it is large", [
+        (K + "surface.cl", "largest_coordinate(triangle) > (Reals)8 * distance",
+         "largest_coordinate(triangle) > (Reals)INFINITY"),
+        (T + "surface.h", "largest_coordinate<T>(triangle) > T(8) * distance", "distance < T(0)"),
+    ], [("kernel_surface_test", "TriangleSurface.OnAWall*"), ("stress", "huge-triangle")]),
+    Guard("triangle: t from the plane where it is large", [
+        (K + "intersect.cl", "inside & (reach > (Reals)8 * fabs(*t))",
+         "inside & (reach < (Reals)0)"),
+        (T + "intersect.h", "return reach > T(8) * std::fabs(t) ? plane_distance(shear, triangle) "
+         ": t;", "return t;"),
+    ], [("stress", "huge-triangle")]),
+    Guard("shadow rays end before the light", [
+        (K + "shade.cl", "distance * (Reals)((Real)1 - (Real)16 * (Real)RT_ROUNDOFF)", "distance"),
+        (T + "shade.h", "distance * (T(1) - T(16) * Flat<T>::roundoff)", "distance"),
+    ], [("stress", "light-place")]),
+    Guard("a light's own ball does not block it", [
+        (K + "intersect.cl", "return (t < b) & ((t_max - t) * (b - t) <= slack);",
+         "return RT_NO_LANES;"),
+        (T + "intersect.h", "return t < b && (ray.t_max - t) * (b - t) <= slack;",
+         "return false;"),
+    ], [("kernel_scene_test", "AnyHit.IsNotBlocked*"), ("stress", "light-place")]),
+    Guard("an eye on a surface starts by leaving it", [
+        (F + "flat_scene.cpp", "eye_is_on_surface() ? 1 : 0", "0"),
+    ], [("stress", "eye-on-surface")]),
+    Guard("mirrors' product stays finite", [
+        (K + "math.cl", "return make3(limited(v.x), limited(v.y), limited(v.z));", "return v;"),
+        (T + "math.h",
+         "return {v.x < largest ? v.x : largest, v.y < largest ? v.y : largest,\n"
+         "            v.z < largest ? v.z : largest};",
+         "return largest > T(0) ? v : v;"),
+    ], [("stress", "bright-mirrors")]),
+    Guard("boxes are enlarged", [
+        (F + "boxes.cpp", "T(box_slack) * Flat<T>::roundoff", "T(0) * Flat<T>::roundoff"),
+    ], [("host_hits_test", "Hits.*")]),
+    Guard("and by the origin's share", [
+        (K + "bvh.cl", "(Reals)((Real)16 * (Real)RT_ROUNDOFF) * max_of", "(Reals)0 * max_of"),
+        (T + "bvh.h", "T(box_slack) * Flat<T>::roundoff", "T(0) * Flat<T>::roundoff"),
+    ], [("host_hits_test", "Hits.*")]),
+    Guard("a NaN leaves a box's interval alone", [
+        (T + "bvh.h", "near = enter > near ? enter : near;", "near = near > enter ? near : enter;"),
+        (T + "bvh.h", "far = leave < far ? leave : far;", "far = far < leave ? far : leave;"),
+        (K + "bvh.cl", "return (Reals)1 / (fabs(d) < least ? away : d);",
+         "return (Reals)1 / (fabs(d) < (Reals)-1 ? away : d);"),
+    ], [("stress", "axis-parallel")]),
+    Guard("Blinn lobe from |n - h| near its peak", [
+        (K + "power.cl", "Mask near = cosine > (Reals)0.8125;", "Mask near = cosine > (Reals)2;"),
+        (T + "power.h", "if (!(cosine > T(0.8125))) {", "if (cosine < T(2)) {"),
+    ], [("kernel_power_test", "LogCosine.*:BlinnLobe.IsThePower*"), ("stress", "highlight")]),
+    Guard("ties go to the first listed", [
+        (K + "closest_hit.cl", "if (search.is_listing || !any_lane(tied)) break;", "break;"),
+        (T + "closest_hit.h",
+         "if (best.prim != Flat<T>::none && second <= limit) return first_listed_hit(scene, ray, "
+         "limit);", "best.tied = second <= limit;"),
+    ], [("kernel_scene_test", "ClosestHit.*"), ("stress", "ties")]),
+    Guard("surfaces within 32 u are one", [
+        (K + "search.cl", "#define RT_TIE ((Real)1 + (Real)32 * (Real)RT_ROUNDOFF)",
+         "#define RT_TIE ((Real)1)"),
+        (T + "closest_hit.h", "tie_factor = T(1) + T(32) * Flat<T>::roundoff;",
+         "tie_factor = T(1);"),
+    ], [("kernel_scene_test", "ClosestHit.*"), ("stress", "ties")]),
+    Guard("a smooth mirror never reflects under its face", [
+        (K + "whitted.cl", "mirrored = select3(leaves, mirrored, reflect3(dir, "
+         "surface->geometric));", "mirrored = select3(leaves, mirrored, mirrored);"),
+        (T + "whitted.h", "if (!(dot3(mirrored, surface.geometric) * arriving < T(0))) {",
+         "if (arriving != arriving) {"),
+    ], [("kernel_whitted_test", "MirrorRay.LeavesOn*"), ("stress", "smooth-mesh")]),
+    Guard("vertex normals that cancel give way to the face's", [
+        (K + "surface.cl", "squared > (Reals)1e-12,", "squared >= (Reals)0,"),
+        (T + "surface.h", "squared > T(1e-12)", "squared >= T(0)"),
+    ], [("kernel_surface_test", "BlendedNormal.*"), ("stress", "vertex-normals")]),
+    Guard("`-fno-tree-slp-vectorize`", [
+        ("tests/CMakeLists.txt", "# add_python_test(",
+         "set_source_files_properties(invariance_test.cpp PROPERTIES COMPILE_OPTIONS "
+         "-ftree-slp-vectorize)\n# add_python_test("),
+    ], [("invariance_test", "Compiler.Rounds*")]),
+    Guard("`-ffp-contract=off`", [
+        ("tests/CMakeLists.txt", "# add_python_test(",
+         "set_source_files_properties(invariance_test.cpp PROPERTIES COMPILE_OPTIONS "
+         "-ffp-contract=fast)\n# add_python_test("),
+    ], [("invariance_test", "Compiler.DoesNotContract")]),
+    Guard("`FP_CONTRACT OFF`", [
+        (K + "types.h", "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON"),
+    ], [("kernel_math_test", "Contraction.*")]),
+    Guard("pictures are searched for NaN: benchmarks", [
+        ("host/report/picture_judge.cpp", "if (const std::size_t count = count_non_finite(picture); "
+         "count > 0) {", "if (const std::size_t count = 0; count > 0) {"),
+    ], [("host_bench_test", "*")]),
+    Guard("pictures are searched for NaN: stress", [
+        ("host/stress/judge.cpp", "if (std::isnan(pixel[c])) return", "if (pixel == nullptr) return"),
+    ], [("host_stress_test", "StressJudge.*")]),
+    Guard("pictures are searched for NaN: render", [
+        ("host/verbs/render.cpp", "if (count == 0) return false;", "if (count + 1 > 0) return "
+         "false;"),
+    ], [("cli", "render_cases.NonFinite")]),
+    Guard("hierarchies are no deeper than a traversal's stack", [
+        (F + "bvh_split.cpp", "range.depth + halvings >= max_bvh_depth",
+         "range.depth + halvings >= 1 << 20"),
+    ], [("host_bvh_test", "*")]),
+    Guard("ray trees are no deeper than their stack", [
+        (F + "flat_scene.cpp", "if (scene_.max_bounces <= f32::RT_TREE_STACK || "
+         "!material_use_.splits) return;",
+         "if (scene_.max_bounces < 1 << 30 || !material_use_.splits) return;"),
+    ], [("features_test", "Flatten.Refuses*")]),
+]
