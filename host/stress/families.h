@@ -11,6 +11,7 @@ using StressFamilies = std::vector<StressFamily>;
 void add_ordinary_families(StressFamilies& families);
 void add_scale_families(StressFamilies& families);
 void add_sphere_families(StressFamilies& families);
+void add_cone_families(StressFamilies& families);
 void add_mirror_families(StressFamilies& families);
 void add_light_families(StressFamilies& families);
 void add_eye_families(StressFamilies& families);
