@@ -13,6 +13,7 @@ void add_scale_families(StressFamilies& families);
 void add_sphere_families(StressFamilies& families);
 void add_cone_families(StressFamilies& families);
 void add_mirror_families(StressFamilies& families);
+void add_glass_families(StressFamilies& families);
 void add_light_families(StressFamilies& families);
 void add_eye_families(StressFamilies& families);
 void add_view_families(StressFamilies& families);
