@@ -57,6 +57,14 @@ class Output(unittest.TestCase):
                  if row["naive"]]
         self.assertEqual(len(naive), 8)
 
+    def test_one_build_for_all_changes_no_bit(self):
+        one = ["--case", "scale-2/2^0", "-q", "--json"]
+        hashes = [{row["picture"]["hash"] for row in
+                   json.loads(stress(*one, *more).stdout)["families"][0]["cases"][0]["rows"]}
+                  for more in ([], ["--all-features"])]
+        self.assertEqual(*hashes)
+        self.assertEqual(len(hashes[0]), 2)
+
     def test_table(self):
         lines = stress(*self.SMALL, "--device", "threads").stdout.splitlines()
         self.assertEqual(len(lines), 5)

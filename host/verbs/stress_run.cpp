@@ -28,11 +28,11 @@ std::string first_line(const Error& error) {
     return text.substr(0, text.find('\n'));
 }
 
-RenderOptions row_options(const StressRow& row, bool quick) {
+RenderOptions row_options(const StressRow& row, const StressOptions& stress) {
     RenderOptions options = timed_options();
     options.device = row.device;
     options.precision = row.double_precision ? Precision::float64 : Precision::float32;
-    options.all_features = quick;  // one build of the kernels for all cases
+    options.all_features = stress.quick || stress.all_features;
     return options;
 }
 
@@ -98,8 +98,7 @@ class Runner {
         for (StressRow& row : planned_rows(one.bar)) {
             if (stop_flag() != 0) return;
             try {
-                const RenderedPicture rendered =
-                    render_picture(scene, row_options(row, options_.quick));
+                const RenderedPicture rendered = render_picture(scene, row_options(row, options_));
                 if (!rendered.stats.complete()) return;
                 row.hash = rendered.stats.image_hash;
                 row.seconds = rendered.stats.phases.renderer.trace;
@@ -164,8 +163,7 @@ class Runner {
     void render_text(const Scene& scene, const StressBar& bar, StressRow& row,
                      Hasher& hasher) const {
         try {
-            const RenderedPicture rendered =
-                render_picture(scene, row_options(row, options_.quick));
+            const RenderedPicture rendered = render_picture(scene, row_options(row, options_));
             const PictureFigures figures = count_non_numbers(rendered.picture);
             row.figures.nans += figures.nans;
             row.figures.infinities += figures.infinities;
