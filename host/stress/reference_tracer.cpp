@@ -53,26 +53,27 @@ class Tracer final : public ReferenceTracer {
         for (const auto& light : scene.lights) {
             lamps_.push_back({widened<R>(light.position), widened<R>(light.intensity)});
         }
-        if (camera_.has_one_eye()) eye_ball_ = ball_at_eye();
+        if (camera_.has_one_eye()) eye_surface_ = surface_at_eye();
     }
 
     std::array<double, 3> colour_at(double x, double y, double dx, double dy) const override {
         WideRay<R> ray = camera_.eye_ray(R(x) + R(dx), R(y) + R(dy));
-        ray.from = eye_ball_;
+        ray.from = eye_surface_;
         const Wide3<R> colour = trace(ray);
         return {static_cast<double>(colour.x), static_cast<double>(colour.y),
                 static_cast<double>(colour.z)};
     }
 
    private:
-    /// The ball whose surface the eye lies on, to a double's last bits, or -1. Its rays leave it.
-    int ball_at_eye() const {
-        for (std::size_t i = 0; i < balls_.size(); ++i) {
-            const Wide3<R> f = widened<R>(scene_.camera.from) - balls_[i].center;
-            const R squared = balls_[i].radius * balls_[i].radius;
-            if (stress::magnitude(dot(f, f) - squared) <= R(1e-14) * squared) {
-                return static_cast<int>(i);
-            }
+    /// The ball or cone whose surface the eye lies on, to a double's last bits, or -1. Its rays
+    /// leave it.
+    int surface_at_eye() const {
+        const Wide3<R> eye = widened<R>(scene_.camera.from);
+        for (std::size_t prim = 0; prim < first_face(); ++prim) {
+            const bool is_ball = prim < balls_.size();
+            const bool touches = is_ball ? stress::lies_on(eye, balls_[prim])
+                                         : stress::lies_on(eye, frusta_[prim - balls_.size()]);
+            if (touches) return static_cast<int>(prim);
         }
         return -1;
     }
@@ -251,7 +252,7 @@ class Tracer final : public ReferenceTracer {
     std::vector<stress::WideFrustum<R>> frusta_;
     std::vector<stress::WideFace<R>> faces_;
     std::vector<Lamp<R>> lamps_;
-    int eye_ball_ = -1;
+    int eye_surface_ = -1;
 };
 
 }  // namespace

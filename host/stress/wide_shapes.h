@@ -92,6 +92,23 @@ WideFace<R> wide_face(const Scene::Triangle& triangle) {
 template <typename R>
 constexpr R rim = std::is_same_v<R, Quad> ? R(1e-28) : R(1e-16);
 
+/// Whether a point lies on the surface, to a double's last bits.
+template <typename R>
+bool lies_on(const Wide3<R>& point, const WideBall<R>& ball) {
+    const Wide3<R> f = point - ball.center;
+    const R squared = ball.radius * ball.radius;
+    return magnitude(dot(f, f) - squared) <= R(1e-14) * squared;
+}
+
+template <typename R>
+bool lies_on(const Wide3<R>& point, const WideFrustum<R>& frustum) {
+    const Wide3<R> w = point - frustum.base;
+    const R height = dot(w, frustum.axis), radius = frustum.radius + frustum.slope * height;
+    if (height < 0 || height > frustum.length) return false;
+    const R squared = dot(w, w) - height * height;
+    return magnitude(squared - radius * radius) <= R(1e-14) * squared;
+}
+
 /// Distance to the ball, negative for a miss. A ray that leaves it knows one root: 0.
 template <typename R>
 R hit_ball(const WideRay<R>& ray, const WideBall<R>& ball, bool leaving) {
