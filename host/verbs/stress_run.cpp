@@ -47,8 +47,9 @@ class Runner {
     }
 
     StressFamilyResult run(const StressFamily& family) {
-        StressFamilyResult result{family.name, family.parameter, family.why, {}};
+        StressFamilyResult result{family.name, family.parameter, family.why, {}, {}};
         first_hashes_.clear();
+        shot_.reset();
         for (const StressCase& one : family.cases) {
             if (stop_flag() != 0) break;
             StressCaseResult done{one.label, one.value, one.bar, {}, "", 0};
@@ -56,6 +57,7 @@ class Runner {
             compare_hashes(done);
             result.cases.push_back(std::move(done));
         }
+        result.shot = std::move(shot_);
         return result;
     }
 
@@ -111,7 +113,13 @@ class Runner {
             result.rows.push_back(std::move(row));
         }
         pictures.write();
+        if (options_.keep_pictures) keep_worst(pictures.shot(one.label));
         if (options_.naive) add_naive_rows(scene, against, result);
+    }
+
+    /// Of the family that runs.
+    void keep_worst(std::optional<StressShot> shot) {
+        if (shot && (!shot_ || shot->badness > shot_->badness)) shot_ = std::move(shot);
     }
 
     /// Whether a row has the bits of the group's first on this renderer.
@@ -233,6 +241,7 @@ class Runner {
     const StressOptions& options_;
     const std::vector<ListedDevice> devices_;
     FirstHashes first_hashes_;
+    std::optional<StressShot> shot_;
 };
 
 }  // namespace
