@@ -11,14 +11,14 @@ namespace rt {
 
 namespace {
 
-/// A wall of 8 x 8 squares in two colours, 4 behind the origin.
+/// A wall of 4 x 4 squares in two colours, 4 behind the origin.
 void add_chequered_wall(Scene& scene) {
     const std::array<int, 2> colours{add_matt(scene, {0.875, 0.75, 0.25}),
                                      add_matt(scene, {0.125, 0.25, 0.625})};
-    for (int i = 0; i < 64; ++i) {
-        const double x = i % 8 - 4, y = i / 8 - 4;
-        add_quad(scene, {x, y, -4}, {x + 1, y, -4}, {x + 1, y + 1, -4}, {x, y + 1, -4},
-                 colours[static_cast<std::size_t>((i % 8 + i / 8) % 2)]);
+    for (int i = 0; i < 16; ++i) {
+        const double x = 2 * (i % 4) - 4, y = 2 * (i / 4) - 4;
+        add_quad(scene, {x, y, -4}, {x + 2, y, -4}, {x + 2, y + 2, -4}, {x, y + 2, -4},
+                 colours[static_cast<std::size_t>((i % 4 + i / 4) % 2)]);
     }
 }
 
@@ -118,7 +118,7 @@ StressFamily critical_angles() {
         bar.in_float = std::fabs(beyond) >= 1e-5;
         bar.max_error = std::fabs(beyond) < 1e-3 ? 1e-2 : 1e-4;
         family.cases.push_back(picture_case(
-            fmt::format("{:g}", beyond), beyond, quick_if(beyond == 0 || std::fabs(beyond) == 1e-5),
+            fmt::format("{:g}", beyond), beyond, quick_if(beyond == 0 || beyond == 1e-5),
             [beyond] { return prism(beyond); }, bar,
             beyond == 0 ? ReferenceKind::none : ReferenceKind::quad));
     }
