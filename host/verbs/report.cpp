@@ -142,6 +142,7 @@ StressResult stress_result(const ReportOptions& options) {
     stress.devices = options.devices;
     stress.quick = options.quick;
     stress.naive = true;
+    stress.keep_pictures = true;
     stress.quiet = options.quiet;
     StressResult result = measure_stress(stress);
     if (result.interrupted) throw Stopped{};
