@@ -21,9 +21,9 @@ typedef struct {
     Packed3 center;
     Real radius;
     Index material;
-    Index is_huge;      // far larger than its distance: kernels/intersect.cl
-    Real power;         // of the eye: |center|^2 - radius^2, made in double
-    Index touches_eye;  // the eye lies on it
+    Index is_huge;       // far larger than its distance: kernels/intersect.cl
+    Real power;          // of the eye: |center|^2 - radius^2, made in double
+    Index touches_eye;   // the eye lies on it
     Packed3 center_low;  // what rounding took from the centre
     Index pad;
 } Sphere;
@@ -36,7 +36,8 @@ typedef struct {
     Real length;
     Real slope;  // what the radius grows by along a unit of the axis
     Index material;
-    Index pad[2];
+    Index touches_eye;  // the eye lies on it
+    Index pad;
 } Cone;
 
 typedef struct {
@@ -115,7 +116,8 @@ typedef struct {
     Index sphere_root;  // the node that holds all spheres, or 0: test each of them
     Index cone_root;
     Index triangle_root;
-    Index eye_on_surface;  // 1: the eye of a perspective camera lies on a sphere or in a plane
+    Index eye_on_surface;   // 1: the eye of a perspective camera lies on a sphere, a cone or in a
+                            // plane
     Packed3 direction_low;  // what rounding took from the direction, and from its steps
     Index pad0;
     Packed3 direction_dx_low;

@@ -18,7 +18,9 @@ typedef struct {
     real3 normal;     // shading normal, unit: interpolated where the triangle has vertex normals
     real3 geometric;  // geometric normal, unit, on the shading normal's side
     Reals offset;     // bound on the distance between point and surface
-    Reals diameter;   // of a sphere, negative where the geometric normal points inwards; else 0
+    // Of a sphere, and what stands for it on a cone: the length of the gradient of the terms that
+    // vanish on it. Negative where the geometric normal points inwards; 0 on triangles.
+    Reals diameter;
     Indices material;
 } Surface;
 
@@ -85,7 +87,8 @@ Surface cone_surface(const Ray* ray, Reals t, __global const Cone* cone) {
     Reals extent =
         (Real)8 * fma(fabs((Reals)cone->slope), (Reals)cone->length, (Reals)cone->base_radius);
     surface.offset = (Real)RT_ROUNDOFF * (dot3(abs3(surface.normal), size) + extent);
-    surface.diameter = (Reals)0;
+    surface.diameter =
+        (Real)2 * radius * sqrt(fma((Reals)cone->slope, (Reals)cone->slope, (Reals)1));
     surface.material = (Indices)cone->material;
     return surface;
 }

@@ -621,6 +621,6 @@ __kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* 
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     RayCounts counts = {0, 0, 0};
-    Packet packet = make_packet(frame->samples);
+    Packet packet = make_packet(frame->samples, RT_SAMPLES_TOGETHER);
     out[i] = pack(trace_pixels(&scene, &packet, x[i], y[i], RT_ALL_LANES, &counts));
 }

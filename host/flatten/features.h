@@ -12,7 +12,7 @@ namespace rt {
 struct Features {
     bool spheres = true;
     bool huge_spheres = true;    ///< far larger than their distance; implies spheres
-    bool eye_on_surface = true;  ///< the eye lies on a sphere or in a triangle's plane
+    bool eye_on_surface = true;  ///< the eye lies on a sphere, a cone or in a triangle's plane
     bool cones = true;
     bool triangles = true;
     bool vertex_normals = true;  ///< implies triangles

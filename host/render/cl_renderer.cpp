@@ -280,11 +280,11 @@ class ClRenderer : public Renderer<T> {
         listed_.setArg(0, colors);
         listed_.setArg(12, tile);
         listed_.setArg(13, list);
-        const auto samples = static_cast<std::size_t>(frame.samples);
+        const PacketShape packet = packet_shape(lanes_, static_cast<int>(frame.samples), lanes_);
         cl::Event event;
         enqueue(listed_,
                 divided_up(static_cast<std::size_t>(tile.width),
-                           static_cast<std::size_t>(shape(samples).pixels())),
+                           static_cast<std::size_t>(packet.pixels())),
                 event);
         return event;
     }

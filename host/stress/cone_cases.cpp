@@ -189,13 +189,9 @@ Scene cone_to_aim_at(double radius, double distance) {
     return scene;
 }
 
-/// In float, a ray within some u of the surface, times how many radii the cone is away, may find
-/// itself under it.
 StressBar leaving_cone_bar(double distances) {
     StressBar bar;
     bar.max_error = distances > 10 ? 1e-2 : 1e-3;
-    bar.most_wrong = distances > 10 ? 0 : 4;
-    bar.in_float = distances <= 10;
     return bar;
 }
 

@@ -16,7 +16,9 @@ struct Surface {
     Vec3<T> normal;     ///< shading normal, unit: interpolated where there are vertex normals
     Vec3<T> geometric;  ///< geometric normal, unit, on the shading normal's side
     T offset;           ///< bound on the distance between point and surface
-    T diameter;         ///< of a sphere, negative where the geometric normal points inwards; else 0
+    /// Of a sphere, and what stands for it on a cone: the length of the gradient of the terms that
+    /// vanish on it. Negative where the geometric normal points inwards; 0 on triangles.
+    T diameter;
     typename Flat<T>::Index material;
 };
 
@@ -81,7 +83,7 @@ Surface<T> cone_surface(const Ray<T>& ray, T t, const typename Flat<T>::Cone& co
     const Vec3<T> size = abs3(center) + abs3(surface.point);
     const T extent = T(8) * std::fma(std::fabs(cone.slope), cone.length, cone.base_radius);
     surface.offset = Flat<T>::roundoff * (dot3(abs3(surface.normal), size) + extent);
-    surface.diameter = 0;
+    surface.diameter = T(2) * radius * std::sqrt(std::fma(cone.slope, cone.slope, T(1)));
     surface.material = cone.material;
     return surface;
 }
