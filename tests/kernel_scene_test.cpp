@@ -158,7 +158,40 @@ TYPED_TEST(ClosestHit, ShowsTheFirstOfCoplanarTrianglesOnWhicheverDiagonal) {
     }
 }
 
+/// Two triangles in the planes z = -3 and z = -4, and a ray towards them that starts in front of
+/// the nearer one by rounding, leaving it or not.
+template <typename T>
+struct Doorstep {
+    FlatScene<T> scene{};
+    std::vector<ProbeRay<T>> rays;
+
+    Doorstep() {
+        scene.triangles = {make_triangle<T>({-1, -1, -3}, {3, -1, -3}, {-1, 3, -3}),
+                           make_triangle<T>({-1, -1, -4}, {3, -1, -4}, {-1, 3, -4})};
+        count_primitives(scene);
+        const T before = std::nextafter(T(-3), T(0));
+        rays.assign(2, make_ray<T>({0, 0, double(before)}, {0, 0, -1}));
+        rays[1].from = 0;
+    }
+};
+
+TYPED_TEST(ClosestHit, SkipsTheTriangleItLeaves) {
+    const Doorstep<TypeParam> at;
+    const auto hits = run<TypeParam, Hit<TypeParam>>("closest_hit", 2, at.scene, at.rays);
+    EXPECT_EQ(hits[0].prim, 0);
+    EXPECT_EQ(hits[1].prim, 1);
+    EXPECT_EQ(trace::closest_hit(view(at.scene), unpack(at.rays[1])).prim, 1);
+}
+
 KERNEL_SUITE(AnyHit);
+TYPED_TEST(AnyHit, SkipsTheTriangleItLeaves) {
+    Doorstep<TypeParam> at;
+    for (auto& ray : at.rays) ray.t_max = TypeParam(0.5);
+    const auto found = run<TypeParam, Index<TypeParam>>("any_hit", 2, at.scene, at.rays);
+    EXPECT_NE(found[0], 0);
+    EXPECT_EQ(found[1], 0);
+    EXPECT_FALSE(trace::any_hit(view(at.scene), unpack(at.rays[1])));
+}
 TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
     Random random(4);
     const auto scene = crowd<TypeParam>(random);

@@ -319,12 +319,15 @@ TYPED_TEST(IsOnEdge, IsWithin64RoundoffsOfATrianglesEdge) {
 }
 
 KERNEL_SUITE(SurfaceAt);
-TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceBackedOffATie) {
+TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceBackedOffATieOrAnEdge) {
     Random random(7);
     const auto scene = crowd<TypeParam>(random);
     const auto rays = rays_about<TypeParam>(random, 20000);
     auto hits = run<TypeParam, Hit<TypeParam>>("closest_hit", rays.size(), scene, rays);
-    for (auto& hit : hits) hit.prim = std::max<Index<TypeParam>>(hit.prim, 0);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        hits[i].prim = std::max<Index<TypeParam>>(hits[i].prim, 0);
+        if (i % 7 == 0) hits[i].u = TypeParam(63) * Flat<TypeParam>::roundoff;  // on an edge
+    }
     const auto own = run<TypeParam, ProbeSurface<TypeParam>>("primitive_surface", rays.size(),
                                                              scene, rays, hits);
     const auto moved =

@@ -12,7 +12,7 @@ std::string table_text(const CostTable& table) {
         fmt::format("{}, {}x{} {}, {}: robust {:.4f} {}, the fastest of {}\n", table.scene,
                     table.width, table.height, table.aa, table.renderer, table.robust_seconds,
                     table.of_processor ? "CPU seconds" : "s", table.repeats);
-    text += fmt::format("  {:<12} {:<26} {:>10} {:>13}\n", "naive in", "instead", "seconds",
+    text += fmt::format("  {:<12} {:<30} {:>10} {:>13}\n", "naive in", "instead", "seconds",
                         "robust / that");
     for (const TechniqueCost& row : table.rows) {
         text += fmt::format("  {:<12} {:<26} {:>10.4f} {:>13.3f}\n", row.technique, row.naive,

@@ -89,6 +89,18 @@ Scene duplicate_ball(double moved) {
     return scene;
 }
 
+/// Two squares alike, so near each other that they count as one: the lower one, listed first, is
+/// seen, and must not lie in the other's shadow.
+Scene two_sheets() {
+    Scene scene = bare_scene();
+    const int matt = add_matt(scene, {0.875, 0.5, 0.125});
+    for (const double y : {0.0, 5e-6}) {
+        add_quad(scene, {-0.5, y, 0.5}, {0.5, y, 0.5}, {0.5, y, -0.5}, {-0.5, y, -0.5}, matt);
+    }
+    set_view(scene, {0, 4, 3}, {0, 0, 0}, 20);
+    return scene;
+}
+
 StressFamily ties() {
     StressFamily family{"ties",
                         "what lies twice",
@@ -121,6 +133,7 @@ StressFamily ties() {
         return scene;
     });
     add("ball", InQuick::no, [] { return duplicate_ball(0); }, {});
+    add("two-sheets", InQuick::yes, two_sheets, {});
     StressCase moved = picture_case("ball-moved-1e-7", static_cast<double>(family.cases.size()),
                                     InQuick::yes, [] { return duplicate_ball(1e-7); });
     std::get<PictureTrial>(moved.trial).reference = ReferenceKind::none;
