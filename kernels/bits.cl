@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers taken apart: exponent, mantissa, neighbours. By bits, since frexp, ldexp and nextafter
-// are slow on some runtimes and flush subnormals on others.
+// Numbers as bits: the next one, and the parts of logarithms and powers (power.cl). Not by frexp,
+// ldexp and nextafter, which are slow on some runtimes and flush subnormals on others.
 #ifndef RT_BITS_CL
 #define RT_BITS_CL
 
@@ -9,29 +9,15 @@
 
 #ifdef RT_DOUBLE
 #define RT_MANTISSA_BITS 52
-#define RT_EXPONENT_BIAS 1023
-#define RT_MIN_NORMAL 0x1p-1022
-#define RT_INDEX_ONE 1L
 #else
 #define RT_MANTISSA_BITS 23
-#define RT_EXPONENT_BIAS 127
-#define RT_MIN_NORMAL 0x1p-126f
-#define RT_INDEX_ONE 1
 #endif
+
+// Added to the bits of a number, doubles it.
+#define RT_BINADE ((Index)1 << RT_MANTISSA_BITS)
 
 #define RT_AS_INDICES RT_JOIN(as_, RT_LANES_OF(RT_INDEX))
 #define RT_AS_REALS RT_JOIN(as_, RT_LANES_OF(RT_REAL))
-
-// x = mantissa_of(x) * 2^exponent_of(x) for normal x > 0; the mantissa is in [1, 2).
-Indices exponent_of(Reals x) { return (RT_AS_INDICES(x) >> RT_MANTISSA_BITS) - RT_EXPONENT_BIAS; }
-
-Reals mantissa_of(Reals x) {
-    Indices fraction = RT_AS_INDICES(x) & ((RT_INDEX_ONE << RT_MANTISSA_BITS) - 1);
-    return RT_AS_REALS(fraction | ((Index)RT_EXPONENT_BIAS << RT_MANTISSA_BITS));
-}
-
-// 2^k for a normal result
-Reals power_of_two(Indices k) { return RT_AS_REALS((k + RT_EXPONENT_BIAS) << RT_MANTISSA_BITS); }
 
 // The next number above x (direction > 0), below it (direction < 0), or x (direction == 0).
 Reals one_ulp_towards(Reals x, Reals direction) {

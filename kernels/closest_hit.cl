@@ -29,7 +29,8 @@ void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, 
         for (Index i = first; i < end; ++i) {
             Index prim = scene->frame.sphere_count + i;
             Reals t;
-            Mask met = intersect_cone(ray, &scene->cones[i], ray->from == prim, &t);
+            Mask leaving = leaves_cone(ray, &scene->cones[i], prim);
+            Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t);
             if (any_lane(met)) offer_hit(scene, search, met, t, (Reals)0, (Reals)0, prim);
         }
     }

@@ -13,7 +13,9 @@
 // cylinder it is P (R^2 - l^2) with l the ray's distance from the axis). The equation is solved
 // without cancellation, and each root counts if its height is on the frustum and the radius there
 // is not negative, which is the other half of the double cone. A ray that leaves the cone it starts
-// on solves with the constant term 0.
+// on has the roots 0 and -2 b / a, where -2 b comes with the ray as its chord, made from the normal
+// there: origin - base has rounded away what matters on a small cone far from the eye. A ray from
+// an eye on the cone makes it itself.
 #ifndef RT_CONE_CL
 #define RT_CONE_CL
 
@@ -32,6 +34,13 @@ Reals cone_shift(const Ray* ray, real3 w, real3 g, real3 c, __global const Cone*
     Reals middle = -dot3(add_scaled(w, (Reals)-0.5 * length, load3(cone->axis)), ray->dir);
     Reals nearest = -(dot3(g, c) / dot3(c, c));
     return max_of(middle - reach, min_of(nearest, middle + reach));
+}
+
+// The lanes whose rays start on cone number prim.
+Mask leaves_cone(const Ray* ray, __global const Cone* cone, Index prim) {
+    Mask leaving = ray->from == prim;
+    if (RT_HAS_EYE_ON_SURFACE && cone->touches_eye != 0) leaving |= ray->from == (Index)RT_EYE;
+    return leaving;
 }
 
 // Whether the rays' lines meet the frustum in front of the origin, and at which distance t.
@@ -59,9 +68,11 @@ Mask intersect_cone(const Ray* ray, __global const Cone* cone, Mask leaving, Rea
     Reals a = (size - m) * (size + m);
     Reals b = fma(-radius, m, dot3(g, c));
     Reals distance = length3(g);
-    Reals k = leaving ? (Reals)0 : (distance - radius) * (distance + radius);
-    Reals root = leaving ? fabs(b) : sqrt(discriminant);
-    Reals q = -(b + (b < (Reals)0 ? -root : root));
+    Reals k = (distance - radius) * (distance + radius);
+    Reals root = sqrt(discriminant);
+    Reals chord = ray->chord;
+    if (RT_HAS_EYE_ON_SURFACE) chord = ray->from == (Index)RT_EYE ? (Reals)-2 * b : chord;
+    Reals q = leaving ? chord : -(b + (b < (Reals)0 ? -root : root));
     Reals one = q / a;
     Mask is_single = leaving | (q == (Reals)0);
     Reals other = is_single ? one : k / q;

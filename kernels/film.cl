@@ -6,17 +6,6 @@
 
 #include "kernels/packet.cl"
 
-// A packet's lanes one by one.
-typedef union {
-    Reals all;
-    Real lane[RT_LANES];
-} RealLanes;
-
-typedef union {
-    Indices all;
-    Index lane[RT_LANES];
-} IndexLanes;
-
 void store3(__global Real* to, Index at, Real x, Real y, Real z) {
     to[3 * at] = x;
     to[3 * at + 1] = y;

@@ -29,6 +29,7 @@ Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit
 Surface select_surface(Mask mask, Surface yes, Surface no) {
     Surface chosen;
     chosen.point = select3(mask, yes.point, no.point);
+    chosen.point_low = select3(mask, yes.point_low, no.point_low);
     chosen.normal = select3(mask, yes.normal, no.normal);
     chosen.geometric = select3(mask, yes.geometric, no.geometric);
     chosen.offset = mask ? yes.offset : no.offset;
@@ -84,6 +85,8 @@ Ray leave_surface(const Surface* surface, real3 origin, real3 dir, Indices prim)
     Ray ray;
     ray.origin = origin;
     ray.dir = dir;
+    ray.dir_low = make3((Reals)0, (Reals)0, (Reals)0);
+    ray.origin_low = add3(sub3(surface->point, origin), surface->point_low);
     ray.t_max = (Reals)INFINITY;
     ray.chord = -surface->diameter * dot3(surface->geometric, dir);
     ray.from = prim;

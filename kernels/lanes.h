@@ -77,4 +77,15 @@ Index sum_lanes(Indices v) { return RT_FOLD(v, RT_PLUS); }
 
 #endif
 
+// A packet's lanes one by one.
+typedef union {
+    Reals all;
+    Real lane[RT_LANES];
+} RealLanes;
+
+typedef union {
+    Indices all;
+    Index lane[RT_LANES];
+} IndexLanes;
+
 #endif

@@ -49,6 +49,21 @@ real3 add_scaled(real3 a, Reals s, real3 b) {
 Reals limited(Reals x) { return x < (Reals)RT_LARGEST ? x : (Reals)RT_LARGEST; }
 real3 limit3(real3 v) { return make3(limited(v.x), limited(v.y), limited(v.z)); }
 
+// a + s b less its rounded value `sum`, all but exactly (Knuth's sum, and the product by fma).
+Reals lost(Reals a, Reals s, Reals b, Reals sum) {
+    Reals product = s * b;
+    Reals product_low = fma(s, b, -product);
+    Reals total = a + product;
+    Reals taken = total - a;
+    Reals total_low = (a - (total - taken)) + (product - taken);
+    return (total - sum) + (total_low + product_low);
+}
+
+// What add_scaled(a, s, b) has lost by rounding to `sum`.
+real3 lost3(real3 a, Reals s, real3 b, real3 sum) {
+    return make3(lost(a.x, s, b.x, sum.x), lost(a.y, s, b.y, sum.y), lost(a.z, s, b.z, sum.z));
+}
+
 Reals length3(real3 v) { return sqrt(dot3(v, v)); }
 
 real3 normalize3(real3 v) { return scale3((Reals)1 / length3(v), v); }

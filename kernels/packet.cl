@@ -2,7 +2,8 @@
 //
 // How the lanes of a packet share out pixels and samples: four samples of each pixel where their
 // number allows it, else two, else one, and the pixels in a block as square as can be, so that the
-// rays stay close together. The samples of a pixel are added in their order, whatever the packet,
+// rays stay close together. Chosen pixels may be far apart, so there a packet holds as many samples
+// of a pixel as it can. The samples of a pixel are added in their order, whatever the packet,
 // so the sums have the same bits.
 #ifndef RT_PACKET_CL
 #define RT_PACKET_CL
@@ -21,6 +22,8 @@
 #define RT_LOG_LANES 4
 #endif
 
+#define RT_SAMPLES_TOGETHER 4  // of a pixel, in packets of neighbouring pixels
+
 typedef struct {
     Index samples;  // of each pixel
     Index pixels;   // in a block of width x height
@@ -29,9 +32,14 @@ typedef struct {
     Indices pixel, sample;  // each lane's, counted from the packet's first; pixels row by row
 } Packet;
 
-Packet make_packet(Index samples) {
-    Index log_samples = samples % 4 == 0 ? 2 : (samples % 2 == 0 ? 1 : 0);
-    log_samples = log_samples > RT_LOG_LANES ? RT_LOG_LANES : log_samples;
+// For pixels of so many samples, at most most_samples of each pixel together: a power of two.
+Packet make_packet(Index samples, Index most_samples) {
+    Index log_samples = 0;
+    Index together = 2;
+    while (together <= most_samples && log_samples < RT_LOG_LANES && samples % together == 0) {
+        together *= 2;
+        log_samples += 1;
+    }
     Index log_pixels = RT_LOG_LANES - log_samples;
     Index log_width = (log_pixels + 1) / 2;
     Packet packet;
@@ -64,6 +72,20 @@ Reals add_samples(Reals sum, Reals weight, Reals v, Index samples) {
         half_sum.lo = fma(weight.lo, v.lo, sum.lo);
         half_sum.lo = fma(weight.hi, v.hi, half_sum.lo);
         return half_sum;
+    }
+#endif
+#if RT_LANES >= 8
+    if (samples > 4) {
+        RealLanes weights, values, sums;
+        weights.all = weight;
+        values.all = v;
+        sums.all = sum;
+        Index pixels = RT_LANES / samples;
+        for (Index lane = 0; lane < RT_LANES; ++lane) {
+            Index pixel = lane & (pixels - 1);
+            sums.lane[pixel] = fma(weights.lane[lane], values.lane[lane], sums.lane[pixel]);
+        }
+        return sums.all;
     }
 #endif
     return fma(weight, v, sum);

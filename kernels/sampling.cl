@@ -123,7 +123,9 @@ Reals filter_weight(Index filter, Reals d) {
     d = fabs(d);
     if (filter == RT_FILTER_TENT) return (Reals)1 - d;
     if (filter == RT_FILTER_MITCHELL) return mitchell_weight(d);
-    return exp_negative((Reals)-2 * d * d) - exp_negative((Reals)-4.5f);
+    // e^(-2 d^2) - e^(-2 1.5^2)
+    Reals rate = (Reals)((Real)-2 * RT_LOG2_E);
+    return exp2_of_product(rate, d * d) - exp2_of_product(rate, (Reals)2.25f);
 }
 
 // Sample k of pixel (x, y), in pixels from the pixel's lower left corner.

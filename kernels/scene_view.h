@@ -28,9 +28,11 @@ Index first_triangle(const SceneView* scene) {
 
 typedef struct {
     real3 origin;
-    real3 dir;     // unit
-    Reals t_max;   // hits lie in (0, t_max]; a negative one switches the lane off
-    Reals chord;   // from a sphere: distance to where the ray leaves it, else not used
+    real3 dir;         // unit
+    real3 dir_low;     // of eye rays: what rounding took from dir; else 0
+    real3 origin_low;  // of others: from the origin to the point left; of eye rays 0
+    Reals t_max;       // hits lie in (0, t_max]; a negative one switches the lane off
+    Reals chord;   // from a sphere: distance to where the ray leaves it; from a cone: -2 b there
     Indices from;  // the primitive the origin lies on, or RT_NONE
 } Ray;
 

@@ -15,11 +15,9 @@
 // max(0, n.h)^p with h halfway between the unit directions to the light and to the eye.
 Reals specular_lobe(real3 normal, real3 to_light, real3 to_eye, Reals shininess) {
     real3 sum = add3(to_light, to_eye);
-    Reals squared = dot3(sum, sum);
-    real3 half_vector = scale3((Reals)1 / sqrt(squared), sum);
-    real3 gap = sub3(normal, half_vector);
-    Reals lobe = blinn_lobe(dot3(normal, half_vector), (Reals)0.5 * dot3(gap, gap), shininess);
-    return squared > (Reals)0 ? lobe : (Reals)0;
+    Reals along = dot3(normal, sum);
+    real3 across = add_scaled(sum, -along, normal);
+    return blinn_lobe(along, dot3(across, across), dot3(sum, sum), shininess);
 }
 
 // What one light adds at the surfaces of the live lanes; `origin` is where shadow rays start.

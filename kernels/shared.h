@@ -21,9 +21,11 @@ typedef struct {
     Packed3 center;
     Real radius;
     Index material;
-    Index is_huge;      // far larger than its distance: kernels/intersect.cl
-    Real power;         // of the eye: |center|^2 - radius^2, made in double
-    Index touches_eye;  // the eye lies on it
+    Index is_huge;       // far larger than its distance: kernels/intersect.cl
+    Real power;          // of the eye: |center|^2 - radius^2, made in double
+    Index touches_eye;   // the eye lies on it
+    Packed3 center_low;  // what rounding took from the centre
+    Index pad;
 } Sphere;
 
 // The side of a cone's frustum, open at both ends; a cylinder where the slope is 0.
@@ -34,7 +36,8 @@ typedef struct {
     Real length;
     Real slope;  // what the radius grows by along a unit of the axis
     Index material;
-    Index pad[2];
+    Index touches_eye;  // the eye lies on it
+    Index pad;
 } Cone;
 
 typedef struct {
@@ -113,7 +116,14 @@ typedef struct {
     Index sphere_root;  // the node that holds all spheres, or 0: test each of them
     Index cone_root;
     Index triangle_root;
-    Index eye_on_surface;  // 1: the eye of a perspective camera lies on a sphere or in a plane
+    Index eye_on_surface;   // 1: the eye of a perspective camera lies on a sphere, a cone or in a
+                            // plane
+    Packed3 direction_low;  // what rounding took from the direction, and from its steps
+    Index pad0;
+    Packed3 direction_dx_low;
+    Index pad1;
+    Packed3 direction_dy_low;
+    Index pad2;
 } Frame;
 
 // The pixels of one launch: picture columns x.., rows y.. counted from the top; its first pixel
@@ -145,12 +155,12 @@ enum { RT_FILTER_BOX = 0, RT_FILTER_TENT = 1, RT_FILTER_GAUSSIAN = 2, RT_FILTER_
 
 RT_STATIC_ASSERT(sizeof(Packed3) == 3 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Index) == sizeof(Real));
-RT_STATIC_ASSERT(sizeof(Sphere) == 8 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Sphere) == 12 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Cone) == 12 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Triangle) == 16 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(VertexNormals) == 12 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Material) == 20 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Light) == 8 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(BvhNode) == 8 * sizeof(Real));
-RT_STATIC_ASSERT(sizeof(Frame) == 36 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(Frame) == 48 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Tile) == 8 * sizeof(Real));

@@ -14,23 +14,44 @@
 
 typedef struct {
     real3 point;
+    real3 point_low;  // of a sphere: what rounding took from the point; else 0
     real3 normal;     // shading normal, unit: interpolated where the triangle has vertex normals
     real3 geometric;  // geometric normal, unit, on the shading normal's side
     Reals offset;     // bound on the distance between point and surface
-    Reals diameter;   // of a sphere, negative where the geometric normal points inwards; else 0
+    // Of a sphere, and what stands for it on a cone: the length of the gradient of the terms that
+    // vanish on it. Negative where the geometric normal points inwards; 0 on triangles.
+    Reals diameter;
     Indices material;
 } Surface;
+
+// The normal where the ray meets the sphere at t, from the closest approach and the half chord.
+// What rounding took from the ray and from the centre is added where only lengths of the radius are
+// left, so that small, distant balls keep their normals, and mirror rays between them their ways.
+real3 sphere_normal(const Ray* ray, Reals t, __global const Sphere* sphere) {
+    real3 f = sub3(ray->origin, load3(sphere->center));
+    Reals b = -dot3(f, ray->dir);
+    real3 l = add_scaled(f, b, ray->dir);
+    l = add_scaled(add3(ray->origin_low, l), t, ray->dir_low);
+    l = sub3(l, load3(sphere->center_low));
+    l = add_scaled(l, -dot3(l, ray->dir), ray->dir);
+    Reals squared = (Reals)(sphere->radius * sphere->radius) - dot3(l, l);
+    Reals s = squared > (Reals)0 ? sqrt(squared) : (Reals)0;
+    return normalize3(add_scaled(l, t < b ? -s : s, ray->dir));
+}
 
 Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
     real3 center = load3(sphere->center);
     Surface surface;
-    surface.normal = normalize3(add_scaled(sub3(ray->origin, center), t, ray->dir));
+    surface.normal = sphere_normal(ray, t, sphere);
     surface.geometric = surface.normal;
-    surface.point = add_scaled(center, (Reals)sphere->radius, surface.normal);
-    Reals spread = dot3(abs3(surface.normal), abs3(surface.point));
+    real3 out = add_scaled(load3(sphere->center_low), (Reals)sphere->radius, surface.normal);
+    surface.point = add3(center, out);
+    surface.point_low = add3(sub3(center, surface.point), out);
+    Reals spread = dot3(abs3(surface.normal), add3(abs3(center), abs3(surface.point)));
     surface.offset = (Real)RT_ROUNDOFF * fma((Reals)5, (Reals)sphere->radius, spread);
     if (RT_HAS_HUGE_SPHERES && sphere->is_huge != 0) {
         surface.point = add_scaled(ray->origin, t, ray->dir);
+        surface.point_low = make3((Reals)0, (Reals)0, (Reals)0);
         surface.normal = normalize3(sub3(surface.point, center));
         surface.geometric = surface.normal;
         real3 error =
@@ -61,11 +82,13 @@ Surface cone_surface(const Ray* ray, Reals t, __global const Cone* cone) {
     real3 center = add_scaled(base, height, axis);
     real3 point = add_scaled(center, radius, outwards);
     surface.point = select3(is_on_axis, center, point);
+    surface.point_low = make3((Reals)0, (Reals)0, (Reals)0);
     real3 size = add3(abs3(center), abs3(surface.point));
     Reals extent =
         (Real)8 * fma(fabs((Reals)cone->slope), (Reals)cone->length, (Reals)cone->base_radius);
     surface.offset = (Real)RT_ROUNDOFF * (dot3(abs3(surface.normal), size) + extent);
-    surface.diameter = (Reals)0;
+    surface.diameter =
+        (Real)2 * radius * sqrt(fma((Reals)cone->slope, (Reals)cone->slope, (Reals)1));
     surface.material = (Indices)cone->material;
     return surface;
 }
@@ -92,6 +115,7 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
     Surface surface;
     surface.point = add_scaled(p0, hit->u, sub3(load3(triangle->p1), p0));
     surface.point = add_scaled(surface.point, hit->v, sub3(load3(triangle->p2), p0));
+    surface.point_low = make3((Reals)0, (Reals)0, (Reals)0);
     surface.offset = (Reals)triangle->offset;
     Reals distance = length3(ray->origin) + hit->t;
     Mask is_large = largest_coordinate(triangle) > (Reals)8 * distance;

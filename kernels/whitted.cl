@@ -73,6 +73,8 @@ Ray select_ray(Mask mask, Ray yes, Ray no) {
     Ray ray;
     ray.origin = select3(mask, yes.origin, no.origin);
     ray.dir = select3(mask, yes.dir, no.dir);
+    ray.dir_low = select3(mask, yes.dir_low, no.dir_low);
+    ray.origin_low = select3(mask, yes.origin_low, no.origin_low);
     ray.t_max = mask ? yes.t_max : no.t_max;
     ray.chord = mask ? yes.chord : no.chord;
     ray.from = mask ? yes.from : no.from;

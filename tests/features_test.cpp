@@ -60,6 +60,8 @@ Scene scene_needing(const Features& features) {
     if (features.huge_spheres) scene.spheres.push_back({{0, -1e5 - 2, 0}, 1e5, 0});
     if (features.eye_on_surface && features.spheres) {
         scene.spheres.push_back({{0, 0.5, 3.25}, 0.25, 0});
+    } else if (features.eye_on_surface && features.cones) {
+        scene.cones.push_back({{-0.2, 0.5, 3.25}, {0.2, 0.5, 3.25}, 0.25, 0.25, 0});
     } else if (features.eye_on_surface) {
         scene.triangles.push_back({{{{-2, 0.5, 0}, {2, 0.5, 0}, {0, 0.5, -2}}}, {}, 0});
     }
@@ -74,8 +76,8 @@ Scene scene_needing(const Features& features) {
 bool is_possible(const Features& features) {
     if (features.vertex_normals && !features.triangles) return false;
     if (features.huge_spheres && !features.spheres) return false;
-    if (features.eye_on_surface && !features.spheres && !features.triangles) return false;
     const bool any_shape = features.spheres || features.cones || features.triangles;
+    if (features.eye_on_surface && !any_shape) return false;
     return any_shape ||
            !(features.hierarchy || features.lights || features.mirrors || features.glass);
 }

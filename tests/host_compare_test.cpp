@@ -2,7 +2,6 @@
 // The figures of `compare` against numbers worked by hand.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

@@ -11,7 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
-#include <numeric>
 
 #include "host/flatten/flat_scene.h"
 #include "host/parallel.h"

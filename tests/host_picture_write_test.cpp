@@ -15,6 +15,7 @@
 
 #include "host/image/oiio_loader.h"
 #include "host/image/output_path.h"
+#include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
@@ -244,6 +245,21 @@ TEST(ImageLibrary, MayBeCalledFromManyThreads) {
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(image_library(ExitCode::output).version, oiio::interface_version);
+}
+
+TEST(ImageLibrary, LoadsBesideOtherWork) {
+    ImageLibraryLoading loading;
+    loading.begin_for("");
+    loading.begin_for("picture.pfm");
+    loading.begin_for("picture.png");
+    loading.begin_for("picture.png");
+    EXPECT_EQ(image_library(ExitCode::output).version, oiio::interface_version);
+}
+
+TEST(NeedsImageLibrary, AllButPfm) {
+    EXPECT_TRUE(needs_image_library(picture_format_of_name("a.png")));
+    EXPECT_TRUE(needs_image_library(picture_format_of_name("a.exr")));
+    EXPECT_FALSE(needs_image_library(picture_format_of_name("a.pfm")));
 }
 
 }  // namespace

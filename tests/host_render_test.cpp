@@ -13,6 +13,7 @@
 #include "host/render/adaptive.h"
 #include "host/render/device_spec.h"
 #include "host/render/film.h"
+#include "host/render/launch_pacer.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
 #include "host/report/image_error.h"
@@ -54,6 +55,66 @@ TEST(TileQueue, HandsOutEveryTileOnceToManyThreads) {
     EXPECT_EQ(queue.tiles_finished(), queue.tiles().size());
     EXPECT_EQ(queue.fraction_finished(), 1.0);
     EXPECT_EQ(queue.rays().total(), 6u * 4800);
+}
+
+TEST(TileQueue, TellsOnceThatTheFirstTileIsTaken) {
+    static const StopFlag go = 0;
+    int told = 0;
+    TileQueue queue(make_tiles({0, 0, 64, 64}, 8, 8), go, [&] { ++told; });
+    EXPECT_EQ(told, 0);
+    while (queue.next()) EXPECT_EQ(told, 1);
+    EXPECT_EQ(told, 1);
+}
+
+/// The runs of a queue whose launches may have at most so many pixels.
+std::vector<Rect> runs_of(const Rect& region, int tile_width, int tile_height,
+                          std::int64_t most_pixels) {
+    static const StopFlag go = 0;
+    TileQueue queue(make_tiles(region, tile_width, tile_height), go);
+    std::vector<Rect> runs;
+    while (const auto run =
+               queue.next_run([&](const Rect& rect) { return rect.pixels() <= most_pixels; })) {
+        runs.push_back(run->whole);
+        queue.finish(*run);
+    }
+    EXPECT_EQ(queue.tiles_finished(), queue.tiles().size());
+    EXPECT_EQ(queue.fraction_finished(), 1.0);
+    return runs;
+}
+
+TEST(TileQueue, RunsAreTheLargestRectanglesOfTilesInTheirOrder) {
+    // Whole rows of tiles, the last one flatter.
+    EXPECT_EQ(runs_of({5, 7, 100, 35}, 100, 10, 2000),
+              (std::vector<Rect>{{5, 7, 100, 20}, {5, 27, 100, 15}}));
+    // Two tiles of a row, then its third; then again.
+    EXPECT_EQ(
+        runs_of({0, 0, 100, 20}, 40, 10, 800),
+        (std::vector<Rect>{{0, 0, 80, 10}, {80, 0, 20, 10}, {0, 10, 80, 10}, {80, 10, 20, 10}}));
+    EXPECT_EQ(runs_of({0, 0, 64, 64}, 8, 8, 1 << 20), (std::vector<Rect>{{0, 0, 64, 64}}));
+    EXPECT_EQ(runs_of({0, 0, 64, 64}, 8, 8, 1).size(), 64u);
+}
+
+TEST(LaunchPacer, SettlesOnLaunchesOfATenthOfASecond) {
+    LaunchPacer pacer(1000, 1 << 30);
+    EXPECT_EQ(pacer.samples(), 1000);
+    for (int i = 0; i < 6; ++i) {
+        const auto samples = pacer.samples();
+        pacer.note(samples, static_cast<double>(samples) / 5e6);
+    }
+    EXPECT_EQ(pacer.samples(), 500000);
+    pacer.note(500000, 0.4);  // four times as hard from here
+    EXPECT_EQ(pacer.samples(), 125000);
+}
+
+TEST(LaunchPacer, GrowsEightfoldAtMostAndKeepsItsBounds) {
+    LaunchPacer pacer(1000, 20000);
+    pacer.note(1000, 1e-9);
+    EXPECT_EQ(pacer.samples(), 8000);
+    pacer.note(8000, 0);
+    EXPECT_EQ(pacer.samples(), 20000);
+    pacer.note(1, 1e6);
+    EXPECT_EQ(pacer.samples(), 1);
+    EXPECT_EQ(LaunchPacer(1000, 10).samples(), 10);
 }
 
 TEST(TileQueue, GivesNothingOnceStopped) {

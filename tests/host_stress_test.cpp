@@ -74,114 +74,6 @@ TEST(StressFamilies, AreChosenAndLeftOut) {
     }
 }
 
-// The reference against closed forms
-
-constexpr ReferenceKind both_kinds[] = {ReferenceKind::quad, ReferenceKind::extended};
-
-/// A ball about the origin, the eye 4 before it, one light.
-Scene one_ball(glm::dvec3 light) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 9, 9);
-    set_view(scene, {0, 0, 4}, {0, 0, 0}, 30);
-    scene.lights = {{light, {0.5, 0.25, 1}}};
-    add_sphere(scene, {0, 0, 0}, 1, add_matt(scene, {0.5, 0.75, 0.25}, 0.5, 30));
-    return scene;
-}
-
-std::array<double, 3> centre_colour(const Scene& scene, ReferenceKind kind) {
-    return make_reference_tracer(scene, kind)
-        ->colour_at(scene.width / 2.0, scene.height / 2.0, 0, 0);
-}
-
-void expect_colour(const std::array<double, 3>& colour, const glm::dvec3& expected) {
-    for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(colour[static_cast<std::size_t>(c)], expected[c], 1e-15) << c;
-    }
-}
-
-/// The normal is (0, 0, 1); light and eye lie 3 and 4 away at these angles.
-TEST(ReferenceTracer, ShadesTheMiddleOfABall) {
-    const Scene scene = one_ball({0, 3, 5});
-    const double cosine = 4 / 5.0;
-    const glm::dvec3 l(0, 3 / 5.0, 4 / 5.0);
-    const double half = (l.z + 1) / std::sqrt(l.y * l.y + (l.z + 1) * (l.z + 1));
-    const double lobe = std::pow(half, 30);
-    const glm::dvec3 expected =
-        glm::dvec3(0.5, 0.75, 0.25) * 0.25 +
-        glm::dvec3(0.5, 0.25, 1) * (cosine * glm::dvec3(0.5, 0.75, 0.25) + lobe * glm::dvec3(0.5));
-    for (const ReferenceKind kind : both_kinds) {
-        expect_colour(centre_colour(scene, kind), expected);
-    }
-}
-
-TEST(ReferenceTracer, AShadowLeavesAmbientLight) {
-    Scene scene = one_ball({0, 3, 5});
-    add_sphere(scene, {0, 1.5, 3}, 0.25, 0);
-    for (const ReferenceKind kind : both_kinds) {
-        expect_colour(centre_colour(scene, kind), glm::dvec3(0.125, 0.1875, 0.0625));
-    }
-}
-
-TEST(ReferenceTracer, ALightBehindTheObstacleIsNotSeenButOneBeforeItIs) {
-    Scene scene = one_ball({0, 3, 5});
-    add_sphere(scene, {0, 6, 9}, 0.25, 0);  // on the same line, beyond the light
-    const auto lit = centre_colour(scene, ReferenceKind::quad);
-    EXPECT_GT(lit[0], 0.3);
-}
-
-/// A mirror at z = 0 shows the background, or a ball behind the eye at twice the distance.
-TEST(ReferenceTracer, APlaneMirrorsWhatIsBehindTheEye) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 9, 9);
-    set_view(scene, {0, 0, 4}, {0, 0, 0}, 30);
-    scene.lights.clear();
-    const int mirror = add_mirror(scene, 0.5, 0);
-    add_quad(scene, {-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}, mirror);
-    for (const ReferenceKind kind : both_kinds) {
-        expect_colour(centre_colour(scene, kind), 0.5 * scene.background);
-    }
-    add_sphere(scene, {0, 0, 8}, 1, add_matt(scene, {0.5, 0.75, 0.25}));
-    for (const ReferenceKind kind : both_kinds) {
-        expect_colour(centre_colour(scene, kind), 0.125 * glm::dvec3(0.5, 0.75, 0.25));
-    }
-}
-
-/// Between two facing mirrors, n bounces take the n-th power of the reflectance.
-TEST(ReferenceTracer, FacingMirrorsCountTheirBounces) {
-    Scene scene = bare_scene();
-    set_view(scene, {0, 0, 1}, {0, 0, 0}, 30);
-    set_image_size(scene, 9, 9);
-    scene.ambient_light = glm::dvec3(1);
-    scene.lights.clear();
-    scene.max_bounces = 3;
-    const int mirror = add_mirror(scene, 0.5, 0.25);
-    add_quad(scene, {-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}, mirror);
-    add_quad(scene, {8, -8, 2}, {-8, -8, 2}, {-8, 8, 2}, {8, 8, 2}, mirror);
-    expect_colour(centre_colour(scene, ReferenceKind::quad),
-                  glm::dvec3(0.25 * (1 + 0.5 + 0.25 + 0.125)));
-}
-
-TEST(ReferenceTracer, FirstListedOfTwoInOnePlaceIsSeen) {
-    Scene scene = one_ball({0, 3, 5});
-    scene.lights.clear();
-    add_sphere(scene, {0, 0, 0}, 1, add_matt(scene, glm::dvec3(1)));
-    expect_colour(centre_colour(scene, ReferenceKind::quad), glm::dvec3(0.125, 0.1875, 0.0625));
-}
-
-TEST(ReferenceTracer, BothKindsAgree) {
-    Scene scene = still_life();
-    set_image_size(scene, 20, 15);
-    const auto quad = make_reference_tracer(scene, ReferenceKind::quad);
-    const auto extended = make_reference_tracer(scene, ReferenceKind::extended);
-    for (int y = 0; y < 15; ++y) {
-        for (int x = 0; x < 20; ++x) {
-            const auto a = quad->colour_at(x + 0.5, y + 0.5, 0, 0);
-            const auto b = extended->colour_at(x + 0.5, y + 0.5, 0, 0);
-            for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-12);
-        }
-    }
-}
-
 // The judge
 
 Scene small_still_life() {
@@ -269,7 +161,7 @@ TEST(StressVerdict, OneRowOrOneDisagreementBreaksIt) {
 StressResult small_result() {
     StressResult result;
     StressFamily family{"scale-2", "scale", "absolute epsilons", {}};
-    result.families.push_back({family.name, family.parameter, family.why, {}});
+    result.families.push_back({family.name, family.parameter, family.why, {}, {}});
     for (const double value : {1.0, 16.0}) {
         StressCaseResult one;
         one.label = std::to_string(static_cast<int>(value));
@@ -316,6 +208,24 @@ TEST(StressSection, ShowsVerdictsAndCurves) {
     EXPECT_NE(html.find("123 wrong"), std::string::npos);
     EXPECT_NE(html.find("stress-scale-2-title"), std::string::npos);
     EXPECT_NE(html.find("stress#/families/0/cases/1/rows/0"), std::string::npos);
+}
+
+TEST(StressSection, ShowsTheWorstPictureAndItsErrors) {
+    StressResult result = small_result();
+    EXPECT_EQ(stress_section(result).find("<img"), std::string::npos);
+    StressShot shot{"16", {2, 1, 3, std::vector<float>(6, 0.5F)}, {}, 1};
+    shot.reference = shot.worst;
+    shot.worst.pixels[0] = std::numeric_limits<float>::quiet_NaN();
+    result.families[0].shot = shot;
+    const std::string html = stress_section(result);
+    EXPECT_NE(html.find("scale-2/16, error map"), std::string::npos);
+    EXPECT_NE(html.find("scale-2/16, reference"), std::string::npos);
+}
+
+TEST(StressSection, SaysHowLongItTook) {
+    StressResult result = small_result();
+    for (StressCaseResult& one : result.families[0].cases) one.rows[0].seconds = 1.5;
+    EXPECT_NE(stress_section(result).find("<td>3"), std::string::npos);
 }
 
 // The naive tracer

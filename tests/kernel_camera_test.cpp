@@ -27,6 +27,12 @@ Frame<T> any_frame(Random& random, bool orthographic, int grid) {
     frame.height = 130;
     frame.grid = grid;
     frame.direction = round_to<T>(forward);
+    const auto some_rounding = [&](double size) {
+        return round_to<T>(0.3 * Flat<T>::roundoff * size * random.unit_vector());
+    };
+    frame.direction_low = some_rounding(1);
+    if (!orthographic) frame.direction_dx_low = some_rounding(3e-3);
+    if (!orthographic) frame.direction_dy_low = some_rounding(4e-3);
     (orthographic ? frame.origin_dx : frame.direction_dx) = round_to<T>(3e-3 * right);
     (orthographic ? frame.origin_dy : frame.direction_dy) = round_to<T>(4e-3 * up);
     return frame;
@@ -66,17 +72,24 @@ void expect_closed_form(bool orthographic, int grid) {
     const Frame<T> f = any_frame<T>(random, orthographic, grid);
     const Samples<T> samples(f);
     const auto rays = samples.device(f);
-    WorstError dir, origin;
+    WorstError dir, low, origin;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Quad sx = samples.sx(i, f), sy = samples.sy(i, f);
-        dir.add(vector_error<T>(
-            rays[i].dir,
-            unit(exact(f.direction) + sx * exact(f.direction_dx) + sy * exact(f.direction_dy)), 1));
+        const Quad3 through = exact(f.direction) + sx * exact(f.direction_dx) +
+                              sy * exact(f.direction_dy) + exact(f.direction_low) +
+                              sx * exact(f.direction_dx_low) + sy * exact(f.direction_dy_low);
+        dir.add(vector_error<T>(rays[i].dir, unit(through), 1));
+        const Quad3 both = exact(rays[i].dir) + exact(rays[i].dir_low);
+        const Quad u = Flat<T>::roundoff;
+        low.add(double(length(unit(both) - unit(through)) / (u * u)));
         origin.add(
             vector_error<T>(rays[i].origin, sx * exact(f.origin_dx) + sy * exact(f.origin_dy), 1));
         ASSERT_TRUE(std::isinf(rays[i].t_max) && rays[i].from == Flat<T>::none);
     }
     dir.expect_at_most(4, "direction");
+    if (grid < 3) {  // positions of thirds are rounded themselves
+        low.expect_at_most(3.4, "direction with its low part, in roundoffs squared");
+    }
     origin.expect_at_most(orthographic ? 2 : 0, "origin");
     EXPECT_TRUE(same_bits<T>(rays, for_each_item(rays.size(), [&](std::size_t i) {
                                  return pack(trace::camera_ray<T>(f, samples.x[i], samples.y[i],

@@ -253,13 +253,8 @@ FlatScene<T> glass_crowd() {
     const auto color = [&] { return round_to<T>(0.5 * random.in_cube(0.5) + glm::dvec3(0.3)); };
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 way = random.unit_vector();
-        scene.cones.push_back({round_to<T>(random.in_cube(2)),
-                               T(0.4),
-                               round_to<T>(way),
-                               T(0.9),
-                               T(0.3 * random.index(3) - 0.3),
-                               0,
-                               {}});
+        scene.cones.push_back({round_to<T>(random.in_cube(2)), T(0.4), round_to<T>(way), T(0.9),
+                               T(0.3 * random.index(3) - 0.3), 0, 0, 0});
     }
     for (Index<T> i = 0; i < 6; ++i) {
         const auto clear = i % 3 == 0 ? Packed3<T>{} : color();

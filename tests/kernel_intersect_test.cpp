@@ -192,8 +192,14 @@ TYPED_TEST(IntersectSphere, HasTheTwinsBitsOnAnyNumbers) {
     for (std::size_t i = 0; i < count; ++i) {
         const auto origin = random.any_vector<TypeParam>(), dir = random.any_vector<TypeParam>();
         cases.add({origin, 1, dir, Flat<TypeParam>::eye, random.any_number<TypeParam>()},
-                  {random.any_vector<TypeParam>(), random.any_number<TypeParam>(), 0,
-                   random.index(2), random.any_number<TypeParam>(), random.index(2)},
+                  {random.any_vector<TypeParam>(),
+                   random.any_number<TypeParam>(),
+                   0,
+                   random.index(2),
+                   random.any_number<TypeParam>(),
+                   random.index(2),
+                   {},
+                   0},
                   random.index(4) == 0);
     }
     EXPECT_TRUE(same_bits<TypeParam>(cases.device(), cases.twin()));

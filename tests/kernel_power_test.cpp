@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// kernels/bits.cl and kernels/power.cl: against frexp, ldexp, nextafter and the C library's long
-// double logarithms and exponentials (64 bits), and bit for bit against host/trace. Bars are in
-// roundoffs (half an ulp of 1), each a little above the largest error found.
+// kernels/bits.cl and kernels/power.cl: against nextafter and the C library's long double
+// logarithms and exponentials (64 bits), and bit for bit against host/trace. Bars are in roundoffs
+// (half an ulp of 1), each a little above the largest error found.
 #include <functional>
+#include <numbers>
 
 #include "host/trace/power.h"
 #include "tests/exact.h"
@@ -41,16 +42,6 @@ std::vector<T> positive_numbers() {
     return values;
 }
 
-/// What log_cosine is for: positive numbers up to 1, most of them normal and near 1.
-template <typename T>
-std::vector<T> numbers_up_to_one() {
-    auto values = positive_numbers<T>();
-    std::erase_if(values, [](T x) { return x > T(1); });
-    const auto linear = evenly<T>(1e-5, 1, 60000);
-    values.insert(values.end(), linear.begin(), linear.end());
-    return values;
-}
-
 /// The largest relative error of probe `function` over x.
 template <typename T>
 WorstError sweep(const std::string& function, const std::vector<T>& x,
@@ -73,35 +64,6 @@ testing::AssertionResult same_as_twin(const std::string& function, const std::ve
 template <typename T>
 double bar(double in_float, double in_double) {
     return std::is_same_v<T, float> ? in_float : in_double;
-}
-
-KERNEL_SUITE(ExponentOf);
-TYPED_TEST(ExponentOf, IsFrexpsForNormalNumbers) {
-    using Index = typename Flat<TypeParam>::Index;
-    auto x = positive_numbers<TypeParam>();
-    std::erase_if(x, [](TypeParam v) { return v < std::numeric_limits<TypeParam>::min(); });
-    const auto exponents = run<TypeParam, Index>("exponent_of", x.size(), x);
-    const auto mantissas = run<TypeParam, TypeParam>("mantissa_of", x.size(), x);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        int exponent = 0;
-        const TypeParam half_mantissa = std::frexp(x[i], &exponent);
-        ASSERT_EQ(exponents[i], exponent - 1) << x[i];
-        ASSERT_EQ(mantissas[i], 2 * half_mantissa) << x[i];
-        ASSERT_EQ(trace::exponent_of(x[i]), exponents[i]);
-    }
-    EXPECT_TRUE(same_as_twin<TypeParam>("mantissa_of", x, trace::mantissa_of));
-}
-
-KERNEL_SUITE(PowerOfTwo);
-TYPED_TEST(PowerOfTwo, IsLdexpsForEveryNormalResult) {
-    using Limits = std::numeric_limits<TypeParam>;
-    std::vector<typename Flat<TypeParam>::Index> k;
-    for (int e = Limits::min_exponent - 1; e < Limits::max_exponent; ++e) k.push_back(e);
-    const auto powers = run<TypeParam, TypeParam>("power_of_two", k.size(), k);
-    for (std::size_t i = 0; i < k.size(); ++i) {
-        ASSERT_EQ(powers[i], std::ldexp(TypeParam(1), int(k[i])));
-        ASSERT_EQ(trace::power_of_two<TypeParam>(k[i]), powers[i]);
-    }
 }
 
 KERNEL_SUITE(OneUlpTowards);
@@ -128,145 +90,208 @@ TYPED_TEST(OneUlpTowards, IsNextafter) {
                                      })));
 }
 
-KERNEL_SUITE(AtanhTail);
-TYPED_TEST(AtanhTail, IsItsSeries) {
-    // (atanh(z) / z - 1) / z^2 = 1/3 + w/5 + w^2/7 + ... In float the polynomial is cut at w^3 and
-    // off by 4e-6 of its value at the end, which is 1e-8 of the atanh.
-    const auto x = evenly<TypeParam>(0, 0.0296, 60000);
-    sweep<TypeParam>("atanh_tail", x, [](long double w) {
+constexpr long double log2_e = std::numbers::log2e_v<long double>;
+
+KERNEL_SUITE(Log2Tail);
+TYPED_TEST(Log2Tail, IsItsSeries) {
+    // (atanh(z) / z - 1) / z^2 = 1/3 + w/5 + w^2/7 + ... What the polynomial is off by here makes
+    // 0.05 roundoffs of the logarithm in float, 0.01 in double.
+    const auto x = evenly<TypeParam>(0, 0.04, 60000);
+    sweep<TypeParam>("log2_tail", x, [](long double w) {
         long double sum = 0;
         for (int k = 61; k >= 3; k -= 2) sum = sum * w + 1.0L / k;
-        return sum;
-    }).expect_at_most(bar<TypeParam>(4, 1.5));
-    EXPECT_TRUE(same_as_twin<TypeParam>("atanh_tail", x, [](TypeParam w) {
-        return trace::horner(trace::PowerConstants<TypeParam>::atanh_tail, w);
+        return log2_e * sum;
+    }).expect_at_most(bar<TypeParam>(90, 13));
+    EXPECT_TRUE(same_as_twin<TypeParam>("log2_tail", x, [](TypeParam w) {
+        return trace::horner(trace::PowerConstants<TypeParam>::log2_tail, w);
     }));
 }
 
-KERNEL_SUITE(ExpSeries);
-TYPED_TEST(ExpSeries, IsExpOverItsInterval) {
-    const auto x = evenly<TypeParam>(-0.3466, 0.3466, 60001);
-    sweep<TypeParam>("exp_series", x, [](long double r) {
-        return std::exp(r);
-    }).expect_at_most(1.25);
-    EXPECT_TRUE(same_as_twin<TypeParam>("exp_series", x, [](TypeParam r) {
-        return trace::horner(trace::PowerConstants<TypeParam>::exp_series, r);
+KERNEL_SUITE(Exp2Series);
+TYPED_TEST(Exp2Series, IsExp2OverItsInterval) {
+    const auto x = evenly<TypeParam>(-0.5, 0.5, 60001);
+    sweep<TypeParam>("exp2_series", x, [](long double r) {
+        return std::exp2(r);
+    }).expect_at_most(1.4);
+    EXPECT_TRUE(same_as_twin<TypeParam>("exp2_series", x, [](TypeParam r) {
+        return trace::horner(trace::PowerConstants<TypeParam>::exp2_series, r);
     }));
 }
 
-KERNEL_SUITE(TwiceAtanh);
-TYPED_TEST(TwiceAtanh, IsTwiceAtanhOverItsInterval) {
-    auto x = evenly<TypeParam>(-0.172, 0.172, 60001);
+KERNEL_SUITE(Log2Series);
+TYPED_TEST(Log2Series, IsAtanhToTheBaseTwoOverItsInterval) {
+    auto x = evenly<TypeParam>(-0.2, 0.2, 60001);
     for (const TypeParam small : positive_numbers<TypeParam>()) {
-        if (small < TypeParam(0.1)) x.push_back(small);
-    }
-    sweep<TypeParam>("twice_atanh", x, [](long double z) {
-        return 2 * std::atanh(z);
-    }).expect_at_most(1.25);
-    EXPECT_TRUE(same_as_twin<TypeParam>("twice_atanh", x, trace::twice_atanh));
-}
-
-KERNEL_SUITE(LogCosine);
-template <typename T>
-void expect_log(const std::vector<T>& cosine, const std::vector<T>& gap,
-                const std::function<long double(T, T)>& reference, double bar) {
-    const auto logs = run<T, T>("log_cosine", cosine.size(), cosine, gap);
-    WorstError worst;
-    for (std::size_t i = 0; i < cosine.size(); ++i)
-        worst.add(relative_error(logs[i], Quad(reference(cosine[i], gap[i]))));
-    worst.expect_at_most(bar);
-    EXPECT_TRUE(same_bits<T>(logs, for_each_item(cosine.size(), [&](std::size_t i) {
-                                 return trace::log_cosine(cosine[i], gap[i]);
-                             })));
-}
-TYPED_TEST(LogCosine, IsLog1pOfTheGapNearThePeak) {
-    auto gap = evenly<TypeParam>(0, 0.2, 60000);
-    // Gaps far below a roundoff, where 1 - gap is 1; above the numbers whose halves round.
-    for (const TypeParam small : positive_numbers<TypeParam>()) {
-        if (small < TypeParam(0.1) && small > 4 * std::numeric_limits<TypeParam>::min()) {
-            gap.push_back(small);
+        if (small < TypeParam(0.1) && small > 2 * std::numeric_limits<TypeParam>::min()) {
+            x.push_back(small);
         }
     }
-    std::vector<TypeParam> cosine;
-    for (const TypeParam g : gap)
-        cosine.push_back(std::max(1 - g, std::nextafter(TypeParam(0.8125), TypeParam(1))));
-    const auto log1p = [](TypeParam, TypeParam g) { return std::log1p(-(long double)g); };
-    expect_log<TypeParam>(cosine, gap, log1p, 2.5);
-}
-TYPED_TEST(LogCosine, IsTheLogFartherOffSubnormalsIncluded) {
-    auto cosine = numbers_up_to_one<TypeParam>();
-    std::erase_if(cosine, [](TypeParam x) { return x > TypeParam(0.8125); });
-    const std::vector<TypeParam> gap(cosine.size(), TypeParam(0.5));
-    const auto log = [](TypeParam x, TypeParam) { return std::log((long double)x); };
-    expect_log<TypeParam>(cosine, gap, log, 3);
+    sweep<TypeParam>("log2_series", x, [](long double z) {
+        return log2_e * std::atanh(z);
+    }).expect_at_most(2.5);
+    EXPECT_TRUE(same_as_twin<TypeParam>("log2_series", x, trace::log2_series));
 }
 
-KERNEL_SUITE(ExpNegative);
-TYPED_TEST(ExpNegative, IsExpDownToTheSmallestNormalNumber) {
-    const double lowest = trace::PowerConstants<TypeParam>::exp_lowest;
-    auto y = evenly<TypeParam>(std::nextafter(TypeParam(lowest), TypeParam(0)), 0, 60000);
-    for (const TypeParam x : positive_numbers<TypeParam>()) {
-        if (x < TypeParam(1)) y.push_back(-x);
+/// Vectors s beside a unit vector n, and what shading knows of them.
+template <typename T>
+struct Vectors {
+    std::vector<T> along, across, squared;  ///< n.s, |s - (n.s) n|^2, s.s
+    std::vector<long double> log2;          ///< of the cosine, from the rounded numbers
+
+    /// The vector with this square and sine.
+    void add_sine(T square, long double sine) {
+        const auto off = static_cast<T>(square * sine * sine);
+        push(static_cast<T>(std::sqrt(static_cast<long double>(square) - off)), off, square);
+        log2.push_back(log2_e / 2 * std::log1p(-static_cast<long double>(off) / square));
     }
-    sweep<TypeParam>("exp_negative", y, [](long double v) {
-        return std::exp(v);
-    }).expect_at_most(1.5);
-    EXPECT_TRUE(same_as_twin<TypeParam>("exp_negative", y, trace::exp_negative));
+    /// The one with this square and n.s.
+    void add_along(T square, T length) {
+        const long double l = length;
+        push(length, static_cast<T>(square - l * l), square);
+        log2.push_back(std::log2(l) - std::log2(static_cast<long double>(square)) / 2);
+    }
+
+   private:
+    void push(T a, T b, T c) {
+        along.push_back(a);
+        across.push_back(b);
+        squared.push_back(c);
+    }
+};
+
+/// Squares of sums of two unit vectors: all mantissas, and the least.
+template <typename T>
+T any_square(Random& random) {
+    if (random.index(10) == 0) return trace::PowerConstants<T>::least_squared;
+    return static_cast<T>(random.coin() ? random.uniform(0.25, 4) : random.log_uniform(1e-12, 4));
 }
-TYPED_TEST(ExpNegative, IsZeroBelowAndForNanAndOneAtZero) {
-    const TypeParam infinity = std::numeric_limits<TypeParam>::infinity();
-    const TypeParam lowest = trace::PowerConstants<TypeParam>::exp_lowest;
-    const std::vector<TypeParam> y{
-        lowest, -1e30f, -infinity, std::numeric_limits<TypeParam>::quiet_NaN(), 0, -TypeParam(0)};
-    const std::vector<TypeParam> expected{0, 0, 0, 0, 1, 1};
-    EXPECT_EQ((run<TypeParam, TypeParam>("exp_negative", y.size(), y)), expected);
-    EXPECT_TRUE(same_as_twin<TypeParam>("exp_negative", y, trace::exp_negative));
+
+/// Near the peak: the cosine is above sqrt(3)/2, the sine between 0.5 and `least`, evenly and by
+/// its logarithm.
+template <typename T>
+Vectors<T> near_the_peak(double least) {
+    Random random(4);
+    Vectors<T> vectors;
+    for (int i = 0; i < 20000; ++i) {
+        vectors.add_sine(any_square<T>(random), random.uniform(0, 0.5));
+        vectors.add_sine(any_square<T>(random), random.log_uniform(least, 0.5));
+    }
+    return vectors;
+}
+
+/// Farther off: cosines up to 0.81.
+template <typename T>
+Vectors<T> off_the_peak() {
+    Random random(5);
+    Vectors<T> vectors;
+    for (int i = 0; i < 40000; ++i) {
+        const T square = any_square<T>(random);
+        const double cosine =
+            random.coin() ? random.uniform(0, 0.81) : random.log_uniform(1e-9, 0.81);
+        vectors.add_along(square, static_cast<T>(cosine * std::sqrt(double(square))));
+    }
+    return vectors;
+}
+
+KERNEL_SUITE(Log2Cosine);
+template <typename T>
+void expect_log2(const Vectors<T>& v, double bar) {
+    const auto logs = run<T, T>("log2_cosine", v.along.size(), v.along, v.across, v.squared);
+    WorstError worst;
+    for (std::size_t i = 0; i < logs.size(); ++i)
+        worst.add(relative_error(logs[i], Quad(v.log2[i])));
+    worst.expect_at_most(bar);
+    EXPECT_TRUE(same_bits<T>(logs, for_each_item(logs.size(), [&](std::size_t i) {
+                                 return trace::log2_cosine(v.along[i], v.across[i], v.squared[i]);
+                             })));
+}
+TYPED_TEST(Log2Cosine, IsRightNearThePeakWhereTheCosineRoundsToOne) {
+    expect_log2(near_the_peak<TypeParam>(1e-14), 4);
+}
+TYPED_TEST(Log2Cosine, IsRightFartherOff) { expect_log2(off_the_peak<TypeParam>(), 4); }
+TYPED_TEST(Log2Cosine, IsRightForSubnormalCosines) {
+    Random random(6);
+    Vectors<TypeParam> vectors;
+    for (const TypeParam cosine : positive_numbers<TypeParam>()) {
+        if (cosine < TypeParam(0.4)) {
+            vectors.add_along(static_cast<TypeParam>(random.uniform(0.25, 4)), cosine);
+        }
+    }
+    expect_log2(vectors, 1.25);
+}
+
+/// 2^x; the whole part of a large x would cost long double its digits.
+Quad exact_exp2(Quad x) {
+    const long double whole = std::rint(static_cast<long double>(x));
+    const auto rest = static_cast<long double>(x - Quad(whole));
+    return Quad(std::ldexp(std::exp2(rest), static_cast<int>(whole)));
+}
+
+KERNEL_SUITE(Exp2OfProduct);
+TYPED_TEST(Exp2OfProduct, IsExp2DownToTheSmallestNormalNumber) {
+    using C = trace::PowerConstants<TypeParam>;
+    Random random(7);
+    std::vector<TypeParam> a, b;
+    for (const TypeParam product : evenly<TypeParam>(C::exp2_lowest, 0, 60000)) {
+        const auto factor = static_cast<TypeParam>(random.log_uniform(1e-6, 1e6));
+        a.push_back(factor);
+        b.push_back(product / factor);
+    }
+    for (const TypeParam x : positive_numbers<TypeParam>()) {
+        a.push_back(1);
+        b.push_back(x < TypeParam(1) ? -x : TypeParam(-1) / x);
+    }
+    const auto powers = run<TypeParam, TypeParam>("exp2_of_product", a.size(), a, b);
+    WorstError worst;
+    for (std::size_t i = 0; i < powers.size(); ++i) {
+        const Quad product = Quad(a[i]) * Quad(b[i]);
+        if (product < Quad(C::exp2_lowest)) continue;
+        worst.add(relative_error(powers[i], exact_exp2(product)));
+        ASSERT_LE(powers[i], TypeParam(1));
+    }
+    worst.expect_at_most(1.5);
+    EXPECT_TRUE(same_bits<TypeParam>(powers, for_each_item(a.size(), [&](std::size_t i) {
+                                         return trace::exp2_of_product(a[i], b[i]);
+                                     })));
+}
+TYPED_TEST(Exp2OfProduct, IsZeroBelowAndForNanAndOneAtZero) {
+    using Limits = std::numeric_limits<TypeParam>;
+    const TypeParam lowest = trace::PowerConstants<TypeParam>::exp2_lowest;
+    const std::vector<TypeParam> a{1, 1, 1, Limits::max(), 0, 1, 1, 0},
+        b{lowest - 1, -1e30f, -Limits::infinity(), -1, -Limits::infinity(), Limits::quiet_NaN(),
+          0,          -1};
+    const std::vector<TypeParam> expected{0, 0, 0, 0, 0, 0, 1, 1};
+    EXPECT_EQ((run<TypeParam, TypeParam>("exp2_of_product", a.size(), a, b)), expected);
+    EXPECT_EQ(
+        for_each_item(a.size(), [&](std::size_t i) { return trace::exp2_of_product(a[i], b[i]); }),
+        expected);
 }
 
 constexpr double exponents[] = {0, 1e-3, 1, 10, 100, 1e4, 1e6};
 
-/// Arguments of blinn_lobe.
 template <typename T>
-struct Lobes {
-    std::vector<T> n_dot_h, half_gap, exponent;
-    std::vector<long double> cosine_log;  ///< log(n.h), exactly
-
-    /// From the gap, as shading makes it: n.h = 1 - half_gap is rounded.
-    void add_gap(T gap, T power) {
-        n_dot_h.push_back(static_cast<T>(1 - static_cast<long double>(gap)));
-        half_gap.push_back(gap);
-        exponent.push_back(power);
-        cosine_log.push_back(std::log1p(-static_cast<long double>(gap)));
-    }
-    void add_cosine(T cosine, T power) {
-        n_dot_h.push_back(cosine);
-        half_gap.push_back(static_cast<T>(1 - static_cast<long double>(cosine)));
-        exponent.push_back(power);
-        cosine_log.push_back(std::log(static_cast<long double>(cosine)));
-    }
-    auto run_lobe() const {
-        return run<T, T>("blinn_lobe", n_dot_h.size(), n_dot_h, half_gap, exponent);
-    }
-};
+auto run_lobe(const Vectors<T>& v, T exponent) {
+    const std::vector<T> exponents(v.along.size(), exponent);
+    const auto lobes =
+        run<T, T>("blinn_lobe", exponents.size(), v.along, v.across, v.squared, exponents);
+    EXPECT_TRUE(same_bits<T>(lobes, for_each_item(lobes.size(), [&](std::size_t i) {
+                                 return trace::blinn_lobe(v.along[i], v.across[i], v.squared[i],
+                                                          exponent);
+                             })));
+    return lobes;
+}
 
 // 1.5 roundoffs are 9e-8 in float and 1.7e-16 in double; pow(n.h, e) is off by 0.45 at e = 1e6.
 KERNEL_SUITE(BlinnLobe);
 TYPED_TEST(BlinnLobe, IsThePowerForEveryExponentNearAndFarFromThePeak) {
     for (const double power : exponents) {
-        Lobes<TypeParam> lobes;
-        const TypeParam e = static_cast<TypeParam>(power);
-        for (const TypeParam gap : evenly<TypeParam>(0, 0.187, 20000)) lobes.add_gap(gap, e);
-        for (int i = 0; i < 20000; ++i) {
-            lobes.add_gap(static_cast<TypeParam>(std::exp2(-2.5 - 60.0 * i / 20000)), e);
-        }
-        for (const TypeParam n_dot_h : evenly<TypeParam>(1e-4, 0.8125, 20000)) {
-            lobes.add_cosine(n_dot_h, e);
-        }
-        const auto values = lobes.run_lobe();
         WorstError worst;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const Quad exact_value = std::exp(static_cast<long double>(e) * lobes.cosine_log[i]);
-            worst.add(error_in_roundoffs(values[i], exact_value, 1));
+        for (const auto& vectors : {near_the_peak<TypeParam>(1e-9), off_the_peak<TypeParam>()}) {
+            const auto lobes = run_lobe(vectors, static_cast<TypeParam>(power));
+            const long double e = static_cast<TypeParam>(power);
+            for (std::size_t i = 0; i < lobes.size(); ++i) {
+                worst.add(error_in_roundoffs(lobes[i], Quad(std::exp2(e * vectors.log2[i])), 1));
+            }
         }
         worst.expect_at_most(1.5, fmt::format("exponent_{:g}", power));
     }
@@ -274,30 +299,30 @@ TYPED_TEST(BlinnLobe, IsThePowerForEveryExponentNearAndFarFromThePeak) {
 TYPED_TEST(BlinnLobe, AtTheEdgesIsZeroOrOne) {
     const TypeParam nan = std::numeric_limits<TypeParam>::quiet_NaN();
     const TypeParam least = std::numeric_limits<TypeParam>::denorm_min();
+    Vectors<TypeParam> vectors;
+    vectors.along = {-1, -least, 0, nan, 1, least, least, 2};
+    vectors.across = {3, 1, 1, nan, nan, 0, least, 0};
+    vectors.squared = {4, 1, 1, nan, nan, 0, least, 4};
     for (const double power : exponents) {
-        const TypeParam e = static_cast<TypeParam>(power);
-        const std::vector<TypeParam> n_dot_h{-1, -least, 0, nan, 1}, half_gap{2, 1, 1, nan, 0},
-            exponent(5, e);
-        const auto values = run<TypeParam, TypeParam>("blinn_lobe", 5, n_dot_h, half_gap, exponent);
-        const TypeParam behind = power == 0 ? 1 : 0;
-        EXPECT_EQ(values, (std::vector<TypeParam>{behind, behind, behind, behind, 1})) << power;
+        const TypeParam dark = power == 0 ? 1 : 0;
+        EXPECT_EQ(run_lobe(vectors, static_cast<TypeParam>(power)),
+                  (std::vector<TypeParam>{dark, dark, dark, dark, dark, dark, dark, 1}))
+            << power;
     }
 }
-TYPED_TEST(BlinnLobe, HasTheTwinsBits) {
+TYPED_TEST(BlinnLobe, LiesWithinZeroAndOneForAnyNumbers) {
     Random random(3);
-    Lobes<TypeParam> lobes;
     for (const double power : exponents) {
-        for (const TypeParam x : numbers_up_to_one<TypeParam>()) {
-            lobes.add_cosine(x, static_cast<TypeParam>(power));
+        Vectors<TypeParam> vectors;
+        for (int i = 0; i < 40000; ++i) {
+            vectors.along.push_back(random.any_number<TypeParam>());
+            vectors.across.push_back(std::fabs(random.any_number<TypeParam>()));
+            vectors.squared.push_back(std::fabs(random.any_number<TypeParam>()));
         }
-        for (int i = 0; i < 5000; ++i) {
-            lobes.add_cosine(random.any_number<TypeParam>(), static_cast<TypeParam>(power));
+        for (const TypeParam lobe : run_lobe(vectors, static_cast<TypeParam>(power))) {
+            ASSERT_TRUE(lobe >= 0 && lobe <= 1) << lobe;
         }
     }
-    EXPECT_TRUE(same_bits<TypeParam>(
-        lobes.run_lobe(), for_each_item(lobes.n_dot_h.size(), [&](std::size_t i) {
-            return trace::blinn_lobe(lobes.n_dot_h[i], lobes.half_gap[i], lobes.exponent[i]);
-        })));
 }
 
 }  // namespace

@@ -43,24 +43,53 @@ struct BallHits {
     std::vector<T> t;
     std::vector<Packed3<T>> sides;
 
+    BallHits() = default;
     explicit BallHits(Random& random) {
         while (rays.size() < count) {
             const double r = random.log_uniform(1e-3, 1e3);
             const glm::dvec3 center = random.log_uniform(1, 1e3) * random.unit_vector();
             const glm::dvec3 origin = center + r * random.uniform(0, 3) * random.unit_vector();
             const glm::dvec3 target = center + r * random.uniform(0, 1) * random.unit_vector();
-            const auto ray = make_ray<T>(origin, target - origin);
-            const auto sphere = make_sphere<T>(center, r);
-            const T distance = trace::intersect_sphere(unpack(ray), sphere, 0);
-            if (!(distance > 0)) continue;
-            rays.push_back(ray);
-            spheres.push_back(sphere);
-            t.push_back(distance);
-            sides.push_back(round_to<T>(random.unit_vector()));
+            offer(random, origin, target, center, r);
         }
+    }
+    /// Takes the ray if it hits the ball. Directions and centres get low parts.
+    void offer(Random& random, const glm::dvec3& origin, const glm::dvec3& target,
+               const glm::dvec3& center, double r) {
+        constexpr double low = 0.4 * Flat<T>::roundoff;
+        auto ray = make_ray<T>(origin, target - origin);
+        ray.dir_low = round_to<T>(low * random.unit_vector());
+        ray.origin_low = round_to<T>(low * glm::length(origin) * random.unit_vector());
+        auto sphere = make_sphere<T>(center, r);
+        sphere.center_low = round_to<T>(low * center * random.unit_vector());
+        const T distance = trace::intersect_sphere(unpack(ray), sphere, 0);
+        if (!(distance > 0)) return;
+        rays.push_back(ray);
+        spheres.push_back(sphere);
+        t.push_back(distance);
+        sides.push_back(round_to<T>(random.unit_vector()));
     }
     std::vector<ProbeSurface<T>> surfaces() const {
         return run<T, ProbeSurface<T>>("sphere_surface", count, rays, t, spheres);
+    }
+};
+
+/// Where the line with its low part meets the sphere with its low part, near t.
+template <typename T>
+struct TrueHit {
+    Quad r, half_chord;  ///< the latter 0 where the line misses
+    Quad3 to_origin;     ///< from the centre
+    Quad3 normal;
+
+    TrueHit(const ProbeRay<T>& ray, const Sphere<T>& sphere, T t) : r(sphere.radius) {
+        const Quad3 dir = unit(exact(ray.dir) + exact(ray.dir_low));
+        to_origin = exact(ray.origin) + exact(ray.origin_low) - exact(sphere.center) -
+                    exact(sphere.center_low);
+        const Quad b = -dot(to_origin, dir);
+        const Quad3 closest = to_origin + b * dir;
+        const Quad squared = r * r - dot(closest, closest);
+        half_chord = squared > 0 ? sqrt(squared) : Quad(0);
+        normal = unit(closest + (Quad(t) < b ? -half_chord : half_chord) * dir);
     }
 };
 
@@ -69,23 +98,49 @@ TYPED_TEST(SphereSurface, HasItsPointOnTheSphereAndTheNormalThere) {
     Random random(1);
     const BallHits<TypeParam> hits(random);
     const auto surfaces = hits.surfaces();
-    WorstError normal, bound;
+    WorstError normal, low, bound;
     for (std::size_t i = 0; i < count; ++i) {
-        const Quad3 c = exact(hits.spheres[i].center), o = exact(hits.rays[i].origin);
-        const Quad r = hits.spheres[i].radius;
-        const Quad3 out = o + hits.t[i] * exact(hits.rays[i].dir) - c;
-        const Quad far = (length(o - c) + hits.t[i] + r) / r;
-        normal.add(vector_error<TypeParam>(surfaces[i].normal, unit(out), far));
-        const Quad off = magnitude(length(exact(surfaces[i].point) - c) - r);
-        ASSERT_LE(off, Quad(surfaces[i].offset)) << i;
-        bound.add(error_in_roundoffs(surfaces[i].offset, 0, r + length(exact(surfaces[i].point))));
+        const TrueHit<TypeParam> hit(hits.rays[i], hits.spheres[i], hits.t[i]);
+        if (hit.half_chord > 0) {
+            const Quad unit_of_error = (length(hit.to_origin) + hit.r) / hit.half_chord;
+            normal.add(vector_error<TypeParam>(surfaces[i].normal, hit.normal, unit_of_error));
+        }
+        const Quad3 c = exact(hits.spheres[i].center), p = exact(surfaces[i].point);
+        ASSERT_LE(magnitude(length(p - c) - hit.r), Quad(surfaces[i].offset)) << i;
+        const Quad3 from_center = p + exact(surfaces[i].point_low) - c;
+        low.add(error_in_roundoffs<TypeParam>(
+            TypeParam(length(from_center - exact(hits.spheres[i].center_low)) - hit.r), 0, hit.r));
+        bound.add(error_in_roundoffs(surfaces[i].offset, 0, hit.r + length(p) + length(c)));
     }
-    normal.expect_at_most(1.25, "normal");
+    normal.expect_at_most(2, "normal");
+    low.expect_at_most(4, "point with its low part");
     bound.expect_at_most(5, "offset");
     EXPECT_TRUE(same_bits<TypeParam>(surfaces, for_each_item(count, [&](std::size_t i) {
                                          return pack(trace::sphere_surface(
                                              unpack(hits.rays[i]), hits.t[i], hits.spheres[i]));
                                      })));
+}
+
+// However small the ball is beside its distance from the eye; a point origin + t dir would be off
+// by a roundoff of the distance, ten thousand of the radius.
+TYPED_TEST(SphereSurface, OfASmallBallFarFromTheEyeKeepsItsNormal) {
+    Random random(6);
+    BallHits<TypeParam> hits;
+    while (hits.rays.size() < count) {
+        const double distance = random.log_uniform(1e-2, 1e2);
+        const double r = distance * random.log_uniform(1e-4, 1e-2);
+        const glm::dvec3 center = distance * random.unit_vector();
+        hits.offer(random, {0, 0, 0}, center + r * random.uniform(0, 1) * random.unit_vector(),
+                   center, r);
+    }
+    const auto surfaces = hits.surfaces();
+    WorstError normal;
+    for (std::size_t i = 0; i < count; ++i) {
+        const TrueHit<TypeParam> hit(hits.rays[i], hits.spheres[i], hits.t[i]);
+        if (!(hit.half_chord > 0)) continue;
+        normal.add(vector_error<TypeParam>(surfaces[i].normal, hit.normal, hit.r / hit.half_chord));
+    }
+    normal.expect_at_most(4, "normal");
 }
 
 KERNEL_SUITE(OffsetOrigin);

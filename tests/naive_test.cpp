@@ -32,8 +32,10 @@ TEST_P(EachTechnique, MakesLittleDifferenceToThePaperScene) {
     const auto other = render_on_device<float>(scene, without(naive));
     EXPECT_LT(film_error(other, robust).rmse, 0.02);
     const bool is_boxes = GetParam().flag == &Techniques::boxes;  // too few primitives for them
-    const bool may_contract = GetParam().flag == &Techniques::arithmetic;
-    if (!may_contract) {
+    // Contraction is up to the compiler, and a sphere's normal does not come from the distance.
+    const bool may_agree =
+        GetParam().flag == &Techniques::arithmetic || GetParam().flag == &Techniques::spheres;
+    if (!may_agree) {
         EXPECT_EQ(hash_of(other) != hash_of(robust), !is_boxes);
     }
 }

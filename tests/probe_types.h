@@ -21,6 +21,7 @@ struct ProbeRay {
     Packed3<T> dir;
     typename Flat<T>::Index from;
     T chord;
+    Packed3<T> dir_low{}, origin_low{};
 };
 
 template <typename T>
@@ -31,6 +32,7 @@ struct ProbeSurface {
     typename Flat<T>::Index material;
     Packed3<T> geometric;
     T diameter;
+    Packed3<T> point_low{};
 };
 
 template <typename T>
@@ -45,20 +47,24 @@ Packed3<T> round_to(const glm::dvec3& v) {
 
 template <typename T>
 ProbeRay<T> pack(const trace::Ray<T>& ray) {
-    return {pack(ray.origin), ray.t_max, pack(ray.dir), ray.from, ray.chord};
+    return {pack(ray.origin), ray.t_max,         pack(ray.dir),       ray.from,
+            ray.chord,        pack(ray.dir_low), pack(ray.origin_low)};
 }
 template <typename T>
 trace::Ray<T> unpack(const ProbeRay<T>& ray) {
-    return {trace::load3(ray.origin), trace::load3(ray.dir), ray.t_max, ray.from, ray.chord};
+    return {trace::load3(ray.origin),  trace::load3(ray.dir),       ray.t_max, ray.from, ray.chord,
+            trace::load3(ray.dir_low), trace::load3(ray.origin_low)};
 }
 
 template <typename T>
 ProbeSurface<T> pack(const trace::Surface<T>& s) {
-    return {pack(s.point), s.offset, pack(s.normal), s.material, pack(s.geometric), s.diameter};
+    return {pack(s.point),     s.offset,   pack(s.normal),   s.material,
+            pack(s.geometric), s.diameter, pack(s.point_low)};
 }
 template <typename T>
 trace::Surface<T> unpack(const ProbeSurface<T>& s) {
     return {trace::load3(s.point),
+            trace::load3(s.point_low),
             trace::load3(s.normal),
             trace::load3(s.geometric),
             s.offset,
@@ -70,8 +76,13 @@ trace::Surface<T> unpack(const ProbeSurface<T>& s) {
 template <typename T>
 ProbeRay<T> make_ray(const glm::dvec3& origin, const glm::dvec3& dir) {
     const double size = std::sqrt(dir.x * dir.x + dir.y * dir.y + dir.z * dir.z);
-    return {round_to<T>(origin), std::numeric_limits<T>::infinity(), round_to<T>(dir / size),
-            Flat<T>::none, 0};
+    return {round_to<T>(origin),
+            std::numeric_limits<T>::infinity(),
+            round_to<T>(dir / size),
+            Flat<T>::none,
+            0,
+            {},
+            {}};
 }
 
 /// `count` values from make().

@@ -25,6 +25,7 @@ typedef struct {
     Packed3 dir;
     Index from;
     Real chord;
+    Packed3 dir_low, origin_low;
 } ProbeRay;
 
 typedef struct {
@@ -34,6 +35,7 @@ typedef struct {
     Index material;
     Packed3 geometric;
     Real diameter;
+    Packed3 point_low;
 } ProbeSurface;
 
 typedef struct {
@@ -60,6 +62,8 @@ Ray unpack_ray(ProbeRay packed) {
     Ray ray;
     ray.origin = load3(packed.origin);
     ray.dir = load3(packed.dir);
+    ray.dir_low = load3(packed.dir_low);
+    ray.origin_low = load3(packed.origin_low);
     ray.t_max = packed.t_max;
     ray.from = packed.from;
     ray.chord = packed.chord;
@@ -88,7 +92,8 @@ Finish probe_finish(const SceneView* scene, const Surface* surface) {
 }
 
 ProbeRay pack_ray(Ray ray) {
-    ProbeRay packed = {pack(ray.origin), ray.t_max, pack(ray.dir), ray.from, ray.chord};
+    ProbeRay packed = {pack(ray.origin), ray.t_max,         pack(ray.dir),       ray.from,
+                       ray.chord,        pack(ray.dir_low), pack(ray.origin_low)};
     return packed;
 }
 
@@ -100,12 +105,13 @@ Surface unpack_surface(ProbeSurface packed) {
     surface.offset = packed.offset;
     surface.material = packed.material;
     surface.diameter = packed.diameter;
+    surface.point_low = load3(packed.point_low);
     return surface;
 }
 
 ProbeSurface pack_surface(Surface s) {
-    ProbeSurface packed = {pack(s.point), s.offset,          pack(s.normal),
-                           s.material,    pack(s.geometric), s.diameter};
+    ProbeSurface packed = {pack(s.point),     s.offset,   pack(s.normal),   s.material,
+                           pack(s.geometric), s.diameter, pack(s.point_low)};
     return packed;
 }
 
@@ -135,23 +141,11 @@ __kernel void probe_layout(PROBE_ITEMS, __global ProbeField* out) {
         PROBE_ITEM;                                                                           \
         out[i] = function(x[i]);                                                              \
     }
-PROBE_UNARY(mantissa_of)
-PROBE_UNARY(atanh_tail)
-PROBE_UNARY(exp_series)
-PROBE_UNARY(twice_atanh)
-PROBE_UNARY(exp_negative)
+PROBE_UNARY(log2_tail)
+PROBE_UNARY(log2_series)
+PROBE_UNARY(exp2_series)
 
 // bits.cl, power.cl
-
-__kernel void probe_exponent_of(PROBE_ITEMS, __global const Real* x, __global Index* out) {
-    PROBE_ITEM;
-    out[i] = exponent_of(x[i]);
-}
-
-__kernel void probe_power_of_two(PROBE_ITEMS, __global const Index* k, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = power_of_two(k[i]);
-}
 
 __kernel void probe_one_ulp_towards(PROBE_ITEMS, __global const Real* x,
                                     __global const Real* direction, __global Real* out) {
@@ -159,17 +153,24 @@ __kernel void probe_one_ulp_towards(PROBE_ITEMS, __global const Real* x,
     out[i] = one_ulp_towards(x[i], direction[i]);
 }
 
-__kernel void probe_log_cosine(PROBE_ITEMS, __global const Real* cosine, __global const Real* gap,
-                               __global Real* out) {
+__kernel void probe_log2_cosine(PROBE_ITEMS, __global const Real* along,
+                                __global const Real* across, __global const Real* squared,
+                                __global Real* out) {
     PROBE_ITEM;
-    out[i] = log_cosine(cosine[i], gap[i]);
+    out[i] = log2_cosine(along[i], across[i], squared[i]);
 }
 
-__kernel void probe_blinn_lobe(PROBE_ITEMS, __global const Real* n_dot_h,
-                               __global const Real* half_gap, __global const Real* exponent,
+__kernel void probe_exp2_of_product(PROBE_ITEMS, __global const Real* a, __global const Real* b,
+                                    __global Real* out) {
+    PROBE_ITEM;
+    out[i] = exp2_of_product(a[i], b[i]);
+}
+
+__kernel void probe_blinn_lobe(PROBE_ITEMS, __global const Real* along, __global const Real* across,
+                               __global const Real* squared, __global const Real* exponent,
                                __global Real* out) {
     PROBE_ITEM;
-    out[i] = blinn_lobe(n_dot_h[i], half_gap[i], exponent[i]);
+    out[i] = blinn_lobe(along[i], across[i], squared[i], exponent[i]);
 }
 
 // math.cl
@@ -620,6 +621,6 @@ __kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* 
     PROBE_ITEM;
     SceneView scene = PROBE_SCENE_VIEW;
     RayCounts counts = {0, 0, 0};
-    Packet packet = make_packet(frame->samples);
+    Packet packet = make_packet(frame->samples, RT_SAMPLES_TOGETHER);
     out[i] = pack(trace_pixels(&scene, &packet, x[i], y[i], RT_ALL_LANES, &counts));
 }

@@ -156,6 +156,22 @@ class Databases(unittest.TestCase):
             if letter == "p" and numbers[0] > 4:
                 self.assertEqual(len({round(z, 9) for z in numbers[3::3]}), 1)
 
+    def test_float_is_near_double(self):
+        """The small mirror balls of `balls` had an RMSE of 1.8e-3 before sphere_normal."""
+        for name in USUAL:
+            with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:
+                scene = pathlib.Path(folder, "scene.nff")
+                scene.write_text(written(name), encoding="utf-8")
+                for precision in ["float", "double"]:
+                    result = run(BUILD / "mirrorball", "render", scene, "--size", 160, "-q",
+                                 "--aa", "none", "--device", "threads", "--precision", precision,
+                                 "-o", pathlib.Path(folder, f"{precision}.pfm"))
+                    self.assertEqual((result.returncode, result.stderr), (0, ""))
+                error = json.loads(run(BUILD / "mirrorball", "compare", f"{folder}/float.pfm",
+                                       f"{folder}/double.pfm", "--json").stdout)["error"]
+                self.assertLessEqual(error["rmse"], 1e-3)
+                self.assertLessEqual(error["pixels_over_8_255"], 1e-3 * 160 * 160)
+
     def test_corner_rays_are_those_of_513_pixels(self):
         text = written("tetra", "--size", 1, "--corners")
         view = dict(entities(text))

@@ -57,6 +57,24 @@ class Output(unittest.TestCase):
                  if row["naive"]]
         self.assertEqual(len(naive), 8)
 
+    def test_one_build_for_all_changes_no_bit(self):
+        one = ["--case", "scale-2/2^0", "-q", "--json"]
+        hashes = [{row["picture"]["hash"] for row in
+                   json.loads(stress(*one, *more).stdout)["families"][0]["cases"][0]["rows"]}
+                  for more in ([], ["--all-features"])]
+        self.assertEqual(*hashes)
+        self.assertEqual(len(hashes[0]), 2)
+
+    def test_povray_gets_the_suites_still_life(self):
+        case = json.loads(stress("--case", "scale-2/2^0", "--device", "threads", "-q", "--json")
+                          .stdout)["families"][0]["cases"][0]
+        with tempfile.TemporaryDirectory() as folder:
+            stats = subprocess.run(
+                [str(BUILD / "mirrorball"), "render", "scripts/povray/still-life.json", "--device",
+                 "threads", "-q", "--stats=json", "-o", f"{folder}/a.pfm"], cwd=ROOT, text=True,
+                capture_output=True, timeout=100, check=True).stdout
+        self.assertIn(case["rows"][0]["picture"]["hash"], stats)
+
     def test_table(self):
         lines = stress(*self.SMALL, "--device", "threads").stdout.splitlines()
         self.assertEqual(len(lines), 5)

@@ -13,9 +13,9 @@ namespace rt {
 template <typename T>
 using BvhBox = typename Flat<T>::BvhNode;
 
-/// What a ray costs, in tests of one primitive, and where that is not to be asked.
+/// How to build. Costs are in units of testing one primitive.
 struct BvhSettings {
-    double inner_cost = 1.25;  ///< of visiting an inner node
+    double inner_cost = 1.25;  ///< of a ray that visits an inner node
     int most_in_leaf = 8;      ///< at most this many primitives in a leaf
     int threads = 1;           ///< to build with; the hierarchy does not depend on it
 };

@@ -7,12 +7,12 @@
 
 namespace rt {
 
-/// What a scene needs of the kernels; the switches of kernels/features.h. Coarse and few: each
-/// combination is built and rendered by a test.
+/// What a scene needs of the kernels; the switches of kernels/features.h. Coarse and few: a test
+/// builds and renders each alone, each two, and all but each one.
 struct Features {
     bool spheres = true;
     bool huge_spheres = true;    ///< far larger than their distance; implies spheres
-    bool eye_on_surface = true;  ///< the eye lies on a sphere or in a triangle's plane
+    bool eye_on_surface = true;  ///< the eye lies on a sphere, a cone or in a triangle's plane
     bool cones = true;
     bool triangles = true;
     bool vertex_normals = true;  ///< implies triangles

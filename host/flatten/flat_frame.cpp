@@ -61,12 +61,17 @@ typename Flat<T>::Frame flatten_frame(const ViewFrame& view, const Scene& scene)
     const glm::dvec3 dy = view.up * step.y;
     typename Flat<T>::Frame frame{};
     if (scene.camera.projection == Scene::Projection::perspective) {
-        frame.direction = pack<T>(view.forward + view.right * (0.5 * (window.left + window.right)) +
-                                  view.up * (0.5 * (window.bottom + window.top)));
+        const glm::dvec3 middle = view.forward + view.right * (0.5 * (window.left + window.right)) +
+                                  view.up * (0.5 * (window.bottom + window.top));
+        frame.direction = pack<T>(middle);
+        frame.direction_low = pack_low<T>(middle);
         frame.direction_dx = pack<T>(dx);
+        frame.direction_dx_low = pack_low<T>(dx);
         frame.direction_dy = pack<T>(dy);
+        frame.direction_dy_low = pack_low<T>(dy);
     } else {
         frame.direction = pack<T>(view.forward);
+        frame.direction_low = pack_low<T>(view.forward);
         frame.origin_dx = pack<T>(dx * view.scale);
         frame.origin_dy = pack<T>(dy * view.scale);
     }

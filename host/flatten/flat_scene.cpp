@@ -138,6 +138,8 @@ class Flattener {
         if (!view_.is_perspective) return false;
         return std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
                            [](const auto& sphere) { return sphere.touches_eye != 0; }) ||
+               std::any_of(flat_.cones.begin(), flat_.cones.end(),
+                           [](const auto& cone) { return cone.touches_eye != 0; }) ||
                std::any_of(flat_.triangles.begin(), flat_.triangles.end(),
                            [](const auto& triangle) { return triangle.plane == T(0); });
     }

@@ -22,8 +22,8 @@ inline constexpr std::size_t triangle_crossover = 24;
 struct FlattenStats {
     BvhShape spheres, cones, triangles;
     double bvh_seconds = 0;
-    /// Pairs of a light and a triangle: that may make a shadow, and that there are.
-    std::uint64_t casters = 0, lit_triangles = 0;
+    std::uint64_t casters = 0;        ///< pairs of a light and a triangle that may cast its shadow
+    std::uint64_t lit_triangles = 0;  ///< all pairs of a light and a triangle
 };
 
 /// A scene as arrays of shared structs in the renderer's frame, in the precision of T (float or

@@ -61,6 +61,7 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
     const double radius = sphere.radius * view.scale;
     const glm::dvec3 center = view.to_view(sphere.center);
     const double distance = glm::length(center);
+    flat.center_low = pack_low<T>(center);
     flat.radius = static_cast<T>(radius);
     flat.is_huge = radius > huge_radius && std::abs(distance - radius) < radius ? 1 : 0;
     flat.power = static_cast<T>((distance - radius) * (distance + radius));
@@ -71,6 +72,19 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
             : 0;
     flat.material = sphere.material;
     return flat;
+}
+
+/// Whether the eye lies on the side of the cone, as far as double can tell.
+bool eye_is_on(const ViewFrame& view, const Scene::Cone& cone) {
+    const glm::dvec3 base = view.to_view(cone.base);
+    const glm::dvec3 along = view.to_view(cone.apex) - base;
+    const double height = -glm::dot(base, along) / glm::dot(along, along);
+    const double base_radius = cone.base_radius * view.scale;
+    const double radius = base_radius + height * (cone.apex_radius * view.scale - base_radius);
+    const double distance = glm::length(base + height * along);
+    const double slack = 1e-14 * (glm::length(base) + glm::length(along) + base_radius) +
+                         recentring_error(view, cone.base) + recentring_error(view, cone.apex);
+    return height >= 0 && height <= 1 && std::abs(distance - radius) <= slack;
 }
 
 template <typename T>
@@ -84,6 +98,7 @@ typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& co
     flat.axis = pack<T>(along / length);
     flat.length = static_cast<T>(length);
     flat.slope = static_cast<T>((cone.apex_radius - cone.base_radius) * view.scale / length);
+    flat.touches_eye = view.is_perspective && eye_is_on(view, cone) ? 1 : 0;
     flat.material = cone.material;
     return flat;
 }

@@ -17,6 +17,13 @@ typename Flat<T>::Packed3 pack(const glm::dvec3& v) {
     return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
 }
 
+/// What pack() takes from v by rounding; 0 in double.
+template <typename T>
+typename Flat<T>::Packed3 pack_low(const glm::dvec3& v) {
+    const auto high = pack<T>(v);
+    return pack<T>(v - glm::dvec3(high.x, high.y, high.z));
+}
+
 /// Throws Error (ExitCode::input) when the point lies too far away for T.
 template <typename T>
 typename Flat<T>::Packed3 pack_position(const ViewFrame& view, const glm::dvec3& scene_point);

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include "host/image/picture_format.h"
+
 #ifndef MIRRORBALL_MODULE_DIR
 #define MIRRORBALL_MODULE_DIR ""
 #endif
@@ -88,12 +90,32 @@ LoadResult find_and_load() {
                          "mirrorball again, or use .pfm"};
 }
 
+/// Loaded by whoever comes first; all others wait.
+const LoadResult& loaded() {
+    static const LoadResult result = find_and_load();
+    return result;
+}
+
 }  // namespace
 
 const oiio::Module& image_library(ExitCode failure) {
-    static const LoadResult result = find_and_load();
+    const LoadResult& result = loaded();
     if (result.module == nullptr) throw Error(failure, result.error);
     return *result.module;
+}
+
+ImageLibraryLoading::~ImageLibraryLoading() {
+    if (thread_.joinable()) thread_.join();
+}
+
+void ImageLibraryLoading::begin_for(const std::string& picture_path) {
+    if (thread_.joinable() || picture_path.empty()) return;
+    if (!needs_image_library(picture_format_of_name(picture_path))) return;
+    try {
+        thread_ = std::thread([] { loaded(); });
+    } catch (const std::system_error&) {
+        // No thread to be had: image_library loads it when it is asked for.
+    }
 }
 
 }  // namespace rt

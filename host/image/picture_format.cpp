@@ -21,6 +21,8 @@ PictureFormat picture_format_of_name(const std::string& path) {
     throw Error(ExitCode::usage, path + ": " + what + "; name the picture .png, .exr or .pfm");
 }
 
+bool needs_image_library(PictureFormat format) { return format != PictureFormat::pfm; }
+
 std::string_view picture_format_of_bytes(std::string_view first_bytes) {
     struct Signature {
         std::string_view bytes;

@@ -40,16 +40,6 @@ std::string device_from_environment() {
     return spec;
 }
 
-/// Where PoCL keeps its kernels: the rule of its own documentation.
-std::string pocl_cache_folder() {
-    if (const std::string own = environment("POCL_CACHE_DIR"); !own.empty()) return own;
-    if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) {
-        return xdg + "/pocl/kcache";
-    }
-    const std::string home = environment("HOME");
-    return home.empty() ? "" : home + "/.cache/pocl/kcache";
-}
-
 /// "all", "auto", or names as of --stats with hyphens for blanks.
 void parse_features(const std::string& text, RenderOptions& render) {
     render.all_features = text == "all";
@@ -175,7 +165,6 @@ void add_report_options(CLI::App& app, RenderOptions& render) {
 
 void add_render(CLI::App& app, Options& options) {
     options.render.device = device_from_environment();
-    options.render.pocl_cache = pocl_cache_folder();
     options.render.dumb_terminal = environment("TERM") == "dumb";
     CLI::App& verb = *app.add_subcommand("render", "render one picture");
     verb.add_option("SCENE", options.render.scene, "scene file (.json, .nff, .obj, .ply)")

@@ -54,7 +54,6 @@ struct RenderOptions {
     bool no_fallback = false;  ///< fail when the device fails, instead of using threads
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar
-    std::string pocl_cache;      ///< PoCL's kernel cache folder, for telling cold builds from warm
 };
 
 }  // namespace rt

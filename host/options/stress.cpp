@@ -34,6 +34,8 @@ void add_stress(CLI::App& app, Options& options) {
                  }
              });
     verb.add_flag("--quick", stress.quick, "the cases that take under a minute in all");
+    verb.add_flag("--all-features", stress.all_features,
+                  "compile all features into the kernels: one build for all cases");
     verb.add_flag("--naive", stress.naive,
                   "also textbook formulas, for comparison, and what robustness costs");
     verb.add_option_function<std::string>(

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <bit>
 #include <deque>
+#include <filesystem>
 #include <span>
 
 #include "host/error.h"
 #include "host/render/cl_program.h"
+#include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"
 #include "host/render/pocl_cache.h"
 #include "host/render/stopwatch.h"
@@ -28,11 +30,15 @@ constexpr std::size_t packet_group = 1;
 constexpr std::size_t cpu_items = 65536 - single_group;
 constexpr std::size_t gpu_items = 1u << 20;
 
-/// Samples of one launch, so that it stays short enough to be interrupted.
-constexpr std::size_t cpu_samples = 1u << 20;
-constexpr std::size_t gpu_samples = 1u << 24;
+/// Samples of a tile: what an interrupt may lose, and what launches are put together from.
+constexpr std::size_t tile_samples = 1u << 14;
 
-constexpr std::size_t launches_in_flight = 3;
+/// Samples of the first launch, of which nothing is known, and of the longest.
+constexpr std::int64_t cpu_first_samples = 1 << 17, cpu_most_samples = 1 << 22;
+constexpr std::int64_t gpu_first_samples = 1 << 20, gpu_most_samples = 1 << 24;
+
+/// One runs and one waits; more would only make an interrupt wait.
+constexpr std::size_t launches_in_flight = 2;
 constexpr double progress_seconds = 0.2;
 
 std::size_t divided_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
@@ -48,7 +54,10 @@ template <typename T>
 class ClRenderer : public Renderer<T> {
    public:
     ClRenderer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
-        : device_(device), frame_(scene.frame) {
+        : device_(device),
+          frame_(scene.frame),
+          pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
+                 device.is_cpu ? cpu_most_samples : gpu_most_samples) {
         launch_samples_ = launches_samples(options.launch, device);
         lanes_ = packet_lanes<T>(options.lanes, device);
         group_ = lanes_ == 1 ? single_group : packet_group;
@@ -62,13 +71,12 @@ class ClRenderer : public Renderer<T> {
     }
 
     Rect tile_size(int film_width) const override {
-        const auto work =
-            static_cast<std::int64_t>((device_.is_cpu ? cpu_samples : gpu_samples) / samples());
-        const int pixels = static_cast<int>(std::clamp<std::int64_t>(work, 1, most_tile_pixels()));
-        const int width = std::min(film_width, pixels);
-        const int height = pixels / width;
-        const int block = shape(samples()).height;
-        return {0, 0, width, height < block ? height : height / block * block};
+        const PacketShape block = shape(samples());
+        const auto blocks = static_cast<int>(std::max<std::size_t>(
+            tile_samples / (samples() * static_cast<std::size_t>(block.pixels())), 1));
+        const int across = (film_width + block.width - 1) / block.width;
+        const int width = std::min(film_width, std::min(across, blocks) * block.width);
+        return {0, 0, width, std::max(blocks / across, 1) * block.height};
     }
 
     std::int64_t most_tile_pixels() const override {
@@ -116,7 +124,7 @@ class ClRenderer : public Renderer<T> {
     using FlatCounts = typename Flat<T>::RayCounts;
 
     struct InFlight {
-        Rect tile;
+        TileRun run;
         std::vector<cl::Event> events;
     };
 
@@ -124,6 +132,14 @@ class ClRenderer : public Renderer<T> {
 
     PacketShape shape(std::size_t samples) const {
         return packet_shape(lanes_, static_cast<int>(samples));
+    }
+
+    /// Whether a launch may have so many pixels.
+    bool fits(const Rect& rect) const {
+        const std::int64_t traced = rect.pixels() * static_cast<std::int64_t>(samples());
+        if (traced > pacer_.samples()) return false;
+        if (launch_samples_) return traced <= static_cast<std::int64_t>(most_items());
+        return packets(flat_tile<T>(rect, rect), shape(samples())) <= most_items();
     }
 
     /// Packets that cover a tile.
@@ -204,7 +220,7 @@ class ClRenderer : public Renderer<T> {
             program_options.features = either_of(scene.features, options.also);
         }
         const bool is_pocl = device_.platform == pocl_platform;
-        const PoclCacheWatch cache(is_pocl ? options.pocl_cache : "");
+        const auto start = std::filesystem::file_time_type::clock::now();
         const Stopwatch watch;
         const cl::Program program =
             build_program(context_, device_, options.naive.any() ? naive_kernels : render_kernels,
@@ -217,13 +233,13 @@ class ClRenderer : public Renderer<T> {
             resolve_.setArg(1, samples_);
             resolve_.setArg(2, frame_);
         }
-        launch({}, cl::Buffer());
+        FlatTile nothing{};
+        nothing.width = 1;  // kernels divide by the width
+        launch(nothing, cl::Buffer());
         if (options.will_refine) launch_listed({}, frame_, cl::Buffer(), cl::Buffer());
         queue_.finish();
         times_.build = watch.seconds();
-        times_.build_cache = !is_pocl || options.pocl_cache.empty() ? BuildCache::unknown
-                             : cache.grew()                         ? BuildCache::cold
-                                                                    : BuildCache::warm;
+        times_.build_cache = is_pocl ? pocl_build_since(start) : BuildCache::unknown;
     }
 
     void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::Frame& frame) {
@@ -264,11 +280,11 @@ class ClRenderer : public Renderer<T> {
         listed_.setArg(0, colors);
         listed_.setArg(12, tile);
         listed_.setArg(13, list);
-        const auto samples = static_cast<std::size_t>(frame.samples);
+        const PacketShape packet = packet_shape(lanes_, static_cast<int>(frame.samples), lanes_);
         cl::Event event;
         enqueue(listed_,
                 divided_up(static_cast<std::size_t>(tile.width),
-                           static_cast<std::size_t>(shape(samples).pixels())),
+                           static_cast<std::size_t>(packet.pixels())),
                 event);
         return event;
     }
@@ -295,8 +311,8 @@ class ClRenderer : public Renderer<T> {
     void trace_tiles(TileQueue& queue, const Rect& region, const cl::Buffer& film) {
         std::deque<InFlight> in_flight;
         Stopwatch since_progress;
-        while (const auto tile = queue.next()) {
-            in_flight.push_back({*tile, launch(flat_tile<T>(*tile, region), film)});
+        while (const auto run = queue.next_run([&](const Rect& rect) { return fits(rect); })) {
+            in_flight.push_back({*run, launch(flat_tile<T>(run->whole, region), film)});
             if (in_flight.size() < launches_in_flight) continue;
             finish_oldest(queue, in_flight);
             if (since_progress.seconds() < progress_seconds) continue;
@@ -311,10 +327,13 @@ class ClRenderer : public Renderer<T> {
         const InFlight oldest = in_flight.front();
         in_flight.pop_front();
         oldest.events.back().wait();
-        times_.kernel += device_seconds(oldest.events.front());
+        const double kernel = device_seconds(oldest.events.front());
+        times_.kernel += kernel;
         if (launch_samples_) times_.resolve += device_seconds(oldest.events.back());
-        primary_ += static_cast<std::uint64_t>(oldest.tile.pixels()) * samples();
-        queue.finish(oldest.tile);
+        const auto traced = static_cast<std::uint64_t>(oldest.run.whole.pixels()) * samples();
+        primary_ += traced;
+        pacer_.note(static_cast<std::int64_t>(traced), kernel);
+        queue.finish(oldest.run);
     }
 
     /// Tells the queue of the rays traced since the last time.
@@ -339,6 +358,7 @@ class ClRenderer : public Renderer<T> {
     bool launch_samples_ = false;
     int lanes_ = 1;
     std::size_t group_ = 1;  ///< work items of a group
+    LaunchPacer pacer_;
     cl::Context context_;
     cl::CommandQueue queue_;
     cl::Kernel render_, resolve_, listed_;

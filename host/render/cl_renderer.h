@@ -34,7 +34,6 @@ struct ClOptions {
     Features also = no_features();     ///< compile these, needed or not
     bool warnings_are_errors = false;  ///< for tests
     Techniques naive;                  ///< what to do without, for comparison
-    std::string pocl_cache;            ///< PoCL's kernel cache folder; may be empty
 };
 
 /// A renderer on an OpenCL device: builds the kernels for the scene's features and uploads it. The

@@ -13,11 +13,17 @@ struct PacketShape {
     int pixels() const { return width * height; }
 };
 
-inline PacketShape packet_shape(int lanes, int samples_of_a_pixel) {
+/// Of neighbouring pixels, so many samples at most of each.
+inline constexpr int samples_together = 4;
+
+/// At most `most_samples` of each pixel together.
+inline PacketShape packet_shape(int lanes, int samples_of_a_pixel,
+                                int most_samples = samples_together) {
     PacketShape shape;
-    shape.samples = std::min(lanes, samples_of_a_pixel % 4 == 0   ? 4
-                                    : samples_of_a_pixel % 2 == 0 ? 2
-                                                                  : 1);
+    while (2 * shape.samples <= std::min(lanes, most_samples) &&
+           samples_of_a_pixel % (2 * shape.samples) == 0) {
+        shape.samples *= 2;
+    }
     for (int pixels = lanes / shape.samples; pixels > 1; pixels /= 2) {
         (shape.width > shape.height ? shape.height : shape.width) *= 2;
     }

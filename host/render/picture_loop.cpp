@@ -5,6 +5,8 @@
 #include <span>
 
 #include "host/render/adaptive.h"
+#include "host/render/launch_pacer.h"
+#include "host/render/stopwatch.h"
 
 namespace rt {
 
@@ -12,19 +14,22 @@ namespace {
 
 constexpr int refine_passes = 2;
 
-/// Samples of one call to refine, so that an interrupt is obeyed soon.
-constexpr std::size_t samples_at_once = 1u << 20;
+/// Samples of the first call to refine, and of the largest.
+constexpr std::int64_t first_samples = 1 << 17, most_samples = 1 << 24;
 
 template <typename T>
-void refine_all(Renderer<T>& renderer, const Refinement& refinement, TileQueue& queue,
-                const Rect& region, Film<T>& film) {
-    const auto samples = static_cast<std::size_t>(refinement.grid * refinement.grid);
-    const std::size_t chunk = std::min<std::size_t>(
-        samples_at_once / samples, static_cast<std::size_t>(renderer.most_tile_pixels()));
-    const std::span<const std::int32_t> pixels(refinement.pixels);
-    for (std::size_t at = 0; at < pixels.size() && !queue.stopped(); at += chunk) {
-        renderer.refine(pixels.subspan(at, std::min(chunk, pixels.size() - at)), refinement.grid,
-                        queue, region, film);
+void refine_all(Renderer<T>& renderer, const Refinement& refinement, LaunchPacer& pacer,
+                TileQueue& queue, const Rect& region, Film<T>& film) {
+    const std::int64_t samples = refinement.grid * refinement.grid;
+    std::span<const std::int32_t> pixels(refinement.pixels);
+    while (!pixels.empty() && !queue.stopped()) {
+        const std::int64_t most = std::min(std::max<std::int64_t>(pacer.samples() / samples, 1),
+                                           renderer.most_tile_pixels());
+        const std::size_t count = std::min(pixels.size(), static_cast<std::size_t>(most));
+        const Stopwatch watch;
+        renderer.refine(pixels.first(count), refinement.grid, queue, region, film);
+        pacer.note(static_cast<std::int64_t>(count) * samples, watch.seconds());
+        pixels = pixels.subspan(count);
     }
 }
 
@@ -36,9 +41,10 @@ void render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const
     renderer.render(queue, region, film);
     if (aa.pattern != AaMode::Pattern::adaptive) return;
     std::vector<std::uint8_t> levels(static_cast<std::size_t>(region.pixels()), 1);
+    LaunchPacer pacer(first_samples, most_samples);
     for (int pass = 0; pass < refine_passes && !queue.stopped(); ++pass) {
         for (const Refinement& refinement : plan_refinement(film, aa.threshold, levels)) {
-            refine_all(renderer, refinement, queue, region, film);
+            refine_all(renderer, refinement, pacer, queue, region, film);
         }
     }
 }

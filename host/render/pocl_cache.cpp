@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/pocl_cache.h"
 
-#include <algorithm>
+#include <link.h>
+
 #include <system_error>
 
 namespace rt {
@@ -10,30 +11,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The last time a folder beneath `folder`, down to `depth` levels, gained or lost an entry. Not
-/// `folder` itself, where PoCL makes temporary files in every run; kernels go to
-/// <2 hex digits>/<rest of the hash>/<kernel>/<local size>/.
-fs::file_time_type newest_change(const fs::path& folder, int depth) {
-    fs::file_time_type newest = fs::file_time_type::min();
-    if (depth == 0) return newest;
-    std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-        std::error_code ignored;
-        if (!entry->is_directory(ignored)) continue;
-        newest = std::max(newest, fs::last_write_time(entry->path(), ignored));
-        newest = std::max(newest, newest_change(entry->path(), depth - 1));
-    }
-    return newest;
+struct Search {
+    fs::file_time_type start;
+    BuildCache found = BuildCache::unknown;
+};
+
+/// PoCL's place for a kernel: <kernel>/<local size and more>/<kernel>.so
+bool is_kernel(const fs::path& library) {
+    return library.extension() == ".so" &&
+           library.stem() == library.parent_path().parent_path().filename();
 }
 
-constexpr int kernel_folder_depth = 4;
+int look_at(dl_phdr_info* info, std::size_t, void* data) {
+    Search& search = *static_cast<Search*>(data);
+    const fs::path library = info->dlpi_name;
+    if (!is_kernel(library)) return 0;
+    std::error_code error;
+    const fs::file_time_type written = fs::last_write_time(library, error);
+    if (error) return 0;
+    search.found = written >= search.start ? BuildCache::cold : BuildCache::warm;
+    return search.found == BuildCache::cold ? 1 : 0;
+}
 
 }  // namespace
 
-PoclCacheWatch::PoclCacheWatch(fs::path folder)
-    : folder_(std::move(folder)), newest_(newest_change(folder_, kernel_folder_depth)) {}
-
-bool PoclCacheWatch::grew() const { return newest_change(folder_, kernel_folder_depth) > newest_; }
+BuildCache pocl_build_since(std::filesystem::file_time_type start) {
+    Search search{start};
+    dl_iterate_phdr(look_at, &search);
+    return search.found;
+}
 
 }  // namespace rt

@@ -3,21 +3,14 @@
 
 #include <filesystem>
 
+#include "host/render/renderer.h"
+
 namespace rt {
 
-/// PoCL's kernel cache on disk, watched to tell a cold build from a warm one: a build that had to
-/// compile leaves new folders there.
-class PoclCacheWatch {
-   public:
-    /// `folder` may be empty or missing.
-    explicit PoclCacheWatch(std::filesystem::path folder);
-
-    /// Whether anything was added to the cache since this watch was made.
-    bool grew() const;
-
-   private:
-    std::filesystem::path folder_;
-    std::filesystem::file_time_type newest_;
-};
+/// Tells a cold build on PoCL from a warm one: PoCL makes a library of each kernel it compiles,
+/// keeps it in its cache, and loads it from there. `cold` when one of those loaded into this
+/// process was written at `start` or later, `warm` when all are older, `unknown` when there is
+/// none. Costs microseconds, however large the cache.
+BuildCache pocl_build_since(std::filesystem::file_time_type start);
 
 }  // namespace rt

@@ -2,6 +2,7 @@
 #include "host/render/tile_queue.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rt {
 
@@ -16,8 +17,27 @@ std::vector<Rect> make_tiles(const Rect& region, int tile_width, int tile_height
     return tiles;
 }
 
-TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop)
-    : tiles_(std::move(tiles)), stop_(stop) {
+namespace {
+
+/// Tile `first` and those to its right, as far as they fit.
+TileRun side_by_side(const std::vector<Rect>& tiles, std::size_t first,
+                     const std::function<bool(const Rect&)>& fits) {
+    TileRun run{tiles[first]};
+    for (std::size_t i = first + 1; i < tiles.size(); ++i) {
+        Rect wider = run.whole;
+        wider.width += tiles[i].width;
+        const Rect right{run.whole.x + run.whole.width, wider.y, tiles[i].width, wider.height};
+        if (tiles[i] != right || !fits(wider)) break;
+        run = {wider, run.tiles + 1};
+    }
+    return run;
+}
+
+}  // namespace
+
+TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop,
+                     std::function<void()> on_first_tile)
+    : tiles_(std::move(tiles)), stop_(stop), on_first_tile_(std::move(on_first_tile)) {
     for (const Rect& tile : tiles_) pixels_ += tile.pixels();
 }
 
@@ -25,12 +45,41 @@ std::optional<Rect> TileQueue::next() {
     if (stopped()) return std::nullopt;
     const std::size_t index = next_.fetch_add(1);
     if (index >= tiles_.size()) return std::nullopt;
+    if (index == 0 && on_first_tile_) on_first_tile_();
     return tiles_[index];
 }
 
-void TileQueue::finish(const Rect& tile) {
-    pixels_finished_ += tile.pixels();
-    ++tiles_finished_;
+std::optional<TileRun> TileQueue::next_run(const std::function<bool(const Rect&)>& fits) {
+    if (stopped()) return std::nullopt;
+    std::size_t first = next_;
+    while (first < tiles_.size()) {
+        const TileRun run = longest_run(first, fits);
+        if (!next_.compare_exchange_weak(first, first + run.tiles)) continue;
+        if (first == 0 && on_first_tile_) on_first_tile_();
+        return run;
+    }
+    return std::nullopt;
+}
+
+TileRun TileQueue::longest_run(std::size_t first,
+                               const std::function<bool(const Rect&)>& fits) const {
+    TileRun run = side_by_side(tiles_, first, fits);
+    while (first + run.tiles < tiles_.size()) {
+        const TileRun below = side_by_side(tiles_, first + run.tiles, [&](const Rect& row) {
+            return row.width <= run.whole.width;
+        });
+        Rect taller = run.whole;
+        taller.height += below.whole.height;
+        const Rect bottom{taller.x, taller.y + run.whole.height, taller.width, below.whole.height};
+        if (below.whole != bottom || !fits(taller)) break;
+        run = {taller, run.tiles + below.tiles};
+    }
+    return run;
+}
+
+void TileQueue::finish(const TileRun& run) {
+    pixels_finished_ += run.whole.pixels();
+    tiles_finished_ += run.tiles;
 }
 
 void TileQueue::add_rays(const RayCounts& rays) {

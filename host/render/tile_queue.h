@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct Rect {
 /// Cuts a region into tiles of at most the given size, row by row from the top left.
 std::vector<Rect> make_tiles(const Rect& region, int tile_width, int tile_height);
 
+/// Neighbouring tiles that make up one rectangle.
+struct TileRun {
+    Rect whole;
+    std::size_t tiles = 1;
+};
+
 /// Set by a signal handler to the signal's number; 0 while none has come.
 using StopFlag = volatile std::sig_atomic_t;
 
@@ -30,13 +37,21 @@ using StopFlag = volatile std::sig_atomic_t;
 /// is set, and keeps count of what is finished. Every member may be called from any thread.
 class TileQueue {
    public:
-    TileQueue(std::vector<Rect> tiles, const StopFlag& stop);
+    /// `on_first_tile` is called once, by the thread that takes the first tile. All threads of the
+    /// renderer exist by then.
+    TileQueue(std::vector<Rect> tiles, const StopFlag& stop,
+              std::function<void()> on_first_tile = {});
 
     /// The next tile; empty when there is none or the work was stopped. A renderer finishes every
     /// tile it has taken.
     std::optional<Rect> next();
 
-    void finish(const Rect& tile);
+    /// As next, but for as many of the next tiles as make up a rectangle that `fits`; one tile at
+    /// least.
+    std::optional<TileRun> next_run(const std::function<bool(const Rect&)>& fits);
+
+    void finish(const Rect& tile) { finish(TileRun{tile}); }
+    void finish(const TileRun& run);
 
     /// Adds to the rays traced so far; for progress, and for the totals at the end.
     void add_rays(const RayCounts& rays);
@@ -48,8 +63,11 @@ class TileQueue {
     RayCounts rays() const;
 
    private:
+    TileRun longest_run(std::size_t first, const std::function<bool(const Rect&)>& fits) const;
+
     const std::vector<Rect> tiles_;
     const StopFlag& stop_;
+    const std::function<void()> on_first_tile_;
     std::int64_t pixels_ = 0;
     std::atomic<std::size_t> next_ = 0;
     std::atomic<std::size_t> tiles_finished_ = 0;

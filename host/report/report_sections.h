@@ -25,4 +25,7 @@ std::string features_section(const ReportScene& scene, std::size_t index);
 /// Verdicts of the stress suite, and error against the parameter of its families.
 std::string stress_section(const StressResult& result);
 
+/// The worst picture of each family beside its reference and their difference; empty without any.
+std::string stress_pictures(const StressResult& result);
+
 }  // namespace rt

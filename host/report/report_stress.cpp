@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 
 #include "host/report/html.h"
@@ -16,9 +15,10 @@ namespace rt {
 namespace {
 
 /// Families whose parameter is a number that spans decades.
-constexpr std::array<std::string_view, 9> plotted_families{
-    "scale-2",   "shift-odd", "sphere-size", "huge-ball-floor", "facing-mirrors",
-    "shininess", "highlight", "needles",     "huge-triangle"};
+constexpr std::array<std::string_view, 16> plotted_families{
+    "scale-2",   "shift-odd",       "sphere-size",    "cone-size",    "cone-needle", "flat-cone",
+    "long-cone", "huge-ball-floor", "facing-mirrors", "glass-depth",  "light-pipe",  "shininess",
+    "highlight", "field-of-view",   "needles",        "huge-triangle"};
 
 constexpr double least_error = 1e-9;  ///< drawn; a picture's values are floats
 
@@ -31,6 +31,20 @@ std::string figures_text(const PictureFigures& figures) {
     return text;
 }
 
+/// Seconds of tracing all cases in float: on threads, and by textbook formulas.
+std::string time_text(const StressFamilyResult& family) {
+    double ours = 0, naive = 0;
+    for (const StressCaseResult& one : family.cases) {
+        for (const StressRow& row : one.rows) {
+            if (row.double_precision) continue;
+            if (row.device == "threads") ours += row.seconds;
+            if (row.renderer == "naive, + 1e-4 n") naive += row.seconds;
+        }
+    }
+    if (naive == 0) return ours == 0 ? "" : duration_text(ours);
+    return fmt::format("{}, {}", duration_text(ours), duration_text(naive));
+}
+
 bool has_naive_rows(const StressFamilyResult& family) {
     return std::any_of(family.cases.begin(), family.cases.end(), [](const StressCaseResult& one) {
         return !one.rows.empty() && one.rows.back().naive;
@@ -38,10 +52,12 @@ bool has_naive_rows(const StressFamilyResult& family) {
 }
 
 std::string verdicts_table(const StressResult& result) {
-    HtmlTable table{"Worst of every family's cases and renderers, float and double",
-                    {"family", "cases", "worst", "allowed", "textbook formulas", "verdict",
-                     "what goes wrong elsewhere"},
-                    {}};
+    HtmlTable table{
+        "Worst of every family's cases and renderers, float and double; time on threads "
+        "in float, and that of textbook formulas",
+        {"family", "cases", "worst", "allowed", "textbook formulas", "traced in", "verdict",
+         "what goes wrong elsewhere"},
+        {}};
     for (std::size_t i = 0; i < result.families.size(); ++i) {
         const StressFamilyResult& family = result.families[i];
         const std::string naive =
@@ -51,6 +67,7 @@ std::string verdicts_table(const StressResult& result) {
                               {figures_text(worst_figures(family, false)), ""},
                               {bar_text(loosest_bar(family)), ""},
                               {naive, ""},
+                              {time_text(family), ""},
                               {family.passed() ? "pass" : "falls short", "", !family.passed()},
                               {family.why, ""}});
     }
@@ -133,7 +150,7 @@ std::string stress_section(const StressResult& result) {
         if (!is_plotted || family.cases.size() < 2) continue;
         html += plot_figure(family_plot(family, i), html_text(family.name + ": " + family.why));
     }
-    return html + "</section>\n";
+    return html + stress_pictures(result) + "</section>\n";
 }
 
 }  // namespace rt

@@ -2,7 +2,6 @@
 #include "host/scene/ear_clipper.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "host/scene/orientation.h"

@@ -7,14 +7,15 @@
 #include <cstdint>
 #include <utility>
 
-#include "host/scene/image_limits.h"
 #include "host/scene/json_camera.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_meshes.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/json_shapes.h"
-#include "host/scene/scene_file.h"
+#include "host/scene/scene_limits.h"
+#include "host/scene/scene_name.h"
 #include "host/scene/text_file.h"
+#include "host/scene/utf8.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -90,8 +91,6 @@ void read_objects(const ObjectReader& reader, const SceneFolder& folder, SceneTe
               [&](const JsonValue& item) { return read_mesh(item, materials, folder, mistakes); });
     scene.materials = materials.take();
 }
-
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
     if (const JsonValue* schema = reader.find("$schema")) read_string(*schema, "$schema", mistakes);

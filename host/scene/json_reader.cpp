@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/scene/scene_limits.h"
 #include "host/scene/words.h"
 
 namespace rt {

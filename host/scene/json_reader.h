@@ -12,10 +12,6 @@
 
 namespace rt {
 
-/// No number in a scene file is larger than this in magnitude: it still fits a float, with room
-/// for the differences that rendering takes.
-inline constexpr double max_scene_number = 1e30;
-
 // Every read_ function notes in `mistakes` why a value will not do, and then returns nothing.
 // `name` is what messages call the value: its key, mostly.
 

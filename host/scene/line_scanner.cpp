@@ -9,7 +9,7 @@
 #include <string>
 #include <system_error>
 
-#include "host/scene/json_reader.h"
+#include "host/scene/scene_limits.h"
 #include "host/scene/words.h"
 
 namespace rt {

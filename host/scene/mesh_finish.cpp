@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host/scene/geometry_checks.h"
-#include "host/scene/json_reader.h"
+#include "host/scene/scene_limits.h"
 
 namespace rt {
 namespace {

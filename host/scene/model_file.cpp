@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <string_view>
-#include <utility>
 
 #include "host/error.h"
 #include "host/scene/mesh_finish.h"

@@ -6,11 +6,6 @@
 #include "host/scene/utf8.h"
 
 namespace rt {
-namespace {
-
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
-
-}  // namespace
 
 std::string model_name(std::string_view bytes) {
     const bool plain = !find_invalid_utf8(bytes);

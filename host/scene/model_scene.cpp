@@ -10,7 +10,7 @@
 #include "host/scene/geometry_checks.h"
 #include "host/scene/model_file.h"
 #include "host/scene/obj_materials.h"
-#include "host/scene/scene_file.h"
+#include "host/scene/scene_name.h"
 
 namespace rt {
 namespace {

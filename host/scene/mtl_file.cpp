@@ -10,6 +10,7 @@
 
 #include "host/scene/line_scanner.h"
 #include "host/scene/model_name.h"
+#include "host/scene/scene_limits.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -88,12 +89,11 @@ class MtlReader {
     }
 
     void read_value(std::string_view word, Mtl& mtl) {
-        constexpr double any = 1e30;
         if (word == "Ka") return read_colour(word, mtl.ambient);
         if (word == "Kd") return read_colour(word, mtl.diffuse);
         if (word == "Ks") return read_colour(word, mtl.specular);
         if (word == "Tf") return read_colour(word, mtl.filter);
-        if (word == "Ns") return read_amount(word, 0, any, mtl.shininess);
+        if (word == "Ns") return read_amount(word, 0, max_scene_number, mtl.shininess);
         if (word == "Ni") return read_ior(mtl);
         if (word == "illum") return read_illum(mtl);
         double amount = 1;
@@ -128,7 +128,8 @@ class MtlReader {
         std::array<double, 3> rgb{};
         int count = 0;
         while (count < 3 && (count == 0 || scanner_.word_follows())) {
-            if (!read_within(word, 0, 1e30, rgb[static_cast<std::size_t>(count)])) return;
+            if (!read_within(word, 0, max_scene_number, rgb[static_cast<std::size_t>(count)]))
+                return;
             ++count;
         }
         if (count == 2) {
@@ -160,7 +161,7 @@ class MtlReader {
         scanner_.word_follows();
         const std::size_t offset = scanner_.offset();
         double ior = 1;
-        if (!read_within("Ni", 0, 1e30, ior)) return;
+        if (!read_within("Ni", 0, max_scene_number, ior)) return;
         if (ior == 0) {
             mistakes_.add(offset, "Ni is 0; write an index of refraction above 0, like 1.5");
             return;

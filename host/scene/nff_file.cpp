@@ -13,7 +13,7 @@
 #include "host/scene/nff_polygon.h"
 #include "host/scene/nff_tokens.h"
 #include "host/scene/nff_view.h"
-#include "host/scene/scene_file.h"
+#include "host/scene/scene_name.h"
 #include "host/scene/text_file.h"
 #include "host/scene/words.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/scene/json_reader.h"
+#include "host/scene/scene_limits.h"
 
 namespace rt {
 

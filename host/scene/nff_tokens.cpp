@@ -7,7 +7,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "host/scene/json_reader.h"
+#include "host/scene/scene_limits.h"
 #include "host/scene/utf8.h"
 #include "host/scene/words.h"
 

@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "host/scene/geometry_checks.h"
-#include "host/scene/image_limits.h"
+#include "host/scene/scene_limits.h"
 
 namespace rt {
 namespace {

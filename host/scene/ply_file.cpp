@@ -8,10 +8,10 @@
 #include <cmath>
 #include <utility>
 
-#include "host/scene/json_reader.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/ply_header.h"
 #include "host/scene/ply_rows.h"
+#include "host/scene/scene_limits.h"
 #include "host/scene/words.h"
 
 namespace rt {

@@ -15,8 +15,8 @@ namespace rt {
 
 /// What the author of a scene file said, in double precision and in the author's own units.
 /// Right-handed; y is up where nothing says otherwise; light is linear RGB. Everything a reader
-/// (json_file) fills in has passed its checks: numbers are finite, radii positive, materials
-/// exist. Nothing downstream of flatten sees these types.
+/// (scene_file) fills in has passed its checks: numbers are finite, radii positive, materials
+/// exist. No renderer sees it: flatten makes a FlatScene of it.
 struct Scene {
     enum class Projection { perspective, orthographic };
 
@@ -110,7 +110,7 @@ struct Scene {
     AaMode aa;
     Filter filter = Filter::box;
     int sampling_seed = 0;  ///< of sobol samples: another seed, another independent picture
-    int max_bounces = 8;    ///< mirror rays after the eye ray
+    int max_bounces = 8;    ///< mirror and refracted rays in a row after the eye ray
     glm::dvec3 background{0};
     glm::dvec3 ambient_light{0};
     std::vector<Light> lights;

@@ -27,8 +27,6 @@ Scene load(const std::string& path) {
     return load_json_scene(path);
 }
 
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
-
 }  // namespace
 
 Scene load_scene(const std::string& path, const LightOverrides& light) {
@@ -39,12 +37,6 @@ Scene load_scene(const std::string& path, const LightOverrides& light) {
         if (!of_scene.has_own_intensity) of_scene.intensity = glm::dvec3(*light.light_scale);
     }
     return scene;
-}
-
-std::string name_of_file(const std::string& path) {
-    std::string name = std::filesystem::path(path).stem().string();
-    std::ranges::replace_if(name, is_control, '?');
-    return name;
 }
 
 }  // namespace rt

@@ -20,7 +20,4 @@ struct LightOverrides {
 /// regular, or wrong; ExitCode::limit for one that is too large.
 Scene load_scene(const std::string& path, const LightOverrides& light = {});
 
-/// A scene's name where the file gives none: that of the file, without its ending.
-std::string name_of_file(const std::string& path);
-
 }  // namespace rt

@@ -15,6 +15,9 @@ constexpr bool is_utf8_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
 }
 
+/// A control character of ASCII; C1's, two bytes each, are not told apart.
+constexpr bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
 /// Where the text stops being well-formed UTF-8 (Unicode 15, table 3-7), a NUL byte included;
 /// empty when all of it is good.
 std::optional<std::size_t> find_invalid_utf8(std::string_view text);

@@ -35,7 +35,13 @@ const Fields& ordinary_fields() {
                                {"vertex", "2"},
                                {"normal", "0.25"},
                                {"bounces", "4"},
-                               {"window", "-1"}};
+                               {"window", "-1"},
+                               {"transmission", "0.5"},
+                               {"ior", "1.5"},
+                               {"cone-base", "1"},
+                               {"cone-apex", "2"},
+                               {"cone-base-radius", "0.5"},
+                               {"cone-apex-radius", "0.25"}};
     return fields;
 }
 
@@ -48,15 +54,19 @@ std::string scene_text(const Fields& f, bool with_window) {
 "ambient_light": [{}, 0, 0.25],
 "lights": [{{"position": [3, {}, 4], "intensity": [{}, 0, 0.5]}}],
 "materials": {{"skin": {{"ambient": [{}, 0, 0.5], "diffuse": [{}, 0, 0.5],
-"specular": [{}, 0, 0.5], "mirror": [{}, 0, 0.5], "shininess": {}}}}},
+"specular": [{}, 0, 0.5], "mirror": [{}, 0, 0.5], "shininess": {}}},
+"glass": {{"transmission": [{}, 0, 0.5], "ior": {}}}}},
+"cones": [{{"base": [{}, -1, 1], "base_radius": {}, "apex": [1.5, {}, 0.5], "apex_radius": {},
+"material": "glass"}}],
 "spheres": [{{"center": [{}, 0, 0], "radius": {}, "material": "skin"}},
 {{"center": [-1, 1, -1], "radius": 0.75, "material": "skin"}}],
 "triangles": [{{"vertices": [[-3, -1, 2], [3, -1, 2], [0, {}, -3]],
 "normals": [[0, 1, {}], [0.25, 1, 0], [0, 1, -0.25]], "material": "skin"}}]}})",
         f.at("from"), f.at("at"), f.at("up"), view, f.at("bounces"), f.at("background"),
         f.at("ambient-light"), f.at("light-position"), f.at("light-intensity"), f.at("ambient"),
-        f.at("diffuse"), f.at("specular"), f.at("mirror"), f.at("shininess"), f.at("center"),
-        f.at("radius"), f.at("vertex"), f.at("normal"));
+        f.at("diffuse"), f.at("specular"), f.at("mirror"), f.at("shininess"), f.at("transmission"),
+        f.at("ior"), f.at("cone-base"), f.at("cone-base-radius"), f.at("cone-apex"),
+        f.at("cone-apex-radius"), f.at("center"), f.at("radius"), f.at("vertex"), f.at("normal"));
 }
 
 constexpr const char* odd_numbers[] = {
@@ -77,7 +87,8 @@ StressFamily odd_fields() {
             fields[name] = number;
             texts.push_back(scene_text(fields, name == "window"));
         }
-        const bool quick = name == "mirror" || name == "radius" || name == "vertex";
+        const bool quick = name == "mirror" || name == "radius" || name == "vertex" ||
+                           name == "ior" || name == "cone-apex-radius";
         family.cases.push_back(text_case(name, static_cast<double>(family.cases.size()),
                                          quick_if(quick), std::move(texts)));
     }
@@ -164,6 +175,14 @@ StressFamily no_geometry() {
              R"("triangles": [{"vertices": [[-1,-1,0],[1,-1,0],[0,1e-300,0]], "material": "m"}])"),
          with_shape(R"("spheres": [{"center": [0,0,0], "radius": 1e-30, "material": "m"}])"),
          with_shape(R"("spheres": [{"center": [0,0,0], "radius": 1e30, "material": "m"}])"),
+         with_shape(R"("cones": [{"base": [0,0,0], "base_radius": 1, "apex": [0,0,0],
+"apex_radius": 1, "material": "m"}])"),
+         with_shape(R"("cones": [{"base": [0,0,0], "base_radius": 0, "apex": [0,1,0],
+"apex_radius": 0, "material": "m"}])"),
+         with_shape(R"("cones": [{"base": [0,0,0], "base_radius": 1, "apex": [0,1e-30,0],
+"apex_radius": 0.5, "material": "m"}])"),
+         with_shape(R"("cones": [{"base": [0,0,0], "base_radius": 1e-30, "apex": [0,1,0],
+"apex_radius": 1e30, "material": "m"}])"),
          with_shape(R"("spheres": [])")}));
     return family;
 }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -14,33 +15,18 @@
 #include "host/processor_time.h"
 #include "host/render/stopwatch.h"
 #include "host/stress/naive_hierarchy.h"
+#include "host/stress/naive_shapes.h"
 
 namespace rt {
 
 namespace {
 
-template <typename T>
-using Vec = glm::vec<3, T, glm::defaultp>;
-
-template <typename T>
-struct NaiveBall {
-    Vec<T> center;
-    T radius;
-    int material;
-};
-
-template <typename T>
-struct NaiveFace {
-    Vec<T> corner, edge1, edge2, normal;
-    std::array<Vec<T>, 3> normals;
-    bool smooth;
-    int material;
-};
+using naive::Vec;
 
 template <typename T>
 struct NaiveMaterial {
-    Vec<T> ambient, diffuse, specular, mirror;
-    T shininess;
+    Vec<T> ambient, diffuse, specular, mirror, transmission;
+    T shininess, ior;
     bool two_sided;
 };
 
@@ -53,8 +39,26 @@ template <typename T>
 struct NaiveHit {
     T t = std::numeric_limits<T>::infinity();
     T u = 0, v = 0;
-    const NaiveBall<T>* ball = nullptr;
-    const NaiveFace<T>* face = nullptr;
+    const naive::Ball<T>* ball = nullptr;
+    const naive::Cone<T>* cone = nullptr;
+    const naive::Face<T>* face = nullptr;
+};
+
+template <typename T>
+struct NaiveBranch {
+    Vec<T> origin, dir, share;
+    int bounce;
+};
+
+/// Rays to be followed: at most one a bounce waits, and scenes that branch have few bounces.
+template <typename T>
+struct NaiveStack {
+    std::array<NaiveBranch<T>, 64> branches;
+    std::size_t size = 0;
+
+    void push(const NaiveBranch<T>& branch) {
+        if (size < branches.size()) branches[size++] = branch;
+    }
 };
 
 /// Below, boxes do not pay.
@@ -71,13 +75,12 @@ class NaiveTracer {
           width_(scene.width),
           height_(scene.height),
           grid_(scene.aa.count) {
-        for (const auto& sphere : scene.spheres) {
-            balls_.push_back({Vec<T>(sphere.center), T(sphere.radius), sphere.material});
-        }
+        for (const auto& sphere : scene.spheres) balls_.push_back(naive::make_ball<T>(sphere));
+        for (const auto& cone : scene.cones) cones_.push_back(naive::make_cone<T>(cone));
         const TriangleList triangles(scene);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
-            faces_.push_back(
-                make_face({triangles.corners(i), triangles.normals(i), triangles.material(i)}));
+            faces_.push_back(naive::make_face<T>(
+                {triangles.corners(i), triangles.normals(i), triangles.material(i)}));
         }
         if (faces_.size() >= few_faces) build_hierarchy();
         for (const auto& light : scene.lights) {
@@ -85,7 +88,8 @@ class NaiveTracer {
         }
         for (const auto& m : scene.materials) {
             materials_.push_back({Vec<T>(m.ambient), Vec<T>(m.diffuse), Vec<T>(m.specular),
-                                  Vec<T>(m.mirror), T(m.shininess), m.two_sided});
+                                  Vec<T>(m.mirror), Vec<T>(m.transmission), T(m.shininess),
+                                  T(m.ior), m.two_sided});
         }
         set_camera(scene);
     }
@@ -101,20 +105,6 @@ class NaiveTracer {
     }
 
    private:
-    static NaiveFace<T> make_face(const Scene::Triangle& triangle) {
-        NaiveFace<T> face{};
-        face.corner = Vec<T>(triangle.vertices[0]);
-        face.edge1 = Vec<T>(triangle.vertices[1]) - face.corner;
-        face.edge2 = Vec<T>(triangle.vertices[2]) - face.corner;
-        face.normal = glm::normalize(glm::cross(face.edge1, face.edge2));
-        face.smooth = triangle.normals.has_value();
-        for (std::size_t i = 0; face.smooth && i < 3; ++i) {
-            face.normals[i] = Vec<T>((*triangle.normals)[i]);
-        }
-        face.material = triangle.material;
-        return face;
-    }
-
     void build_hierarchy() {
         std::vector<typename NaiveHierarchy<T>::Corners> corners;
         for (const auto& face : faces_) {
@@ -122,7 +112,7 @@ class NaiveTracer {
         }
         std::vector<std::size_t> order;
         hierarchy_.emplace(corners, order);
-        std::vector<NaiveFace<T>> faces;
+        std::vector<naive::Face<T>> faces;
         for (const std::size_t i : order) faces.push_back(faces_[i]);
         faces_ = std::move(faces);
     }
@@ -165,58 +155,44 @@ class NaiveTracer {
         return point + (glm::dot(normal, dir) < T(0) ? T(-1e-4) : T(1e-4)) * normal;
     }
 
-    T hit_ball(const Vec<T>& origin, const Vec<T>& dir, const NaiveBall<T>& ball) const {
-        const Vec<T> f = origin - ball.center;
-        const T a = glm::dot(dir, dir);
-        const T b = T(2) * glm::dot(f, dir);
-        const T c = glm::dot(f, f) - ball.radius * ball.radius;
-        const T discriminant = b * b - T(4) * a * c;
-        if (discriminant < T(0)) return T(-1);
-        const T root = std::sqrt(discriminant);
-        const T near = (-b - root) / (T(2) * a);
-        return near > least() ? near : (-b + root) / (T(2) * a);
-    }
-
-    static T hit_face(const Vec<T>& origin, const Vec<T>& dir, const NaiveFace<T>& face, T& u,
-                      T& v) {
-        const Vec<T> p = glm::cross(dir, face.edge2);
-        const T determinant = glm::dot(face.edge1, p);
-        if (std::fabs(determinant) < T(1e-8)) return T(-1);
-        const T inverse = T(1) / determinant;
-        const Vec<T> s = origin - face.corner;
-        u = glm::dot(s, p) * inverse;
-        if (u < T(0) || u > T(1)) return T(-1);
-        const Vec<T> q = glm::cross(s, face.edge1);
-        v = glm::dot(dir, q) * inverse;
-        if (v < T(0) || u + v > T(1)) return T(-1);
-        return glm::dot(face.edge2, q) * inverse;
-    }
-
     NaiveHit<T> nearest(const Vec<T>& origin, const Vec<T>& dir) const {
         NaiveHit<T> best;
         for (const auto& ball : balls_) {
-            const T t = hit_ball(origin, dir, ball);
-            if (t > least() && t < best.t) best = {t, 0, 0, &ball, nullptr};
+            const T t = naive::hit_ball(origin, dir, ball, least());
+            if (t > least() && t < best.t) best = {t, 0, 0, &ball, nullptr, nullptr};
         }
-        visit_faces(origin, dir, best.t, [&](const NaiveFace<T>& face) {
+        for (const auto& cone : cones_) {
+            const T t = naive::hit_cone(origin, dir, cone, least());
+            if (t > least() && t < best.t) best = {t, 0, 0, nullptr, &cone, nullptr};
+        }
+        visit_faces(origin, dir, best.t, [&](const naive::Face<T>& face) {
             T u = 0, v = 0;
-            const T t = hit_face(origin, dir, face, u, v);
-            if (t > least() && t < best.t) best = {t, u, v, nullptr, &face};
+            const T t = naive::hit_face(origin, dir, face, u, v);
+            if (t > least() && t < best.t) best = {t, u, v, nullptr, nullptr, &face};
             return false;
         });
         return best;
     }
 
     bool blocked(const Vec<T>& origin, const Vec<T>& dir, T distance) const {
+        const auto stops = [&](T t) { return t > least() && t < distance; };
         for (const auto& ball : balls_) {
-            const T t = hit_ball(origin, dir, ball);
-            if (t > least() && t < distance) return true;
+            if (stops(naive::hit_ball(origin, dir, ball, least()))) return true;
         }
-        return visit_faces(origin, dir, distance, [&](const NaiveFace<T>& face) {
+        for (const auto& cone : cones_) {
+            if (stops(naive::hit_cone(origin, dir, cone, least()))) return true;
+        }
+        return visit_faces(origin, dir, distance, [&](const naive::Face<T>& face) {
             T u, v;
-            const T t = hit_face(origin, dir, face, u, v);
-            return t > least() && t < distance;
+            return stops(naive::hit_face(origin, dir, face, u, v));
         });
+    }
+
+    naive::Surface<T> surface_of(const NaiveHit<T>& hit, const Vec<T>& point) const {
+        if (hit.cone) return naive::cone_surface(point, *hit.cone);
+        if (hit.face) return naive::face_surface(*hit.face, hit.u, hit.v);
+        const Vec<T> normal = glm::normalize(point - hit.ball->center);
+        return {normal, normal, hit.ball->material};
     }
 
     Vec<T> lit(const Vec<T>& point, const Vec<T>& normal, const Vec<T>& geometric,
@@ -236,40 +212,68 @@ class NaiveTracer {
         return colour;
     }
 
-    Vec<T> trace(Vec<T> origin, Vec<T> dir) const {
-        Vec<T> colour(0), share(1);
-        for (int bounce = 0;; ++bounce) {
-            const NaiveHit<T> hit = nearest(origin, dir);
-            if (!hit.ball && !hit.face) return colour + share * background_;
-            const Vec<T> point = origin + hit.t * dir;
-            Vec<T> geometric =
-                hit.ball ? glm::normalize(point - hit.ball->center) : hit.face->normal;
-            Vec<T> normal = geometric;
-            if (hit.face && hit.face->smooth) {
-                const auto& n = hit.face->normals;
-                normal =
-                    glm::normalize((T(1) - hit.u - hit.v) * n[0] + hit.u * n[1] + hit.v * n[2]);
-                if (glm::dot(normal, geometric) < T(0)) geometric = -geometric;
+    /// Snell's law; false where all light is reflected.
+    static bool refract(const Vec<T>& dir, const Vec<T>& normal, T eta, Vec<T>& through) {
+        const T cosine = -glm::dot(dir, normal);
+        const T squared = T(1) - eta * eta * (T(1) - cosine * cosine);
+        if (squared < T(0)) return false;
+        through = glm::normalize(eta * dir + (eta * cosine - std::sqrt(squared)) * normal);
+        return true;
+    }
+
+    void branch(const NaiveBranch<T>& from, const Vec<T>& point, const naive::Surface<T>& surface,
+                const NaiveMaterial<T>& material, bool inside, NaiveStack<T>& branches) const {
+        Vec<T> mirror = from.share * material.mirror, through;
+        const Vec<T> glass = from.share * material.transmission;
+        const auto push = [&](const Vec<T>& dir, const Vec<T>& share) {
+            branches.push({started(point, surface.geometric, dir), dir, share, from.bounce + 1});
+        };
+        if (material.transmission != Vec<T>(0)) {
+            const bool turned = glm::dot(surface.normal, from.dir) > T(0);
+            const Vec<T> normal = turned ? -surface.normal : surface.normal;
+            if (refract(from.dir, normal, inside ? material.ior : T(1) / material.ior, through)) {
+                if (glm::any(glm::greaterThan(glass, Vec<T>(1e-12)))) push(through, glass);
+            } else {
+                mirror += glass;
             }
-            const int index = hit.ball ? hit.ball->material : hit.face->material;
-            const auto& material = materials_[static_cast<std::size_t>(index)];
-            if (material.two_sided && glm::dot(geometric, dir) > T(0)) {
-                normal = -normal;
-                geometric = -geometric;
-            }
-            colour += share * lit(point, normal, geometric, dir, material);
-            share *= material.mirror;
-            if (bounce >= max_bounces_ || share == Vec<T>(0)) return colour;
-            dir = glm::normalize(glm::reflect(dir, normal));
-            origin = started(point, geometric, dir);
+            if (!glm::any(glm::greaterThan(mirror, Vec<T>(1e-12)))) return;
         }
+        if (mirror == Vec<T>(0)) return;
+        push(glm::normalize(glm::reflect(from.dir, surface.normal)), mirror);
+    }
+
+    Vec<T> follow(const NaiveBranch<T>& from, NaiveStack<T>& branches) const {
+        const NaiveHit<T> hit = nearest(from.origin, from.dir);
+        if (!hit.ball && !hit.cone && !hit.face) return background_;
+        const Vec<T> point = from.origin + hit.t * from.dir;
+        naive::Surface<T> surface = surface_of(hit, point);
+        const auto& material = materials_[static_cast<std::size_t>(surface.material)];
+        const bool inside = glm::dot(surface.geometric, from.dir) > T(0);
+        if (material.two_sided && inside) {
+            surface.normal = -surface.normal;
+            surface.geometric = -surface.geometric;
+        }
+        if (from.bounce < max_bounces_) branch(from, point, surface, material, inside, branches);
+        return lit(point, surface.normal, surface.geometric, from.dir, material);
+    }
+
+    Vec<T> trace(const Vec<T>& origin, const Vec<T>& dir) const {
+        Vec<T> colour(0);
+        NaiveStack<T> branches;
+        branches.push({origin, dir, Vec<T>(1), 0});
+        while (branches.size > 0) {
+            const NaiveBranch<T> next = branches.branches[--branches.size];
+            colour += next.share * follow(next, branches);
+        }
+        return colour;
     }
 
     const NaiveStart start_;
     const Vec<T> background_, ambient_light_;
     const int max_bounces_, width_, height_, grid_;
-    std::vector<NaiveBall<T>> balls_;
-    std::vector<NaiveFace<T>> faces_;
+    std::vector<naive::Ball<T>> balls_;
+    std::vector<naive::Cone<T>> cones_;
+    std::vector<naive::Face<T>> faces_;
     std::optional<NaiveHierarchy<T>> hierarchy_;  ///< where there are many faces
     std::vector<NaiveMaterial<T>> materials_;
     std::vector<NaiveLamp<T>> lamps_;

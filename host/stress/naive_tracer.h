@@ -20,8 +20,8 @@ struct NaivePicture {
 
 /// The scene as a textbook renders it in the arithmetic of T, on all cores (0) or so many threads:
 /// coordinates as they are, the quadratic formula, Moller and Trumbore with |det| < 1e-8,
-/// pow(n.h, e), tight boxes about many triangles. For comparison only. Grids of samples; spheres
-/// and triangles.
+/// pow(n.h, e), tight boxes about many triangles. For comparison only. Grids of samples; spheres,
+/// cones and triangles.
 template <typename T>
 NaivePicture naive_picture(const Scene& scene, NaiveStart start, int threads = 0);
 

@@ -45,6 +45,33 @@ Scene random_scene(unsigned seed) {
     return scene;
 }
 
+/// The same with cones, and with glass, some of which mirrors.
+Scene random_glass_scene(unsigned seed) {
+    Scene scene = random_scene(seed);
+    std::mt19937 engine(1000 + seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const auto number = [&](double low, double high) { return low + (high - low) * unit(engine); };
+    const auto point = [&](double half) {
+        const double x = number(-half, half), y = number(-half, half);
+        return glm::dvec3(x, y, number(-half, half));
+    };
+    for (std::size_t i = 0; i < scene.materials.size(); i += 3) {
+        Scene::Material& material = scene.materials[i];
+        material.transmission = glm::dvec3(number(0.25, 0.75));
+        material.ior = std::exp(number(-0.5, 1));
+        material.diffuse *= 0.25;
+    }
+    for (int i = 0; i < 10; ++i) {
+        const glm::dvec3 base = point(2.5);
+        const double size = std::exp(number(-3, 0.5)), kind = unit(engine);
+        const double base_radius = size * number(0.1, 1);
+        const double apex_radius =
+            kind < 0.4 ? 0 : (kind < 0.7 ? base_radius : size * unit(engine));
+        add_cone(scene, base, base_radius, base + size * point(2), apex_radius, i);
+    }
+    return scene;
+}
+
 }  // namespace
 
 void add_ordinary_families(StressFamilies& families) {
@@ -52,12 +79,17 @@ void add_ordinary_families(StressFamilies& families) {
                         "scene",
                         "nothing stiff: what float costs where nothing is asked of it",
                         {picture_case("still-life", 1, InQuick::yes, still_life),
-                         picture_case("still-life-2x2", 2, InQuick::no, fine_still_life)}});
+                         picture_case("still-life-2x2", 2, InQuick::no, fine_still_life),
+                         picture_case("glass-still-life", 3, InQuick::yes, glass_still_life)}});
     StressFamily random{
         "random-scenes", "seed", "shapes that nobody chose: touching, crossing, tiny, huge", {}};
     for (unsigned seed = 1; seed <= 24; ++seed) {
         random.cases.push_back(picture_case(fmt::format("{}", seed), seed, quick_if(seed <= 3),
                                             [seed] { return random_scene(seed); }));
+    }
+    for (unsigned seed = 25; seed <= 48; ++seed) {
+        random.cases.push_back(picture_case(fmt::format("{}", seed), seed, quick_if(seed <= 26),
+                                            [seed] { return random_glass_scene(seed); }));
     }
     families.push_back(std::move(random));
 }

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stress/ray_trials.h"
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <mutex>
-#include <numbers>
-#include <random>
+#include <array>
 
 #include "host/flatten/flat_scene.h"
-#include "host/parallel.h"
-#include "host/stress/wide_real.h"
+#include "host/stress/ray_dice.h"
 #include "host/trace/hit_surface.h"
 #include "host/trace/whitted.h"
 
@@ -21,63 +14,6 @@ namespace {
 
 using stress::Quad;
 using stress::Wide3;
-
-class Dice {
-   public:
-    explicit Dice(std::uint64_t seed) : engine_(seed) {}
-
-    double uniform(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-    }
-    double log_uniform(double low, double high) {
-        return std::exp(uniform(std::log(low), std::log(high)));
-    }
-    std::size_t index(std::size_t count) { return engine_() % count; }
-    glm::dvec3 direction() {
-        const double z = uniform(-1, 1), angle = uniform(0, 2 * std::numbers::pi);
-        const double radius = std::sqrt(1 - z * z);
-        return {radius * std::cos(angle), radius * std::sin(angle), z};
-    }
-
-   private:
-    std::mt19937_64 engine_;
-};
-
-template <typename P>
-glm::dvec3 in_double(const P& p) {
-    return {double(p.x), double(p.y), double(p.z)};
-}
-
-template <typename T>
-trace::Ray<T> make_ray(const Vec3<T>& origin, const glm::dvec3& dir) {
-    trace::Ray<T> ray;
-    ray.origin = origin;
-    ray.dir = trace::normalize3(Vec3<T>(dir / glm::length(dir)));
-    ray.t_max = std::numeric_limits<T>::infinity();
-    ray.from = Flat<T>::none;
-    return ray;
-}
-
-/// Sums try_ray(dice, figures) over many rays, in blocks with dice of their own, on all cores.
-template <typename Try>
-RayFigures many_rays(std::uint64_t rays, const Try& try_ray) {
-    constexpr std::uint64_t block = 4096;
-    std::atomic<std::uint64_t> next = 0;
-    std::mutex mutex;
-    RayFigures sum;
-    run_on_threads(available_cores(), [&](int) {
-        RayFigures own;
-        for (std::uint64_t at = next.fetch_add(block); at < rays; at = next.fetch_add(block)) {
-            Dice dice(at + 1);
-            for (std::uint64_t i = at; i < std::min(at + block, rays); ++i) try_ray(dice, own);
-        }
-        const std::lock_guard lock(mutex);
-        sum.rays += own.rays;
-        sum.failures += own.failures;
-        sum.max_error = std::max(sum.max_error, own.max_error);
-    });
-    return sum;
-}
 
 /// Middle and size of the flat triangles.
 struct Bounds {
@@ -101,8 +37,7 @@ Bounds bounds_of(const FlatScene<T>& flat) {
 /// The distance to the ray's sphere by the quadratic formula; negative for a miss.
 template <typename T>
 Quad exact_distance(const trace::Ray<T>& ray, const typename Flat<T>::Sphere& sphere) {
-    const auto wide = [](const auto& v) { return Wide3<Quad>{Quad(v.x), Quad(v.y), Quad(v.z)}; };
-    const Wide3<Quad> f = wide(ray.origin) - wide(sphere.center), d = wide(ray.dir);
+    const Wide3<Quad> f = in_quad(ray.origin) - in_quad(sphere.center), d = in_quad(ray.dir);
     const Quad radius = sphere.radius;
     const Quad a = dot(d, d), b = dot(f, d);
     const Quad discriminant = b * b - a * (dot(f, f) - radius * radius);
@@ -116,23 +51,8 @@ Quad exact_distance(const trace::Ray<T>& ray, const typename Flat<T>::Sphere& sp
 template <typename T>
 Quad far_side(const trace::Surface<T>& start, const Vec3<T>& dir,
               const typename Flat<T>::Sphere& sphere) {
-    const auto wide = [](const auto& v) { return Wide3<Quad>{Quad(v.x), Quad(v.y), Quad(v.z)}; };
-    const Wide3<Quad> out = unit(wide(start.normal));
-    return Quad(-2) * Quad(sphere.radius) * dot(out, unit(wide(dir)));
-}
-
-/// A direction at this angle over the plane of the normal.
-glm::dvec3 at_angle(Dice& dice, const glm::dvec3& normal, double angle) {
-    const glm::dvec3 other = std::fabs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 across = glm::normalize(glm::cross(normal, other));
-    const double turn = dice.uniform(0, 2 * std::numbers::pi);
-    const glm::dvec3 tangent =
-        std::cos(turn) * across + std::sin(turn) * glm::cross(normal, across);
-    return std::cos(angle) * tangent + std::sin(angle) * normal;
-}
-
-double relative_error(double found, Quad exact) {
-    return static_cast<double>(stress::magnitude((Quad(found) - exact) / exact));
+    const Wide3<Quad> out = unit(in_quad(start.normal));
+    return Quad(-2) * Quad(sphere.radius) * dot(out, unit(in_quad(dir)));
 }
 
 template <typename T>

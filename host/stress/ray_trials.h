@@ -29,4 +29,14 @@ RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::ui
 template <typename T>
 RayFigures count_sphere_failures(const Scene& scene, std::uint64_t rays);
 
+/// As count_leaving_failures, from the scene's first cone. Inwards, the far side counts where it
+/// lies clear of the rims by a thousandth of the length, and so does that there is none; it must be
+/// found within 1 %.
+template <typename T>
+RayFigures count_cone_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays);
+
+/// As count_sphere_failures, past the scene's first cone and its rims.
+template <typename T>
+RayFigures count_cone_failures(const Scene& scene, std::uint64_t rays);
+
 }  // namespace rt

@@ -2,202 +2,103 @@
 #include "host/stress/reference_tracer.h"
 
 #include <cmath>
-#include <numbers>
 #include <optional>
-#include <type_traits>
 #include <vector>
 
+#include "host/stress/wide_camera.h"
 #include "host/stress/wide_real.h"
+#include "host/stress/wide_shapes.h"
 
 namespace rt {
 
 namespace {
 
-using stress::Quad;
 using stress::Wide3;
+using stress::WideHit;
 using stress::widened;
-
-template <typename R>
-struct Ball {
-    Wide3<R> center;
-    R radius;
-    int material;
-};
-
-template <typename R>
-struct Face {
-    Wide3<R> corner, edge1, edge2;
-    Wide3<R> normal;  // unit
-    std::optional<std::array<Wide3<R>, 3>> normals;
-    int material;
-};
-
-template <typename R>
-struct Lamp {
-    Wide3<R> position, intensity;
-};
-
-/// A ray that may start on primitive `from` (or -1). Hits nearer than `least` are that start.
-template <typename R>
-struct WideRay {
-    Wide3<R> origin, dir;
-    int from = -1;
-    R least = 0;
-};
-
-template <typename R>
-struct WideHit {
-    R t = -1, u = 0, v = 0;
-    int prim = -1;
-};
-
-template <typename R>
-struct WideSurface {
-    Wide3<R> point, normal, geometric;
-    const Scene::Material* material;
-};
+using stress::WideRay;
+using stress::WideSurface;
 
 /// Surfaces this near to each other, relative to the distance, are one. Below what a double
 /// coordinate can say, far above the rounding of either wide type.
 template <typename R>
 constexpr R same_distance = R(1e-12);
 
-/// How far beyond its edges a triangle reaches, so that rounding opens no gap between neighbours.
+/// At glass, what counts for less than half an ulp of white in double is left out.
 template <typename R>
-constexpr R rim = std::is_same_v<R, Quad> ? R(1e-28) : R(1e-16);
+constexpr R least_share = R(0x1p-53);
+
+template <typename R>
+struct Lamp {
+    Wide3<R> position, intensity;
+};
+
+/// A ray, how much of what it sees counts, and how many bounces brought it here.
+template <typename R>
+struct Branch {
+    WideRay<R> ray;
+    Wide3<R> share{1, 1, 1};
+    int bounce = 0;
+};
 
 template <typename R>
 class Tracer final : public ReferenceTracer {
    public:
-    explicit Tracer(const Scene& scene) : scene_(scene) {
-        for (const auto& sphere : scene.spheres) {
-            balls_.push_back({widened<R>(sphere.center), R(sphere.radius), sphere.material});
+    explicit Tracer(const Scene& scene) : scene_(scene), camera_(scene) {
+        for (const auto& sphere : scene.spheres) balls_.push_back(stress::wide_ball<R>(sphere));
+        for (const auto& cone : scene.cones) frusta_.push_back(stress::wide_frustum<R>(cone));
+        for (const auto& triangle : scene.triangles) {
+            faces_.push_back(stress::wide_face<R>(triangle));
         }
-        for (const auto& triangle : scene.triangles) faces_.push_back(make_face(triangle));
         for (const auto& light : scene.lights) {
             lamps_.push_back({widened<R>(light.position), widened<R>(light.intensity)});
         }
-        set_camera();
-        eye_ball_ = ball_at_eye();
+        if (camera_.has_one_eye()) eye_surface_ = surface_at_eye();
     }
 
     std::array<double, 3> colour_at(double x, double y, double dx, double dy) const override {
-        const Wide3<R> colour = trace(eye_ray(R(x) + R(dx), R(y) + R(dy)));
+        WideRay<R> ray = camera_.eye_ray(R(x) + R(dx), R(y) + R(dy));
+        ray.from = eye_surface_;
+        const Wide3<R> colour = trace(ray);
         return {static_cast<double>(colour.x), static_cast<double>(colour.y),
                 static_cast<double>(colour.z)};
     }
 
    private:
-    static Face<R> make_face(const Scene::Triangle& triangle) {
-        Face<R> face;
-        face.corner = widened<R>(triangle.vertices[0]);
-        face.edge1 = widened<R>(triangle.vertices[1]) - face.corner;
-        face.edge2 = widened<R>(triangle.vertices[2]) - face.corner;
-        face.normal = unit(cross(face.edge1, face.edge2));
-        if (triangle.normals) {
-            const auto& n = *triangle.normals;
-            face.normals = {widened<R>(n[0]), widened<R>(n[1]), widened<R>(n[2])};
-        }
-        face.material = triangle.material;
-        return face;
-    }
-
-    /// The window's sides; a field of view gives square pixels.
-    void set_camera() {
-        using Fixed = Scene::FieldOfView::Fixed;
-        const Scene::Camera& camera = scene_.camera;
-        forward_ = unit(widened<R>(camera.at) - widened<R>(camera.from));
-        right_ = unit(cross(forward_, widened<R>(camera.up)));
-        up_ = cross(right_, forward_);
-        const R width = scene_.width, height = scene_.height;
-        const double amount = camera.field_of_view.amount;
-        const long double angle = amount * (std::numbers::pi_v<long double> / 360);
-        const R half_angle = std::tan(angle);
-        const auto span = [&](R half_width, R half_height) {
-            left_ = -half_width, right_side_ = half_width;
-            bottom_ = -half_height, top_ = half_height;
-        };
-        switch (camera.field_of_view.fixed) {
-            case Fixed::window:
-                left_ = camera.window.left, right_side_ = camera.window.right;
-                bottom_ = camera.window.bottom, top_ = camera.window.top;
-                return;
-            case Fixed::horizontal:
-                return span(half_angle, half_angle * height / width);
-            case Fixed::vertical:
-                return span(half_angle * width / height, half_angle);
-            case Fixed::view_width:
-                return span(R(amount) / 2, R(amount) / 2 * height / width);
-            case Fixed::view_height:
-                return span(R(amount) / 2 * width / height, R(amount) / 2);
-        }
-    }
-
-    /// The ball whose surface the eye lies on, to a double's last bits, or -1. Its rays leave it.
-    int ball_at_eye() const {
-        for (std::size_t i = 0; i < balls_.size(); ++i) {
-            const Wide3<R> f = widened<R>(scene_.camera.from) - balls_[i].center;
-            const R squared = balls_[i].radius * balls_[i].radius;
-            if (stress::magnitude(dot(f, f) - squared) <= R(1e-14) * squared) {
-                return static_cast<int>(i);
-            }
+    /// The ball or cone whose surface the eye lies on, to a double's last bits, or -1. Its rays
+    /// leave it.
+    int surface_at_eye() const {
+        const Wide3<R> eye = widened<R>(scene_.camera.from);
+        for (std::size_t prim = 0; prim < first_face(); ++prim) {
+            const bool is_ball = prim < balls_.size();
+            const bool touches = is_ball ? stress::lies_on(eye, balls_[prim])
+                                         : stress::lies_on(eye, frusta_[prim - balls_.size()]);
+            if (touches) return static_cast<int>(prim);
         }
         return -1;
     }
 
-    WideRay<R> eye_ray(R x, R y) const {
-        const R across = left_ + (right_side_ - left_) * x / R(scene_.width);
-        const R upwards = top_ - (top_ - bottom_) * y / R(scene_.height);
-        const Wide3<R> offset = across * right_ + upwards * up_;
-        const Wide3<R> from = widened<R>(scene_.camera.from);
-        if (scene_.camera.projection == Scene::Projection::orthographic) {
-            return {from + offset, forward_};
-        }
-        return {from, unit(forward_ + offset), eye_ball_};
-    }
-
-    R hit_ball(const WideRay<R>& ray, const Ball<R>& ball, bool leaving) const {
-        const Wide3<R> f = ray.origin - ball.center;
-        const R b = dot(f, ray.dir);
-        if (leaving) return -2 * b;
-        const R discriminant = b * b - (dot(f, f) - ball.radius * ball.radius);
-        if (!(discriminant >= 0)) return -1;
-        const R root = stress::square_root(discriminant);
-        return -b - root > ray.least ? -b - root : -b + root;
-    }
-
-    /// Moller and Trumbore's.
-    R hit_face(const WideRay<R>& ray, const Face<R>& face, R& u, R& v) const {
-        const Wide3<R> p = cross(ray.dir, face.edge2);
-        const R determinant = dot(face.edge1, p);
-        if (determinant == 0) return -1;
-        const Wide3<R> s = ray.origin - face.corner;
-        u = dot(s, p) / determinant;
-        if (!(u >= -rim<R> && u <= 1 + rim<R>)) return -1;
-        const Wide3<R> q = cross(s, face.edge1);
-        v = dot(ray.dir, q) / determinant;
-        if (!(v >= -rim<R> && u + v <= 1 + rim<R>)) return -1;
-        return dot(face.edge2, q) / determinant;
-    }
-
-    WideHit<R> hit_primitive(const WideRay<R>& ray, int prim) const {
+    /// Balls come first, then cones, then triangles.
+    WideHit<R> hit_primitive(const WideRay<R>& ray, std::size_t prim) const {
         WideHit<R> hit;
-        const int ball_count = static_cast<int>(balls_.size());
-        if (prim < ball_count) {
-            hit.t = hit_ball(ray, balls_[static_cast<std::size_t>(prim)], prim == ray.from);
-        } else if (prim != ray.from) {
-            const auto index = static_cast<std::size_t>(prim - ball_count);
-            hit.t = hit_face(ray, faces_[index], hit.u, hit.v);
+        const bool leaving = static_cast<int>(prim) == ray.from;
+        if (prim < balls_.size()) {
+            hit.t = stress::hit_ball(ray, balls_[prim], leaving);
+        } else if (prim < first_face()) {
+            hit.t = stress::hit_frustum(ray, frusta_[prim - balls_.size()], leaving);
+        } else if (!leaving) {
+            hit.t = stress::hit_face(ray, faces_[prim - first_face()], hit.u, hit.v);
         }
-        if (hit.t > ray.least) hit.prim = prim;
+        if (hit.t > ray.least) hit.prim = static_cast<int>(prim);
         return hit;
     }
 
-    int primitives() const { return static_cast<int>(balls_.size() + faces_.size()); }
+    std::size_t first_face() const { return balls_.size() + frusta_.size(); }
+    std::size_t primitives() const { return first_face() + faces_.size(); }
 
     WideHit<R> nearest(const WideRay<R>& ray) const {
         WideHit<R> best;
-        for (int prim = 0; prim < primitives(); ++prim) {
+        for (std::size_t prim = 0; prim < primitives(); ++prim) {
             const WideHit<R> hit = hit_primitive(ray, prim);
             if (hit.prim < 0) continue;
             if (best.prim < 0 || hit.t < best.t * (1 - same_distance<R>)) best = hit;
@@ -206,44 +107,20 @@ class Tracer final : public ReferenceTracer {
     }
 
     bool blocked(const WideRay<R>& ray, R distance) const {
-        for (int prim = 0; prim < primitives(); ++prim) {
+        for (std::size_t prim = 0; prim < primitives(); ++prim) {
             const WideHit<R> hit = hit_primitive(ray, prim);
             if (hit.prim >= 0 && hit.t < distance * (1 - same_distance<R>)) return true;
         }
         return false;
     }
 
-    const Scene::Material& material_of(int index) const {
-        return scene_.materials[static_cast<std::size_t>(index)];
-    }
-
-    WideSurface<R> ball_surface(const WideRay<R>& ray, const WideHit<R>& hit) const {
-        const Ball<R>& ball = balls_[static_cast<std::size_t>(hit.prim)];
-        const Wide3<R> normal = unit(ray.origin - ball.center + hit.t * ray.dir);
-        return {ball.center + ball.radius * normal, normal, normal, &material_of(ball.material)};
-    }
-
-    WideSurface<R> face_surface(const WideHit<R>& hit) const {
-        const Face<R>& face = faces_[static_cast<std::size_t>(hit.prim) - balls_.size()];
-        const Wide3<R> point = face.corner + hit.u * face.edge1 + hit.v * face.edge2;
-        WideSurface<R> surface{point, face.normal, face.normal, &material_of(face.material)};
-        if (!face.normals) return surface;
-        const auto& n = *face.normals;
-        const Wide3<R> blend = (1 - hit.u - hit.v) * n[0] + hit.u * n[1] + hit.v * n[2];
-        if (dot(blend, blend) > R(1e-12)) surface.normal = unit(blend);
-        if (dot(surface.normal, face.normal) < 0) surface.geometric = -face.normal;
-        return surface;
-    }
-
     WideSurface<R> surface_of(const WideRay<R>& ray, const WideHit<R>& hit) const {
-        WideSurface<R> surface = static_cast<std::size_t>(hit.prim) < balls_.size()
-                                     ? ball_surface(ray, hit)
-                                     : face_surface(hit);
-        if (surface.material->two_sided && dot(surface.geometric, ray.dir) > 0) {
-            surface.normal = -surface.normal;
-            surface.geometric = -surface.geometric;
+        const auto prim = static_cast<std::size_t>(hit.prim);
+        if (prim < balls_.size()) return stress::ball_surface(ray, hit.t, balls_[prim]);
+        if (prim < first_face()) {
+            return stress::frustum_surface(ray, hit.t, frusta_[prim - balls_.size()]);
         }
-        return surface;
+        return stress::face_surface(hit, faces_[prim - first_face()]);
     }
 
     static R lobe(const Wide3<R>& normal, const Wide3<R>& half_vector, double exponent) {
@@ -255,7 +132,8 @@ class Tracer final : public ReferenceTracer {
         return std::exp(exponent * log_cosine);
     }
 
-    Wide3<R> lit_by(const Lamp<R>& lamp, const WideSurface<R>& surface, const Wide3<R>& to_eye,
+    Wide3<R> lit_by(const Lamp<R>& lamp, const WideSurface<R>& surface,
+                    const Scene::Material& material, const Wide3<R>& to_eye,
                     const WideRay<R>& shadow_start) const {
         const Wide3<R> way = lamp.position - surface.point;
         if (!(dot(surface.geometric, way) > 0)) return {};
@@ -264,7 +142,6 @@ class Tracer final : public ReferenceTracer {
         shadow.dir = (R(1) / distance) * way;
         const R cosine = dot(surface.normal, shadow.dir);
         if (!(cosine > 0) || blocked(shadow, distance)) return {};
-        const Scene::Material& material = *surface.material;
         const Wide3<R> sum = shadow.dir + to_eye;
         Wide3<R> reflected = cosine * widened<R>(material.diffuse);
         if (dot(sum, sum) > 0) {
@@ -283,6 +160,22 @@ class Tracer final : public ReferenceTracer {
         return unit(leaves ? out : about(surface.geometric));
     }
 
+    /// Snell's law, `eta` the index before the surface over that behind it; nothing where all light
+    /// is reflected. A blended normal that would not let the ray through gives way to the face's.
+    static std::optional<Wide3<R>> refracted(const Wide3<R>& dir, const WideSurface<R>& surface,
+                                             R eta) {
+        for (const Wide3<R>& outwards : {surface.normal, surface.geometric}) {
+            const Wide3<R> normal = dot(dir, outwards) < 0 ? outwards : -outwards;
+            const R cosine = -dot(dir, normal);
+            const R squared = 1 - eta * eta * (1 - cosine * cosine);
+            if (squared < 0) return std::nullopt;
+            const Wide3<R> through =
+                unit(eta * dir + (eta * cosine - stress::square_root(squared)) * normal);
+            if (dot(through, surface.geometric) * dot(dir, surface.geometric) > 0) return through;
+        }
+        return std::nullopt;
+    }
+
     /// Mirrors that brighten at each bounce stay finite, far above all that can be seen.
     static Wide3<R> saturated(const Wide3<R>& share) {
         const R most = 1e300;
@@ -290,40 +183,83 @@ class Tracer final : public ReferenceTracer {
         return {cut(share.x), cut(share.y), cut(share.z)};
     }
 
-    Wide3<R> trace(WideRay<R> ray) const {
-        Wide3<R> colour, share{1, 1, 1};
-        for (int bounce = 0;; ++bounce) {
-            const WideHit<R> hit = nearest(ray);
-            if (hit.prim < 0) return colour + share * widened<R>(scene_.background);
-            const WideSurface<R> surface = surface_of(ray, hit);
-            const Scene::Material& material = *surface.material;
-            WideRay<R> next{surface.point, {}, hit.prim, same_distance<R> / 16 * hit.t};
-            Wide3<R> here = widened<R>(material.ambient) * widened<R>(scene_.ambient_light);
-            for (const Lamp<R>& lamp : lamps_) {
-                here = here + lit_by(lamp, surface, -ray.dir, next);
+    static bool exceeds(const Wide3<R>& share, R least) {
+        return share.x > least || share.y > least || share.z > least;
+    }
+
+    /// The branches that go on from a surface, the mirrored one last.
+    static void branch(const Branch<R>& arriving, const WideRay<R>& start,
+                       const WideSurface<R>& surface, const Scene::Material& material, bool inside,
+                       std::vector<Branch<R>>& branches) {
+        const Wide3<R>& dir = arriving.ray.dir;
+        const int bounce = arriving.bounce + 1;
+        Wide3<R> mirror = arriving.share * widened<R>(material.mirror);
+        const Wide3<R> glass = arriving.share * widened<R>(material.transmission);
+        const bool is_glass = exceeds(widened<R>(material.transmission), 0);
+        const R least = is_glass ? least_share<R> : R(0);
+        if (is_glass) {
+            const R eta = inside ? R(material.ior) : 1 / R(material.ior);
+            const auto through = refracted(dir, surface, eta);
+            if (!through) {
+                mirror = mirror + glass;
+            } else if (exceeds(glass, least)) {
+                branches.push_back({start, saturated(glass), bounce});
+                branches.back().ray.dir = *through;
             }
-            colour = colour + share * here;
-            share = saturated(share * widened<R>(material.mirror));
-            if (bounce >= scene_.max_bounces || dot(share, share) == 0) return colour;
-            next.dir = mirrored(ray.dir, surface);
-            ray = next;
         }
+        if (!exceeds(mirror, least)) return;
+        branches.push_back({start, saturated(mirror), bounce});
+        branches.back().ray.dir = mirrored(dir, surface);
+    }
+
+    /// What the branch's ray sees by itself; branches that go on from there are added.
+    Wide3<R> follow(const Branch<R>& arriving, std::vector<Branch<R>>& branches) const {
+        const WideRay<R>& ray = arriving.ray;
+        const WideHit<R> hit = nearest(ray);
+        if (hit.prim < 0) return widened<R>(scene_.background);
+        WideSurface<R> surface = surface_of(ray, hit);
+        const auto& material = scene_.materials[static_cast<std::size_t>(surface.material)];
+        const bool inside = dot(surface.geometric, ray.dir) > 0;
+        if (material.two_sided && inside) {
+            surface.normal = -surface.normal;
+            surface.geometric = -surface.geometric;
+        }
+        const WideRay<R> start{surface.point, {}, hit.prim, same_distance<R> / 16 * hit.t};
+        Wide3<R> here = widened<R>(material.ambient) * widened<R>(scene_.ambient_light);
+        for (const Lamp<R>& lamp : lamps_) {
+            here = here + lit_by(lamp, surface, material, -ray.dir, start);
+        }
+        if (arriving.bounce < scene_.max_bounces) {
+            branch(arriving, start, surface, material, inside, branches);
+        }
+        return here;
+    }
+
+    Wide3<R> trace(const WideRay<R>& eye_ray) const {
+        Wide3<R> colour;
+        std::vector<Branch<R>> branches{{eye_ray}};
+        while (!branches.empty()) {
+            const Branch<R> next = branches.back();
+            branches.pop_back();
+            colour = colour + next.share * follow(next, branches);
+        }
+        return colour;
     }
 
     const Scene scene_;
-    std::vector<Ball<R>> balls_;
-    std::vector<Face<R>> faces_;
+    const stress::WideCamera<R> camera_;
+    std::vector<stress::WideBall<R>> balls_;
+    std::vector<stress::WideFrustum<R>> frusta_;
+    std::vector<stress::WideFace<R>> faces_;
     std::vector<Lamp<R>> lamps_;
-    Wide3<R> forward_, right_, up_;
-    int eye_ball_ = -1;
-    R left_ = -1, right_side_ = 1, bottom_ = -1, top_ = 1;
+    int eye_surface_ = -1;
 };
 
 }  // namespace
 
 std::unique_ptr<ReferenceTracer> make_reference_tracer(const Scene& scene, ReferenceKind kind) {
     if (kind == ReferenceKind::extended) return std::make_unique<Tracer<long double>>(scene);
-    return std::make_unique<Tracer<Quad>>(scene);
+    return std::make_unique<Tracer<stress::Quad>>(scene);
 }
 
 }  // namespace rt

@@ -59,13 +59,13 @@ std::vector<StressFamily> chosen_families(std::vector<StressFamily> families,
     return families;
 }
 
-/// Glass and cones will add their families here, once the renderer has them.
 std::vector<StressFamily> all_stress_families() {
     std::vector<StressFamily> families;
     for (const auto add :
-         {add_ordinary_families, add_scale_families, add_sphere_families, add_mirror_families,
-          add_light_families, add_eye_families, add_view_families, add_triangle_families,
-          add_normal_families, add_leak_families, add_ray_families, add_input_families}) {
+         {add_ordinary_families, add_scale_families, add_sphere_families, add_cone_families,
+          add_mirror_families, add_glass_families, add_light_families, add_eye_families,
+          add_view_families, add_triangle_families, add_normal_families, add_leak_families,
+          add_ray_families, add_input_families}) {
         add(families);
     }
     return families;

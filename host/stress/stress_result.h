@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/image/picture.h"
 #include "host/stress/judge.h"
 #include "host/stress/stress_case.h"
 
@@ -39,9 +40,17 @@ struct StressCaseResult {
     bool passed() const;
 };
 
+/// The worst picture of a case beside what it should be.
+struct StressShot {
+    std::string label;
+    Picture worst, reference;
+    double badness = -1;
+};
+
 struct StressFamilyResult {
     std::string name, parameter, why;
     std::vector<StressCaseResult> cases;
+    std::optional<StressShot> shot;  ///< of its worst case, where pictures are kept
 
     bool passed() const;
 };

@@ -12,6 +12,10 @@ void for_each_point(Scene& scene, const Change& change) {
     change(scene.camera.at);
     for (auto& light : scene.lights) change(light.position);
     for (auto& sphere : scene.spheres) change(sphere.center);
+    for (auto& cone : scene.cones) {
+        change(cone.base);
+        change(cone.apex);
+    }
     for (auto& triangle : scene.triangles) {
         for (auto& vertex : triangle.vertices) change(vertex);
     }
@@ -53,12 +57,24 @@ int add_mirror(Scene& scene, double mirror, double ambient) {
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
+int add_glass(Scene& scene, double ior, double transmission, double mirror, double ambient) {
+    const int material = add_mirror(scene, mirror, ambient);
+    scene.materials.back().transmission = glm::dvec3(transmission);
+    scene.materials.back().ior = ior;
+    return material;
+}
+
 void add_sphere(Scene& scene, glm::dvec3 center, double radius, int material) {
     scene.spheres.push_back({center, radius, material});
 }
 
 void add_triangle(Scene& scene, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, int material) {
     scene.triangles.push_back({{a, b, c}, {}, material});
+}
+
+void add_cone(Scene& scene, glm::dvec3 base, double base_radius, glm::dvec3 apex,
+              double apex_radius, int material) {
+    scene.cones.push_back({base, apex, base_radius, apex_radius, material});
 }
 
 void add_quad(Scene& scene, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d, int material) {
@@ -70,6 +86,20 @@ void add_floor(Scene& scene, glm::dvec3 center, double half_side, int material) 
     const double h = half_side;
     add_quad(scene, center + glm::dvec3(-h, 0, h), center + glm::dvec3(h, 0, h),
              center + glm::dvec3(h, 0, -h), center + glm::dvec3(-h, 0, -h), material);
+}
+
+void add_box(Scene& scene, glm::dvec3 low, glm::dvec3 high, int material) {
+    const auto corner = [&](int i) {
+        return glm::dvec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+    };
+    for (const auto& [a, b, c, d] : std::array<std::array<int, 4>, 6>{{{0, 2, 3, 1},
+                                                                       {4, 5, 7, 6},
+                                                                       {0, 1, 5, 4},
+                                                                       {2, 6, 7, 3},
+                                                                       {0, 4, 6, 2},
+                                                                       {1, 3, 7, 5}}}) {
+        add_quad(scene, corner(a), corner(b), corner(c), corner(d), material);
+    }
 }
 
 Scene bare_scene() {
@@ -108,9 +138,29 @@ Scene still_life() {
     return scene;
 }
 
+Scene glass_still_life() {
+    Scene scene = still_life();
+    const int clear = add_glass(scene, 1.5, 0.875, 0.0625);
+    const int heavy = add_glass(scene, 2.5, 0.75);
+    const int orange = add_matt(scene, {0.875, 0.5, 0.125});
+    scene.materials.back().two_sided = true;
+    scene.spheres[2].material = heavy;
+    scene.spheres[3].material = clear;
+    add_sphere(scene, {-1, 0.5, 4}, 0.5, clear);
+    add_box(scene, {0.5, 0.0625, 3.5}, {1.25, 0.5, 4}, clear);
+    add_cone(scene, {-3, 0, 2}, 0.5, {-2.75, 1.25, 2}, 0, orange);
+    add_cone(scene, {3, 0, 3.5}, 0.375, {3.25, 1, 3}, 0.375, 4);
+    add_cone(scene, {-0.25, 2.25, -1}, 0.25, {0.5, 2.75, -0.5}, 0.625, orange);
+    return scene;
+}
+
 void scale_scene(Scene& scene, double factor) {
     for_each_point(scene, [&](glm::dvec3& point) { point *= factor; });
     for (auto& sphere : scene.spheres) sphere.radius *= factor;
+    for (auto& cone : scene.cones) {
+        cone.base_radius *= factor;
+        cone.apex_radius *= factor;
+    }
     if (scene.camera.projection == Scene::Projection::orthographic) {
         scene.camera.field_of_view.amount *= factor;
         set_image_size(scene, scene.width, scene.height);

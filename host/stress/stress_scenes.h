@@ -15,6 +15,9 @@ namespace rt {
 /// Four balls (one a mirror), a pyramid, a floor that mirrors a little, two lights, five bounces.
 Scene still_life();
 
+/// The same with a glass ball, a glass cube that mirrors a little, a cone, a tube and a frustum.
+Scene glass_still_life();
+
 /// A camera, matt and shiny materials, two lights, a small picture; nothing in it.
 Scene bare_scene();
 
@@ -29,14 +32,25 @@ int add_matt(Scene& scene, glm::dvec3 colour, double specular = 0.5, double shin
 /// Index of a new material that mirrors, with a little light of its own.
 int add_mirror(Scene& scene, double mirror, double ambient = 0.05);
 
+/// Index of a new material that lets light through, with a little light of its own.
+int add_glass(Scene& scene, double ior, double transmission = 0.875, double mirror = 0,
+              double ambient = 0);
+
 void add_sphere(Scene& scene, glm::dvec3 center, double radius, int material);
 void add_triangle(Scene& scene, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, int material);
+
+/// The side of a frustum, open at both ends.
+void add_cone(Scene& scene, glm::dvec3 base, double base_radius, glm::dvec3 apex,
+              double apex_radius, int material);
 
 /// Two triangles; a, b, c, d counterclockwise seen from the front, the diagonal from a to c.
 void add_quad(Scene& scene, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d, int material);
 
 /// A level square about (center.x, y, center.z), its front up.
 void add_floor(Scene& scene, glm::dvec3 center, double half_side, int material);
+
+/// A box with its sides along the axes, fronts out.
+void add_box(Scene& scene, glm::dvec3 low, glm::dvec3 high, int material);
 
 /// Every length of the scene times the factor.
 void scale_scene(Scene& scene, double factor);

@@ -50,6 +50,36 @@ Scene single_square() {
     return scene;
 }
 
+/// Two flat squares in one plane that share a quarter, where the first is seen.
+Scene overlapping_squares(bool cut) {
+    Scene scene = bare_scene();
+    const int first = add_matt(scene, {0.875, 0.25, 0.125});
+    const int second = add_matt(scene, {0.125, 0.25, 0.875});
+    const auto at = [](double x, double y) { return glm::dvec3(x, y, 0.5 - 0.25 * x + 0.125 * y); };
+    const auto square = [&](double x0, double y0, double x1, double y1, int material) {
+        add_quad(scene, at(x0, y0), at(x1, y0), at(x1, y1), at(x0, y1), material);
+    };
+    square(-2, -0.5, 0.5, 1.5, first);
+    if (cut) {
+        square(0.5, 0.5, 2, 2.5, second);
+        square(-1, 1.5, 0.5, 2.5, second);
+    } else {
+        square(-1, 0.5, 2, 2.5, second);
+    }
+    return scene;
+}
+
+Scene duplicate_tube() {
+    Scene scene = bare_scene();
+    const int first = add_matt(scene, {0.875, 0.25, 0.125});
+    const int second = add_matt(scene, {0.125, 0.25, 0.875});
+    for (auto& material : scene.materials) material.two_sided = true;
+    add_cone(scene, {-1, 0, 0.5}, 0.75, {1.5, 1.5, -0.5}, 0.5, first);
+    add_cone(scene, {-1, 0, 0.5}, 0.75, {1.5, 1.5, -0.5}, 0.5, second);
+    add_cone(scene, {1.5, 1.5, -0.5}, 0.5, {-1, 0, 0.5}, 0.75, second);
+    return scene;
+}
+
 Scene duplicate_ball(double moved) {
     Scene scene = bare_scene();
     const int first = add_matt(scene, {0.875, 0.25, 0.125});
@@ -94,6 +124,14 @@ StressFamily ties() {
     add(
         "reversed", InQuick::no, [] { return duplicate_square(Copy::reversed_order); },
         single_square);
+    add(
+        "overlapping", InQuick::yes, [] { return overlapping_squares(false); },
+        [] { return overlapping_squares(true); });
+    add("tube", InQuick::yes, duplicate_tube, [] {
+        Scene scene = duplicate_tube();
+        scene.cones.resize(1);
+        return scene;
+    });
     add("ball", InQuick::no, [] { return duplicate_ball(0); }, {});
     add("two-sheets", InQuick::yes, two_sheets, {});
     StressCase moved = picture_case("ball-moved-1e-7", static_cast<double>(family.cases.size()),

@@ -53,7 +53,8 @@ RT_INLINE void visit_hits(const SceneView<T>& scene, const PreparedRay<T>& ray, 
     });
     const Index first_cone = frame.sphere_count;
     visit_kind(scene, ray, frame.cone_root, frame.cone_count, limit, [&](Index i) {
-        const T t = intersect_cone(ray.ray, scene.cones[i], first_cone + i == ray.ray.from);
+        const bool leaving = leaves_cone(ray.ray, scene.cones[i], first_cone + i);
+        const T t = intersect_cone(ray.ray, scene.cones[i], leaving);
         if (t > T(0) && t <= limit) visit(first_cone + i, t, T(0), T(0));
         return false;
     });

@@ -23,6 +23,13 @@ RT_INLINE T cone_shift(const Ray<T>& ray, const Vec3<T>& w, const Vec3<T>& g, co
     return max_of(middle - reach, min_of(nearest, middle + reach));
 }
 
+/// Whether the ray starts on cone number prim.
+template <typename T>
+RT_INLINE bool leaves_cone(const Ray<T>& ray, const typename Flat<T>::Cone& cone,
+                           typename Flat<T>::Index prim) {
+    return ray.from == prim || (cone.touches_eye != 0 && ray.from == Flat<T>::eye);
+}
+
 /// Distance along the ray to the cone, or -1. `leaving`: the origin lies on this very cone.
 template <typename T>
 RT_INLINE T intersect_cone(const Ray<T>& ray, const typename Flat<T>::Cone& cone, bool leaving) {
@@ -44,9 +51,10 @@ RT_INLINE T intersect_cone(const Ray<T>& ray, const typename Flat<T>::Cone& cone
     const T a = (size - m) * (size + m);
     const T b = std::fma(-radius, m, dot3(g, c));
     const T distance = length3(g);
-    const T k = leaving ? T(0) : (distance - radius) * (distance + radius);
-    const T root = leaving ? std::fabs(b) : std::sqrt(discriminant);
-    const T q = -(b + (b < T(0) ? -root : root));
+    const T k = (distance - radius) * (distance + radius);
+    const T root = std::sqrt(discriminant);
+    const T chord = ray.from == Flat<T>::eye ? T(-2) * b : ray.chord;
+    const T q = leaving ? chord : -(b + (b < T(0) ? -root : root));
     const T one = q / a;
     const T other = leaving || q == T(0) ? one : k / q;
     const auto counts = [&](T at) {

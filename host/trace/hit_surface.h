@@ -54,8 +54,13 @@ Vec3<T> offset_origin(const Surface<T>& surface, const Vec3<T>& side) {
 template <typename T>
 Ray<T> leave_surface(const Surface<T>& surface, const Vec3<T>& origin, const Vec3<T>& dir,
                      typename Flat<T>::Index prim) {
-    return {origin, dir, std::numeric_limits<T>::infinity(), prim,
-            -surface.diameter * dot3(surface.geometric, dir)};
+    return {origin,
+            dir,
+            std::numeric_limits<T>::infinity(),
+            prim,
+            -surface.diameter * dot3(surface.geometric, dir),
+            Vec3<T>(0),
+            (surface.point - origin) + surface.point_low};
 }
 
 }  // namespace rt::trace

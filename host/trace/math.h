@@ -40,6 +40,23 @@ RT_INLINE Vec3<T> add_scaled(const Vec3<T>& a, T s, const Vec3<T>& b) {
     return {std::fma(s, b.x, a.x), std::fma(s, b.y, a.y), std::fma(s, b.z, a.z)};
 }
 
+/// a + s b less its rounded value `sum`, all but exactly (Knuth's sum and the product by fma).
+template <typename T>
+RT_INLINE T lost(T a, T s, T b, T sum) {
+    const T product = s * b;
+    const T product_low = std::fma(s, b, -product);
+    const T total = a + product;
+    const T taken = total - a;
+    const T total_low = (a - (total - taken)) + (product - taken);
+    return (total - sum) + (total_low + product_low);
+}
+
+/// What add_scaled(a, s, b) has lost by rounding to `sum`.
+template <typename T>
+RT_INLINE Vec3<T> lost3(const Vec3<T>& a, T s, const Vec3<T>& b, const Vec3<T>& sum) {
+    return {lost(a.x, s, b.x, sum.x), lost(a.y, s, b.y, sum.y), lost(a.z, s, b.z, sum.z)};
+}
+
 template <typename T>
 RT_INLINE T length3(const Vec3<T>& v) {
     return std::sqrt(dot3(v, v));

@@ -114,7 +114,9 @@ T filter_weight(typename Flat<T>::Index filter, T d) {
     d = std::fabs(d);
     if (filter == f32::RT_FILTER_TENT) return T(1) - d;
     if (filter == f32::RT_FILTER_MITCHELL) return mitchell_weight(d);
-    return exp_negative(T(-2) * d * d) - exp_negative(T(-4.5));
+    // e^(-2 d^2) - e^(-2 1.5^2)
+    constexpr T rate = T(-2) * PowerConstants<T>::log2_e;
+    return exp2_of_product(rate, d * d) - exp2_of_product(rate, T(2.25));
 }
 
 /// Sample k of pixel (x, y), in pixels from the pixel's lower left corner.

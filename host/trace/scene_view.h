@@ -46,10 +46,12 @@ auto first_triangle(const Frame& frame) {
 template <typename T>
 struct Ray {
     Vec3<T> origin;
-    Vec3<T> dir;                   ///< unit
-    T t_max;                       ///< hits lie in (0, t_max]
-    typename Flat<T>::Index from;  ///< the primitive the origin lies on, or none
-    T chord = 0;                   ///< from a sphere: distance to where the ray leaves it
+    Vec3<T> dir;                      ///< unit
+    T t_max;                          ///< hits lie in (0, t_max]
+    typename Flat<T>::Index from;     ///< the primitive the origin lies on, or none
+    T chord = 0;                      ///< from a sphere: distance to where it leaves; a cone: -2 b
+    Vec3<T> dir_low = Vec3<T>(0);     ///< of eye rays: what rounding took from dir
+    Vec3<T> origin_low = Vec3<T>(0);  ///< of others: from the origin to the point left
 };
 
 template <typename T>

@@ -18,11 +18,9 @@ template <typename T>
 T specular_lobe(const Vec3<T>& normal, const Vec3<T>& to_light, const Vec3<T>& to_eye,
                 T shininess) {
     const Vec3<T> sum = to_light + to_eye;
-    const T squared = dot3(sum, sum);
-    if (!(squared > T(0))) return T(0);
-    const Vec3<T> half_vector = sum * (T(1) / std::sqrt(squared));
-    const Vec3<T> gap = normal - half_vector;
-    return blinn_lobe(dot3(normal, half_vector), T(0.5) * dot3(gap, gap), shininess);
+    const T along = dot3(normal, sum);
+    const Vec3<T> across = add_scaled(sum, -along, normal);
+    return blinn_lobe(along, dot3(across, across), dot3(sum, sum), shininess);
 }
 
 /// What one light adds at the surface; `origin` is where shadow rays start.

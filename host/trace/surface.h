@@ -12,24 +12,43 @@ namespace rt::trace {
 template <typename T>
 struct Surface {
     Vec3<T> point;
+    Vec3<T> point_low;  ///< of spheres: what rounding took from the point, else 0
     Vec3<T> normal;     ///< shading normal, unit: interpolated where there are vertex normals
     Vec3<T> geometric;  ///< geometric normal, unit, on the shading normal's side
     T offset;           ///< bound on the distance between point and surface
-    T diameter;         ///< of a sphere, negative where the geometric normal points inwards; else 0
+    /// Of a sphere, and what stands for it on a cone: the length of the gradient of the terms that
+    /// vanish on it. Negative where the geometric normal points inwards; 0 on triangles.
+    T diameter;
     typename Flat<T>::Index material;
 };
+
+/// The normal where the ray meets the sphere at t, from the closest approach and the half chord.
+template <typename T>
+Vec3<T> sphere_normal(const Ray<T>& ray, T t, const typename Flat<T>::Sphere& sphere) {
+    const Vec3<T> f = ray.origin - load3(sphere.center);
+    const T b = -dot3(f, ray.dir);
+    Vec3<T> l = add_scaled(f, b, ray.dir);
+    l = add_scaled(ray.origin_low + l, t, ray.dir_low) - load3(sphere.center_low);
+    l = add_scaled(l, -dot3(l, ray.dir), ray.dir);
+    const T squared = sphere.radius * sphere.radius - dot3(l, l);
+    const T s = squared > T(0) ? std::sqrt(squared) : T(0);
+    return normalize3(add_scaled(l, t < b ? -s : s, ray.dir));
+}
 
 template <typename T>
 Surface<T> sphere_surface(const Ray<T>& ray, T t, const typename Flat<T>::Sphere& sphere) {
     const Vec3<T> center = load3(sphere.center);
-    Surface<T> surface;
-    surface.normal = normalize3(add_scaled(ray.origin - center, t, ray.dir));
+    Surface<T> surface{};
+    surface.normal = sphere_normal(ray, t, sphere);
     surface.geometric = surface.normal;
-    surface.point = add_scaled(center, sphere.radius, surface.normal);
-    const T spread = dot3(abs3(surface.normal), abs3(surface.point));
+    const Vec3<T> out = add_scaled(load3(sphere.center_low), sphere.radius, surface.normal);
+    surface.point = center + out;
+    surface.point_low = (center - surface.point) + out;
+    const T spread = dot3(abs3(surface.normal), abs3(center) + abs3(surface.point));
     surface.offset = Flat<T>::roundoff * std::fma(T(5), sphere.radius, spread);
     if (sphere.is_huge != 0) {
         surface.point = add_scaled(ray.origin, t, ray.dir);
+        surface.point_low = Vec3<T>(0);
         surface.normal = normalize3(surface.point - center);
         surface.geometric = surface.normal;
         const Vec3<T> error = add_scaled(T(4) * abs3(ray.origin), T(6), abs3(surface.point));
@@ -52,7 +71,7 @@ Surface<T> cone_surface(const Ray<T>& ray, T t, const typename Flat<T>::Cone& co
     const Vec3<T> center = add_scaled(base, height, axis);
     Vec3<T> outwards = add_scaled(along, -height, axis);
     const T squared = dot3(outwards, outwards);
-    Surface<T> surface;
+    Surface<T> surface{};
     surface.normal = -ray.dir;
     surface.point = center;
     if (squared > T(0)) {
@@ -64,7 +83,7 @@ Surface<T> cone_surface(const Ray<T>& ray, T t, const typename Flat<T>::Cone& co
     const Vec3<T> size = abs3(center) + abs3(surface.point);
     const T extent = T(8) * std::fma(std::fabs(cone.slope), cone.length, cone.base_radius);
     surface.offset = Flat<T>::roundoff * (dot3(abs3(surface.normal), size) + extent);
-    surface.diameter = 0;
+    surface.diameter = T(2) * radius * std::sqrt(std::fma(cone.slope, cone.slope, T(1)));
     surface.material = cone.material;
     return surface;
 }
@@ -95,7 +114,7 @@ Surface<T> triangle_surface(const Ray<T>& ray, const Hit<T>& hit,
                             const typename Flat<T>::VertexNormals* vertex_normals) {
     const Vec3<T> normal = load3(triangle.normal);
     const Vec3<T> p0 = load3(triangle.p0);
-    Surface<T> surface;
+    Surface<T> surface{};
     surface.point = add_scaled(p0, hit.u, load3(triangle.p1) - p0);
     surface.point = add_scaled(surface.point, hit.v, load3(triangle.p2) - p0);
     surface.offset = triangle.offset;

@@ -49,8 +49,8 @@ struct PlannedRow {
 /// The rows of one bench, and the scenes and references they point to.
 class Plan {
    public:
-    Plan(const BenchOptions& options, const std::string& pocl_cache)
-        : options_(options), pocl_cache_(pocl_cache), devices_(listed_devices(options.devices)) {
+    explicit Plan(const BenchOptions& options)
+        : options_(options), devices_(listed_devices(options.devices)) {
         std::vector<std::string> paths = options.scenes;
         if (paths.empty()) {
             paths.emplace_back(default_scene);
@@ -75,7 +75,6 @@ class Plan {
                     picture.scene = loaded.path;
                     picture.size = size;
                     picture.aa = aa;
-                    picture.pocl_cache = pocl_cache_;
                     if (!add_reference(loaded, picture, result)) return false;
                     add_rows(loaded, picture);
                 }
@@ -200,7 +199,6 @@ class Plan {
     }
 
     const BenchOptions& options_;
-    const std::string pocl_cache_;
     const std::vector<ListedDevice> devices_;
     std::deque<LoadedScene> scenes_;  // deques: rows point into them
     std::deque<Picture> references_;
@@ -229,11 +227,11 @@ bool has_regressed(const BenchResult& result, const Baseline& baseline, double m
 
 }  // namespace
 
-BenchResult measure_bench(const BenchOptions& options, const std::string& pocl_cache) {
+BenchResult measure_bench(const BenchOptions& options) {
     BenchResult result;
     result.repeats_asked = options.repeats;
     result.load_before = load_average();
-    Plan plan(options, pocl_cache);
+    Plan plan(options);
     result.interrupted = !plan.make(result);
     std::vector<TimedCase> cases;
     for (const PlannedRow& row : plan.rows) cases.push_back(row.timed);
@@ -255,7 +253,7 @@ int run_bench(const BenchOptions& options) {
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
     const FreshKernelCache kernels;
-    const BenchResult result = measure_bench(options, kernels.folder());
+    const BenchResult result = measure_bench(options);
     if (!options.results.take_stdout()) print_result(bench_text(result));
     write_result(options.results.json, json_text(bench_json(result)));
     write_result(options.results.csv, bench_csv(result));

@@ -83,15 +83,13 @@ TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options) 
 
 /// Times the points of the result against the converged picture.
 void time_points(const Scene& scene, double load_seconds, const ConvergedPicture& converged,
-                 const ConvergeOptions& options, const std::string& pocl_cache,
-                 ConvergeResult& result) {
+                 const ConvergeOptions& options, ConvergeResult& result) {
     std::vector<TimedCase> cases;
     for (const ConvergePoint& point : result.points) {
         TimedCase timed = timed_case(point.asked, options);
         timed.scene = &scene;
         timed.reference = &converged.picture;
         timed.load_seconds = load_seconds;
-        timed.options.pocl_cache = pocl_cache;
         cases.push_back(std::move(timed));
     }
     result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
@@ -120,7 +118,7 @@ int verdict(const ConvergeResult& result) {
 
 }  // namespace
 
-ConvergeResult measure_converge(const ConvergeOptions& options, const std::string& pocl_cache) {
+ConvergeResult measure_converge(const ConvergeOptions& options) {
     ConvergeResult result;
     result.load_before = load_average();
     result.repeats_asked = options.repeats;
@@ -148,7 +146,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options, const std::strin
     result.reference = converged.about;
     result.interrupted = !converged.complete;
     if (converged.complete) {
-        time_points(scene, load_seconds, converged, options, pocl_cache, result);
+        time_points(scene, load_seconds, converged, options, result);
     }
     return result;
 }
@@ -157,7 +155,7 @@ int run_converge(const ConvergeOptions& options) {
     check_result_path(options.results.json, json_start("mirrorball-converge"));
     check_result_path(options.results.csv, run_csv_header());
     const FreshKernelCache kernels;
-    const ConvergeResult result = measure_converge(options, kernels.folder());
+    const ConvergeResult result = measure_converge(options);
     if (!options.quiet) print_notes(result.notes);
     if (!options.results.take_stdout()) print_result(converge_text(result));
     write_result(options.results.json, json_text(converge_json(result)));

@@ -8,6 +8,7 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/memory_limit.h"
+#include "host/parallel.h"
 #include "host/render/cl_renderer.h"
 #include "host/render/device_spec.h"
 #include "host/render/picture_loop.h"
@@ -67,8 +68,8 @@ SceneStats scene_stats(const Scene& scene) {
 template <typename T>
 class Job {
    public:
-    Job(const Scene& scene, const RenderOptions& options)
-        : options_(options), region_(chosen_region(scene, options)) {
+    Job(const Scene& scene, const RenderOptions& options, const std::function<void()>& when_tracing)
+        : options_(options), when_tracing_(when_tracing), region_(chosen_region(scene, options)) {
         const Stopwatch watch;
         FlattenOptions flatten_options;
         flatten_options.hierarchies = options.hierarchies;
@@ -142,7 +143,6 @@ class Job {
         cl_options.all_features = options_.all_features;
         cl_options.also = options_.also_features;
         cl_options.naive = options_.naive;
-        cl_options.pocl_cache = options_.pocl_cache;
         if (!options_.fast_math && !device.rounds_correctly) {
             say_verbose(device.name +
                         " does not promise correctly rounded division and square "
@@ -150,7 +150,7 @@ class Job {
         }
         try {
             const auto renderer = make_cl_renderer(scene_, device, cl_options);
-            render_with(*renderer);
+            render_with(*renderer, device.is_cpu ? std::function<void()>() : when_tracing_);
         } catch (const Error& error) {
             if (error.exit_code() != ExitCode::device || options_.no_fallback) throw;
             const std::string what = error.what();
@@ -180,16 +180,20 @@ class Job {
         stats_.device.name = "threads";
         stats_.device.threads = thread_count(threads_options, stats_.aa.samples());
         stats_.device.schedule = options_.schedule == Schedule::tiles ? "tiles" : "buffers";
-        render_with(*make_threads_renderer(scene_, threads_options));
+        // Refining starts further threads, which nothing may hold up.
+        const bool leaves_a_core = stats_.device.threads < available_cores() &&
+                                   stats_.aa.pattern != AaMode::Pattern::adaptive;
+        render_with(*make_threads_renderer(scene_, threads_options),
+                    leaves_a_core ? when_tracing_ : std::function<void()>());
     }
 
-    void render_with(Renderer<T>& renderer) {
+    void render_with(Renderer<T>& renderer, const std::function<void()>& when_tracing) {
         install_stop_signals();
         check_memory(static_cast<std::uint64_t>(region_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
                      "the film", "use --crop to render it in parts");
         film_ = Film<T>(region_.width, region_.height);
         const PictureSize tile = tile_size(renderer);
-        TileQueue queue(make_tiles(region_, tile.width, tile.height), stop_flag());
+        TileQueue queue(make_tiles(region_, tile.width, tile.height), stop_flag(), when_tracing);
         {
             const ProgressReporter progress(queue, progress_mode_for_stderr(options_));
             render_all(renderer, stats_.aa, queue, region_, film_);
@@ -222,6 +226,7 @@ class Job {
     }
 
     const RenderOptions& options_;
+    const std::function<void()>& when_tracing_;
     const Rect region_;
     FlatScene<T> scene_;
     Film<T> film_{0, 0};
@@ -258,9 +263,12 @@ void apply_overrides(Scene& scene, const RenderOptions& options) {
     if (options.max_bounces) scene.max_bounces = *options.max_bounces;
 }
 
-RenderedPicture render_picture(const Scene& scene, const RenderOptions& options) {
-    if (options.precision == Precision::float64) return Job<double>(scene, options).run();
-    return Job<float>(scene, options).run();
+RenderedPicture render_picture(const Scene& scene, const RenderOptions& options,
+                               const std::function<void()>& when_tracing) {
+    if (options.precision == Precision::float64) {
+        return Job<double>(scene, options, when_tracing).run();
+    }
+    return Job<float>(scene, options, when_tracing).run();
 }
 
 }  // namespace rt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ void apply_overrides(Scene& scene, const RenderOptions& options);
 /// Flattens the scene, chooses the device, and renders with progress on stderr. When the device
 /// fails, the picture is rendered on threads instead, with a line on stderr, unless
 /// options.no_fallback is on. SIGINT and SIGTERM end it early, with the tiles finished so far.
-RenderedPicture render_picture(const Scene& scene, const RenderOptions& options);
+/// `when_tracing` is called when tracing begins, where other work can go on beside it and takes
+/// nothing from it: the device is no CPU, or threads leave a core idle.
+RenderedPicture render_picture(const Scene& scene, const RenderOptions& options,
+                               const std::function<void()>& when_tracing = {});
 
 }  // namespace rt

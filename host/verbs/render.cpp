@@ -5,6 +5,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/image/oiio_loader.h"
 #include "host/image/picture_io.h"
 #include "host/render/stopwatch.h"
 #include "host/report/image_error.h"
@@ -96,7 +97,9 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     const double load_seconds = watch.lap();
     const std::optional<Picture> reference = load_reference(options, scene);
     const double reference_seconds = watch.lap();
-    RenderedPicture rendered = render_picture(scene, options);
+    ImageLibraryLoading image_library;
+    RenderedPicture rendered =
+        render_picture(scene, options, [&] { image_library.begin_for(options.output); });
     RenderStats& stats = rendered.stats;
     stats.scene.path = options.scene;
     stats.phases.start = seconds_before_main;

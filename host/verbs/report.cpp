@@ -36,8 +36,8 @@ struct Stopped {};
 /// Measures one scene for the page.
 class SceneStudy {
    public:
-    SceneStudy(const ReportOptions& options, const std::string& path, const std::string& kernels)
-        : options_(options), path_(path), kernels_(kernels), scene_(load_scene(path)) {
+    SceneStudy(const ReportOptions& options, const std::string& path)
+        : options_(options), path_(path), scene_(load_scene(path)) {
         if (options.size) set_image_size(scene_, options.size->width, options.size->height);
         if (to_string(scene_.aa) == "none") scene_.aa = grid_aa(2);
     }
@@ -45,11 +45,11 @@ class SceneStudy {
     ReportScene run() {
         ReportScene study;
         say("timings");
-        study.bench = measure_bench(bench_settings(options_, path_, scene_), kernels_);
+        study.bench = measure_bench(bench_settings(options_, path_, scene_));
         stop_if(study.bench.interrupted);
         say("error against run time");
         const ConvergeOptions sweep = converge_settings(options_, path_, scene_);
-        study.converge = measure_converge(sweep, kernels_);
+        study.converge = measure_converge(sweep);
         stop_if(study.converge.interrupted);
         const ConvergedPicture converged = converged_picture(scene_, sweep);
         stop_if(!converged.complete);
@@ -77,7 +77,6 @@ class SceneStudy {
         options.scene = path_;
         options.aa = aa;
         options.device = device().spec;
-        options.pocl_cache = kernels_;
         return options;
     }
 
@@ -133,7 +132,7 @@ class SceneStudy {
     }
 
     const ReportOptions& options_;
-    const std::string path_, kernels_;
+    const std::string path_;
     Scene scene_;
 };
 
@@ -143,6 +142,7 @@ StressResult stress_result(const ReportOptions& options) {
     stress.devices = options.devices;
     stress.quick = options.quick;
     stress.naive = true;
+    stress.keep_pictures = true;
     stress.quiet = options.quiet;
     StressResult result = measure_stress(stress);
     if (result.interrupted) throw Stopped{};
@@ -180,7 +180,7 @@ int run_report(const ReportOptions& options) {
     report.commands = report_commands(options);
     try {
         for (const std::string& path : options.scenes) {
-            report.scenes.push_back(SceneStudy(options, path, kernels.folder()).run());
+            report.scenes.push_back(SceneStudy(options, path).run());
         }
         if (options.stress) report.stress = stress_result(options);
     } catch (const Stopped&) {

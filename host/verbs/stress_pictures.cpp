@@ -37,7 +37,7 @@ StressPictures::StressPictures(const std::string& folder, const std::string& fam
 void StressPictures::keep_worst(const Picture& picture, const PictureFigures& figures) {
     const double badness = 1e6 * static_cast<double>(figures.nans + figures.wrong) +
                            static_cast<double>(figures.wrong_at_edges) + figures.max_error;
-    if (stem_.empty() || badness <= badness_) return;
+    if (badness <= badness_) return;
     worst_ = picture;
     badness_ = badness;
 }
@@ -50,6 +50,11 @@ void StressPictures::write() const {
     write_picture(stem_ + ".reference.png", reference, Encoding::display);
     write_picture(stem_ + ".error.png", heat_map(clamped(worst_), clamped(reference), 1.0 / 255),
                   Encoding::display);
+}
+
+std::optional<StressShot> StressPictures::shot(const std::string& label) const {
+    if (reference_ == nullptr || badness_ < 0) return std::nullopt;
+    return StressShot{label, worst_, reference_->as_picture(), badness_};
 }
 
 }  // namespace rt

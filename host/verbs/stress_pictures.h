@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "host/stress/judge.h"
+#include "host/stress/stress_result.h"
 
 namespace rt {
 
 /// The pictures of one case in a folder: FAMILY-LABEL.reference.png, .worst.png, .error.png.
 class StressPictures {
    public:
-    /// Nothing is kept or written for an empty folder. `reference` may be null.
+    /// Nothing is written for an empty folder. `reference` may be null.
     StressPictures(const std::string& folder, const std::string& family, const std::string& label,
                    const ReferencePicture* reference);
 
@@ -19,6 +21,9 @@ class StressPictures {
 
     /// Throws Error (ExitCode::output).
     void write() const;
+
+    /// The worst picture and what it should be; nothing where there is no reference.
+    std::optional<StressShot> shot(const std::string& label) const;
 
    private:
     std::string stem_;  ///< empty: nothing is written

@@ -32,7 +32,7 @@ RenderOptions row_options(const StressRow& row, const StressOptions& stress) {
     RenderOptions options = timed_options();
     options.device = row.device;
     options.precision = row.double_precision ? Precision::float64 : Precision::float32;
-    options.all_features = stress.quick;  // one build of the kernels for all cases
+    options.all_features = stress.quick || stress.all_features;
     options.naive = stress.without;
     return options;
 }
@@ -48,8 +48,9 @@ class Runner {
     }
 
     StressFamilyResult run(const StressFamily& family) {
-        StressFamilyResult result{family.name, family.parameter, family.why, {}};
+        StressFamilyResult result{family.name, family.parameter, family.why, {}, {}};
         first_hashes_.clear();
+        shot_.reset();
         for (const StressCase& one : family.cases) {
             if (stop_flag() != 0) break;
             StressCaseResult done{one.label, one.value, one.bar, {}, "", 0};
@@ -57,6 +58,7 @@ class Runner {
             compare_hashes(done);
             result.cases.push_back(std::move(done));
         }
+        result.shot = std::move(shot_);
         return result;
     }
 
@@ -113,7 +115,13 @@ class Runner {
             result.rows.push_back(std::move(row));
         }
         pictures.write();
+        if (options_.keep_pictures) keep_worst(pictures.shot(one.label));
         if (options_.naive) add_naive_rows(scene, against, result);
+    }
+
+    /// Of the family that runs.
+    void keep_worst(std::optional<StressShot> shot) {
+        if (shot && (!shot_ || shot->badness > shot_->badness)) shot_ = std::move(shot);
     }
 
     /// Whether a row has the bits of the group's first on this renderer.
@@ -235,6 +243,7 @@ class Runner {
     const StressOptions& options_;
     const std::vector<ListedDevice> devices_;
     FirstHashes first_hashes_;
+    std::optional<StressShot> shot_;
 };
 
 }  // namespace

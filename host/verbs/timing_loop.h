@@ -48,8 +48,6 @@ class FreshKernelCache {
     FreshKernelCache(const FreshKernelCache&) = delete;
     FreshKernelCache& operator=(const FreshKernelCache&) = delete;
 
-    const std::string& folder() const { return folder_; }  ///< may be empty
-
    private:
     std::string folder_;
 };

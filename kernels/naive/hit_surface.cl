@@ -19,6 +19,7 @@
 Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
     Surface surface;
     surface.point = add_scaled(ray->origin, t, ray->dir);
+    surface.point_low = make3((Reals)0, (Reals)0, (Reals)0);
     surface.normal =
         scale3((Reals)((Real)1 / sphere->radius), sub3(surface.point, load3(sphere->center)));
     surface.geometric = surface.normal;
@@ -33,6 +34,7 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
                          __global const VertexNormals* vertex_normals) {
     Surface surface;
     surface.point = add_scaled(ray->origin, hit->t, ray->dir);
+    surface.point_low = make3((Reals)0, (Reals)0, (Reals)0);
     surface.normal = load3(triangle->normal);
     surface.geometric = surface.normal;
     surface.offset = (Reals)triangle->offset;
@@ -77,6 +79,7 @@ Ray leave_surface(const Surface* surface, real3 origin, real3 dir, Indices prim)
     Ray ray;
     ray.origin = origin;
     ray.dir = dir;
+    ray.dir_low = ray.origin_low = make3((Reals)0, (Reals)0, (Reals)0);
     ray.t_max = (Reals)INFINITY;
     ray.chord = (Reals)0;
     ray.from = (Indices)RT_NONE;

@@ -13,7 +13,8 @@
 #undef blinn_lobe
 
 #if RT_NAIVE_LOBE
-Reals blinn_lobe(Reals n_dot_h, Reals half_gap, Reals exponent) {
+Reals blinn_lobe(Reals along, Reals across, Reals squared, Reals exponent) {
+    Reals n_dot_h = along / sqrt(squared);
     return n_dot_h > (Reals)0 ? pow(n_dot_h, exponent) : (Reals)0;
 }
 #endif

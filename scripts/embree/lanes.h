@@ -45,7 +45,6 @@ inline Reals root(Reals v) {
 }
 
 inline Reals to_reals(Ints v) { return __builtin_convertvector(v, Reals); }
-inline Ints to_ints(Reals v) { return __builtin_convertvector(v, Ints); }
 inline Ints bits_of(Reals v) { return reinterpret_cast<Ints>(v); }
 inline Reals from_bits(Ints v) { return reinterpret_cast<Reals>(v); }
 inline Reals magnitude(Reals v) { return from_bits(bits_of(v) & 0x7fffffff); }
@@ -95,44 +94,44 @@ inline Vec3 select(Ints mask, const Vec3& a, const Vec3& b) {
 inline Vec3 normalized(const Vec3& v) { return (1.0f / root(dot(v, v))) * v; }
 inline Ints is_black(const Vec3& v) { return (v.x == 0.0f) & (v.y == 0.0f) & (v.z == 0.0f); }
 
-// The Blinn lobe by the same series as kernels/power.cl.
+// The Blinn lobe as in kernels/power.cl.
 
-inline Reals log_cosine(Reals cosine, Reals gap) {
-    const Ints bits = bits_of(cosine);
-    Ints exponent = (bits >> 23) - 127;
-    Reals m = from_bits((bits & 0x7fffff) | (127 << 23));
-    const Ints large = m > 1.41421356f;
-    m = large ? m * 0.5f : m;
-    exponent -= large;
-    const Ints near = cosine > 0.8125f;
-    const Reals k = near ? reals(0) : to_reals(exponent);
-    const Reals z = (near ? -gap : m - 1.0f) / (near ? 2.0f - gap : m + 1.0f);
+inline Reals log2_cosine(Reals along, Reals across, Reals squared) {
+    const Ints low = along < 0x1p-60f;
+    const Reals lifted = low ? along * 0x1p100f : along;
+    const Ints bits = bits_of(lifted * lifted);
+    const Ints binades = (bits - bits_of(squared) + (1 << 22)) & -(1 << 23);
+    const Reals scaled = from_bits(bits - binades);
+    const Ints near = (binades >= 0) & ~low;
+    const Reals z = (near ? -across : scaled - squared) / (scaled + squared);
+    Reals k = to_reals(binades);
+    k = low ? k - 200.0f * 0x1p23f : k;
+    k = k < 0.0f ? k : reals(0);
     const Reals w = z * z;
-    Reals p = w * (1.0f / 9.0f) + (1.0f / 7.0f);
-    p = p * w + (1.0f / 5.0f);
-    p = p * w + (1.0f / 3.0f);
-    const Reals twice = 2.0f * z;
-    return k * 0.693147181f + ((twice * w) * p + twice);
+    Reals p = w * 0x1.c085d4p-3f + 0x1.272704p-2f;
+    p = p * w + 0x1.ec7126p-2f;
+    return k * 0x1p-24f + (z * w * p + z * 0x1.715476p+0f);
 }
 
-inline Reals exp_negative(Reals y) {
-    const Ints normal = y > -87.0f;
-    y = normal ? y : reals(0);
-    const Ints k = to_ints(y * 1.44269504f - 0.5f);
-    const Reals r = to_reals(-k) * 0.693147181f + y;
-    Reals p = r * (1.0f / 5040.0f) + (1.0f / 720.0f);
-    p = p * r + (1.0f / 120.0f);
-    p = p * r + (1.0f / 24.0f);
-    p = p * r + (1.0f / 6.0f);
-    p = p * r + 0.5f;
-    p = (p * r + 1.0f) * r + 1.0f;
-    return normal ? p * from_bits((k + 127) << 23) : reals(0);
+/// 2^(a b) for a b <= 0
+inline Reals exp2_of_product(Reals a, Reals b) {
+    const Reals shifted = a * b + 0x1.8p23f;
+    const Reals r = a * b + (0x1.8p23f - shifted);
+    Reals p = r * 0x1.414ee6p-13f + 0x1.5f03dap-10f;
+    p = p * r + 0x1.3b2e0cp-7f;
+    p = p * r + 0x1.c6af88p-5f;
+    p = p * r + 0x1.ebfbdcp-3f;
+    p = p * r + 0x1.62e43p-1f;
+    p = p * r + 1.0f;
+    return shifted >= 0x1.8p23f - 125.0f ? from_bits(bits_of(p) + (bits_of(shifted) << 23))
+                                         : reals(0);
 }
 
-/// max(0, n.h)^exponent; half_gap is |n - h|^2 / 2.
-inline Reals blinn_lobe(Reals n_dot_h, Reals half_gap, Reals exponent) {
-    const Reals lobe = exp_negative(exponent * log_cosine(n_dot_h, half_gap));
-    return exponent == 0.0f ? reals(1) : (n_dot_h > 0.0f ? lobe : reals(0));
+/// max(0, n.s / |s|)^exponent from n.s, |s - (n.s) n|^2 and s.s.
+inline Reals blinn_lobe(Reals along, Reals across, Reals squared, Reals exponent) {
+    const Reals lobe = exp2_of_product(exponent, log2_cosine(along, across, squared));
+    const Ints lit = (along > 0.0f) & (squared >= 0x1p-100f);
+    return exponent == 0.0f ? reals(1) : (lit ? lobe : reals(0));
 }
 
 }  // namespace embree_bench

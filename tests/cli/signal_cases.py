@@ -26,9 +26,9 @@ def long_options(path):
 
 
 class Interrupted(CliTest):
-    def start_and_wait_until_tiles_are_done(self, path, output):
-        process = self.start("render", scene_path("mirror-hall"), "-o", output,
-                             *long_options(path))
+    def start_and_wait_until_tiles_are_done(self, path, output=None):
+        written = ["-o", output] if output else []
+        process = self.start("render", scene_path("mirror-hall"), *written, *long_options(path))
         for line in process.stderr:
             if line.startswith("{") and json.loads(line)["fraction"] > 0:
                 return process
@@ -70,6 +70,14 @@ class Interrupted(CliTest):
     def test_pocl_sigterm(self):
         self.assert_stopped("pocl", signal.SIGTERM, "out.png")
         png_chunks((self.folder / "out.png").read_bytes())
+
+    def test_without_output_nothing_is_left(self):
+        for path in ["threads", "pocl"]:
+            process = self.start_and_wait_until_tiles_are_done(path)
+            code, lines = self.stop(process, signal.SIGINT)
+            self.assertEqual(code, 130, lines)
+            self.assertRegex(lines[-1], r"stopped by signal 2 after \d+ of \d+ tiles$")
+            self.assertEqual(self.files(), [])
 
     def test_pocl_samples_sigint(self):
         self.assert_stopped("pocl samples", signal.SIGINT, "out.pfm")

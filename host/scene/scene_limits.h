@@ -3,6 +3,10 @@
 
 namespace rt {
 
+/// No number in a scene or model file is larger than this in magnitude: it still fits a float,
+/// with room for the differences that rendering takes.
+inline constexpr double max_scene_number = 1e30;
+
 // The largest picture a scene file may ask for, in pixels.
 inline constexpr int max_image_side = 65536;
 inline constexpr int max_image_pixels = 1 << 28;
