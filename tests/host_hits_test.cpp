@@ -310,6 +310,52 @@ TYPED_TEST(Hits, AreThoseOfTestingEveryPrimitive) {
     }
 }
 
+/// Rounding in the frame of a ray grows with its origin's distance from the eye.
+TYPED_TEST(Hits, AreThoseOfTestingEveryPrimitiveFromFarAway) {
+    using T = TypeParam;
+    Scene scene;
+    scene.materials.emplace_back();
+    add_floor(scene, 8, 1);
+    FlattenOptions all;
+    all.hierarchies = false;
+    const Numbered<T> plain(flatten<T>(scene, all)), bvh(flatten<T>(scene));
+    const auto plain_view = trace::view_of(plain.scene), bvh_view = trace::view_of(bvh.scene);
+    Random random(21);
+    std::size_t differ = 0, hits = 0;
+    for (std::size_t i = 0; i < ray_count(); ++i) {
+        const auto& triangles = plain.scene.triangles;
+        const auto& triangle = triangles[std::size_t(random.index(int(triangles.size())))];
+        const glm::dvec3 way = random.unit_vector();
+        trace::Ray<T> ray{};
+        ray.origin = Vec3<T>(in_double(triangle.p0) - 1000.0 * way);
+        ray.dir = trace::normalize3(Vec3<T>(in_double(triangle.p0)) - ray.origin);
+        ray.from = Flat<T>::none;
+        const auto a = trace::closest_hit(plain_view, ray), b = trace::closest_hit(bvh_view, ray);
+        differ += a.prim != bvh.listed(b.prim) || !same(a.t, b.t) || a.tied != b.tied ? 1 : 0;
+        ray.t_max = a.prim == Flat<T>::none ? T(2000) : a.t;
+        differ += trace::any_hit(plain_view, ray) != trace::any_hit(bvh_view, ray) ? 1 : 0;
+        hits += a.prim != Flat<T>::none ? 1 : 0;
+    }
+    EXPECT_EQ(differ, 0u);
+    EXPECT_GT(hits, ray_count() / 4);
+}
+
+/// 0 times infinity, on one axis after the other.
+TYPED_TEST(Hits, AreFoundAlongTheSideOfABox) {
+    using T = TypeParam;
+    for (int axis = 0; axis < 3; ++axis) {
+        trace::Ray<T> ray{};
+        ray.dir = Vec3<T>(T(0.5));
+        ray.dir[axis] = 0;
+        for (const T side : {T(0), T(1)}) {
+            trace::BoxRay<T> box_ray = trace::make_box_ray(ray);
+            box_ray.low_origin[axis] = box_ray.high_origin[axis] = side;
+            const typename Flat<T>::BvhNode unit{{0, 0, 0}, 0, {1, 1, 1}, 1};
+            EXPECT_EQ(trace::enter_box(box_ray, unit), T(0)) << axis;
+        }
+    }
+}
+
 template <typename T>
 std::uint64_t picture_hash(const Scene& scene, const FlattenOptions& options) {
     static const StopFlag never_stop = 0;

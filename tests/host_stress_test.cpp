@@ -113,6 +113,7 @@ TEST(StressJudge, NaNIsWrongAndInfinityOnlySaturates) {
     picture.pixels[7] = std::numeric_limits<float>::quiet_NaN();
     PictureFigures figures = judge_stress_picture(picture, reference);
     EXPECT_EQ(figures.nans, 1U);
+    EXPECT_EQ(figures.wrong + figures.wrong_at_edges, 1U);
     EXPECT_NE(broken_bar(figures, StressBar{}), "");
     StressBar bright;
     bright.may_overflow = true;

@@ -81,8 +81,15 @@ __attribute__((noinline)) void round_pair(const double* in, double* out) {
     out[1] = y;
 }
 
+/// A number that the compiler cannot reckon with beforehand.
+template <typename T>
+T hidden(T number) {
+    volatile T copy = number;
+    return copy;
+}
+
 TEST(Compiler, RoundsNeighbouringDoublesToFloat) {
-    const double in[2] = {0.1, 0.3};
+    const double in[2] = {hidden(0.1), hidden(0.3)};
     double out[2] = {0, 0};
     round_pair(in, out);
     EXPECT_EQ(out[0], 0.100000001490116119384765625);
@@ -94,7 +101,7 @@ __attribute__((noinline)) float multiply_add(float a, float b, float c) { return
 
 TEST(Compiler, DoesNotContract) {
     const float a = 1.0f + 0x1p-12f;
-    EXPECT_EQ(multiply_add(a, a, -1.0f - 0x1p-11f), 0.0f);
+    EXPECT_EQ(multiply_add(hidden(a), hidden(a), hidden(-1.0f - 0x1p-11f)), 0.0f);
 }
 
 }  // namespace
