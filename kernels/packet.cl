@@ -22,8 +22,6 @@
 #define RT_LOG_LANES 4
 #endif
 
-#define RT_SAMPLES_TOGETHER 4  // of a pixel, in packets of neighbouring pixels
-
 typedef struct {
     Index samples;  // of each pixel
     Index pixels;   // in a block of width x height

@@ -150,6 +150,9 @@ enum { RT_BVH_STACK = 64 };
 // reflected and transmitted (kernels/whitted.cl).
 enum { RT_TREE_STACK = 16 };
 
+// Samples of a pixel in a packet of neighbouring pixels, at most (kernels/packet.cl).
+enum { RT_SAMPLES_TOGETHER = 4 };
+
 // Reconstruction filters (kernels/sampling.cl).
 enum { RT_FILTER_BOX = 0, RT_FILTER_TENT = 1, RT_FILTER_GAUSSIAN = 2, RT_FILTER_MITCHELL = 3 };
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "host/flatten/flat_types.h"
+
 namespace rt {
 
 /// How the lanes of a packet share out pixels and samples; as make_packet of kernels/packet.cl.
@@ -13,12 +15,9 @@ struct PacketShape {
     int pixels() const { return width * height; }
 };
 
-/// Of neighbouring pixels, so many samples at most of each.
-inline constexpr int samples_together = 4;
-
 /// At most `most_samples` of each pixel together.
 inline PacketShape packet_shape(int lanes, int samples_of_a_pixel,
-                                int most_samples = samples_together) {
+                                int most_samples = f32::RT_SAMPLES_TOGETHER) {
     PacketShape shape;
     while (2 * shape.samples <= std::min(lanes, most_samples) &&
            samples_of_a_pixel % (2 * shape.samples) == 0) {
