@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a scene can need. Each switch is 1 unless the build says -DRT_HAS_...=0, so a kernel built
-// without options renders everything. The host decides (host/flatten/features.cpp), from the flat
+// without options renders everything. The host decides (host/flatten/flat_scene.cpp), from the flat
 // scene alone. Used as `if (RT_HAS_X)` in plain code, so every build type-checks every branch.
 #ifndef RT_FEATURES_H
 #define RT_FEATURES_H

@@ -11,6 +11,7 @@
 
 #include "host/error.h"
 #include "host/render/cl_program.h"
+#include "host/render/cl_scene.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"
 #include "host/render/pocl_cache.h"
@@ -166,38 +167,14 @@ class ClRenderer : public Renderer<T> {
         times_.open = watch.seconds();
     }
 
-    /// A buffer of that many bytes; an empty one is no buffer at all (a null argument).
     cl::Buffer make_buffer(std::size_t bytes, const char* what,
                            cl_mem_flags flags = CL_MEM_READ_WRITE) const {
-        if (bytes == 0) return {};
-        if (bytes > device_.max_buffer_bytes) {
-            throw Error(ExitCode::limit,
-                        fmt::format("{} needs {} bytes in one piece and {} gives at most {}; use "
-                                    "--crop to render it in parts, or --device threads",
-                                    what, bytes, device_.name, device_.max_buffer_bytes));
-        }
-        return cl::Buffer(context_, flags, bytes);
-    }
-
-    template <typename Item>
-    cl::Buffer upload_array(const std::vector<Item>& items, const char* what) const {
-        const std::size_t bytes = items.size() * sizeof(Item);
-        cl::Buffer buffer = make_buffer(bytes, what, CL_MEM_READ_ONLY);
-        if (bytes > 0) queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, items.data());
-        return buffer;
+        return make_cl_buffer(context_, device_, bytes, what, flags);
     }
 
     void upload(const FlatScene<T>& scene) {
         const Stopwatch watch;
-        spheres_ = upload_array(scene.spheres, "the spheres");
-        cones_ = upload_array(scene.cones, "the cones");
-        triangles_ = upload_array(scene.triangles, "the triangles");
-        vertex_normals_ = upload_array(scene.vertex_normals, "the vertex normals");
-        materials_ = upload_array(scene.materials, "the materials");
-        lights_ = upload_array(scene.lights, "the lights");
-        nodes_ = upload_array(scene.nodes, "the hierarchy");
-        order_ = upload_array(scene.order, "the primitives' numbers");
-        casters_ = upload_array(scene.casters, "the casters of shadows");
+        scene_ = std::make_unique<ClScene<T>>(scene, context_, queue_, device_);
         const std::size_t count_bytes = count_slots() * sizeof(FlatCounts);
         counts_ = make_buffer(count_bytes, "the ray counts");
         queue_.enqueueFillBuffer(counts_, std::uint64_t{0}, 0, count_bytes);
@@ -244,16 +221,7 @@ class ClRenderer : public Renderer<T> {
 
     void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::Frame& frame) {
         kernel.setArg(1, counts_);
-        kernel.setArg(2, spheres_);
-        kernel.setArg(3, cones_);
-        kernel.setArg(4, triangles_);
-        kernel.setArg(5, vertex_normals_);
-        kernel.setArg(6, materials_);
-        kernel.setArg(7, lights_);
-        kernel.setArg(8, nodes_);
-        kernel.setArg(9, order_);
-        kernel.setArg(10, casters_);
-        kernel.setArg(11, frame);
+        kernel.setArg(scene_->set_arguments(kernel, 2), frame);
     }
 
     /// Enqueues the kernels of one tile.
@@ -362,8 +330,7 @@ class ClRenderer : public Renderer<T> {
     cl::Context context_;
     cl::CommandQueue queue_;
     cl::Kernel render_, resolve_, listed_;
-    cl::Buffer spheres_, cones_, triangles_, vertex_normals_, materials_, lights_, nodes_, order_,
-        casters_;
+    std::unique_ptr<ClScene<T>> scene_;
     cl::Buffer counts_, samples_;
     std::uint64_t primary_ = 0;
     RayCounts counted_;

@@ -43,7 +43,7 @@ inline constexpr std::array<Technique, 8> techniques{{
      "origin + t dir"},
     {&Techniques::offsets, "offsets", "RT_NAIVE_OFFSETS",
      "bounded offsets, rays know what they leave", "+ 1e-4 n"},
-    {&Techniques::lobe, "lobe", "RT_NAIVE_LOBE", "Blinn lobe from |n - h|", "pow(n.h, e)"},
+    {&Techniques::lobe, "lobe", "RT_NAIVE_LOBE", "Blinn lobe from l + v", "pow(n.h, e)"},
     {&Techniques::arithmetic, "arithmetic", nullptr, "one rounding per operation",
      "the compiler contracts"},
 }};

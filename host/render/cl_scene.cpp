@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/cl_scene.h"
+
+#include <fmt/format.h>
+
+#include "host/error.h"
+
+namespace rt {
+
+cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, std::size_t bytes,
+                          const char* what, cl_mem_flags flags) {
+    if (bytes == 0) return {};
+    if (bytes > device.max_buffer_bytes) {
+        throw Error(ExitCode::limit,
+                    fmt::format("{} needs {} bytes in one piece and {} gives at most {}; use "
+                                "--crop to render it in parts, or --device threads",
+                                what, bytes, device.name, device.max_buffer_bytes));
+    }
+    return cl::Buffer(context, flags, bytes);
+}
+
+template <typename T>
+ClScene<T>::ClScene(const FlatScene<T>& scene, const cl::Context& context,
+                    const cl::CommandQueue& queue, const ClDevice& device) {
+    const auto upload = [&](const auto& items, const char* what) {
+        const std::size_t bytes = items.size() * sizeof(items[0]);
+        cl::Buffer buffer = make_cl_buffer(context, device, bytes, what, CL_MEM_READ_ONLY);
+        if (bytes > 0) queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, items.data());
+        lists_.push_back(std::move(buffer));
+    };
+    upload(scene.spheres, "the spheres");
+    upload(scene.cones, "the cones");
+    upload(scene.triangles, "the triangles");
+    upload(scene.vertex_normals, "the vertex normals");
+    upload(scene.materials, "the materials");
+    upload(scene.lights, "the lights");
+    upload(scene.nodes, "the hierarchy");
+    upload(scene.order, "the primitives' numbers");
+    upload(scene.casters, "the casters of shadows");
+}
+
+template <typename T>
+cl_uint ClScene<T>::set_arguments(cl::Kernel& kernel, cl_uint first) const {
+    for (const cl::Buffer& list : lists_) kernel.setArg(first++, list);
+    return first;
+}
+
+template class ClScene<float>;
+template class ClScene<double>;
+
+}  // namespace rt
