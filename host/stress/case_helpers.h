@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -17,6 +18,20 @@ inline StressCase picture_case(std::string label, double value, InQuick quick,
                                ReferenceKind reference = ReferenceKind::quad) {
     PictureTrial trial{std::move(scene), {}, reference, ""};
     return {std::move(label), value, bar, std::move(trial), quick == InQuick::yes};
+}
+
+inline StressCase ray_case(std::string label, double value, InQuick quick, RayTrial trial,
+                           StressBar bar = {}) {
+    return {std::move(label), value, bar, std::move(trial), quick == InQuick::yes};
+}
+
+/// The trial count<T>(rays) in the arithmetic of both types; count is a generic lambda over T.
+template <typename Count>
+RayTrial both_precisions(const Count& count) {
+    RayTrial trial;
+    trial.in_float = [=](std::uint64_t rays) { return count.template operator()<float>(rays); };
+    trial.in_double = [=](std::uint64_t rays) { return count.template operator()<double>(rays); };
+    return trial;
 }
 
 inline StressCase text_case(std::string label, double value, InQuick quick,

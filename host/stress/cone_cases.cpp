@@ -1,61 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/ray_trials.h"
+#include "host/stress/shape_families.h"
 #include "host/stress/stress_scenes.h"
 
 namespace rt {
 
 namespace {
 
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
-
-/// Something shiny, seen from both sides, in the middle; the eye 1 before it.
-Scene one_shape(double fov_degrees) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
-    add_matt(scene, {0.75, 0.5, 0.25}, 0.25, 20);
-    scene.materials.back().two_sided = true;
-    scene.lights = {{{0.25, 0.5, 0.5}, glm::dvec3(0.5)}};
-    set_view(scene, {0, 0, 1}, {0, 0, 0}, std::min(120.0, fov_degrees));
-    return scene;
-}
-
 /// A frustum as long as wide, 1 away, filling half of the picture; or the eye inside it.
 Scene sized_cone(double radius) {
     const double half_angle = radius < 1 ? 2 * std::atan(radius) : 0.5;
-    Scene scene = one_shape(degrees(2 * half_angle));
+    Scene scene = shape_scene(degrees(2 * half_angle));
     const glm::dvec3 half = radius * glm::dvec3(0.28, 0.75, 0.6);
     add_cone(scene, -half, radius, half, 0.5 * radius, 0);
     return scene;
-}
-
-/// Rounding the places to float alone moves a small thing by 2^-24 of its distance.
-StressBar small_bar(double size) {
-    StressBar bar;
-    if (size < 1) bar.max_error = 1e-4 + 16 * 0x1p-24 / size;
-    bar.in_float = size >= 1e-4;
-    return bar;
-}
-
-StressFamily cone_sizes() {
-    StressFamily family{"cone-size",
-                        "radius over distance",
-                        "the quadratic's terms cancel for small and for large cones",
-                        {}};
-    for (int k = -6; k <= 6; ++k) {
-        const double radius = k == 0 ? 0.5 : std::pow(10.0, k);
-        family.cases.push_back(picture_case(
-            fmt::format("{:g}", radius), radius, quick_if(k == -4 || k == 0 || k == 4),
-            [radius] { return sized_cone(radius); }, small_bar(radius)));
-    }
-    return family;
 }
 
 /// A tube and a cone of radius 0.25 and 0.5 that run off to the horizon, over a floor.
@@ -86,7 +50,7 @@ StressFamily long_cone_family() {
 
 /// A needle of length 2 across the view, seen so near that it fills half of the picture.
 Scene cone_needle(double radius) {
-    Scene scene = one_shape(degrees(8 * radius));
+    Scene scene = shape_scene(degrees(8 * radius));
     add_cone(scene, {-1, -0.25 * radius, -0.125}, radius, {1, 0.5 * radius, 0.25}, 0.5 * radius, 0);
     return scene;
 }
@@ -105,7 +69,7 @@ StressFamily cone_needles() {
 /// A ring with hardly any height. In float the rims are told apart by heights over the base, and so
 /// not any more where the ring is flatter than the rounding of these.
 Scene flat_cone(double height) {
-    Scene scene = one_shape(60);
+    Scene scene = shape_scene(60);
     const glm::dvec3 axis(0.28, 0.576, 0.768);
     add_cone(scene, {0, 0, 0}, 0.5, height * axis, 0.125, 0);
     return scene;
@@ -177,76 +141,42 @@ StressFamily scaled_and_moved(const char* name, const char* why, Scene (*scene)(
     return family;
 }
 
-/// A frustum this far from the eye, among things that keep the scale of the scene at 1.
+/// A frustum this far from the eye.
 Scene cone_to_aim_at(double radius, double distance) {
-    Scene scene = bare_scene();
-    const int skin = add_matt(scene, glm::dvec3(0.5));
-    const glm::dvec3 towards(-0.48, 0.6, -0.64), half = radius * glm::dvec3(0.8, 0, -0.6);
-    const glm::dvec3 middle = distance * towards;
-    add_cone(scene, middle - half, radius, middle + half, 0.375 * radius, skin);
-    for (int i = 0; i < 3; ++i) add_sphere(scene, {0.125 * i, 0, 1}, 0x1p-10, skin);
-    set_view(scene, glm::dvec3(0), towards, 60);
-    return scene;
-}
-
-StressBar leaving_cone_bar(double distances) {
-    StressBar bar;
-    bar.max_error = distances > 10 ? 1e-2 : 1e-3;
-    return bar;
+    return scene_to_aim_at(distance, [=](Scene& scene, const glm::dvec3& middle) {
+        const glm::dvec3 half = radius * glm::dvec3(0.8, 0, -0.6);
+        add_cone(scene, middle - half, radius, middle + half, 0.375 * radius, 0);
+    });
 }
 
 /// Rays that stay near the surface along a generator meet it again at a distance that grows without
 /// bound: inwards, angles from 0.01 rad; far away, where points are rounded more, from 0.1.
 StressFamily leaving_cones(const char* name, double distances, const char* why) {
-    const double shallowest = distances > 10 ? 0.1 : 0.01;
-    StressFamily family{name, "radius", why, {}};
-    for (int k = -6; k <= 6; ++k) {
-        const double radius = std::pow(10.0, k);
+    const bool is_far = distances > 10;
+    const double shallowest = is_far ? 0.1 : 0.01;
+    return leaving_family(name, why, is_far ? 1e-2 : 1e-3, [=](double radius) {
         const Scene scene = cone_to_aim_at(radius, distances * radius);
-        RayTrial trial;
-        trial.rays = 1'000'000;
-        trial.quick_rays = 50'000;
-        trial.in_float = [=](std::uint64_t rays) {
-            return count_cone_leaving_failures<float>(scene, shallowest, rays);
-        };
-        trial.in_double = [=](std::uint64_t rays) {
-            return count_cone_leaving_failures<double>(scene, shallowest, rays);
-        };
-        family.cases.push_back({fmt::format("{:g}", radius), radius, leaving_cone_bar(distances),
-                                std::move(trial), k % 3 == 0});
-    }
-    return family;
+        return both_precisions([=]<typename T>(std::uint64_t rays) {
+            return count_cone_leaving_failures<T>(scene, shallowest, rays);
+        });
+    });
 }
 
-/// As with spheres: the ray's own rounding flips a share of the hits at the outline and the rims.
 StressFamily cone_rays() {
-    StressFamily family{"cone-rays",
-                        "radius over distance",
-                        "the discriminant cancels: hits become misses, distances noise",
-                        {}};
-    for (int k = -6; k <= 0; ++k) {
-        const double radius = k == 0 ? 0.5 : std::pow(10.0, k);
+    return outline_family("cone-rays", [](double radius) {
         const Scene scene = cone_to_aim_at(radius, 1);
-        RayTrial trial;
-        trial.rays = trial.quick_rays = 100'000;
-        trial.in_float = [=](std::uint64_t rays) {
-            return count_cone_failures<float>(scene, rays);
-        };
-        trial.in_double = [=](std::uint64_t rays) {
-            return count_cone_failures<double>(scene, rays);
-        };
-        StressBar bar;
-        bar.most_wrong = k >= -3 ? 4 : (k == -4 ? 50 : (k == -5 ? 400 : 4000));
-        bar.max_error = 1e-4;
-        family.cases.push_back({fmt::format("{:g}", radius), radius, bar, std::move(trial), true});
-    }
-    return family;
+        return both_precisions(
+            [=]<typename T>(std::uint64_t rays) { return count_cone_failures<T>(scene, rays); });
+    });
 }
 
 }  // namespace
 
 void add_cone_families(StressFamilies& families) {
-    for (const auto make : {cone_sizes, long_cone_family, cone_needles, flat_cones}) {
+    families.push_back(size_family("cone-size",
+                                   "the quadratic's terms cancel for small and for large cones",
+                                   0.5, sized_cone));
+    for (const auto make : {long_cone_family, cone_needles, flat_cones}) {
         families.push_back(make());
     }
     families.push_back(scaled_and_moved(

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
 #include "host/flatten/flat_scene.h"
 #include "host/stress/ray_dice.h"
 #include "host/stress/ray_trials.h"
+#include "host/stress/secondary_ray.h"
 #include "host/stress/wide_shapes.h"
-#include "host/trace/whitted.h"
+#include "host/trace/closest_hit.h"
 
 namespace rt {
 
@@ -28,16 +31,11 @@ glm::dvec3 way_to(const typename Flat<T>::Cone& cone, Dice& dice) {
     return in_double(cone.base) + at * in_double(cone.axis) + reach * dice.direction();
 }
 
-/// The height over the base, as a share of the length, at which an exact ray from this surface of
-/// the cone meets it again at distance t > 0; negative where it does not.
-struct Return {
-    Quad t = -1;
-    double height = -1;
-};
-
+/// Distance at which an exact ray from this surface of the cone meets it again, negative where it
+/// does not; nothing where that is within a thousandth of the length of a rim.
 template <typename T>
-Return exact_return(const trace::Surface<T>& start, const Vec3<T>& dir,
-                    const stress::WideFrustum<Quad>& cone) {
+std::optional<Quad> exact_return(const trace::Surface<T>& start, const Vec3<T>& dir,
+                                 const stress::WideFrustum<Quad>& cone) {
     const Wide3<Quad> along = in_quad(start.point) - cone.base;
     const Quad height = dot(along, cone.axis);
     const Wide3<Quad> outwards = unit(along - height * cone.axis);
@@ -49,44 +47,26 @@ Return exact_return(const trace::Surface<T>& start, const Vec3<T>& dir,
     endless.radius = cone.radius - cone.length * cone.slope;
     endless.length = 3 * cone.length;
     const Quad t = stress::hit_frustum(ray, endless, true);
-    if (!(t > 0)) return {};
-    const Quad share = (height + t * dot(ray.dir, cone.axis)) / cone.length;
-    return {t, static_cast<double>(share)};
+    const auto share = static_cast<double>((height + t * dot(ray.dir, cone.axis)) / cone.length);
+    constexpr double clear = 1e-3;
+    if (!(t > 0) || share <= -clear || share >= 1 + clear) return Quad(-1);
+    if (share <= clear || share >= 1 - clear) return {};
+    return t;
 }
 
 /// Outwards nothing must be hit; inwards the exact far side, where it lies clear of the rims.
 template <typename T>
-void leave_cone(const trace::SceneView<T>& view, const stress::WideFrustum<Quad>& exact,
+void leave_cone(const trace::SceneView<T>& view, const stress::WideFrustum<Quad>& cone,
                 double shallowest, Dice& dice, RayFigures& figures) {
-    const trace::Ray<T> eye = make_ray<T>(Vec3<T>(T(0)), way_to<T>(view.cones[0], dice));
-    const trace::Hit<T> hit = trace::closest_hit(view, eye);
-    if (hit.prim != view.frame.sphere_count) return;
-    const trace::Surface<T> surface = trace::surface_at(view, eye, hit);
-    const glm::dvec3 normal = glm::normalize(in_double(surface.normal));
-    const bool outwards = dice.index(4) != 0;
-    const double steepest = std::numbers::pi / 2;
-    const double angle =
-        outwards ? (dice.index(3) == 0 ? dice.uniform(0.1, steepest) : dice.log_uniform(1e-6, 0.1))
-                 : -dice.log_uniform(shallowest, steepest);
-    trace::Ray<T> ray = make_ray<T>(surface.point, at_angle(dice, normal, angle));
-    ray.origin = trace::offset_origin(surface, ray.dir);
-    ray.from = hit.prim;
-    ray.chord = -surface.diameter * trace::dot3(surface.geometric, ray.dir);
-    const trace::Hit<T> again = trace::closest_hit(view, ray);
-    const bool found = again.prim == hit.prim;
-    if (outwards) {
-        ++figures.rays;
-        figures.failures += found ? 1 : 0;
-        return;
-    }
-    const Return far = exact_return(surface, ray.dir, exact);
-    constexpr double clear = 1e-3;
-    const bool returns = far.height > clear && far.height < 1 - clear;
-    if (!returns && far.height > -clear && far.height < 1 + clear && far.t > 0) return;
-    ++figures.rays;
-    const double error = found && returns ? relative_error(double(again.t), far.t) : 0;
-    figures.failures += found == returns && error <= 1e-2 ? 0 : 1;
-    figures.max_error = std::max(figures.max_error, error);
+    const auto prim = view.frame.sphere_count;
+    const glm::dvec3 target = way_to<T>(view.cones[0], dice);
+    const auto leaving = leave_primitive<T>(view, prim, target, shallowest, dice);
+    if (!leaving) return;
+    const std::optional<Quad> exact =
+        leaving->outwards ? Quad(-1) : exact_return(leaving->start, leaving->ray.dir, cone);
+    if (!exact) return;
+    const trace::Hit<T> hit = trace::closest_hit(view, leaving->ray);
+    note_hit(figures, hit.prim == prim, double(hit.t), *exact, 1e-2);
 }
 
 }  // namespace
@@ -111,13 +91,7 @@ RayFigures count_cone_failures(const Scene& scene, std::uint64_t rays) {
         const trace::Hit<T> hit = trace::closest_hit(view, ray);
         const Quad exact =
             stress::hit_frustum<Quad>({in_quad(ray.origin), in_quad(ray.dir)}, cone, false);
-        ++figures.rays;
-        const bool found = hit.prim == flat.frame.sphere_count;
-        if (found != (exact > 0)) {
-            ++figures.failures;
-        } else if (found) {
-            figures.max_error = std::max(figures.max_error, relative_error(double(hit.t), exact));
-        }
+        note_hit(figures, hit.prim == flat.frame.sphere_count, double(hit.t), exact);
     });
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <cmath>
+#include <limits>
 
 #include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/meshes.h"
 #include "host/stress/ray_trials.h"
+#include "host/stress/shape_families.h"
 #include "host/stress/stress_scenes.h"
 
 namespace rt {
@@ -21,16 +20,9 @@ Scene mesh_scene(const StressMesh& mesh, glm::dvec3 eye) {
     return scene;
 }
 
-StressCase ray_case(std::string label, double value, InQuick quick, RayTrial trial,
-                    StressBar bar = {}) {
-    return {std::move(label), value, bar, std::move(trial), quick == InQuick::yes};
-}
-
 RayTrial leak_trial(const Scene& scene, RayAim aim) {
-    RayTrial trial;
-    trial.in_float = [=](std::uint64_t rays) { return count_leaks<float>(scene, aim, rays); };
-    trial.in_double = [=](std::uint64_t rays) { return count_leaks<double>(scene, aim, rays); };
-    return trial;
+    return both_precisions(
+        [=]<typename T>(std::uint64_t rays) { return count_leaks<T>(scene, aim, rays); });
 }
 
 StressFamily leak_rays(RayAim aim) {
@@ -71,67 +63,30 @@ StressFamily t_junctions() {
     return family;
 }
 
-/// A sphere this far from the eye, among things that keep the scale of the scene at 1.
+/// A sphere this far from the eye.
 Scene sphere_scene(double radius, double distance) {
-    Scene scene = bare_scene();
-    const int skin = add_matt(scene, glm::dvec3(0.5));
-    const glm::dvec3 towards(-0.48, 0.6, -0.64);
-    add_sphere(scene, distance * towards, radius, skin);
-    for (int i = 0; i < 3; ++i) add_sphere(scene, {0.125 * i, 0, 1}, 0x1p-10, skin);
-    set_view(scene, glm::dvec3(0), towards, 60);
-    return scene;
+    return scene_to_aim_at(distance, [=](Scene& scene, const glm::dvec3& middle) {
+        add_sphere(scene, middle, radius, 0);
+    });
 }
 
 /// A point that far away is rounded by `distances` times u of the radius, which tilts a chord.
-StressFamily leaving_rays(const char* name, double distances, const char* why) {
+StressFamily leaving_spheres(const char* name, double distances, const char* why) {
     const double shallowest = distances > 10 ? 0.1 : 1e-3;
-    StressFamily family{name, "radius", why, {}};
-    for (int k = -6; k <= 6; ++k) {
-        const double radius = std::pow(10.0, k);
+    return leaving_family(name, why, 1e-3, [=](double radius) {
         const Scene scene = sphere_scene(radius, distances * radius);
-        RayTrial trial;
-        trial.rays = 1'000'000;
-        trial.quick_rays = 50'000;
-        trial.in_float = [=](std::uint64_t rays) {
-            return count_leaving_failures<float>(scene, shallowest, rays);
-        };
-        trial.in_double = [=](std::uint64_t rays) {
-            return count_leaving_failures<double>(scene, shallowest, rays);
-        };
-        StressBar bar;
-        bar.max_error = 1e-3;
-        family.cases.push_back(ray_case(fmt::format("{:g}", radius), radius, quick_if(k % 3 == 0),
-                                        std::move(trial), bar));
-    }
-    return family;
+        return both_precisions([=]<typename T>(std::uint64_t rays) {
+            return count_leaving_failures<T>(scene, shallowest, rays);
+        });
+    });
 }
 
-/// Up to these sizes hits and misses are those of exact arithmetic; beyond, rounding the ray's
-/// direction alone moves it by a share of the radius, and an outline's share of rays flips.
 StressFamily sphere_rays() {
-    StressFamily family{"sphere-rays",
-                        "radius over distance",
-                        "the discriminant cancels: hits "
-                        "become misses, distances noise",
-                        {}};
-    for (int k = -6; k <= 0; ++k) {
-        const double radius = k == 0 ? 0.5 : std::pow(10.0, k);
+    return outline_family("sphere-rays", [](double radius) {
         const Scene scene = sphere_scene(radius, 1);
-        RayTrial trial;
-        trial.rays = trial.quick_rays = 100'000;
-        trial.in_float = [=](std::uint64_t rays) {
-            return count_sphere_failures<float>(scene, rays);
-        };
-        trial.in_double = [=](std::uint64_t rays) {
-            return count_sphere_failures<double>(scene, rays);
-        };
-        StressBar bar;
-        bar.most_wrong = k >= -3 ? 4 : (k == -4 ? 50 : (k == -5 ? 400 : 4000));
-        bar.max_error = 1e-4;
-        family.cases.push_back(
-            ray_case(fmt::format("{:g}", radius), radius, InQuick::yes, std::move(trial), bar));
-    }
-    return family;
+        return both_precisions(
+            [=]<typename T>(std::uint64_t rays) { return count_sphere_failures<T>(scene, rays); });
+    });
 }
 
 }  // namespace
@@ -140,11 +95,11 @@ void add_ray_families(StressFamilies& families) {
     families.push_back(leak_rays(RayAim::edges));
     families.push_back(leak_rays(RayAim::vertices));
     families.push_back(t_junctions());
-    families.push_back(leaving_rays("leaving-sphere", 3,
-                                    "an absolute epsilon is acne on large balls and a hole in "
-                                    "small ones"));
     families.push_back(
-        leaving_rays("leaving-far-sphere", 1000, "the same with the ball a thousand radii away"));
+        leaving_spheres("leaving-sphere", 3,
+                        "an absolute epsilon is acne on large balls and a hole in small ones"));
+    families.push_back(leaving_spheres("leaving-far-sphere", 1000,
+                                       "the same with the ball a thousand radii away"));
     families.push_back(sphere_rays());
 }
 

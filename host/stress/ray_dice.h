@@ -45,11 +45,17 @@ glm::dvec3 in_double(const P& p) {
     return {double(p.x), double(p.y), double(p.z)};
 }
 
+/// The unit direction along dir, which may have any length, as the tracer rounds it.
+template <typename T>
+Vec3<T> rounded_unit(const glm::dvec3& dir) {
+    return trace::normalize3(Vec3<T>(dir / glm::length(dir)));
+}
+
 template <typename T>
 trace::Ray<T> make_ray(const Vec3<T>& origin, const glm::dvec3& dir) {
     trace::Ray<T> ray;
     ray.origin = origin;
-    ray.dir = trace::normalize3(Vec3<T>(dir / glm::length(dir)));
+    ray.dir = rounded_unit<T>(dir);
     ray.t_max = std::numeric_limits<T>::infinity();
     ray.from = Flat<T>::none;
     return ray;
@@ -94,6 +100,18 @@ inline glm::dvec3 at_angle(Dice& dice, const glm::dvec3& normal, double angle) {
 
 inline double relative_error(double found, stress::Quad exact) {
     return static_cast<double>(stress::magnitude((stress::Quad(found) - exact) / exact));
+}
+
+/// Counts a ray: whether it hit, at t, and at which distance it should have; `exact` is not
+/// positive for a miss. A failure is a false hit, a lost one, or a relative error above the
+/// tolerance.
+inline void note_hit(RayFigures& figures, bool found, double t, stress::Quad exact,
+                     double tolerance = std::numeric_limits<double>::infinity()) {
+    const bool expected = exact > 0;
+    const double error = found && expected ? relative_error(t, exact) : 0;
+    ++figures.rays;
+    figures.failures += found == expected && error <= tolerance ? 0 : 1;
+    figures.max_error = std::max(figures.max_error, error);
 }
 
 }  // namespace rt

@@ -5,8 +5,8 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/stress/ray_dice.h"
-#include "host/trace/hit_surface.h"
-#include "host/trace/whitted.h"
+#include "host/stress/secondary_ray.h"
+#include "host/trace/closest_hit.h"
 
 namespace rt {
 
@@ -55,37 +55,18 @@ Quad far_side(const trace::Surface<T>& start, const Vec3<T>& dir,
     return Quad(-2) * Quad(sphere.radius) * dot(out, unit(in_quad(dir)));
 }
 
+/// Outwards nothing must be hit; inwards the far side.
 template <typename T>
 void leave_sphere(const trace::SceneView<T>& view, double shallowest, Dice& dice,
                   RayFigures& figures) {
     const auto& sphere = view.spheres[0];
-    const glm::dvec3 center = in_double(sphere.center);
-    const glm::dvec3 target = center + double(sphere.radius) * dice.direction();
-    const trace::Ray<T> eye = make_ray<T>(Vec3<T>(T(0)), target);
-    const trace::Hit<T> hit = trace::closest_hit(view, eye);
-    if (hit.prim != 0) return;
-    const trace::Surface<T> surface = trace::surface_at(view, eye, hit);
-    const glm::dvec3 normal = glm::normalize(in_double(surface.normal));
-    const bool outwards = dice.index(4) != 0;
-    const double steepest = std::numbers::pi / 2;
-    const double angle =
-        outwards ? (dice.index(3) == 0 ? dice.uniform(0.1, steepest) : dice.log_uniform(1e-6, 0.1))
-                 : -dice.log_uniform(shallowest, steepest);
-    const glm::dvec3 dir = at_angle(dice, normal, angle);
-    trace::Ray<T> ray = make_ray<T>(surface.point, dir);
-    ray.origin = trace::offset_origin(surface, ray.dir);
-    ray.from = 0;
-    ray.chord = -surface.diameter * trace::dot3(surface.geometric, ray.dir);
-    const trace::Hit<T> again = trace::closest_hit(view, ray);
-    ++figures.rays;
-    if (outwards) {
-        figures.failures += again.prim == 0 ? 1 : 0;
-        return;
-    }
-    const double error =
-        again.prim == 0 ? relative_error(double(again.t), far_side(surface, ray.dir, sphere)) : 1.0;
-    figures.failures += error <= 1e-3 ? 0 : 1;
-    if (again.prim == 0) figures.max_error = std::max(figures.max_error, error);
+    const glm::dvec3 target = in_double(sphere.center) + double(sphere.radius) * dice.direction();
+    const auto leaving = leave_primitive<T>(view, 0, target, shallowest, dice);
+    if (!leaving) return;
+    const Quad exact =
+        leaving->outwards ? Quad(-1) : far_side(leaving->start, leaving->ray.dir, sphere);
+    const trace::Hit<T> hit = trace::closest_hit(view, leaving->ray);
+    note_hit(figures, hit.prim == 0, double(hit.t), exact, 1e-3);
 }
 
 }  // namespace
@@ -130,14 +111,7 @@ RayFigures count_sphere_failures(const Scene& scene, std::uint64_t rays) {
         const glm::dvec3 target = in_double(sphere.center) + reach * dice.direction();
         const trace::Ray<T> ray = make_ray<T>(Vec3<T>(T(0)), target);
         const trace::Hit<T> hit = trace::closest_hit(view, ray);
-        const Quad exact = exact_distance(ray, sphere);
-        ++figures.rays;
-        const bool found = hit.prim == 0;
-        if (found != (exact > 0)) {
-            ++figures.failures;
-        } else if (found) {
-            figures.max_error = std::max(figures.max_error, relative_error(double(hit.t), exact));
-        }
+        note_hit(figures, hit.prim == 0, double(hit.t), exact_distance(ray, sphere));
     });
 }
 

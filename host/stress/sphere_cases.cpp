@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
+#include "host/stress/shape_families.h"
 #include "host/stress/stress_scenes.h"
 
 namespace rt {
@@ -15,38 +14,10 @@ namespace {
 
 /// A ball of this radius, 1 away, filling half of the picture; or the eye inside it.
 Scene sized_ball(double radius) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
-    const int skin = add_matt(scene, {0.75, 0.5, 0.25}, 0.25, 20);
-    scene.materials.back().two_sided = true;
-    scene.lights = {{{0.25, 0.5, 0.5}, glm::dvec3(0.5)}};
     const double half_angle = radius < 1 ? 2 * std::asin(radius) : 0.5;
-    set_view(scene, {0, 0, 1}, {0, 0, 0}, std::min(120.0, 2 * half_angle * 180 / std::numbers::pi));
-    add_sphere(scene, {0, 0, 0}, radius, skin);
+    Scene scene = shape_scene(degrees(2 * half_angle));
+    add_sphere(scene, {0, 0, 0}, radius, 0);
     return scene;
-}
-
-/// Rounding the centre to float alone moves a small ball by 2^-24 of its distance.
-StressBar small_ball_bar(double radius) {
-    StressBar bar;
-    if (radius < 1) bar.max_error = 1e-4 + 16 * 0x1p-24 / radius;
-    bar.in_float = radius >= 1e-4;
-    return bar;
-}
-
-StressFamily sphere_sizes() {
-    StressFamily family{"sphere-size",
-                        "radius over distance",
-                        "b^2 - 4 a c cancels for small and "
-                        "for large balls",
-                        {}};
-    for (int k = -6; k <= 6; ++k) {
-        const double radius = k == 0 ? 0.75 : std::pow(10.0, k);
-        family.cases.push_back(picture_case(
-            fmt::format("{:g}", radius), radius, quick_if(k == -4 || k == 0 || k == 4),
-            [radius] { return sized_ball(radius); }, small_ball_bar(radius)));
-    }
-    return family;
 }
 
 /// Balls on the top of a ground ball, the eye 2 above it.
@@ -78,7 +49,8 @@ StressFamily floors(const char* name, const char* why, std::initializer_list<dou
 }  // namespace
 
 void add_sphere_families(StressFamilies& families) {
-    families.push_back(sphere_sizes());
+    families.push_back(size_family(
+        "sphere-size", "b^2 - 4 a c cancels for small and for large balls", 0.75, sized_ball));
     families.push_back(
         floors("ball-floor", "a ground ball somewhat larger than the scene", {4, 16, 64, 100}, 64));
     families.push_back(floors("huge-ball-floor",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stress/stress_scenes.h"
 
+#include <algorithm>
+
 namespace rt {
 
 namespace {
@@ -113,6 +115,27 @@ Scene bare_scene() {
     scene.ambient_light = glm::dvec3(0.25);
     scene.lights = {{{-3, 6, 4}, glm::dvec3(0.5)}, {{5, 4, 2}, {0.375, 0.3125, 0.25}}};
     set_view(scene, {0, 2, 8}, {0, 0.75, 0}, 40);
+    return scene;
+}
+
+Scene shape_scene(double fov_degrees) {
+    Scene scene = bare_scene();
+    set_image_size(scene, 80, 60);
+    add_matt(scene, {0.75, 0.5, 0.25}, 0.25, 20);
+    scene.materials.back().two_sided = true;
+    scene.lights = {{{0.25, 0.5, 0.5}, glm::dvec3(0.5)}};
+    set_view(scene, {0, 0, 1}, {0, 0, 0}, std::min(120.0, fov_degrees));
+    return scene;
+}
+
+Scene scene_to_aim_at(double distance,
+                      const std::function<void(Scene&, const glm::dvec3& middle)>& add_shape) {
+    Scene scene = bare_scene();
+    const int skin = add_matt(scene, glm::dvec3(0.5));
+    const glm::dvec3 towards(-0.48, 0.6, -0.64);
+    add_shape(scene, distance * towards);
+    for (int i = 0; i < 3; ++i) add_sphere(scene, {0.125 * i, 0, 1}, 0x1p-10, skin);
+    set_view(scene, glm::dvec3(0), towards, 60);
     return scene;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/vec3.hpp>
+#include <numbers>
 #include <vector>
 
 #include "host/scene/scene.h"
@@ -20,6 +22,17 @@ Scene glass_still_life();
 
 /// A camera, matt and shiny materials, two lights, a small picture; nothing in it.
 Scene bare_scene();
+
+/// A small picture of a shape to be added about the origin, in material 0, which is shiny on both
+/// sides; the eye 1 before it. The view is at most 120 degrees high.
+Scene shape_scene(double fov_degrees);
+
+/// What add_shape(scene, middle) adds, in material 0, this far from the eye; and three specks that
+/// keep the scale of the scene at 1. The shape is listed first.
+Scene scene_to_aim_at(double distance,
+                      const std::function<void(Scene&, const glm::dvec3& middle)>& add_shape);
+
+inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 void set_view(Scene& scene, glm::dvec3 from, glm::dvec3 at, double fov_degrees);
 

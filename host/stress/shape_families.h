@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/stress/case_helpers.h"
+
+// The families that spheres and cones have alike.
+namespace rt {
+
+using SceneOfRadius = std::function<Scene(double radius)>;
+using TrialOfRadius = std::function<RayTrial(double radius)>;
+
+/// Rounding the places to float alone moves a small thing by 2^-24 of its distance, which is 1.
+inline StressBar small_bar(double size) {
+    StressBar bar;
+    if (size < 1) bar.max_error = 1e-4 + 16 * 0x1p-24 / size;
+    bar.in_float = size >= 1e-4;
+    return bar;
+}
+
+/// Pictures of a shape 1 away: radii from 1e-6 to 1e6, in their middle `middle`.
+inline StressFamily size_family(const char* name, const char* why, double middle,
+                                const SceneOfRadius& scene) {
+    StressFamily family{name, "radius over distance", why, {}};
+    for (int k = -6; k <= 6; ++k) {
+        const double radius = k == 0 ? middle : std::pow(10.0, k);
+        family.cases.push_back(picture_case(
+            fmt::format("{:g}", radius), radius, quick_if(k == -4 || k == 0 || k == 4),
+            [=] { return scene(radius); }, small_bar(radius)));
+    }
+    return family;
+}
+
+/// Rays that leave a shape: radii from 1e-6 to 1e6.
+inline StressFamily leaving_family(const char* name, const char* why, double max_error,
+                                   const TrialOfRadius& trial_of) {
+    StressFamily family{name, "radius", why, {}};
+    StressBar bar;
+    bar.max_error = max_error;
+    for (int k = -6; k <= 6; ++k) {
+        const double radius = std::pow(10.0, k);
+        RayTrial trial = trial_of(radius);
+        trial.rays = 1'000'000;
+        trial.quick_rays = 50'000;
+        family.cases.push_back(ray_case(fmt::format("{:g}", radius), radius, quick_if(k % 3 == 0),
+                                        std::move(trial), bar));
+    }
+    return family;
+}
+
+/// Rays at a shape 1 away and past its outline and rims: radii from 1e-6 to 0.5. Down to 1e-3 hits
+/// and misses are those of exact arithmetic; for smaller shapes rounding the ray's direction alone
+/// moves it by a share of the radius, and an outline's share of rays flips.
+inline StressFamily outline_family(const char* name, const TrialOfRadius& trial_of) {
+    StressFamily family{name,
+                        "radius over distance",
+                        "the discriminant cancels: hits become misses, distances noise",
+                        {}};
+    for (int k = -6; k <= 0; ++k) {
+        const double radius = k == 0 ? 0.5 : std::pow(10.0, k);
+        RayTrial trial = trial_of(radius);
+        trial.rays = trial.quick_rays = 100'000;
+        StressBar bar;
+        bar.most_wrong = k >= -3 ? 4 : (k == -4 ? 50 : (k == -5 ? 400 : 4000));
+        bar.max_error = 1e-4;
+        family.cases.push_back(
+            ray_case(fmt::format("{:g}", radius), radius, InQuick::yes, std::move(trial), bar));
+    }
+    return family;
+}
+
+}  // namespace rt
