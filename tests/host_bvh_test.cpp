@@ -9,6 +9,8 @@
 #include <functional>
 
 #include "host/flatten/bvh.h"
+#include "host/flatten/flat_scene.h"
+#include "host/stress/meshes.h"
 #include "tests/test_random.h"
 
 namespace rt {
@@ -189,6 +191,16 @@ TYPED_TEST(BuildBvh, BeatsHalvingOnASoup) {
     const BvhShape shape = shape_of<TypeParam>(bvh.nodes, bvh.root, bvh.settings);
     EXPECT_LT(shape.sah_cost, 250);
     EXPECT_LT(shape.depth, 40);
+}
+
+TYPED_TEST(BuildBvh, KeepsAMeshWithinAHundredBytesATriangle) {
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.camera.from = {0, 0, 5};
+    add_mesh(scene, bumpy_mesh(5), 0);
+    const FlatScene<TypeParam> flat = flatten<TypeParam>(scene);
+    EXPECT_GT(flat.triangles.size(), 20000u);
+    EXPECT_LT(flat.bytes(), 100 * flat.triangles.size() * sizeof(TypeParam) / sizeof(float));
 }
 
 }  // namespace

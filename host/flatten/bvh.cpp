@@ -14,6 +14,7 @@
 #include "host/flatten/bvh.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "host/flatten/bvh_split.h"
@@ -84,19 +85,28 @@ class Builder {
         }
     }
 
-    /// Builds the subtrees, each in an array of its own, and appends these.
+    /// A subtree under way: its root is node 1, children in pairs from 2 on, as in `nodes`.
+    struct Subtree {
+        std::span<Node> nodes;
+        std::size_t size = 2;
+    };
+
+    /// Builds the subtrees side by side in one block, each in the part that its boxes leave room
+    /// for, and appends them. One block, since what many threads allocate and free stays with them.
     void finish_tasks(std::vector<Node>& nodes) {
-        std::vector<std::vector<Node>> subtrees(tasks_.size());
+        const auto block = std::make_unique_for_overwrite<Node[]>(2 * boxes_.size());
+        std::vector<Subtree> subtrees;
+        for (const Task& task : tasks_) {
+            subtrees.push_back({{&block[2 * task.range.first], 2 * task.range.count()}});
+        }
         for_each_run(tasks_.size(), 1, settings_.threads, [&](std::size_t i, std::size_t) {
-            subtrees[i].reserve(tasks_[i].range.count());
-            subtrees[i].resize(2);
             build_subtree(tasks_[i].range, 1, subtrees[i]);
         });
         std::vector<std::size_t> starts;
         std::size_t size = nodes.size();
-        for (const auto& subtree : subtrees) {
+        for (const Subtree& subtree : subtrees) {
             starts.push_back(size);
-            size += subtree.size() - 2;
+            size += subtree.size - 2;
         }
         nodes.resize(size);
         for_each_run(tasks_.size(), 1, settings_.threads, [&](std::size_t i, std::size_t) {
@@ -104,25 +114,25 @@ class Builder {
                 if (node.count == 0) node.first += static_cast<Index>(starts[i]) - 2;
                 return node;
             };
-            nodes[tasks_[i].node] = moved(subtrees[i][1]);
-            std::transform(subtrees[i].begin() + 2, subtrees[i].end(),
+            const std::span<const Node> built = subtrees[i].nodes.first(subtrees[i].size);
+            nodes[tasks_[i].node] = moved(built[1]);
+            std::transform(built.begin() + 2, built.end(),
                            nodes.begin() + static_cast<std::ptrdiff_t>(starts[i]), moved);
-            std::vector<Node>().swap(subtrees[i]);
         });
     }
 
-    void build_subtree(const bvh::Range<T>& range, std::size_t node, std::vector<Node>& nodes) {
+    void build_subtree(const bvh::Range<T>& range, std::size_t node, Subtree& subtree) {
         const bvh::Halves<T> halves = bvh::split_range<T>(boxes_, range, settings_, 1);
         if (halves.is_leaf) {
-            nodes[node] = {packed<T>(range.bounds.low), static_cast<Index>(range.first),
-                           packed<T>(range.bounds.high), static_cast<Index>(range.count())};
+            subtree.nodes[node] = {packed<T>(range.bounds.low), static_cast<Index>(range.first),
+                                   packed<T>(range.bounds.high), static_cast<Index>(range.count())};
             return;
         }
-        const std::size_t pair = nodes.size();
-        set_inner(nodes[node], range, pair);
-        nodes.resize(pair + 2);
-        build_subtree(halves.sides[0], pair, nodes);
-        build_subtree(halves.sides[1], pair + 1, nodes);
+        const std::size_t pair = subtree.size;
+        set_inner(subtree.nodes[node], range, pair);
+        subtree.size += 2;
+        build_subtree(halves.sides[0], pair, subtree);
+        build_subtree(halves.sides[1], pair + 1, subtree);
     }
 
     static void set_inner(Node& node, const bvh::Range<T>& range, std::size_t pair) {

@@ -15,9 +15,9 @@ using BvhBox = typename Flat<T>::BvhNode;
 
 /// How to build. Costs are in units of testing one primitive.
 struct BvhSettings {
-    double inner_cost = 1.25;  ///< of a ray that visits an inner node
-    int most_in_leaf = 8;      ///< at most this many primitives in a leaf
-    int threads = 1;           ///< to build with; the hierarchy does not depend on it
+    double inner_cost = 1.4;  ///< of a ray that visits an inner node
+    int most_in_leaf = 8;     ///< at most this many primitives in a leaf
+    int threads = 1;          ///< to build with; the hierarchy does not depend on it
 };
 
 /// Inner nodes from a root down to any leaf, at most. A traversal that puts both children on its

@@ -160,7 +160,7 @@ class Flattener {
     }
 
     /// The boxes come first, from vertices rounded for them alone, so that the triangles can be
-    /// made in the order of the leaves: memory never holds them twice.
+    /// made in the order of the leaves: memory never holds them twice, nor beside the boxes.
     void flatten_triangles() {
         const auto count = static_cast<std::size_t>(triangles_.size());
         listed_triangles_ = build_hierarchy(
