@@ -196,7 +196,7 @@ GUARDS = [
     ], [("stress", "bright-mirrors")]),
     Guard("boxes are enlarged", [
         (F + "boxes.cpp", "T(box_slack) * Flat<T>::roundoff", "T(0) * Flat<T>::roundoff"),
-    ], [("host_hits_test", "Hits.*")]),
+    ], [("host_hits_test", "Hits.*"), ("kernel_hits_test", "DeviceHits.*")]),
     Guard("and by the origin's share", [
         (K + "bvh.cl", "(Reals)((Real)16 * (Real)RT_ROUNDOFF) * max_of", "(Reals)0 * max_of"),
         (T + "bvh.h", "T(box_slack) * Flat<T>::roundoff", "T(0) * Flat<T>::roundoff"),
