@@ -10,6 +10,7 @@
 #include <span>
 
 #include "host/error.h"
+#include "host/render/cl_film.h"
 #include "host/render/cl_program.h"
 #include "host/render/cl_scene.h"
 #include "host/render/launch_pacer.h"
@@ -88,12 +89,10 @@ class ClRenderer : public Renderer<T> {
     void render(TileQueue& queue, const Rect& region, Film<T>& film) override {
         try {
             Stopwatch watch;
-            cl::Buffer film_buffer = make_buffer(film.rgb.size() * sizeof(T), "the film");
-            queue_.enqueueFillBuffer(film_buffer, T(0), 0, film.rgb.size() * sizeof(T));
-            trace_tiles(queue, region, film_buffer);
+            ClFilm<T> on_device(film, context_, queue_, device_);
+            trace_tiles(queue, region, on_device.buffer());
             times_.trace += watch.lap();
-            queue_.enqueueReadBuffer(film_buffer, CL_TRUE, 0, film.rgb.size() * sizeof(T),
-                                     film.rgb.data());
+            on_device.read_back();
             times_.read_back += watch.lap();
         } catch (const cl::Error& error) {
             throw_device_error(device_, error);
@@ -151,9 +150,10 @@ class ClRenderer : public Renderer<T> {
                           static_cast<std::size_t>(shape.height));
     }
 
-    void enqueue(const cl::Kernel& kernel, std::size_t items, cl::Event& event) const {
+    void enqueue(const cl::Kernel& kernel, std::size_t items, cl::Event& event) {
         const std::size_t whole_groups =
             std::max<std::size_t>(divided_up(items, group_), 1) * group_;
+        used_slots_ = std::max(used_slots_, whole_groups);
         queue_.enqueueNDRangeKernel(kernel, cl::NullRange, whole_groups, group_, nullptr, &event);
     }
 
@@ -306,16 +306,16 @@ class ClRenderer : public Renderer<T> {
 
     /// Tells the queue of the rays traced since the last time.
     void count_rays(TileQueue& queue) {
-        std::vector<FlatCounts> slots(count_slots());
-        queue_.enqueueReadBuffer(counts_, CL_TRUE, 0, slots.size() * sizeof(FlatCounts),
-                                 slots.data());
+        auto* const mapped = static_cast<FlatCounts*>(queue_.enqueueMapBuffer(
+            counts_, CL_TRUE, CL_MAP_READ, 0, used_slots_ * sizeof(FlatCounts)));
         RayCounts total;
         total.primary = primary_;
-        for (const FlatCounts& slot : slots) {
+        for (const FlatCounts& slot : std::span(mapped, used_slots_)) {
             total.shadow += slot.shadow;
             total.mirror += slot.mirror;
             total.transmitted += slot.transmitted;
         }
+        queue_.enqueueUnmapMemObject(counts_, mapped);
         queue.add_rays({total.primary - counted_.primary, total.shadow - counted_.shadow,
                         total.mirror - counted_.mirror, total.transmitted - counted_.transmitted});
         counted_ = total;
@@ -332,6 +332,7 @@ class ClRenderer : public Renderer<T> {
     cl::Kernel render_, resolve_, listed_;
     std::unique_ptr<ClScene<T>> scene_;
     cl::Buffer counts_, samples_;
+    std::size_t used_slots_ = 0;  ///< of counts_, so far
     std::uint64_t primary_ = 0;
     RayCounts counted_;
     RendererTimes times_;

@@ -8,7 +8,7 @@
 namespace rt {
 
 cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, std::size_t bytes,
-                          const char* what, cl_mem_flags flags) {
+                          const char* what, cl_mem_flags flags, void* host) {
     if (bytes == 0) return {};
     if (bytes > device.max_buffer_bytes) {
         throw Error(ExitCode::limit,
@@ -16,7 +16,7 @@ cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, st
                                 "--crop to render it in parts, or --device threads",
                                 what, bytes, device.name, device.max_buffer_bytes));
     }
-    return cl::Buffer(context, flags, bytes);
+    return cl::Buffer(context, flags, bytes, host);
 }
 
 template <typename T>
