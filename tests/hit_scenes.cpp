@@ -2,16 +2,10 @@
 #include "tests/hit_scenes.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "host/stress/meshes.h"
 
 namespace rt {
-
-std::size_t ray_count() {
-    const char* count = std::getenv("MIRRORBALL_TEST_RAYS");
-    return count ? std::strtoul(count, nullptr, 10) : 20000;
-}
 
 void add_triangle(Scene& scene, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     if (glm::length(glm::cross(b - a, c - a)) > 0) scene.triangles.push_back({{{a, b, c}}, {}, 0});

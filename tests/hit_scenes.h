@@ -13,9 +13,6 @@
 // Scenes in which a hierarchy could miss something, and rays that look for it.
 namespace rt {
 
-/// Rays for each scene: MIRRORBALL_TEST_RAYS, or 20 000.
-std::size_t ray_count();
-
 struct HitScene {
     const char* name;
     std::function<void(Scene&, Random&)> fill;

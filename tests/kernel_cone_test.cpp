@@ -247,6 +247,34 @@ TYPED_TEST(IntersectCone, LeavingFollowsTheChordItCarries) {
         expect_right_cones(leaving, 1e-2, 14, 100, shape.name);
     }
 }
+// The origin, rounded a thousand radii from the eye, no longer lies on the cylinder; the chord
+// does.
+TYPED_TEST(IntersectCone, LeavingASmallOneFarAwayKeepsTheDigitsOfItsChord) {
+    Random random(9);
+    ConeCases<TypeParam> cases;
+    std::vector<Quad> expected;
+    while (expected.size() < count) {
+        const glm::dvec3 base = 1000.0 * random.unit_vector(), way = random.unit_vector();
+        const auto cone = make_cone<TypeParam>(base, 1, base + 100.0 * way, 1);
+        const Quad3 axis = exact(cone.axis), any = exact(random.unit_vector());
+        const Quad3 w = Quad(50) * axis + unit(any - dot(any, axis) * axis);
+        auto ray = make_ray<TypeParam>({0, 0, 0}, random.unit_vector());
+        const Quad3 c = cross(exact(ray.dir), axis), p = exact(cone.base) + w;
+        const Quad a = dot(c, c), b = dot(cross(w, axis), c);
+        if (b > Quad(-0.1) || a < Quad(0.1)) continue;
+        ray.origin = {TypeParam(p.x), TypeParam(p.y), TypeParam(p.z)};
+        ray.chord = static_cast<TypeParam>(-2 * b);
+        cases.add(ray, cone, true);
+        expected.push_back(-2 * b / a);
+    }
+    const auto t = cases.device();
+    WorstError worst;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        worst.add(error_in_roundoffs(t[i], expected[i], expected[i]));
+    }
+    worst.expect_at_most(7);
+    EXPECT_TRUE(same_bits<TypeParam>(t, cases.twin()));
+}
 TYPED_TEST(IntersectCone, HasTheTwinsBitsOnAnyNumbers) {
     Random random(6);
     const auto any = [&] { return random.any_number<TypeParam>(); };

@@ -52,12 +52,15 @@ ClDevice test_device() {
     return choice.device;
 }
 
-/// A device with its queue and the probes in both precisions, each built when first asked for.
+/// A device with its queue and the probes in both precisions and either arithmetic, each built when
+/// first asked for.
 class ProbeDevice {
    public:
     ProbeDevice() : device_(test_device()), context_(device_.handle), queue_(context_) {}
 
     const ClDevice& device() const { return device_; }
+
+    bool fast_math = false;
 
     void launch(bool double_precision, const std::string& function, std::size_t count,
                 std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
@@ -80,10 +83,11 @@ class ProbeDevice {
 
    private:
     const cl::Program& program(bool double_precision) {
-        auto& program = programs_[double_precision ? 1 : 0];
+        auto& program = programs_[(double_precision ? 1 : 0) + (fast_math ? 2 : 0)];
         if (!program) {
             ProgramOptions options;
             options.double_precision = double_precision;
+            options.fast_math = fast_math;
             options.warnings_are_errors = true;
             program = build_program(context_, device_, probe_kernels, options);
         }
@@ -120,7 +124,7 @@ class ProbeDevice {
     ClDevice device_;
     cl::Context context_;
     cl::CommandQueue queue_;
-    std::array<std::optional<cl::Program>, 2> programs_;
+    std::array<std::optional<cl::Program>, 4> programs_;
 };
 
 /// Opens the device on first use and lets go of it after the last test, while the OpenCL library is
@@ -159,6 +163,9 @@ void launch_probe(bool double_precision, const std::string& function, std::size_
         throw failed(error.what());
     }
 }
+
+FastMath::FastMath() { environment->open().fast_math = true; }
+FastMath::~FastMath() { environment->open().fast_math = false; }
 
 std::string test_device_name() { return environment->open().device().name; }
 bool test_device_has_double() { return environment->open().device().has_double; }

@@ -40,6 +40,15 @@ struct ProbeOutput {
 void launch_probe(bool double_precision, const std::string& function, std::size_t count,
                   std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs);
 
+/// While it lives, probes are built for `--math fast`: the compiler may contract.
+class FastMath {
+   public:
+    FastMath();
+    ~FastMath();
+    FastMath(const FastMath&) = delete;
+    FastMath& operator=(const FastMath&) = delete;
+};
+
 /// The test device's name, and whether it has the double type.
 std::string test_device_name();
 bool test_device_has_double();

@@ -160,6 +160,28 @@ TYPED_TEST(OffsetOrigin, LiesOutsideOrInsideTheSphereAsAsked) {
     }
 }
 
+// The point's own rounding may be all there is: then a number further still is one.
+TYPED_TEST(OffsetOrigin, MovesEvenWhereTheOffsetIsRoundedAway) {
+    Random random(12);
+    std::vector<ProbeSurface<TypeParam>> surfaces;
+    std::vector<Packed3<TypeParam>> sides;
+    for (std::size_t i = 0; i < count; ++i) {
+        ProbeSurface<TypeParam> surface{};
+        surface.point = round_to<TypeParam>(random.in_cube(1));
+        surface.geometric = round_to<TypeParam>(random.unit_vector());
+        surface.offset = Flat<TypeParam>::roundoff * TypeParam(1e-6);
+        surfaces.push_back(surface);
+        sides.push_back(round_to<TypeParam>(random.unit_vector()));
+    }
+    const auto origins = offset_origins<TypeParam>(surfaces, sides);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad3 normal = exact(surfaces[i].geometric);
+        const Quad3 step = exact(origins[i]) - exact(surfaces[i].point);
+        ASSERT_EQ(dot(step, normal) > 0, dot(exact(sides[i]), normal) > 0) << i;
+        ASSERT_NE(dot(step, normal), 0) << i;
+    }
+}
+
 /// Rays that hit triangles of sides about `size`, from within `reach`.
 template <typename T>
 struct TriangleHits {
@@ -368,6 +390,22 @@ TYPED_TEST(LeaveSurface, CarriesTheChordOfItsSphere) {
         ASSERT_TRUE(same_bits<TypeParam>(std::vector{rays[i]}, std::vector{pack(twin)}));
     }
     worst.expect_at_most(5);
+}
+TYPED_TEST(LeaveSurface, CarriesWhatItsStartIsOffThePointLeft) {
+    Random random(22);
+    const BallHits<TypeParam> hits(random);
+    const auto surfaces = hits.surfaces();
+    const auto origins = offset_origins<TypeParam>(surfaces, hits.sides);
+    const std::vector<Index<TypeParam>> prims(surfaces.size(), 3);
+    const auto rays = run<TypeParam, ProbeRay<TypeParam>>("leave_surface", surfaces.size(),
+                                                          surfaces, origins, hits.sides, prims);
+    WorstError worst;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Quad3 left = exact(surfaces[i].point) + exact(surfaces[i].point_low);
+        const Quad3 expected = left - exact(origins[i]);
+        worst.add(vector_error<TypeParam>(rays[i].origin_low, expected, length(expected)));
+    }
+    worst.expect_at_most(1);
 }
 
 }  // namespace

@@ -199,60 +199,6 @@ TYPED_TEST(IntersectTriangle, HasTheTwinsBitsOnAnyNumbers) {
     EXPECT_TRUE(same_bits<TypeParam>(cases.device(), cases.twin()));
 }
 
-/// A closed mesh, star-shaped about its centre, and a point well inside to look from.
-struct Shell {
-    StressMesh mesh;
-    glm::dvec3 center;
-    double size;
-
-    Shell(double size, const glm::dvec3& center) : center(center), size(size) {
-        Random random(5);
-        mesh = ball_mesh(2);
-        for (auto& vertex : mesh.vertices)
-            vertex = center + size * random.uniform(0.9, 1.1) * vertex;
-    }
-    glm::dvec3 inside(Random& random) const { return center + 0.4 * size * random.in_cube(1); }
-    /// On the edge from vertex `from` of the face to the next, after rounding the vertices.
-    template <typename T>
-    glm::dvec3 on_edge(std::size_t face, int from, double part) const {
-        const auto& corners = mesh.faces[face];
-        const auto a = in_double(round_to<T>(mesh.vertices[corners[from]]));
-        const auto b = in_double(round_to<T>(mesh.vertices[corners[(from + 1) % 3]]));
-        return a + part * (b - a);
-    }
-};
-
-/// How many of 10^6 rays that start inside find a way out at an edge (or at a vertex).
-template <typename T>
-std::size_t leaks(const Shell& shell, bool at_vertices) {
-    FlatScene<T> scene{};
-    scene.triangles = triangles_of<T>(shell.mesh);
-    scene.frame.triangle_count = static_cast<typename Flat<T>::Index>(scene.triangles.size());
-    Random random(6);
-    const auto rays = many(1'000'000, [&] {
-        const auto face = static_cast<std::size_t>(random.index(int(shell.mesh.faces.size())));
-        const double part = at_vertices ? 0 : random.uniform(0, 1);
-        const glm::dvec3 origin = in_double(round_to<T>(shell.inside(random)));
-        return make_ray<T>(origin, shell.on_edge<T>(face, random.index(3), part) - origin);
-    });
-    const auto found = run<T, typename Flat<T>::Index>("any_hit", rays.size(), scene, rays);
-    return static_cast<std::size_t>(std::count(found.begin(), found.end(), 0));
-}
-
-KERNEL_SUITE(ClosedMesh);
-TYPED_TEST(ClosedMesh, NeverLeaksAtSharedEdges) {
-    EXPECT_EQ(leaks<TypeParam>(Shell(1, {0, 0, 0}), false), 0u);
-}
-TYPED_TEST(ClosedMesh, NeverLeaksAtSharedVertices) {
-    EXPECT_EQ(leaks<TypeParam>(Shell(1, {0, 0, 0}), true), 0u);
-}
-TYPED_TEST(ClosedMesh, NeverLeaksAtEdgesOfATinyMesh) {
-    EXPECT_EQ(leaks<TypeParam>(Shell(1e-6, {0, 0, 0}), false), 0u);
-}
-TYPED_TEST(ClosedMesh, NeverLeaksAtVerticesFarAway) {
-    EXPECT_EQ(leaks<TypeParam>(Shell(1, {300, -100, 200}), true), 0u);
-}
-
 }  // namespace
 
 }  // namespace rt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <random>
 #include <vector>
@@ -9,6 +10,12 @@
 #include "host/flatten/flat_types.h"
 
 namespace rt {
+
+/// Rays for each scene of a test: MIRRORBALL_TEST_RAYS, or this many.
+inline std::size_t ray_count(std::size_t otherwise = 20000) {
+    const char* count = std::getenv("MIRRORBALL_TEST_RAYS");
+    return count ? std::strtoul(count, nullptr, 10) : otherwise;
+}
 
 /// Repeatable random numbers for tests. Everything but `real_number` is made in double and rounded.
 class Random {
