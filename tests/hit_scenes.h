@@ -47,6 +47,21 @@ struct Numbered {
     }
 };
 
+/// A scene whose primitives are all tested, and the same through hierarchies.
+template <typename T>
+struct BothWays {
+    Numbered<T> plain, bvh;
+
+    explicit BothWays(const Scene& scene)
+        : plain(flatten<T>(scene, all())), bvh(flatten<T>(scene)) {}
+
+    static FlattenOptions all() {
+        FlattenOptions options;
+        options.hierarchies = false;
+        return options;
+    }
+};
+
 /// A ray that starts or ends somewhere interesting, in the author's numbering.
 template <typename T>
 trace::Ray<T> some_ray(const FlatScene<T>& scene, Random& random) {

@@ -28,10 +28,8 @@ TYPED_TEST(Hits, AreThoseOfTestingEveryPrimitive) {
     using T = TypeParam;
     for (const HitScene& made_of : hit_scenes()) {
         SCOPED_TRACE(made_of.name);
-        const Scene scene = make_scene(made_of);
-        FlattenOptions all;
-        all.hierarchies = false;
-        const Numbered<T> plain(flatten<T>(scene, all)), bvh(flatten<T>(scene));
+        const BothWays<T> both(make_scene(made_of));
+        const Numbered<T>&plain = both.plain, &bvh = both.bvh;
         ASSERT_TRUE(plain.scene.nodes.empty());
         ASSERT_FALSE(bvh.scene.nodes.empty());
         const auto plain_view = trace::view_of(plain.scene), bvh_view = trace::view_of(bvh.scene);
@@ -70,9 +68,8 @@ TYPED_TEST(Hits, AreThoseOfTestingEveryPrimitiveFromFarAway) {
     Scene scene;
     scene.materials.emplace_back();
     add_floor(scene, 8, 1);
-    FlattenOptions all;
-    all.hierarchies = false;
-    const Numbered<T> plain(flatten<T>(scene, all)), bvh(flatten<T>(scene));
+    const BothWays<T> both(scene);
+    const Numbered<T>&plain = both.plain, &bvh = both.bvh;
     const auto plain_view = trace::view_of(plain.scene), bvh_view = trace::view_of(bvh.scene);
     Random random(21);
     std::size_t differ = 0, hits = 0;

@@ -55,10 +55,8 @@ TYPED_TEST(DeviceHits, AreThoseOfTestingEveryPrimitive) {
     using T = TypeParam;
     for (const HitScene& made_of : hit_scenes()) {
         SCOPED_TRACE(made_of.name);
-        const Scene scene = make_scene(made_of);
-        FlattenOptions all;
-        all.hierarchies = false;
-        const Numbered<T> plain(flatten<T>(scene, all)), bvh(flatten<T>(scene));
+        const BothWays<T> both(make_scene(made_of));
+        const Numbered<T>&plain = both.plain, &bvh = both.bvh;
         ASSERT_TRUE(plain.scene.nodes.empty());
         ASSERT_FALSE(bvh.scene.nodes.empty());
         Random random(31);
