@@ -48,7 +48,8 @@ void add_sweep(CLI::App& app, ConvergeOptions& converge) {
     add_choice<std::vector<bool>>(app, "--math", converge.fast_math,
                                   {{"strict", {false}}, {"fast", {true}}, {"both", {false, true}}},
                                   "strict (default), fast (OpenCL devices only) or both");
-    add_text(app, "--max-bounces", "LIST", "mirror rays after the eye ray (default: the scene's)",
+    add_text(app, "--max-bounces", "LIST",
+             "mirror and refracted rays after the eye ray (default: the scene's)",
              [&](const std::string& text) { converge.max_bounces = parse_bounces(text); });
 }
 

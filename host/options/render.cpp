@@ -83,7 +83,7 @@ void add_picture_options(CLI::App& app, RenderOptions& render) {
                }
                render.max_bounces = bounces;
            },
-           "mirror rays after the eye ray (default: the scene's)")
+           "mirror and refracted rays after the eye ray (default: the scene's)")
         ->type_name("N");
     add_text(app, "--encoding", "display|srgb|linear",
              "how 8-bit files store linear light (default display: value x 255)",

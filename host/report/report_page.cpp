@@ -110,8 +110,9 @@ std::string environment_html(const Report& report) {
     for (const BenchRow& row : report.scenes.front().bench.rows) {
         if (row.repeats.empty() || row.asked.uses_threads) continue;
         const DeviceStats& device = row.repeats.front().device;
-        const std::string text = fmt::format("{}, {}, driver {}, a work item a {}", device.name,
-                                             device.platform, device.driver, device.launch);
+        const std::string text =
+            fmt::format("{}, {}, driver {}, per {}, {} lane{}", device.name, device.platform,
+                        device.driver, device.launch, device.lanes, device.lanes == 1 ? "" : "s");
         if (std::find(devices.begin(), devices.end(), text) != devices.end()) continue;
         devices.push_back(text);
         table.rows.push_back({{"OpenCL device", ""}, {text, ""}});
