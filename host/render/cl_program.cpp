@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "host/error.h"
+#include "host/render/kept_programs.h"
 
 namespace rt {
 
@@ -31,9 +34,11 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
 cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
                           const ProgramOptions& options) {
     const std::string flags = build_options(device, options);
+    if (auto kept = kept_program(context, device, source, flags)) return *std::move(kept);
     cl::Program program(context, std::string(source));
     try {
         program.build({device.handle}, flags.c_str());
+        keep_program(program, device, source, flags);
     } catch (const cl::Error& error) {
         const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle);
         throw Error(

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/kept_programs.h"
+
+#include <map>
+#include <mutex>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace rt {
+
+namespace {
+
+using Binary = std::vector<unsigned char>;
+using Key = std::tuple<cl_device_id, std::string, std::string>;
+
+std::mutex mutex;
+std::map<Key, Binary> binaries;
+
+Key key_of(const ClDevice& device, const char* source, const std::string& options) {
+    return {device.handle(), source, options};
+}
+
+}  // namespace
+
+std::optional<cl::Program> kept_program(const cl::Context& context, const ClDevice& device,
+                                        const char* source, const std::string& options) {
+    const std::lock_guard lock(mutex);
+    const auto found = binaries.find(key_of(device, source, options));
+    if (found == binaries.end()) return std::nullopt;
+    try {
+        cl::Program program(context, {device.handle}, {found->second});
+        program.build({device.handle}, options.c_str());
+        return program;
+    } catch (const cl::Error&) {
+        binaries.erase(found);
+        return std::nullopt;
+    }
+}
+
+void keep_program(const cl::Program& program, const ClDevice& device, const char* source,
+                  const std::string& options) {
+    if (!device.is_cpu || device.platform == pocl_platform) return;
+    std::vector<Binary> built = program.getInfo<CL_PROGRAM_BINARIES>();
+    if (built.size() != 1 || built[0].empty()) return;
+    const std::lock_guard lock(mutex);
+    binaries.insert_or_assign(key_of(device, source, options), std::move(built[0]));
+}
+
+}  // namespace rt
