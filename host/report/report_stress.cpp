@@ -55,7 +55,7 @@ std::string verdicts_table(const StressResult& result) {
     HtmlTable table{
         "Worst of every family's cases and renderers, float and double; time on threads "
         "in float, and that of textbook formulas",
-        {"family", "cases", "worst", "allowed", "textbook formulas", "traced in", "verdict",
+        {"family", "verdict", "cases", "worst", "allowed", "textbook formulas", "traced in",
          "what goes wrong elsewhere"},
         {}};
     for (std::size_t i = 0; i < result.families.size(); ++i) {
@@ -63,12 +63,12 @@ std::string verdicts_table(const StressResult& result) {
         const std::string naive =
             has_naive_rows(family) ? figures_text(worst_figures(family, true)) : "";
         table.rows.push_back({{family.name, family_source(i)},
+                              {family.passed() ? "pass" : "falls short", "", !family.passed()},
                               {std::to_string(family.cases.size()), ""},
                               {figures_text(worst_figures(family, false)), ""},
                               {bar_text(loosest_bar(family)), ""},
                               {naive, ""},
                               {time_text(family), ""},
-                              {family.passed() ? "pass" : "falls short", "", !family.passed()},
                               {family.why, ""}});
     }
     return html_table(table);

@@ -84,9 +84,10 @@ std::vector<std::string> report_commands(const ReportOptions& options) {
     for (const std::string& scene : options.scenes) scenes += " " + shell_word(scene);
     const std::string rest = fmt::format(" --devices {} --repeats {}",
                                          shell_word(joined(options.devices, ",")), options.repeats);
-    std::vector<std::string> commands{fmt::format("mirrorball report{} -o {}{}{}{}", scenes,
+    const char* const quick = options.quick ? " --quick" : "";
+    std::vector<std::string> commands{fmt::format("mirrorball report{} -o {}{}{}{}{}", scenes,
                                                   shell_word(options.output), size_text(options),
-                                                  rest, options.quick ? " --quick" : "")};
+                                                  rest, quick, options.stress ? " --stress" : "")};
     for (const std::string& path : options.scenes) {
         const std::string scene = shell_word(path);
         commands.push_back(fmt::format("mirrorball render {}{} --aa none -o plain.png --stats",
@@ -101,6 +102,10 @@ std::vector<std::string> report_commands(const ReportOptions& options) {
             fmt::format("mirrorball converge {}{} --aa {} --reference-samples {}{} --json -", scene,
                         size_text(options), options.quick ? quick_sweep : full_sweep,
                         options.quick ? quick_reference : full_reference, rest));
+    }
+    if (options.stress) {
+        commands.push_back(fmt::format("mirrorball stress --naive --device {}{} --json -",
+                                       shell_word(joined(options.devices, ",")), quick));
     }
     return commands;
 }
