@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/cl_film.h"
 
-#include "host/render/cl_scene.h"
+#include "host/render/cl_buffer.h"
 
 namespace rt {
 

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "host/error.h"
+#include "host/render/cl_buffer.h"
 #include "host/render/cl_film.h"
 #include "host/render/cl_program.h"
 #include "host/render/cl_scene.h"
