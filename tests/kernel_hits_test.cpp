@@ -75,6 +75,10 @@ TYPED_TEST(DeviceHits, AreThoseOfTestingEveryPrimitive) {
             twins = renumbered(rays, bvh);
             const auto any = any_hits(plain, rays);
             ASSERT_EQ(any_hits(bvh, twins), any);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const auto view = trace::view_of(plain.scene);
+                ASSERT_EQ(any[i] != 0, trace::any_hit(view, unpack(rays[i]))) << i;
+            }
             for (const auto& hit : hits) found += hit.prim != Flat<T>::none ? 1 : 0;
             for (const auto one : any) blocked += one != 0 ? 1 : 0;
         }

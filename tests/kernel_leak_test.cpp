@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Closed meshes on a device: no ray from inside finds a way out at an edge or a vertex, in strict
-// arithmetic and where the compiler may contract. MIRRORBALL_TEST_RAYS sets how many rays each mesh
-// gets.
+// arithmetic and where the compiler may contract. MIRRORBALL_TEST_RAYS sets how many rays are aimed
+// at each mesh's edges, and how many at its vertices.
 #include <algorithm>
 
 #include "host/stress/meshes.h"

@@ -35,8 +35,8 @@ struct ProbeOutput {
 };
 
 /// Runs probe_FUNCTION over `count` items; the kernel's arguments are first, count, the inputs and
-/// the outputs. Builds the probes on first use, once per precision, with warnings as errors. Throws
-/// Error (ExitCode::device) that names the device, the probe and the OpenCL status.
+/// the outputs. Builds the probes on first use, once per precision and arithmetic, with warnings as
+/// errors. Throws Error (ExitCode::device) that names the device, the probe and the OpenCL status.
 void launch_probe(bool double_precision, const std::string& function, std::size_t count,
                   std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs);
 

@@ -160,7 +160,7 @@ TYPED_TEST(OffsetOrigin, LiesOutsideOrInsideTheSphereAsAsked) {
     }
 }
 
-// The point's own rounding may be all there is: then a number further still is one.
+// An offset below the point's rounding still moves it by one ulp.
 TYPED_TEST(OffsetOrigin, MovesEvenWhereTheOffsetIsRoundedAway) {
     Random random(12);
     std::vector<ProbeSurface<TypeParam>> surfaces;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// intersect_triangle of kernels/intersect.cl: against integer and 113-bit arithmetic, on closed
-// meshes, and bit for bit against host/trace/intersect.h. Bars are in roundoffs.
+// intersect_triangle of kernels/intersect.cl: against integer and 113-bit arithmetic, and bit for
+// bit against host/trace/intersect.h. Bars are in roundoffs.
 #include "host/trace/intersect.h"
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"

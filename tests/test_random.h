@@ -11,10 +11,11 @@
 
 namespace rt {
 
-/// Rays for each scene of a test: MIRRORBALL_TEST_RAYS, or this many.
+/// Rays for each scene of a test: MIRRORBALL_TEST_RAYS where that is a number, or this many.
 inline std::size_t ray_count(std::size_t otherwise = 20000) {
     const char* count = std::getenv("MIRRORBALL_TEST_RAYS");
-    return count ? std::strtoul(count, nullptr, 10) : otherwise;
+    const std::size_t asked = count ? std::strtoul(count, nullptr, 10) : 0;
+    return asked > 0 ? asked : otherwise;
 }
 
 /// Repeatable random numbers for tests. Everything but `real_number` is made in double and rounded.

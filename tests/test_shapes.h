@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "host/stress/meshes.h"
 #include "tests/exact.h"
 #include "tests/probe_types.h"
 
@@ -47,15 +46,6 @@ typename Flat<T>::Triangle make_triangle(const glm::dvec3& p0, const glm::dvec3&
     triangle.offset = static_cast<T>(double(Flat<T>::roundoff) *
                                      glm::dot(glm::abs(in_double(triangle.normal)), error));
     return triangle;
-}
-
-template <typename T>
-std::vector<typename Flat<T>::Triangle> triangles_of(const StressMesh& mesh) {
-    std::vector<typename Flat<T>::Triangle> triangles;
-    for (const auto& [a, b, c] : mesh.faces) {
-        triangles.push_back(make_triangle<T>(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
-    }
-    return triangles;
 }
 
 }  // namespace rt

@@ -16,6 +16,11 @@ ClFilm<T>::ClFilm(Film<T>& film, const cl::Context& context, const cl::CommandQu
 }
 
 template <typename T>
+ClFilm<T>::~ClFilm() {
+    if (is_shared_) clFinish(queue_());
+}
+
+template <typename T>
 void ClFilm<T>::read_back() {
     if (is_shared_) {
         void* const mapped = queue_.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_READ, 0, bytes());

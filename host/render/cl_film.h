@@ -6,14 +6,18 @@
 
 namespace rt {
 
-/// A film, one that is black where nothing was rendered, on a device: on a CPU it is the film's own
-/// memory, elsewhere a copy. The film must outlive it. Throws Error (ExitCode::limit) when the
-/// device gives less in one piece.
+/// A black film on a device: on a CPU its own memory (where the driver takes that), elsewhere a
+/// copy. The film must outlive it. Throws Error (ExitCode::limit) when the device gives less in one
+/// piece.
 template <typename T>
 class ClFilm {
    public:
     ClFilm(Film<T>& film, const cl::Context& context, const cl::CommandQueue& queue,
            const ClDevice& device);
+    /// Waits: commands in flight write to the film's memory.
+    ~ClFilm();
+    ClFilm(const ClFilm&) = delete;
+    ClFilm& operator=(const ClFilm&) = delete;
 
     const cl::Buffer& buffer() const { return buffer_; }
 

@@ -38,7 +38,6 @@ cl::Program build_program(const cl::Context& context, const ClDevice& device, co
     cl::Program program(context, std::string(source));
     try {
         program.build({device.handle}, flags.c_str());
-        keep_program(program, device, source, flags);
     } catch (const cl::Error& error) {
         const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle);
         throw Error(
@@ -47,6 +46,7 @@ cl::Program build_program(const cl::Context& context, const ClDevice& device, co
                         "use --device threads\noptions: {}\n{}",
                         device.name, device.driver, cl_status_text(error.err()), flags, log));
     }
+    keep_program(program, device, source, flags);
     return program;
 }
 

@@ -7,6 +7,7 @@
 #include <bit>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <span>
 
 #include "host/error.h"

@@ -21,19 +21,26 @@ Key key_of(const ClDevice& device, const char* source, const std::string& option
     return {device.handle(), source, options};
 }
 
+Binary find_binary(const Key& key) {
+    const std::lock_guard lock(mutex);
+    const auto found = binaries.find(key);
+    return found == binaries.end() ? Binary{} : found->second;
+}
+
 }  // namespace
 
 std::optional<cl::Program> kept_program(const cl::Context& context, const ClDevice& device,
                                         const char* source, const std::string& options) {
-    const std::lock_guard lock(mutex);
-    const auto found = binaries.find(key_of(device, source, options));
-    if (found == binaries.end()) return std::nullopt;
+    const Key key = key_of(device, source, options);
+    const Binary binary = find_binary(key);
+    if (binary.empty()) return std::nullopt;
     try {
-        cl::Program program(context, {device.handle}, {found->second});
+        cl::Program program(context, {device.handle}, {binary});
         program.build({device.handle}, options.c_str());
         return program;
     } catch (const cl::Error&) {
-        binaries.erase(found);
+        const std::lock_guard lock(mutex);
+        binaries.erase(key);
         return std::nullopt;
     }
 }
@@ -41,10 +48,14 @@ std::optional<cl::Program> kept_program(const cl::Context& context, const ClDevi
 void keep_program(const cl::Program& program, const ClDevice& device, const char* source,
                   const std::string& options) {
     if (!device.is_cpu || device.platform == pocl_platform) return;
-    std::vector<Binary> built = program.getInfo<CL_PROGRAM_BINARIES>();
-    if (built.size() != 1 || built[0].empty()) return;
-    const std::lock_guard lock(mutex);
-    binaries.insert_or_assign(key_of(device, source, options), std::move(built[0]));
+    try {
+        std::vector<Binary> built = program.getInfo<CL_PROGRAM_BINARIES>();
+        if (built.size() != 1 || built[0].empty()) return;
+        const std::lock_guard lock(mutex);
+        binaries.insert_or_assign(key_of(device, source, options), std::move(built[0]));
+    } catch (const cl::Error&) {
+        // It works without.
+    }
 }
 
 }  // namespace rt

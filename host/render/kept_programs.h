@@ -10,7 +10,7 @@ namespace rt {
 
 /// What this process has compiled, as binaries, for CPU drivers that keep none themselves: a report
 /// or the stress suite asks for the same kernels many times, and Intel's runtime takes a minute for
-/// some. PoCL and GPU drivers have caches on disk.
+/// some. PoCL and most GPU drivers have caches on disk.
 ///
 /// A program built from the binary of an earlier one from this source with these options; nothing
 /// where there is none, or where the driver no longer takes it.

@@ -40,8 +40,8 @@ class Renderer {
     /// No tile may have more pixels than this.
     virtual std::int64_t most_tile_pixels() const { return std::numeric_limits<int>::max(); }
 
-    /// Renders the queue's tiles into the film, which shows `region` of the picture; returns when
-    /// the queue is empty or stopped, with every tile it took finished. Throws Error
+    /// Renders the queue's tiles into the film, black so far, which shows `region` of the picture;
+    /// returns when the queue is empty or stopped, with every tile it took finished. Throws Error
     /// (ExitCode::device) when the device fails.
     virtual void render(TileQueue& queue, const Rect& region, Film<T>& film) = 0;
 

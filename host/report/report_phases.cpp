@@ -92,12 +92,12 @@ std::string phases_figure(const std::vector<PlacedRow>& rows, std::size_t index)
     std::string html =
         "<h3>Where the time goes</h3>\n" +
         bars_figure(warm, fmt::format("{} x {} pixels, {}, float: the median of "
-                                      "each phase, kernels from the driver's cache.",
+                                      "each phase, kernels from a cache.",
                                       asked.width, asked.height, to_string(asked.aa)));
     if (!cold.bars.empty()) {
         html += bars_figure(cold,
                             "The first picture after an install: kernels are compiled once, "
-                            "then kept by the driver.");
+                            "then kept.");
     }
     return html;
 }
