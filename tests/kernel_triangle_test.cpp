@@ -69,13 +69,12 @@ IntegerCase random_integers(Random& random) {
 
 template <typename T>
 void add_integers(TriangleCases<T>& cases, const IntegerCase& c) {
-    glm::dvec3 origin, dir(0), p[3];
-    for (int k = 0; k < 3; ++k) {
-        origin[k] = double(c.ray[k]);
-        for (int i = 0; i < 3; ++i) p[i][k] = double(c.vertex[i][k]);
-    }
-    dir[c.axis] = c.sense;
-    cases.add(make_ray<T>(origin, dir), make_triangle<T>(p[0], p[1], p[2]));
+    // Component by component: GCC 12 loses a store of a loop over glm's operator[] here.
+    const auto point = [](const long(&x)[3]) { return glm::dvec3(x[0], x[1], x[2]); };
+    const glm::dvec3 dir(c.axis == 0 ? c.sense : 0, c.axis == 1 ? c.sense : 0,
+                         c.axis == 2 ? c.sense : 0);
+    cases.add(make_ray<T>(point(c.ray), dir),
+              make_triangle<T>(point(c.vertex[0]), point(c.vertex[1]), point(c.vertex[2])));
 }
 
 TYPED_TEST(IntersectTriangle, OnIntegersHitsInsidesEdgesAndVerticesAndNothingElse) {
