@@ -4,7 +4,8 @@
 // render_listed for chosen pixels) or a packet of samples (render_samples, averaged by
 // resolve_samples); all add a pixel's samples in the same order, so they give the same bits. The
 // film holds three Reals a pixel, row 0 at the top. counts has one slot a work item and is added to
-// launch after launch.
+// launch after launch. A program holds those that are launched (RT_RENDERS_..): each is built anew
+// from the whole tracer.
 
 // Many small functions on structs: 1.35 times faster on PoCL when all are inlined, which it does
 // not do by itself. Without linkage to other programs they then vanish, and PoCL loads the built
@@ -36,6 +37,7 @@
 #define RT_SCENE_VIEW \
     { spheres, cones, triangles, vertex_normals, materials, lights, nodes, listed, casters, frame }
 
+#if RT_RENDERS_PIXELS
 __kernel void render_pixels(__global Real* restrict film, __global RayCounts* restrict counts,
                             RT_SCENE_ARGUMENTS, Tile tile) {
     size_t item = get_global_id(0);
@@ -50,7 +52,9 @@ __kernel void render_pixels(__global Real* restrict film, __global RayCounts* re
     store_lanes(film, color, lanes.live ? places : (Indices)-1, packet.pixels);
     add_counts(counts, item, used);
 }
+#endif
 
+#if RT_RENDERS_SAMPLES
 // Sample k of the tile's pixel i goes to samples[k * pixels + i].
 __kernel void render_samples(__global Real* restrict samples, __global RayCounts* restrict counts,
                              RT_SCENE_ARGUMENTS, Tile tile) {
@@ -92,7 +96,9 @@ __kernel void resolve_samples(__global Real* restrict film, __global const Real*
     Indices places = tile.first + lanes.row * tile.film_width + lanes.column;
     store_lanes(film, divide3(sum, total), lanes.live ? places : (Indices)-1, RT_LANES);
 }
+#endif
 
+#if RT_RENDERS_LISTED
 // Chosen pixels, tile.width of them: pixels[i] counts through a film of tile.film_width columns
 // whose upper left corner is pixel (tile.x, tile.y) of the picture. Pixel i goes to colors[i].
 __kernel void render_listed(__global Real* restrict colors, __global RayCounts* restrict counts,
@@ -117,3 +123,4 @@ __kernel void render_listed(__global Real* restrict colors, __global RayCounts* 
     store_lanes(colors, color, live ? number.all : (Indices)-1, packet.pixels);
     add_counts(counts, item, used);
 }
+#endif

@@ -8,6 +8,7 @@
 
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
+#include "host/render/cl_program.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -112,6 +113,23 @@ INSTANTIATE_TEST_SUITE_P(Features, SomeCombinations, testing::ValuesIn(some_comb
                              std::replace(name.begin(), name.end(), ' ', '_');
                              return name.empty() ? "nothing" : name.substr(0, name.size() - 1);
                          });
+
+std::string entry_points_of(const ProgramOptions& options) {
+    const cl::Context context(test_device().handle);
+    const cl::Program program = build_program(context, test_device(), render_kernels, options);
+    return program.getInfo<CL_PROGRAM_KERNEL_NAMES>();
+}
+
+TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
+    ProgramOptions options;
+    options.features = no_features();
+    options.entries = {true, false, false};
+    EXPECT_EQ(entry_points_of(options), "render_pixels");
+    options.entries = {false, true, false};
+    EXPECT_EQ(entry_points_of(options), "render_samples;resolve_samples");
+    options.entries = {true, false, true};
+    EXPECT_EQ(entry_points_of(options), "render_pixels;render_listed");
+}
 
 TEST(Flatten, LeavesOutLightsThatShineOnNothing) {
     Scene scene = scene_needing(Features{});

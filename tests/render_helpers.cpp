@@ -83,7 +83,9 @@ Film<T> render_on_threads(const Scene& scene, const ThreadsOptions& options, Rec
 template <typename T>
 Film<T> render_on_device(const Scene& scene, const ClOptions& options, Rect tile) {
     const FlatScene<T> flat = flatten<T>(scene);
-    return render_all<T>(*make_cl_renderer(flat, test_device(), options), scene, tile);
+    ClOptions with_refinement = options;
+    with_refinement.will_refine = scene.aa.refines();
+    return render_all<T>(*make_cl_renderer(flat, test_device(), with_refinement), scene, tile);
 }
 
 ClOptions cl_options(Launch launch, bool all_features) {

@@ -23,6 +23,9 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     for (const FeatureName& feature : feature_names) {
         if (!(options.features.*feature.flag)) text += fmt::format(" -D{}=0", feature.macro);
     }
+    if (!options.entries.pixels) text += " -DRT_RENDERS_PIXELS=0";
+    if (!options.entries.samples) text += " -DRT_RENDERS_SAMPLES=0";
+    if (!options.entries.listed) text += " -DRT_RENDERS_LISTED=0";
     for (const Technique& technique : techniques) {
         if (technique.macro && options.naive.*technique.flag) {
             text += fmt::format(" -D{}=1", technique.macro);

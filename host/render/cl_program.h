@@ -15,6 +15,14 @@ extern const char* const render_kernels;
 /// kernels/naive/render.cl, likewise: the same entry points for programs that are naive somewhere.
 extern const char* const naive_kernels;
 
+/// The entry points of kernels/render.cl that a renderer launches; the switches RT_RENDERS_.. of
+/// kernels/features.h.
+struct EntryPoints {
+    bool pixels = true;   ///< render_pixels
+    bool samples = true;  ///< render_samples and resolve_samples
+    bool listed = true;   ///< render_listed
+};
+
 /// What a program is compiled for. `features` says what may be left out.
 struct ProgramOptions {
     bool double_precision = false;
@@ -22,6 +30,7 @@ struct ProgramOptions {
     bool warnings_are_errors = false;  ///< for tests
     int lanes = 1;                     ///< rays of a packet: 1, 2, 4, 8 or 16
     Features features;
+    EntryPoints entries;
     Techniques naive;  ///< of naive_kernels: what to do without
 };
 

@@ -197,6 +197,7 @@ class ClRenderer : public Renderer<T> {
         program_options.warnings_are_errors = options.warnings_are_errors;
         if (!options.all_features) {
             program_options.features = either_of(scene.features, options.also);
+            program_options.entries = {!launch_samples_, launch_samples_, options.will_refine};
         }
         const bool is_pocl = device_.platform == pocl_platform;
         const auto start = std::filesystem::file_time_type::clock::now();
@@ -206,7 +207,6 @@ class ClRenderer : public Renderer<T> {
                           program_options);
         render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
         set_scene_arguments(render_, frame_);
-        listed_ = cl::Kernel(program, "render_listed");
         if (launch_samples_) {
             resolve_ = cl::Kernel(program, "resolve_samples");
             resolve_.setArg(1, samples_);
@@ -215,7 +215,10 @@ class ClRenderer : public Renderer<T> {
         FlatTile nothing{};
         nothing.width = 1;  // kernels divide by the width
         launch(nothing, cl::Buffer());
-        if (options.will_refine) launch_listed({}, frame_, cl::Buffer(), cl::Buffer());
+        if (options.will_refine) {
+            listed_ = cl::Kernel(program, "render_listed");
+            launch_listed({}, frame_, cl::Buffer(), cl::Buffer());
+        }
         queue_.finish();
         times_.build = watch.seconds();
         times_.build_cache = is_pocl ? pocl_build_since(start) : BuildCache::unknown;

@@ -29,8 +29,8 @@ struct ClOptions {
     Launch launch = Launch::automatic;
     int lanes = 0;  ///< rays of a packet: 1, 2, 4, 8 or 16; 0: as suits the device
     bool fast_math = false;
-    bool will_refine = false;          ///< have the kernel of `refine` ready, too
-    bool all_features = false;         ///< compile what the scene does not need, too
+    bool will_refine = false;          ///< build the kernel that `refine` needs, too
+    bool all_features = false;         ///< compile what scene and renderer do not need, too
     Features also = no_features();     ///< compile these, needed or not
     bool warnings_are_errors = false;  ///< for tests
     Techniques naive;                  ///< what to do without, for comparison

@@ -39,7 +39,7 @@ template <typename T>
 void render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const Rect& region,
                 Film<T>& film) {
     renderer.render(queue, region, film);
-    if (aa.pattern != AaMode::Pattern::adaptive) return;
+    if (!aa.refines()) return;
     std::vector<std::uint8_t> levels(static_cast<std::size_t>(region.pixels()), 1);
     LaunchPacer pacer(first_samples, most_samples);
     for (int pass = 0; pass < refine_passes && !queue.stopped(); ++pass) {

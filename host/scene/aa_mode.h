@@ -26,6 +26,9 @@ struct AaMode {
     /// Samples of every pixel; of an adaptive mode, in its first pass.
     int samples() const;
 
+    /// Whether pixels are rendered anew after the first pass.
+    bool refines() const { return pattern == Pattern::adaptive; }
+
     bool operator==(const AaMode&) const = default;
 };
 

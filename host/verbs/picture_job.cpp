@@ -139,7 +139,7 @@ class Job {
         cl_options.launch = options_.launch;
         cl_options.lanes = options_.lanes;
         cl_options.fast_math = options_.fast_math;
-        cl_options.will_refine = stats_.aa.pattern == AaMode::Pattern::adaptive;
+        cl_options.will_refine = stats_.aa.refines();
         cl_options.all_features = options_.all_features;
         cl_options.also = options_.also_features;
         cl_options.naive = options_.naive;
@@ -181,8 +181,8 @@ class Job {
         stats_.device.threads = thread_count(threads_options, stats_.aa.samples());
         stats_.device.schedule = options_.schedule == Schedule::tiles ? "tiles" : "buffers";
         // Refining starts further threads, which nothing may hold up.
-        const bool leaves_a_core = stats_.device.threads < available_cores() &&
-                                   stats_.aa.pattern != AaMode::Pattern::adaptive;
+        const bool leaves_a_core =
+            stats_.device.threads < available_cores() && !stats_.aa.refines();
         render_with(*make_threads_renderer(scene_, threads_options),
                     leaves_a_core ? when_tracing_ : std::function<void()>());
     }

@@ -53,6 +53,7 @@ Contender without(const Techniques& naive, const char* name, const char* how, co
                   const FlatScene<float>& flat, const ClDevice& device) {
     ClOptions options;
     options.naive = naive;
+    options.will_refine = scene.aa.refines();
     return {{name, how, 0}, tracing(make_cl_renderer(flat, device, options), scene, device.is_cpu)};
 }
 
