@@ -57,7 +57,7 @@ Index sum_lanes(Indices v) { return v; }
 
 bool any_lane(Mask mask) {
 #ifdef RT_HAS_REDUCTIONS
-    return __builtin_reduce_or(mask) != 0;
+    return __builtin_reduce_or(mask != (Mask)0) != 0;
 #else
     return any(mask);
 #endif

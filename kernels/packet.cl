@@ -89,6 +89,18 @@ Reals add_samples(Reals sum, Reals weight, Reals v, Index samples) {
     return fma(weight, v, sum);
 }
 
+// sum / total, wanted and made in the first lanes, those of the pixels.
+Reals average(Reals sum, Reals total, Index samples) {
+#if RT_LANES >= 4
+    if (samples == 4) {
+        Reals quarter;
+        quarter.lo.lo = sum.lo.lo / total.lo.lo;
+        return quarter;
+    }
+#endif
+    return sum / total;
+}
+
 void count_lanes(RayCounts* counts, const PacketCounts* used) {
     counts->shadow += (RT_COUNT)sum_lanes(used->shadow);
     counts->mirror += (RT_COUNT)sum_lanes(used->mirror);
@@ -111,7 +123,9 @@ real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indi
         total = add_samples(total, weight, (Reals)1, packet->samples);
         count_lanes(counts, &used);
     }
-    return divide3(sum, total);
+    Index samples = packet->samples;
+    return make3(average(sum.x, total, samples), average(sum.y, total, samples),
+                 average(sum.z, total, samples));
 }
 
 #endif

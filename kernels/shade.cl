@@ -33,17 +33,16 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const F
     Ray shadow = leave_surface(surface, origin, dir, prim);
     Reals cosine = dot3(surface->normal, shadow.dir);
     lit &= cosine > (Reals)0;
-    if (!any_lane(lit)) return none;
+    if (RT_HAS_VERTEX_NORMALS && !any_lane(lit)) return none;
     Reals end = distance * (Reals)((Real)1 - (Real)16 * (Real)RT_ROUNDOFF);
     shadow.t_max = lit ? end : (Reals)-1;
     counts->shadow += lit & 1;
     lit &= !any_hit(scene, &shadow, light->first_caster, light->caster_count);
     if (!any_lane(lit)) return none;
     real3 reflected = scale3(cosine, finish->diffuse);
-    Mask shiny = lit & !is_black(finish->specular);
-    if (any_lane(shiny)) {
+    if (any_lane(lit & !is_black(finish->specular))) {  // elsewhere it adds 0
         Reals lobe = specular_lobe(surface->normal, shadow.dir, to_eye, finish->shininess);
-        reflected = select3(shiny, add_scaled(reflected, lobe, finish->specular), reflected);
+        reflected = add_scaled(reflected, lobe, finish->specular);
     }
     return select3(lit, mul3(load3(light->intensity), reflected), none);
 }
