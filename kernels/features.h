@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a scene can need, and which entry points a renderer launches. Each switch is 1 unless the build says -DRT_HAS_...=0, so a kernel built
-// without options renders everything. The host decides (host/flatten/flat_scene.cpp), from the flat
-// scene alone. Used as `if (RT_HAS_X)` in plain code, so every build type-checks every branch; but
-// each entry point holds the whole tracer, so those that are not launched are not even compiled.
+// What a scene can need, and which entry points a renderer launches. Each switch is 1 unless the
+// build says -DRT_HAS_...=0, so a kernel built without options renders everything. The host decides
+// (host/flatten/flat_scene.cpp), from the flat scene alone. Used as `if (RT_HAS_X)` in plain code,
+// so every build type-checks every branch; but each entry point holds the whole tracer, so those
+// that are not launched are not even compiled.
 #ifndef RT_FEATURES_H
 #define RT_FEATURES_H
 
@@ -36,6 +37,12 @@
 #endif
 #ifndef RT_HAS_GLASS
 #define RT_HAS_GLASS 1
+#endif
+#ifndef RT_HAS_SOBOL
+#define RT_HAS_SOBOL 1
+#endif
+#ifndef RT_HAS_FILTERS
+#define RT_HAS_FILTERS 1
 #endif
 
 #ifndef RT_RENDERS_PIXELS

@@ -82,19 +82,20 @@ Position sobol_position(Uints seed, Uints k) {
     return position;
 }
 
-// The row comes from a division of Reals, exact for these numbers: that of integers is slow.
+// By the reciprocal: one division of two numbers. It is near enough for the row to be right
+// (tests/kernel_sampling_test.cpp); a division of integers would be slow.
 Position grid_position(Index grid, Indices k) {
-    Reals side = (Reals)(Real)grid;
-    Indices row = RT_TO_INDICES((RT_TO_REALS(k) + (Reals)0.5) / side);
+    Reals step = (Reals)((Real)1 / (Real)grid);
+    Indices row = RT_TO_INDICES((RT_TO_REALS(k) + (Reals)0.5) * step);
     Position position;
-    position.x = (RT_TO_REALS(k - row * grid) + (Reals)0.5) / side;
-    position.y = (RT_TO_REALS(row) + (Reals)0.5) / side;
+    position.x = (RT_TO_REALS(k - row * grid) + (Reals)0.5) * step;
+    position.y = (RT_TO_REALS(row) + (Reals)0.5) * step;
     return position;
 }
 
 // Sample k of pixel (x, y) in the unit square.
 Position unit_position(const Frame* frame, Indices x, Indices y, Indices k) {
-    if (frame->grid != 0) return grid_position(frame->grid, k);
+    if (!RT_HAS_SOBOL || frame->grid != 0) return grid_position(frame->grid, k);
     Uints pixel = RT_TO_UINTS(y) * 65536u + RT_TO_UINTS(x);
     Uints seed = hash_bits((Uints)(uint)frame->seed);
     return sobol_position(hash_bits(pixel ^ seed), RT_TO_UINTS(k));
@@ -131,7 +132,7 @@ Reals filter_weight(Index filter, Reals d) {
 // Sample k of pixel (x, y), in pixels from the pixel's lower left corner.
 Position sample_position(const Frame* frame, Indices x, Indices y, Indices k) {
     Position position = unit_position(frame, x, y, k);
-    if (frame->filter == RT_FILTER_BOX) return position;
+    if (!RT_HAS_FILTERS || frame->filter == RT_FILTER_BOX) return position;
     Reals side = (Reals)((Real)2 * filter_radius(frame->filter));
     position.x = fma(position.x - (Reals)0.5f, side, (Reals)0.5f);
     position.y = fma(position.y - (Reals)0.5f, side, (Reals)0.5f);
@@ -140,7 +141,7 @@ Position sample_position(const Frame* frame, Indices x, Indices y, Indices k) {
 
 // What sample k of pixel (x, y) counts; 1 under the box filter.
 Reals sample_weight(const Frame* frame, Indices x, Indices y, Indices k) {
-    if (frame->filter == RT_FILTER_BOX) return (Reals)1;
+    if (!RT_HAS_FILTERS || frame->filter == RT_FILTER_BOX) return (Reals)1;
     Position position = sample_position(frame, x, y, k);
     return filter_weight(frame->filter, position.x - (Reals)0.5f) *
            filter_weight(frame->filter, position.y - (Reals)0.5f);

@@ -70,6 +70,8 @@ Scene scene_needing(const Features& features) {
         scene.triangles[1].normals = {{{-0.6, 0, 0.8}, {0.6, 0, 0.8}, {0, 0.6, 0.8}}};
     }
     if (features.hierarchy) add_a_row(scene);
+    if (features.sobol) scene.aa = *parse_aa_mode("sobol:4");
+    if (features.filters) scene.filter = Filter::tent;
     return scene;
 }
 

@@ -20,6 +20,8 @@ struct Features {
     bool lights = true;          ///< shadow rays, diffuse and specular light
     bool mirrors = true;         ///< the bounce loop
     bool glass = true;           ///< refracted rays, and with mirrors the stack of a ray tree
+    bool sobol = true;           ///< scattered samples; else a regular grid's
+    bool filters = true;         ///< samples that do not all count the same
 
     bool operator==(const Features&) const = default;
 };
@@ -31,7 +33,7 @@ struct FeatureName {
     const char* macro;
 };
 
-inline constexpr std::array<FeatureName, 10> feature_names{{
+inline constexpr std::array<FeatureName, 12> feature_names{{
     {&Features::spheres, "spheres", "RT_HAS_SPHERES"},
     {&Features::huge_spheres, "huge spheres", "RT_HAS_HUGE_SPHERES"},
     {&Features::eye_on_surface, "eye on a surface", "RT_HAS_EYE_ON_SURFACE"},
@@ -42,6 +44,8 @@ inline constexpr std::array<FeatureName, 10> feature_names{{
     {&Features::lights, "lights", "RT_HAS_LIGHTS"},
     {&Features::mirrors, "mirrors", "RT_HAS_MIRRORS"},
     {&Features::glass, "glass", "RT_HAS_GLASS"},
+    {&Features::sobol, "Sobol samples", "RT_HAS_SOBOL"},
+    {&Features::filters, "wide filters", "RT_HAS_FILTERS"},
 }};
 
 /// Nothing at all.

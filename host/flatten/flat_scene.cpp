@@ -262,6 +262,8 @@ class Flattener {
         features.lights = !flat_.lights.empty();
         features.mirrors = scene_.max_bounces > 0 && material_use_.mirrors;
         features.glass = scene_.max_bounces > 0 && material_use_.transmits;
+        features.sobol = flat_.frame.grid == 0;
+        features.filters = flat_.frame.filter != f32::RT_FILTER_BOX;
     }
 
     const Scene& scene_;

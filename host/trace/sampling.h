@@ -76,7 +76,8 @@ Position<T> sobol_position(std::uint32_t seed, std::uint32_t k) {
 
 template <typename T>
 Position<T> grid_position(typename Flat<T>::Index grid, typename Flat<T>::Index k) {
-    return {(T(k % grid) + T(0.5)) / T(grid), (T(k / grid) + T(0.5)) / T(grid)};
+    const T step = T(1) / T(grid);
+    return {(T(k % grid) + T(0.5)) * step, (T(k / grid) + T(0.5)) * step};
 }
 
 /// Sample k of pixel (x, y) in the unit square.
