@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "host/image/picture_io.h"
+#include "host/processor_time.h"
 #include "host/report/html.h"
 #include "host/report/plot_axis.h"
+#include "host/report/render_stats.h"
 #include "host/report/report_page.h"
 #include "host/report/svg_bars.h"
 #include "host/report/svg_plot.h"
@@ -32,6 +37,18 @@ std::vector<double> values(const std::vector<rt::Tick>& ticks) {
     std::vector<double> numbers;
     for (const rt::Tick& tick : ticks) numbers.push_back(tick.value);
     return numbers;
+}
+
+TEST(SecondsSinceProcessStart, CountWhatWasComputedAndWaitedFor) {
+    const auto began = std::chrono::steady_clock::now();
+    const double before = rt::seconds_since_process_start();
+    EXPECT_GE(before, 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const double waited = rt::seconds_since_process_start() - before;
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began;
+    EXPECT_GE(waited, 0.05 - 0.02);
+    EXPECT_LE(waited, passed.count() + 0.01);
+    EXPECT_GE(rt::seconds_since_process_start(), rt::processor_seconds() - 0.01);
 }
 
 TEST(AxisTicks, OneDecadeHasTwoAndFive) {

@@ -5,8 +5,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
+
+#include "host/processor_time.h"
 
 namespace rt {
 
@@ -26,8 +29,10 @@ double seconds_since_process_start() {
     for (int i = 3; i <= 22; ++i) fields >> field;
     timespec now{};
     if (!fields || clock_gettime(CLOCK_BOOTTIME, &now) != 0) return 0;
-    const double started = std::stod(field) / static_cast<double>(sysconf(_SC_CLK_TCK));
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec) - started;
+    const double tick = 1 / static_cast<double>(sysconf(_SC_CLK_TCK));
+    const double since_tick = static_cast<double>(now.tv_sec) +
+                              1e-9 * static_cast<double>(now.tv_nsec) - tick * std::stod(field);
+    return std::max(processor_seconds(), since_tick - tick);
 }
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }

@@ -79,7 +79,8 @@ struct RenderStats {
     bool complete() const { return tiles_finished == tiles; }
 };
 
-/// Seconds since the system started this process, to 0.01 s.
+/// Seconds since the system started this process: what its one thread has computed since, as long
+/// as it has not waited; else up to 0.01 s less than passed, the step of the system's own record.
 double seconds_since_process_start();
 
 /// 16 hexadecimal digits.
