@@ -1,12 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the compiler gets wrong unless CMakeLists.txt tells it not to.
+// What the compiler does to our arithmetic unless CMakeLists.txt tells it not to.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <glm/glm.hpp>
 
 namespace {
+
+// GCC 12 drops the rounding of two neighbouring doubles to float in its SLP vectoriser, unless told
+// not to vectorise so (CMakeLists.txt): a double renderer would be fed unrounded numbers.
+__attribute__((noinline)) void round_pair(const double* in, double* out) {
+    const float x = static_cast<float>(in[0]), y = static_cast<float>(in[1]);
+    out[0] = x;
+    out[1] = y;
+}
+
+/// A number that the compiler cannot reckon with beforehand.
+template <typename T>
+T hidden(T number) {
+    volatile T copy = number;
+    return copy;
+}
+
+TEST(Compiler, RoundsNeighbouringDoublesToFloat) {
+    const double in[2] = {hidden(0.1), hidden(0.3)};
+    double out[2] = {0, 0};
+    round_pair(in, out);
+    EXPECT_EQ(out[0], 0.100000001490116119384765625);
+    EXPECT_EQ(out[1], 0.300000011920928955078125);
+}
+
+// a * b + c must not become one fma behind our back, or the twin leaves the strict kernels.
+__attribute__((noinline)) float multiply_add(float a, float b, float c) { return a * b + c; }
+
+TEST(Compiler, DoesNotContract) {
+    const float a = 1.0f + 0x1p-12f;
+    EXPECT_EQ(multiply_add(hidden(a), hidden(a), hidden(-1.0f - 0x1p-11f)), 0.0f);
+}
 
 struct Corners {
     long eye[3], corner[3][3];

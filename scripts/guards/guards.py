@@ -236,14 +236,19 @@ GUARDS = [
     ], [("kernel_surface_test", "BlendedNormal.*")]),
     Guard("`-fno-tree-slp-vectorize`", [
         ("tests/CMakeLists.txt", "# add_python_test(",
-         "set_source_files_properties(invariance_test.cpp PROPERTIES COMPILE_OPTIONS "
+         "set_source_files_properties(compiler_test.cpp PROPERTIES COMPILE_OPTIONS "
          "-ftree-slp-vectorize)\n# add_python_test("),
-    ], [("invariance_test", "Compiler.Rounds*")]),
+    ], [("compiler_test", "Compiler.Rounds*")]),
+    Guard("`-fno-ivopts`", [
+        ("tests/CMakeLists.txt", "# add_python_test(",
+         "set_source_files_properties(compiler_test.cpp PROPERTIES COMPILE_OPTIONS "
+         "-fivopts)\n# add_python_test("),
+    ], [("compiler_test", "Compiler.Keeps*")]),
     Guard("`-ffp-contract=off`", [
         ("tests/CMakeLists.txt", "# add_python_test(",
-         "set_source_files_properties(invariance_test.cpp PROPERTIES COMPILE_OPTIONS "
+         "set_source_files_properties(compiler_test.cpp PROPERTIES COMPILE_OPTIONS "
          "-ffp-contract=fast)\n# add_python_test("),
-    ], [("invariance_test", "Compiler.DoesNotContract")]),
+    ], [("compiler_test", "Compiler.DoesNotContract")]),
     Guard("`FP_CONTRACT OFF`", [
         (K + "types.h", "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON"),
     ], [("kernel_math_test", "Contraction.*")]),
