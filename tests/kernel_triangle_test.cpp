@@ -69,7 +69,6 @@ IntegerCase random_integers(Random& random) {
 
 template <typename T>
 void add_integers(TriangleCases<T>& cases, const IntegerCase& c) {
-    // Component by component: GCC 12 loses a store of a loop over glm's operator[] here.
     const auto point = [](const long(&x)[3]) { return glm::dvec3(x[0], x[1], x[2]); };
     const glm::dvec3 dir(c.axis == 0 ? c.sense : 0, c.axis == 1 ? c.sense : 0,
                          c.axis == 2 ? c.sense : 0);
