@@ -4,11 +4,7 @@
 #ifndef RT_LANES_H
 #define RT_LANES_H
 
-#include "kernels/types.h"
-
-#define RT_TO_REALS RT_JOIN(convert_, RT_LANES_OF(RT_REAL))
-#define RT_TO_INDICES RT_JOIN(convert_, RT_LANES_OF(RT_INDEX))
-#define RT_TO_UINTS RT_JOIN(convert_, RT_LANES_OF(uint))
+#include "kernels/builtins.h"
 
 #ifdef RT_DOUBLE
 #define RT_MAX_INDEX LONG_MAX

@@ -63,6 +63,10 @@ typedef Indices Mask;
 #endif
 #define RT_NO_LANES ((Mask)0)
 
+#define RT_TO_REALS RT_JOIN(convert_, RT_LANES_OF(RT_REAL))
+#define RT_TO_INDICES RT_JOIN(convert_, RT_LANES_OF(RT_INDEX))
+#define RT_TO_UINTS RT_JOIN(convert_, RT_LANES_OF(uint))
+
 typedef struct {
     Reals x, y, z;
 } real3;

@@ -133,6 +133,23 @@ TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
     EXPECT_EQ(entry_points_of(options), "render_pixels;render_listed");
 }
 
+TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
+    if (test_device().platform != pocl_platform) GTEST_SKIP();
+    const cl::Context context(test_device().handle);
+    for (const char* source : {render_kernels, naive_kernels}) {
+        const cl::Program program = build_program(context, test_device(), source, {});
+        const auto options = program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(test_device().handle);
+        EXPECT_NE(options.find("RT_DECLARES_BUILTINS"), std::string::npos) << options;
+    }
+}
+
+TEST(BuildProgram, LeavesTheDeclarationsToTheCompilerWhereKernelsCallOtherFunctions) {
+    const cl::Context context(test_device().handle);
+    const char* source = "__kernel void sines(__global float *x) { *x = sin(*x); }";
+    const cl::Program program = build_program(context, test_device(), source, {});
+    EXPECT_EQ(program.getInfo<CL_PROGRAM_KERNEL_NAMES>(), "sines");
+}
+
 TEST(Flatten, LeavesOutLightsThatShineOnNothing) {
     Scene scene = scene_needing(Features{});
     scene.lights.push_back({{0, 5, 0}, {0, 0, 0}});

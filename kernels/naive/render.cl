@@ -5,6 +5,8 @@
 // includes one of the kernels' with the functions to be replaced under other names, after the naive
 // files that stand for what that one includes, and then defines its own; so the kernels themselves
 // know nothing of this.
+#include "kernels/builtins.h"  // which are defined elsewhere
+
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((always_inline)), apply_to = function)
 #endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The built-in functions of OpenCL C that kernels call, declared as Clang's opencl-c.h does, for
+// compilers told to leave that header out (RT_DECLARES_BUILTINS, host/render/cl_program.cpp).
+#ifndef RT_BUILTINS_H
+#define RT_BUILTINS_H
+
+#include "kernels/types.h"
+
+#ifdef RT_DECLARES_BUILTINS
+
+#define RT_BUILTIN __attribute__((overloadable, const))
+
+size_t RT_BUILTIN get_global_id(uint dimension);
+
+#define RT_DECLARE_FMA(type) type RT_BUILTIN fma(type a, type b, type c)
+RT_DECLARE_FMA(RT_REAL);
+RT_DECLARE_FMA(RT_JOIN(RT_REAL, 2));
+RT_DECLARE_FMA(RT_JOIN(RT_REAL, 4));
+RT_DECLARE_FMA(RT_JOIN(RT_REAL, 8));
+RT_DECLARE_FMA(RT_JOIN(RT_REAL, 16));
+
+Reals RT_BUILTIN sqrt(Reals x);
+Reals RT_BUILTIN fabs(Reals x);
+Reals RT_BUILTIN pow(Reals x, Reals y);
+
+#if RT_LANES != 1
+Real RT_BUILTIN fabs(Real x);
+#endif
+Real RT_BUILTIN fmax(Real a, Real b);
+
+Reals RT_BUILTIN RT_TO_REALS(Indices v);
+Reals RT_BUILTIN RT_TO_REALS(Uints v);
+Indices RT_BUILTIN RT_TO_INDICES(Reals v);
+Uints RT_BUILTIN RT_TO_UINTS(Indices v);
+
+#endif
+
+#endif
