@@ -17,8 +17,8 @@ add_custom_target(fuzz_targets)
 add_fuzz_target(fuzz_json_scene mirrorball_scene
     ${CMAKE_SOURCE_DIR}/scenes ${CMAKE_SOURCE_DIR}/tests/scenes_bad)
 foreach(model obj ply)
-    add_fuzz_target(fuzz_${model}_scene mirrorball_render
+    add_fuzz_target(fuzz_${model}_scene mirrorball_threads
         ${CMAKE_SOURCE_DIR}/tests/models ${CMAKE_SOURCE_DIR}/tests/scenes_bad)
 endforeach()
-add_fuzz_target(fuzz_nff_scene mirrorball_render
+add_fuzz_target(fuzz_nff_scene mirrorball_threads
     ${CMAKE_SOURCE_DIR}/tests/scenes_nff ${CMAKE_SOURCE_DIR}/tests/scenes_bad)

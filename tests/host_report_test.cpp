@@ -12,7 +12,6 @@
 #include "host/report/report_page.h"
 #include "host/report/svg_bars.h"
 #include "host/report/svg_plot.h"
-#include "host/verbs/report_settings.h"
 
 namespace {
 
@@ -195,20 +194,6 @@ rt::ReportPicture tiny_picture(const std::string& name) {
     shot.stats.region = {0, 0, 16, 16};
     shot.stats.error = rt::image_error(shot.picture, shot.picture);
     return shot;
-}
-
-TEST(ReportCommands, NameTheStressSuiteWhereItWasRun) {
-    rt::ReportOptions options;
-    options.scenes = {"a.json"};
-    options.output = "page.html";
-    const auto plain = rt::report_commands(options);
-    EXPECT_EQ(plain.front().find("--stress"), std::string::npos);
-    options.stress = options.quick = true;
-    const auto commands = rt::report_commands(options);
-    EXPECT_EQ(commands.front(),
-              "mirrorball report a.json -o page.html --devices all --repeats 5 --quick --stress");
-    EXPECT_EQ(commands.back(), "mirrorball stress --naive --device all --quick --json -");
-    EXPECT_EQ(commands.size(), plain.size() + 1);
 }
 
 TEST(ReportPage, EscapesTheScenesNames) {

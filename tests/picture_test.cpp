@@ -64,39 +64,6 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_files()),
                              return name;
                          });
 
-/// Packets of any number of lanes, with the pixels and samples they hold: one, two and four samples
-/// of a pixel.
-class EveryLaneWidth : public testing::TestWithParam<int> {
-   protected:
-    template <typename T>
-    void expect_the_twins_hash(const char* stem, const char* aa) const {
-        Scene scene = load_scene(stem);
-        set_image_size(scene, 83, 61);
-        scene.aa = parse_aa_mode(aa).value();
-        const std::uint64_t hash = hash_of(render_on_threads<T>(scene));
-        for (const Launch launch : {Launch::pixel, Launch::sample}) {
-            ClOptions options = cl_options(launch);
-            options.lanes = GetParam();
-            EXPECT_EQ(hash_of(render_on_device<T>(scene, options)), hash) << stem << " " << aa;
-        }
-    }
-};
-
-TEST_P(EveryLaneWidth, GivesTheTwinsBits) {
-    for (const char* stem : {"cornell-box", "vertex-normals", "many-lights", "cones", "glass"}) {
-        for (const char* aa : {"grid:1", "grid:2", "grid:3", "sobol:6"}) {
-            expect_the_twins_hash<float>(stem, aa);
-        }
-    }
-    if (!test_device().has_double) return;
-    expect_the_twins_hash<double>("cornell-box", "grid:2");
-    expect_the_twins_hash<double>("mirror-hall", "grid:3");
-    expect_the_twins_hash<double>("cones", "grid:1");
-    expect_the_twins_hash<double>("glass", "grid:2");
-}
-
-INSTANTIATE_TEST_SUITE_P(Lanes, EveryLaneWidth, testing::Values(1, 2, 4, 8, 16));
-
 /// Every way to sample, on two scenes, from every renderer.
 class EveryAaMode : public testing::TestWithParam<std::tuple<const char*, Filter>> {
    protected:

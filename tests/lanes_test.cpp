@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Packets of any number of lanes give the bits of lone rays.
+#include <gtest/gtest.h>
+
+#include "tests/render_helpers.h"
+
+namespace rt::test {
+namespace {
+
+class EveryLaneWidth : public testing::TestWithParam<int> {
+   protected:
+    template <typename T>
+    void expect_the_twins_hash(const char* stem, const char* aa, bool all_features) const {
+        Scene scene = load_scene(stem);
+        set_image_size(scene, 83, 61);
+        scene.aa = parse_aa_mode(aa).value();
+        const std::uint64_t hash = hash_of(render_on_threads<T>(scene));
+        for (const Launch launch : {Launch::pixel, Launch::sample}) {
+            ClOptions options = cl_options(launch, all_features);
+            options.lanes = GetParam();
+            EXPECT_EQ(hash_of(render_on_device<T>(scene, options)), hash) << stem << " " << aa;
+        }
+    }
+};
+
+/// One, two and four samples of a pixel in a packet. One program renders all of them.
+TEST_P(EveryLaneWidth, GivesTheTwinsBits) {
+    for (const char* stem :
+         {"cornell-box", "vertex-normals", "many-lights", "cones", "glass", "mirror-hall"}) {
+        for (const char* aa : {"grid:1", "grid:2", "grid:3", "sobol:6"}) {
+            expect_the_twins_hash<float>(stem, aa, true);
+            if (test_device().has_double) expect_the_twins_hash<double>(stem, aa, true);
+        }
+    }
+}
+
+TEST_P(EveryLaneWidth, GivesTheTwinsBitsWithWhatTheSceneNeedsAlone) {
+    expect_the_twins_hash<float>("cornell-box", "grid:2", false);
+    expect_the_twins_hash<float>("glass", "sobol:6", false);
+    if (test_device().has_double) expect_the_twins_hash<double>("cones", "grid:3", false);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lanes, EveryLaneWidth, testing::Values(1, 2, 4, 8, 16));
+
+}  // namespace
+}  // namespace rt::test
