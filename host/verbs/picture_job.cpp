@@ -30,7 +30,6 @@ DeviceChoice chosen_device(const RenderOptions& options) {
         }
         return choice;
     }
-    if (options.threads > 0) limit_pocl_threads(options.threads);
     std::vector<std::string> problems;
     const std::vector<ClDevice> devices = list_cl_devices(problems);
     return choose_device(options.device, devices, problems);
@@ -96,10 +95,10 @@ class Job {
         stats_.caster_lists = options.caster_lists;
     }
 
-    RenderedPicture run() {
+    RenderedPicture run(std::future<DeviceChoice> device) {
         const Stopwatch watch;
-        const DeviceChoice choice = chosen_device(options_);
-        const double choose_seconds = watch.seconds();
+        const DeviceChoice choice = device.get();
+        const double wait_seconds = watch.seconds();
         say_ignored_options(choice);
         if (!choice.note.empty()) say(choice.note);
         if (choice.use_threads) {
@@ -107,7 +106,7 @@ class Job {
         } else {
             render_on_device(choice.device);
         }
-        stats_.phases.renderer.open += choose_seconds;
+        stats_.phases.renderer.open += wait_seconds;
         return finished_picture();
     }
 
@@ -263,12 +262,22 @@ void apply_overrides(Scene& scene, const RenderOptions& options) {
     if (options.max_bounces) scene.max_bounces = *options.max_bounces;
 }
 
+std::future<DeviceChoice> find_device(const RenderOptions& options) {
+    if (options.threads > 0) limit_pocl_threads(options.threads);
+    return std::async(std::launch::async, [&options] { return chosen_device(options); });
+}
+
 RenderedPicture render_picture(const Scene& scene, const RenderOptions& options,
+                               std::future<DeviceChoice> device,
                                const std::function<void()>& when_tracing) {
     if (options.precision == Precision::float64) {
-        return Job<double>(scene, options, when_tracing).run();
+        return Job<double>(scene, options, when_tracing).run(std::move(device));
     }
-    return Job<float>(scene, options, when_tracing).run();
+    return Job<float>(scene, options, when_tracing).run(std::move(device));
+}
+
+RenderedPicture render_picture(const Scene& scene, const RenderOptions& options) {
+    return render_picture(scene, options, find_device(options));
 }
 
 }  // namespace rt

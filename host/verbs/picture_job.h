@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <string>
 #include <vector>
 
 #include "host/image/picture.h"
 #include "host/options/options.h"
+#include "host/render/device_spec.h"
 #include "host/report/render_stats.h"
 #include "host/scene/scene.h"
 
@@ -23,12 +25,20 @@ void print_notes(const std::vector<std::string>& notes);
 /// Gives the scene what the options override: size, AA, bounces.
 void apply_overrides(Scene& scene, const RenderOptions& options);
 
-/// Flattens the scene, chooses the device, and renders with progress on stderr. When the device
+/// The device that options ask for, looked for on a thread of its own: drivers take their time to
+/// load (PoCL 0.02 s), and a scene can be read meanwhile. Throws Error from get().
+std::future<DeviceChoice> find_device(const RenderOptions& options);
+
+/// Flattens the scene and renders it on the device with progress on stderr. When the device
 /// fails, the picture is rendered on threads instead, with a line on stderr, unless
 /// options.no_fallback is on. SIGINT and SIGTERM end it early, with the tiles finished so far.
 /// `when_tracing` is called when tracing begins, where other work can go on beside it and takes
 /// nothing from it: the device is no CPU, or threads leave a core idle.
 RenderedPicture render_picture(const Scene& scene, const RenderOptions& options,
+                               std::future<DeviceChoice> device,
                                const std::function<void()>& when_tracing = {});
+
+/// The same on the device that find_device gives.
+RenderedPicture render_picture(const Scene& scene, const RenderOptions& options);
 
 }  // namespace rt

@@ -90,6 +90,7 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
 int run_render(const RenderOptions& options, double seconds_before_main) {
     const Stopwatch total;
     if (!options.output.empty()) check_picture_path(options.output);
+    std::future<DeviceChoice> device = find_device(options);
     Stopwatch watch;
     Scene scene = load_scene(options.scene, options.light);
     if (!options.quiet) print_notes(scene.notes);
@@ -98,8 +99,8 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     const std::optional<Picture> reference = load_reference(options, scene);
     const double reference_seconds = watch.lap();
     ImageLibraryLoading image_library;
-    RenderedPicture rendered =
-        render_picture(scene, options, [&] { image_library.begin_for(options.output); });
+    RenderedPicture rendered = render_picture(scene, options, std::move(device),
+                                              [&] { image_library.begin_for(options.output); });
     RenderStats& stats = rendered.stats;
     stats.scene.path = options.scene;
     stats.phases.start = seconds_before_main;
