@@ -29,6 +29,16 @@ Real RT_BUILTIN fabs(Real x);
 #endif
 Real RT_BUILTIN fmax(Real a, Real b);
 
+// For compilers without reductions (kernels/lanes.h).
+#if RT_LANES != 1
+int RT_BUILTIN any(Mask mask);
+#define RT_DECLARE_MIN(type) type RT_BUILTIN min(type a, type b)
+RT_DECLARE_MIN(RT_INDEX);
+RT_DECLARE_MIN(RT_JOIN(RT_INDEX, 2));
+RT_DECLARE_MIN(RT_JOIN(RT_INDEX, 4));
+RT_DECLARE_MIN(RT_JOIN(RT_INDEX, 8));
+#endif
+
 Reals RT_BUILTIN RT_TO_REALS(Indices v);
 Reals RT_BUILTIN RT_TO_REALS(Uints v);
 Indices RT_BUILTIN RT_TO_INDICES(Reals v);

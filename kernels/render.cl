@@ -7,7 +7,7 @@
 // launch after launch. A program holds those that are launched (RT_RENDERS_..): each is built anew
 // from the whole tracer.
 
-#include "kernels/builtins.h"  // which are defined elsewhere
+#include "kernels/builtins.h"  // before the attributes below, which are not for declarations
 
 // Many small functions on structs: 1.35 times faster on PoCL when all are inlined, which it does
 // not do by itself. Without linkage to other programs they then vanish, and PoCL loads the built

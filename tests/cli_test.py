@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The mirrorball command line, from outside. Usage: cli_test.py BUILD_DIR REPO_ROOT [TEST...]
 
-TEST is a unittest name such as signal_cases or stats_cases.TextStats.test_sections.
+TEST is a unittest name such as signal_cases or stats_cases.TextStats.test_sections, or `calm` or
+`timed` for all that mind no other tests beside them, or do.
 """
 import pathlib
 import sys
@@ -13,25 +14,23 @@ sys.dont_write_bytecode = True
 
 import harness
 
-MODULES = [
-    "usage_cases",
-    "scene_cases",
-    "output_cases",
-    "device_cases",
-    "picture_cases",
-    "render_cases",
-    "compare_cases",
-    "stats_cases",
-    "stream_cases",
-    "signal_cases",
-]
+MODULES = {
+    "calm": ["usage_cases", "scene_cases", "output_cases", "device_cases", "picture_cases",
+             "render_cases", "compare_cases", "stats_cases"],
+    "timed": ["stream_cases", "signal_cases"],
+}
+
+
+def names(arguments):
+    """Tests for unittest: groups by their modules, all of them without arguments."""
+    return [name for argument in arguments or MODULES for name in MODULES.get(argument, [argument])]
 
 
 def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     with harness.environment(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])):
-        suite = unittest.defaultTestLoader.loadTestsFromNames(sys.argv[3:] or MODULES)
+        suite = unittest.defaultTestLoader.loadTestsFromNames(names(sys.argv[3:]))
         result = unittest.TextTestRunner().run(suite)
     sys.exit(0 if result.wasSuccessful() else 1)
 

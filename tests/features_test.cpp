@@ -4,11 +4,13 @@
 // errors, and rendered; leaving out changes no bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/cl_program.h"
+#include "host/render/techniques.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -135,12 +137,26 @@ TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
 
 TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
     if (test_device().platform != pocl_platform) GTEST_SKIP();
-    const cl::Context context(test_device().handle);
-    for (const char* source : {render_kernels, naive_kernels}) {
-        const cl::Program program = build_program(context, test_device(), source, {});
-        const auto options = program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(test_device().handle);
-        EXPECT_NE(options.find("RT_DECLARES_BUILTINS"), std::string::npos) << options;
+    const auto expect_own_declarations = [](const char* source, const ProgramOptions& options) {
+        const cl::Context context(test_device().handle);
+        const cl::Program program = build_program(context, test_device(), source, options);
+        const auto used = program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(test_device().handle);
+        EXPECT_NE(used.find("RT_DECLARES_BUILTINS"), std::string::npos) << used;
+    };
+    ProgramOptions options;
+    options.warnings_are_errors = true;
+    options.lanes = 16;
+    expect_own_declarations(render_kernels, options);
+    options.entries = {true, false, false};
+    for (const int lanes : {1, 4}) {
+        options.lanes = lanes;
+        for (const bool double_precision : {false, true}) {
+            options.double_precision = double_precision;
+            expect_own_declarations(render_kernels, options);
+        }
     }
+    options.naive = all_techniques();
+    expect_own_declarations(naive_kernels, options);
 }
 
 TEST(BuildProgram, LeavesTheDeclarationsToTheCompilerWhereKernelsCallOtherFunctions) {

@@ -3,6 +3,9 @@
 // Packets of any number of lanes give the bits of lone rays.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
+#include "host/scene/aa_mode.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -24,7 +27,7 @@ class EveryLaneWidth : public testing::TestWithParam<int> {
     }
 };
 
-/// One, two and four samples of a pixel in a packet. One program renders all of them.
+/// One, two and four samples of a pixel in a packet. All features: one program for every scene.
 TEST_P(EveryLaneWidth, GivesTheTwinsBits) {
     for (const char* stem :
          {"cornell-box", "vertex-normals", "many-lights", "cones", "glass", "mirror-hall"}) {

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "host/error.h"
 #include "host/render/kept_programs.h"
+#include "host/render/opencl.h"
 
 namespace rt {
 
@@ -18,7 +20,8 @@ namespace {
 /// opencl-c.h), and the kernels to declare what they call (kernels/builtins.h).
 constexpr const char* own_declarations = " -D_OPENCL_H_ -DRT_DECLARES_BUILTINS=1";
 
-/// The program, or nothing where it calls what kernels/builtins.h does not declare.
+/// The program; nothing where it calls what kernels/builtins.h does not declare, and on all other
+/// devices.
 std::optional<cl::Program> built_with_own_declarations(const cl::Context& context,
                                                        const ClDevice& device, const char* source,
                                                        const std::string& flags) {

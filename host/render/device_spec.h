@@ -23,12 +23,6 @@ bool names_threads(const std::string& spec, DeviceChoice& choice);
 /// Throws Error (ExitCode::usage) unless the text is a spec, whatever devices there are.
 void check_device_spec(const std::string& spec);
 
-/// Throws Error (ExitCode::usage) unless the text is a spec, whatever devices there are.
-void check_device_spec(const std::string& spec);
-
-/// Throws Error (ExitCode::usage) unless the text is a spec, whatever devices there are.
-void check_device_spec(const std::string& spec);
-
 /// Chooses among the devices: "0", "0:1", "pocl", "name:TEXT", "cpu", "gpu", or "" for the best.
 /// Text must fit exactly one usable device, else Error (ExitCode::usage) lists the candidates; a
 /// device that cannot be used is Error (ExitCode::device) with the reason. Without any usable

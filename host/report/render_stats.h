@@ -40,7 +40,7 @@ struct SceneStats {
 /// Wall-clock seconds. Set-up, as the paper counts it, is all before `trace`; `resolve_and_write`
 /// is all after it.
 struct PhaseStats {
-    double start = 0;  ///< before main, to 0.01 s
+    double start = 0;  ///< before main, as seconds_since_process_start tells it
     double load = 0, flatten = 0;
     RendererTimes renderer;
     double write = 0;

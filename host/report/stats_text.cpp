@@ -26,7 +26,7 @@ std::string phases_text(const PhaseStats& phases) {
     const RendererTimes& renderer = phases.renderer;
     std::string text = "time\n";
     add_phase(text, "set-up", phases.set_up());
-    add_phase(text, "  start", phases.start, "before main, to 0.01 s");
+    add_phase(text, "  start", phases.start, "before main");
     add_phase(text, "  load", phases.load);
     add_phase(text, "  flatten", phases.flatten);
     if (renderer.build_cache != BuildCache::none) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
+#include <utility>
 
 #include "host/console.h"
 #include "host/error.h"
@@ -263,8 +265,16 @@ void apply_overrides(Scene& scene, const RenderOptions& options) {
 }
 
 std::future<DeviceChoice> find_device(const RenderOptions& options) {
-    if (options.threads > 0) limit_pocl_threads(options.threads);
-    return std::async(std::launch::async, [&options] { return chosen_device(options); });
+    const auto choose = [options] { return chosen_device(options); };
+    DeviceChoice threads;
+    if (!names_threads(options.device, threads)) {
+        if (options.threads > 0) limit_pocl_threads(options.threads);
+        try {
+            return std::async(std::launch::async, choose);
+        } catch (const std::system_error&) {  // no thread is to be had: later, then
+        }
+    }
+    return std::async(std::launch::deferred, choose);
 }
 
 RenderedPicture render_picture(const Scene& scene, const RenderOptions& options,

@@ -26,7 +26,8 @@ void print_notes(const std::vector<std::string>& notes);
 void apply_overrides(Scene& scene, const RenderOptions& options);
 
 /// The device that options ask for, looked for on a thread of its own: drivers take their time to
-/// load (PoCL 0.02 s), and a scene can be read meanwhile. Throws Error from get().
+/// load (PoCL 0.03 s), and a scene can be read meanwhile. get() throws what goes wrong (Error); who
+/// drops the future waits until the drivers are loaded.
 std::future<DeviceChoice> find_device(const RenderOptions& options);
 
 /// Flattens the scene and renders it on the device with progress on stderr. When the device

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <future>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "host/console.h"
 #include "host/error.h"

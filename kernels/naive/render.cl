@@ -5,7 +5,7 @@
 // includes one of the kernels' with the functions to be replaced under other names, after the naive
 // files that stand for what that one includes, and then defines its own; so the kernels themselves
 // know nothing of this.
-#include "kernels/builtins.h"  // which are defined elsewhere
+#include "kernels/builtins.h"  // before the attributes below, which are not for declarations
 
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((always_inline)), apply_to = function)

@@ -138,9 +138,10 @@ int run(const std::vector<std::string>& arguments) {
                 {"shadow", picture.rays.shadow},
                 {"mirror", picture.rays.mirror},
                 {"total", picture.rays.total()}}},
-              {"seconds", seconds},
-              {"peak_flops", peak_flops(threads)}};
-    if (rounds == 0) {
+              {"seconds", seconds}};
+    if (rounds > 0) {
+        json["peak_flops"] = peak_flops(threads);
+    } else {
         json["flops"] = is_countable(flat)
                             ? Json(trace(flat, embree, Mode::coherent, threads, true).work.flops())
                             : Json(nullptr);

@@ -83,6 +83,15 @@ class Choice(CliTest):
         device = self.stats_of("empty", "--size", "4", "--device", "threads", "--threads", "5")
         self.assertEqual(device["device"]["threads"], 5)
 
+    def test_threads_are_counted_once(self):
+        result = self.run_cli("render", scene_path("empty"), "--threads", "3", "--device",
+                              "threads:2")
+        self.assert_refused(result, 2, "--threads 3", "threads:2")
+
+    def test_a_bad_scene_is_told_before_a_device_that_is_not_there(self):
+        result = self.run_cli("render", "no-such-scene.json", "--device", "99")
+        self.assert_refused(result, 3, "no-such-scene.json")
+
 
 class EnvironmentDefault(CliTest):
     def device_name(self, *arguments, **env):
