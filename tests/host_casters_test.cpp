@@ -42,10 +42,18 @@ class CasterLists : public testing::Test {};
 using Precisions = testing::Types<float, double>;
 TYPED_TEST_SUITE(CasterLists, Precisions);
 
+// Sanitizers look for other mistakes than a wrong pixel, and make rays 13 times as slow.
+#ifdef __SANITIZE_ADDRESS__
+constexpr int divisor = 3;
+#else
+constexpr int divisor = 1;
+#endif
+
 TYPED_TEST(CasterLists, GiveThePicturesOfEveryTriangleCasting) {
     for (const auto& file : scene_files()) {
         SCOPED_TRACE(file.filename());
-        const Scene scene = load_json_scene(file.string());
+        Scene scene = load_json_scene(file.string());
+        set_image_size(scene, scene.width / divisor, scene.height / divisor);
         FlattenOptions everything;
         everything.caster_lists = false;
         EXPECT_EQ(picture_hash<TypeParam>(scene, {}), picture_hash<TypeParam>(scene, everything));
