@@ -39,7 +39,11 @@ TEST_P(EveryLaneWidth, GivesTheTwinsBits) {
 }
 
 TEST_P(EveryLaneWidth, GivesTheTwinsBitsWithWhatTheSceneNeedsAlone) {
-    expect_the_twins_hash<float>("cornell-box", "grid:2", false);
+    for (const char* stem : {"cornell-box", "vertex-normals", "many-lights", "cones", "glass"}) {
+        for (const char* aa : {"grid:1", "grid:2", "grid:3"}) {
+            expect_the_twins_hash<float>(stem, aa, false);
+        }
+    }
     expect_the_twins_hash<float>("glass", "sobol:6", false);
     if (test_device().has_double) expect_the_twins_hash<double>("cones", "grid:3", false);
 }
