@@ -48,7 +48,10 @@
 
 #include "kernels/shared.h"
 
-typedef RT_LANES_OF(RT_REAL) Reals;
+#ifndef RT_REALS  // scripts/embree/kernel_flops.cpp counts what is done to them
+#define RT_REALS RT_LANES_OF(RT_REAL)
+#endif
+typedef RT_REALS Reals;
 typedef RT_LANES_OF(RT_INDEX) Indices;
 typedef RT_LANES_OF(uint) Uints;
 

@@ -17,6 +17,7 @@
 
 #include "host/scene/aa_mode.h"
 #include "host/scene/scene_file.h"
+#include "scripts/embree/kernel_flops.h"
 #include "scripts/embree/lanes.h"
 #include "scripts/embree/tracer.h"
 
@@ -43,25 +44,20 @@ float multiply_adds(std::int64_t rounds, std::index_sequence<i...>) {
     return total[0];
 }
 
-/// The most floating-point operations a second of that many threads: the best of three tries.
+/// The floating-point operations a second of that many threads that do nothing but multiply-adds.
 double peak_flops(int threads) {
     constexpr std::int64_t rounds = 20'000'000;
-    double best = 0;
-    for (int attempt = 0; attempt < 3; ++attempt) {
-        std::vector<float> results(static_cast<std::size_t>(threads));
-        std::vector<std::thread> pool;
-        const auto start = std::chrono::steady_clock::now();
-        for (float& result : results) {
-            pool.emplace_back([&result] {
-                result = multiply_adds(rounds, std::make_index_sequence<sums_at_once>());
-            });
-        }
-        for (std::thread& thread : pool) thread.join();
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        best = std::max(best, 2.0 * lanes * sums_at_once * static_cast<double>(rounds) * threads /
-                                  taken.count());
+    std::vector<float> results(static_cast<std::size_t>(threads));
+    std::vector<std::thread> pool;
+    const auto start = std::chrono::steady_clock::now();
+    for (float& result : results) {
+        pool.emplace_back([&result] {
+            result = multiply_adds(rounds, std::make_index_sequence<sums_at_once>());
+        });
     }
-    return best;
+    for (std::thread& thread : pool) thread.join();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    return 2.0 * lanes * sums_at_once * static_cast<double>(rounds) * threads / taken.count();
 }
 
 void write_pfm(const std::string& path, const rt::FlatScene<float>& flat,
@@ -142,9 +138,7 @@ int run(const std::vector<std::string>& arguments) {
     if (rounds > 0) {
         json["peak_flops"] = peak_flops(threads);
     } else {
-        json["flops"] = is_countable(flat)
-                            ? Json(trace(flat, embree, Mode::coherent, threads, true).work.flops())
-                            : Json(nullptr);
+        json["flops"] = is_countable(flat) ? Json(kernel_flops(flat, threads)) : Json(nullptr);
     }
     std::printf("%s\n", json.dump().c_str());
     return 0;

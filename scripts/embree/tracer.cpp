@@ -162,82 +162,15 @@ struct Surface {
     Finish finish;
 };
 
-/// Which primitives a scalar ray tests before it is blocked.
-class WorkCounter {
-   public:
-    explicit WorkCounter(const FlatScene& flat) : flat_(flat) {}
-
-    WorkCounts counts;
-
-    void add_rays(Ints live) {
-        const auto n = static_cast<std::uint64_t>(count(live));
-        counts.rays += n;
-        counts.sphere_tests += n * flat_.spheres.size();
-        counts.triangle_tests += n * flat_.triangles.size();
-    }
-
-    void add_shadow_rays(Ints live, const Rays& rays, const rt::Flat<float>::Light& light) {
-        for (int i = 0; i < lanes; ++i) {
-            if (live[i] != 0) add_shadow_ray(rays, i, light);
-        }
-    }
-
-   private:
-    void add_shadow_ray(const Rays& rays, int i, const rt::Flat<float>::Light& light) {
-        const glm::dvec3 origin(rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]);
-        const glm::dvec3 dir(rays.dir.x[i], rays.dir.y[i], rays.dir.z[i]);
-        const double end = rays.t_max[i];
-        ++counts.shadow_rays;
-        for (const auto& sphere : flat_.spheres) {
-            ++counts.sphere_tests;
-            if (meets(sphere, origin, dir, end)) return;
-        }
-        const bool listed = light.caster_count < flat_.frame.triangle_count;
-        for (int k = 0; k < light.caster_count; ++k) {
-            const int number =
-                listed ? flat_.casters[static_cast<std::size_t>(light.first_caster + k)] : k;
-            ++counts.triangle_tests;
-            if (meets(flat_.triangles[static_cast<std::size_t>(number)], origin, dir, end)) return;
-        }
-    }
-
-    static glm::dvec3 vec(const rt::Flat<float>::Packed3& p) { return {p.x, p.y, p.z}; }
-
-    static bool meets(const rt::Flat<float>::Sphere& sphere, const glm::dvec3& origin,
-                      const glm::dvec3& dir, double end) {
-        const glm::dvec3 f = origin - vec(sphere.center);
-        const double b = -glm::dot(f, dir), r = sphere.radius;
-        const double discriminant = b * b - glm::dot(f, f) + r * r;
-        if (discriminant < 0) return false;
-        const double s = std::sqrt(discriminant), t = b - s > 0 ? b - s : b + s;
-        return t > 1e-6 && t < end;
-    }
-
-    static bool meets(const rt::Flat<float>::Triangle& triangle, const glm::dvec3& origin,
-                      const glm::dvec3& dir, double end) {
-        const glm::dvec3 p0 = vec(triangle.p0);
-        const glm::dvec3 e1 = vec(triangle.p1) - p0, e2 = vec(triangle.p2) - p0;
-        const glm::dvec3 p = glm::cross(dir, e2), s = origin - p0, q = glm::cross(s, e1);
-        const double det = glm::dot(e1, p);
-        const double u = glm::dot(s, p) / det, v = glm::dot(dir, q) / det;
-        const double t = glm::dot(e2, q) / det;
-        return u >= 0 && v >= 0 && u + v <= 1 && t > 1e-6 && t < end;
-    }
-
-    const FlatScene& flat_;
-};
-
-template <Mode mode, bool counting>
+template <Mode mode>
 class PacketTracer {
    public:
     PacketTracer(const FlatScene& flat, const EmbreeScene& embree)
-        : flat_(flat), materials_(embree.materials().data()), asker_(embree.handle()), work_(flat) {
+        : flat_(flat), materials_(embree.materials().data()), asker_(embree.handle()) {
         first_triangle_ = static_cast<std::int32_t>(flat.spheres.size());
     }
 
     RayCounts rays;
-
-    const WorkCounts& work() const { return work_.counts; }
 
     Rays eye_rays(Reals x, Reals y) const {
         const auto& frame = flat_.frame;
@@ -255,7 +188,6 @@ class PacketTracer {
         Vec3 color{};
         Vec3 throughput{reals(1), reals(1), reals(1)};
         for (int bounce = 0;; ++bounce) {
-            if constexpr (counting) work_.add_rays(live);
             const Hits hits = asker_.nearest(live, packet, bounce > 0);
             const Ints missed = live & ~hits.found;
             if (any(missed)) {
@@ -308,9 +240,6 @@ class PacketTracer {
         const Reals size = larger(magnitude(o.x), larger(magnitude(o.y), magnitude(o.z)));
         surface.offset = offset_scale * (size + hits.t);
         surface.point = o + (hits.t - surface.offset) * packet.dir;
-        if constexpr (counting) {
-            const_cast<WorkCounter&>(work_).counts.hits += bits(live);
-        }
         return surface;
     }
 
@@ -335,7 +264,6 @@ class PacketTracer {
 
     Vec3 light_contribution(const Surface& surface, const rt::Flat<float>::Light& light,
                             const Vec3& origin, const Vec3& to_eye, Ints live, bool after_mirror) {
-        if constexpr (counting) work_.counts.hits_by_lights += bits(live);
         const Vec3 to_light = all(light.position) - origin;
         Ints lit = live & (dot(surface.normal, to_light) > 0.0f);
         if (!any(lit)) return Vec3{reals(0), reals(0), reals(0)};
@@ -348,13 +276,10 @@ class PacketTracer {
         if (!any(lit)) return Vec3{reals(0), reals(0), reals(0)};
         shadow.t_max = distance * light_end;
         rays.shadow += bits(lit);
-        if constexpr (counting) work_.add_shadow_rays(lit, shadow, light);
         lit &= ~asker_.blocked(lit, shadow, after_mirror);
         if (!any(lit)) return Vec3{reals(0), reals(0), reals(0)};
         Vec3 reflected = cosine * surface.finish.diffuse;
         const Ints shiny = lit & ~is_black(surface.finish.specular);
-        if constexpr (counting) work_.counts.lit += bits(lit);
-        if constexpr (counting) work_.counts.shiny += bits(shiny);
         if (any(shiny)) {
             const Reals lobe = specular_lobe(surface, shadow.dir, to_eye);
             reflected = select(shiny, reflected + lobe * surface.finish.specular, reflected);
@@ -375,7 +300,6 @@ class PacketTracer {
     const std::int32_t* materials_;
     std::int32_t first_triangle_;
     Asker<mode> asker_;
-    WorkCounter work_;
 };
 
 /// One thread's share of the picture, in packets of 2x2 pixels x 4 samples where there are four.
@@ -450,7 +374,7 @@ class TileRenderer {
     Ints column_, row_, sample_;
 };
 
-template <Mode mode, bool counting>
+template <Mode mode>
 TracedPicture trace_with(const FlatScene& flat, const EmbreeScene& embree, int threads) {
     TracedPicture picture;
     const int across = (flat.frame.width + tile_side - 1) / tile_side;
@@ -459,17 +383,15 @@ TracedPicture trace_with(const FlatScene& flat, const EmbreeScene& embree, int t
                            static_cast<std::size_t>(flat.frame.height),
                        0.0f);
     std::vector<RayCounts> rays(static_cast<std::size_t>(threads));
-    std::vector<WorkCounts> work(static_cast<std::size_t>(threads));
     std::atomic<int> next = 0;
     const auto run = [&](std::size_t number) {
         _mm_setcsr(_mm_getcsr() | 0x8040);  // flush subnormals, as Embree advises
-        PacketTracer<mode, counting> tracer(flat, embree);
+        PacketTracer<mode> tracer(flat, embree);
         TileRenderer renderer(flat, tracer, picture.rgb);
         for (int tile = next++; tile < across * down; tile = next++) {
             renderer.render(tile % across * tile_side, tile / across * tile_side);
         }
         rays[number] = tracer.rays;
-        work[number] = tracer.work();
     };
     const auto start = std::chrono::steady_clock::now();
     std::vector<std::thread> pool;
@@ -478,7 +400,6 @@ TracedPicture trace_with(const FlatScene& flat, const EmbreeScene& embree, int t
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     picture.seconds = taken.count();
     for (const RayCounts& counts : rays) picture.rays += counts;
-    for (const WorkCounts& counts : work) picture.work += counts;
     return picture;
 }
 
@@ -491,46 +412,18 @@ RayCounts& RayCounts::operator+=(const RayCounts& other) {
     return *this;
 }
 
-WorkCounts& WorkCounts::operator+=(const WorkCounts& other) {
-    sphere_tests += other.sphere_tests;
-    triangle_tests += other.triangle_tests;
-    rays += other.rays;
-    shadow_rays += other.shadow_rays;
-    hits += other.hits;
-    hits_by_lights += other.hits_by_lights;
-    lit += other.lit;
-    shiny += other.shiny;
-    return *this;
-}
-
-/// + - * / and sqrt count one, a multiply-add two; comparisons, conversions and choices nothing.
-/// Counted in kernels/*.cl, of live lanes alone: a triangle test up to its three edge functions, a
-/// sphere test up to its discriminant; making a ray and its shear; the point, offset and average of
-/// a hit; facing a light; a shadow ray; a light's share; its highlight.
-double WorkCounts::flops() const {
-    constexpr double sphere_test = 22, triangle_test = 39, ray = 32, hit = 50, facing = 8;
-    constexpr double shadow_ray = 19, light = 9, highlight = 56;
-    return sphere_test * static_cast<double>(sphere_tests) +
-           triangle_test * static_cast<double>(triangle_tests) + ray * static_cast<double>(rays) +
-           hit * static_cast<double>(hits) + facing * static_cast<double>(hits_by_lights) +
-           shadow_ray * static_cast<double>(shadow_rays) + light * static_cast<double>(lit) +
-           highlight * static_cast<double>(shiny);
-}
-
-TracedPicture trace(const FlatScene& flat, const EmbreeScene& embree, Mode mode, int threads,
-                    bool count_work) {
-    if (count_work) return trace_with<Mode::coherent, true>(flat, embree, threads);
+TracedPicture trace(const FlatScene& flat, const EmbreeScene& embree, Mode mode, int threads) {
     switch (mode) {
         case Mode::coherent:
-            return trace_with<Mode::coherent, false>(flat, embree, threads);
+            return trace_with<Mode::coherent>(flat, embree, threads);
         case Mode::incoherent:
-            return trace_with<Mode::incoherent, false>(flat, embree, threads);
+            return trace_with<Mode::incoherent>(flat, embree, threads);
         case Mode::mixed:
-            return trace_with<Mode::mixed, false>(flat, embree, threads);
+            return trace_with<Mode::mixed>(flat, embree, threads);
         case Mode::single:
             break;
     }
-    return trace_with<Mode::single, false>(flat, embree, threads);
+    return trace_with<Mode::single>(flat, embree, threads);
 }
 
 }  // namespace embree_bench
