@@ -21,13 +21,13 @@
 
 // The next number above x (direction > 0), below it (direction < 0), or x (direction == 0).
 Reals one_ulp_towards(Reals x, Reals direction) {
-    Mask up = direction > (Reals)0;
-    Mask away_from_zero = (x > (Reals)0) == up;
-    Indices bits = RT_AS_INDICES(x) + (away_from_zero ? (Indices)1 : (Indices)-1);
-    Reals smallest = RT_AS_REALS((Indices)1);
-    Reals from_zero = up ? smallest : -smallest;
-    Reals moved = x == (Reals)0 ? from_zero : RT_AS_REALS(bits);
-    return direction == (Reals)0 ? x : moved;
+    const Index sign_bit = 8 * (Index)sizeof(Index) - 1;
+    Indices bits = RT_AS_INDICES(x);
+    Indices side = RT_AS_INDICES(direction);
+    Indices step = ((bits ^ side) >> sign_bit) | 1;  // away from zero 1, towards it -1
+    Indices smallest = (side & RT_AS_INDICES((Reals)(Real)-0.0f)) | 1;
+    Indices moved = x == (Reals)0 ? smallest : bits + step;
+    return direction == (Reals)0 ? x : RT_AS_REALS(moved);
 }
 
 #endif

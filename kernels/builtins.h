@@ -27,7 +27,6 @@ Reals RT_BUILTIN pow(Reals x, Reals y);
 #if RT_LANES != 1
 Real RT_BUILTIN fabs(Real x);
 #endif
-Real RT_BUILTIN fmax(Real a, Real b);
 
 // For compilers without reductions (kernels/lanes.h).
 #if RT_LANES != 1

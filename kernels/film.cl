@@ -39,9 +39,12 @@ TileLanes tile_lanes(const Tile* tile, const Packet* packet, Index item) {
     return lanes;
 }
 
-// The picture's row, counted from the bottom, of a tile's row.
+// The picture's row, counted from the bottom, of a tile's row. What is the same for all lanes comes
+// first: tile->y as the operand of a vector is read at a width that PoCL waits for (3 % of a
+// frame).
 Indices picture_y(const Frame* frame, const Tile* tile, Indices row) {
-    return frame->height - 1 - (tile->y + row);
+    Index top = frame->height - 1 - tile->y;
+    return top - row;
 }
 
 // Stores `count` lanes' colours at their places, where these are not negative.

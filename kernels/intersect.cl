@@ -109,26 +109,39 @@ Index used_axes(Indices axis, Mask live) {
 #if RT_LANES == 1
     return axis + 1;
 #else
-    Index axes = 0;
-    for (Index k = 0; k < 3; ++k) {
-        if (any_lane(live & (axis == k))) axes = axes << 2 | (k + 1);
-    }
-    return axes;
+    Index axes = any_lane(live & (axis == 0)) ? 1 : 0;
+    axes = any_lane(live & (axis == 1)) ? axes << 2 | 2 : axes;
+    return any_lane(live & (axis == 2)) ? axes << 2 | 3 : axes;
 #endif
+}
+
+// v's components in the order that makes axis z the last.
+real3 in_frame(real3 v, Indices z) {
+    Indices x = next_axis(z);
+    return make3(component3(v, x), component3(v, next_axis(x)), component3(v, z));
+}
+
+// Likewise, where all rays have the same axis.
+real3 in_one_frame(real3 v, Index z) {
+    if (z == 2) return v;
+    return z == 0 ? make3(v.y, v.z, v.x) : make3(v.z, v.x, v.y);
 }
 
 RayShear make_shear(const Ray* ray, Mask live) {
     RayShear shear;
-    Indices z = largest_axis(ray->dir);
-    Indices x = next_axis(z);
-    Indices y = next_axis(x);
-    shear.origin =
-        make3(component3(ray->origin, x), component3(ray->origin, y), component3(ray->origin, z));
-    shear.sz = (Reals)1 / component3(ray->dir, z);
-    shear.sx = component3(ray->dir, x) * shear.sz;
-    shear.sy = component3(ray->dir, y) * shear.sz;
-    shear.axis = z;
-    shear.axes = used_axes(z, live);
+    shear.axis = largest_axis(ray->dir);
+    shear.axes = used_axes(shear.axis, live);
+    real3 dir;
+    if (RT_LANES != 1 && shear.axes <= 3) {
+        shear.origin = in_one_frame(ray->origin, shear.axes - 1);
+        dir = in_one_frame(ray->dir, shear.axes - 1);
+    } else {
+        shear.origin = in_frame(ray->origin, shear.axis);
+        dir = in_frame(ray->dir, shear.axis);
+    }
+    shear.sz = (Reals)1 / dir.z;
+    shear.sx = dir.x * shear.sz;
+    shear.sy = dir.y * shear.sz;
     return shear;
 }
 

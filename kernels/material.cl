@@ -18,12 +18,16 @@ Mask is_black(real3 color) {
     return (color.x == (Reals)0) & (color.y == (Reals)0) & (color.z == (Reals)0);
 }
 
-// The finishes of the live lanes, one material after the other for all the lanes that wear it.
+// The finishes of the live lanes, of which there is one at least: the first material for all, then
+// one after the other for the lanes that wear it.
 Finish finish_of(const SceneView* scene, Indices material, Mask live) {
-    const real3 black = make3((Reals)0, (Reals)0, (Reals)0);
-    Finish finish = {black, black, black, black, black, (Reals)1, (Reals)1, (Indices)0};
-    for (Mask left = live; any_lane(left);) {
-        Index one = least_lane(left, material);
+    Index one = least_lane(live, material);
+    __global const Material* first = &scene->materials[one];
+    Finish finish = {load3(first->ambient), load3(first->diffuse),      load3(first->specular),
+                     load3(first->mirror),  load3(first->transmission), (Reals)first->shininess,
+                     (Reals)first->ior,     (Indices)first->two_sided};
+    for (Mask left = live & (material != one); any_lane(left);) {
+        one = least_lane(left, material);
         Mask lanes = left & (material == one);
         left &= !lanes;
         __global const Material* worn = &scene->materials[one];

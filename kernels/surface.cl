@@ -102,10 +102,14 @@ real3 blended_normal(__global const VertexNormals* normals, real3 face, Reals u,
     return select3(squared > (Reals)1e-12, scale3((Reals)1 / sqrt(squared), blend), face);
 }
 
-Real largest_of(Packed3 p) { return fmax(fmax(fabs(p.x), fabs(p.y)), fabs(p.z)); }
+// Not fmax, which PoCL makes many instructions of.
+Real larger_of(Real a, Real b) { return a > b ? a : b; }
+
+Real largest_of(Packed3 p) { return larger_of(larger_of(fabs(p.x), fabs(p.y)), fabs(p.z)); }
 
 Real largest_coordinate(__global const Triangle* triangle) {
-    return fmax(fmax(largest_of(triangle->p0), largest_of(triangle->p1)), largest_of(triangle->p2));
+    return larger_of(larger_of(largest_of(triangle->p0), largest_of(triangle->p1)),
+                     largest_of(triangle->p2));
 }
 
 Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle* triangle,
