@@ -45,6 +45,11 @@
 #define RT_HAS_FILTERS 1
 #endif
 
+// Samples of a pixel, where a packet holds them all and their number is compiled in; else 0.
+#ifndef RT_SAMPLES
+#define RT_SAMPLES 0
+#endif
+
 #ifndef RT_RENDERS_PIXELS
 #define RT_RENDERS_PIXELS 1
 #endif

@@ -118,6 +118,30 @@ INSTANTIATE_TEST_SUITE_P(Features, SomeCombinations, testing::ValuesIn(some_comb
                              return name.empty() ? "nothing" : name.substr(0, name.size() - 1);
                          });
 
+/// Whether or not a packet holds them all: where it does, their number is compiled in.
+TEST(RenderPixels, GivesTheSameBitsForAnyNumberOfSamples) {
+    Features features = no_features();
+    features.spheres = features.lights = true;
+    Scene scene = scene_needing(features);
+    for (const char* aa : {"none", "sobol:2", "grid:2", "sobol:3"}) {
+        scene.aa = *parse_aa_mode(aa);
+        const std::uint64_t reference = hash_of(render_on_threads<float>(scene));
+        for (const int lanes : {2, 8}) {
+            ClOptions options = cl_options(Launch::pixel);
+            options.lanes = lanes;
+            EXPECT_EQ(hash_of(render_on_device<float>(scene, options)), reference)
+                << aa << ", " << lanes << " lanes";
+        }
+    }
+}
+
+TEST(BuildOptions, HaveTheNumberOfSamplesOnlyWhereItIsGiven) {
+    ProgramOptions options;
+    EXPECT_EQ(build_options(test_device(), options).find("RT_SAMPLES"), std::string::npos);
+    options.samples = 4;
+    EXPECT_NE(build_options(test_device(), options).find(" -DRT_SAMPLES=4"), std::string::npos);
+}
+
 std::string entry_points_of(const ProgramOptions& options) {
     const cl::Context context(test_device().handle);
     const cl::Program program = build_program(context, test_device(), render_kernels, options);

@@ -50,6 +50,7 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     for (const FeatureName& feature : feature_names) {
         if (!(options.features.*feature.flag)) text += fmt::format(" -D{}=0", feature.macro);
     }
+    if (options.samples != 0) text += fmt::format(" -DRT_SAMPLES={}", options.samples);
     if (!options.entries.pixels) text += " -DRT_RENDERS_PIXELS=0";
     if (!options.entries.samples) text += " -DRT_RENDERS_SAMPLES=0";
     if (!options.entries.listed) text += " -DRT_RENDERS_LISTED=0";

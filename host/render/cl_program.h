@@ -29,6 +29,7 @@ struct ProgramOptions {
     bool fast_math = false;            ///< let the compiler contract a * b + c
     bool warnings_are_errors = false;  ///< for tests
     int lanes = 1;                     ///< rays of a packet: 1, 2, 4, 8 or 16
+    int samples = 0;  ///< of a pixel, where a packet holds them all: compiled in; 0: any number
     Features features;
     EntryPoints entries;
     Techniques naive;  ///< of naive_kernels: what to do without

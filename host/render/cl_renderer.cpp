@@ -198,6 +198,8 @@ class ClRenderer : public Renderer<T> {
         if (!options.all_features) {
             program_options.features = either_of(scene.features, options.also);
             program_options.entries = {!launch_samples_, launch_samples_, options.will_refine};
+            const int held = shape(samples()).samples;
+            if (!launch_samples_ && held == frame_.samples) program_options.samples = held;
         }
         const bool is_pocl = device_.platform == pocl_platform;
         const auto start = std::filesystem::file_time_type::clock::now();
