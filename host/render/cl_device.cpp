@@ -2,7 +2,6 @@
 #include "host/render/cl_device.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 namespace rt {
 
@@ -97,10 +96,6 @@ void list_platform(const cl::Platform& platform, int platform_index, std::vector
 }
 
 }  // namespace
-
-void limit_pocl_threads(int threads) {
-    setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
-}
 
 std::vector<ClDevice> list_cl_devices(std::vector<std::string>& problems) {
     std::vector<ClDevice> found;

@@ -11,9 +11,6 @@ namespace rt {
 
 inline constexpr const char* pocl_platform = "Portable Computing Language";
 
-/// Lets PoCL use at most that many threads; without effect once OpenCL has started.
-void limit_pocl_threads(int threads);
-
 /// An OpenCL device with what matters of it.
 struct ClDevice {
     int index = 0;           ///< flat, as `mirrorball devices` prints it

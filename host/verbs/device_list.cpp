@@ -6,6 +6,7 @@
 #include "host/console.h"
 #include "host/render/cl_renderer.h"
 #include "host/render/device_spec.h"
+#include "host/render/pocl_threads.h"
 
 namespace rt {
 
@@ -32,7 +33,10 @@ void add_once(std::vector<ListedDevice>& list, const ListedDevice& device) {
 class ClDevices {
    public:
     const std::vector<ClDevice>& list() {
-        if (!listed_) devices_ = list_cl_devices(problems_);
+        if (!listed_) {
+            set_pocl_threads(0);
+            devices_ = list_cl_devices(problems_);
+        }
         listed_ = true;
         return devices_;
     }

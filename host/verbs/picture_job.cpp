@@ -14,6 +14,7 @@
 #include "host/render/cl_renderer.h"
 #include "host/render/device_spec.h"
 #include "host/render/picture_loop.h"
+#include "host/render/pocl_threads.h"
 #include "host/render/threads_renderer.h"
 #include "host/report/progress.h"
 #include "host/scene/scene_hash.h"
@@ -268,7 +269,7 @@ std::future<DeviceChoice> find_device(const RenderOptions& options) {
     const auto choose = [options] { return chosen_device(options); };
     DeviceChoice threads;
     if (!names_threads(options.device, threads)) {
-        if (options.threads > 0) limit_pocl_threads(options.threads);
+        set_pocl_threads(options.threads);
         try {
             return std::async(std::launch::async, choose);
         } catch (const std::system_error&) {  // no thread is to be had: later, then

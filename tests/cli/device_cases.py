@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which device renders: --device, MIRRORBALL_DEVICE, `devices`, and what happens without OpenCL."""
 import json
+import os
+import pathlib
+import unittest
 
 from harness import SETTINGS, CliTest, image_hash, scene_path
 
@@ -35,6 +38,38 @@ class Devices(CliTest):
     def test_two_devices_have_their_own_indices(self):
         devices = json.loads(self.devices("--json", **TWO_DEVICES))["devices"]
         self.assertEqual([device["index"] for device in devices], [0, 1])
+
+
+ALL_CORES = os.sched_getaffinity(0) == set(range(os.cpu_count()))
+
+
+class PoclThreads(CliTest):
+    """Whether PoCL's threads keep to a core each."""
+
+    def cores_kept_to(self, *options, **env):
+        """The single cores that threads of a rendering process may run on, in order."""
+        process = self.start("render", scene_path("mirror-hall"), "--device", "pocl", "--size",
+                             "900", "--aa", "grid:32", "--progress", "json", *options, env=env)
+        for line in process.stderr:
+            if line.startswith("{") and json.loads(line)["fraction"] > 0:
+                break
+        folder = pathlib.Path(f"/proc/{process.pid}/task")
+        cores = [os.sched_getaffinity(int(task.name)) for task in folder.iterdir()]
+        self.assertGreater(len(cores), 1)
+        return sorted(core for kept in cores if len(kept) == 1 for core in kept)
+
+    @unittest.skipUnless(ALL_CORES and os.cpu_count() > 1, "not all cores are ours, or one")
+    def test_each_keeps_to_its_own(self):
+        self.assertEqual(self.cores_kept_to(), list(range(os.cpu_count())))
+
+    @unittest.skipUnless(os.cpu_count() > 1, "one core")
+    def test_none_does_where_fewer_are_asked_for(self):
+        self.assertEqual(self.cores_kept_to("--threads", 1), [])
+        self.assertEqual(self.cores_kept_to(POCL_MAX_PTHREAD_COUNT="1"), [])
+
+    @unittest.skipUnless(os.cpu_count() > 1, "one core")
+    def test_none_does_where_the_environment_says_so(self):
+        self.assertEqual(self.cores_kept_to(POCL_AFFINITY="0"), [])
 
 
 class Choice(CliTest):
