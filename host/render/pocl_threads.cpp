@@ -11,28 +11,33 @@ namespace rt {
 
 namespace {
 
-constexpr const char* count_variable = "POCL_MAX_PTHREAD_COUNT";
+constexpr const char* most_threads = "POCL_MAX_PTHREAD_COUNT";
+constexpr const char* least_threads = "POCL_PTHREAD_MIN_THREADS";
 
-/// PoCL has a thread for each core that is there, and gives thread i core i.
-bool may_use_every_core() {
-    cpu_set_t cores;
-    if (sched_getaffinity(0, sizeof(cores), &cores) != 0) return false;
-    const long count = sysconf(_SC_NPROCESSORS_ONLN);
-    for (long core = 0; core < count; ++core) {
-        if (!CPU_ISSET(static_cast<std::size_t>(core), &cores)) return false;
+/// The number of cores, where this process may use them all; else 0.
+int cores_to_use() {
+    cpu_set_t usable;
+    if (sched_getaffinity(0, sizeof(usable), &usable) != 0) return 0;
+    const auto cores = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+    for (int core = 0; core < cores; ++core) {
+        if (!CPU_ISSET(static_cast<std::size_t>(core), &usable)) return 0;
     }
-    return true;
+    return cores;
 }
 
 }  // namespace
 
-void set_pocl_threads(int most) {
+void set_pocl_threads(int count) {
     constexpr int overwrite = 1;
-    if (most > 0) {
-        setenv(count_variable, std::to_string(most).c_str(), overwrite);
-    } else if (!getenv(count_variable) && may_use_every_core()) {
-        setenv("POCL_AFFINITY", "1", !overwrite);
+    if (count > 0) {
+        setenv(most_threads, std::to_string(count).c_str(), overwrite);
+        return;
     }
+    const int cores = cores_to_use();
+    if (cores == 0 || getenv(most_threads) || getenv(least_threads)) return;
+    // PoCL puts thread i on core i, and ends the process where there is no such core.
+    setenv(most_threads, std::to_string(cores).c_str(), overwrite);
+    setenv("POCL_AFFINITY", "1", !overwrite);
 }
 
 }  // namespace rt

@@ -40,36 +40,54 @@ class Devices(CliTest):
         self.assertEqual([device["index"] for device in devices], [0, 1])
 
 
-ALL_CORES = os.sched_getaffinity(0) == set(range(os.cpu_count()))
+CORES = os.sched_getaffinity(0)
+ALL_CORES = CORES == set(range(os.cpu_count()))
 
 
 class PoclThreads(CliTest):
     """Whether PoCL's threads keep to a core each."""
 
-    def cores_kept_to(self, *options, **env):
-        """The single cores that threads of a rendering process may run on, in order."""
+    def cores_of_threads(self, *options, **env):
+        """The cores that each thread of a rendering process may run on."""
         process = self.start("render", scene_path("mirror-hall"), "--device", "pocl", "--size",
-                             "900", "--aa", "grid:32", "--progress", "json", *options, env=env)
+                             "900", "--aa", "grid:64", "--progress", "json", *options, env=env)
         for line in process.stderr:
             if line.startswith("{") and json.loads(line)["fraction"] > 0:
                 break
-        folder = pathlib.Path(f"/proc/{process.pid}/task")
-        cores = [os.sched_getaffinity(int(task.name)) for task in folder.iterdir()]
+        cores = []
+        for task in pathlib.Path(f"/proc/{process.pid}/task").iterdir():
+            try:
+                cores.append(os.sched_getaffinity(int(task.name)))
+            except ProcessLookupError:  # it has ended meanwhile
+                pass
         self.assertGreater(len(cores), 1)
-        return sorted(core for kept in cores if len(kept) == 1 for core in kept)
+        return cores
 
-    @unittest.skipUnless(ALL_CORES and os.cpu_count() > 1, "not all cores are ours, or one")
+    def kept_to_one(self, *options, **env):
+        return sorted(core for cores in self.cores_of_threads(*options, **env) if len(cores) == 1
+                      for core in cores)
+
+    @unittest.skipUnless(ALL_CORES and len(CORES) > 1, "not all cores are ours, or one")
     def test_each_keeps_to_its_own(self):
-        self.assertEqual(self.cores_kept_to(), list(range(os.cpu_count())))
+        self.assertEqual(self.kept_to_one(), sorted(CORES))
 
-    @unittest.skipUnless(os.cpu_count() > 1, "one core")
+    @unittest.skipUnless(len(CORES) > 1, "one core")
     def test_none_does_where_fewer_are_asked_for(self):
-        self.assertEqual(self.cores_kept_to("--threads", 1), [])
-        self.assertEqual(self.cores_kept_to(POCL_MAX_PTHREAD_COUNT="1"), [])
+        self.assertEqual(self.kept_to_one("--threads", 1), [])
+        self.assertEqual(self.kept_to_one(POCL_MAX_PTHREAD_COUNT="1"), [])
 
-    @unittest.skipUnless(os.cpu_count() > 1, "one core")
+    @unittest.skipUnless(len(CORES) > 1, "one core")
     def test_none_does_where_the_environment_says_so(self):
-        self.assertEqual(self.cores_kept_to(POCL_AFFINITY="0"), [])
+        self.assertEqual(self.kept_to_one(POCL_AFFINITY="0"), [])
+        self.assertEqual(self.kept_to_one(POCL_PTHREAD_MIN_THREADS=str(len(CORES) + 2)), [])
+
+    @unittest.skipUnless(len(CORES) > 1, "one core")
+    def test_none_leaves_the_cores_that_the_process_was_given(self):
+        self.addCleanup(os.sched_setaffinity, 0, CORES)
+        first = {min(CORES)}
+        os.sched_setaffinity(0, first)  # which the process inherits
+        for cores in self.cores_of_threads():
+            self.assertEqual(cores, first)
 
 
 class Choice(CliTest):
