@@ -40,8 +40,8 @@ TileLanes tile_lanes(const Tile* tile, const Packet* packet, Index item) {
 }
 
 // The picture's row, counted from the bottom, of a tile's row. What is the same for all lanes comes
-// first: tile->y as the operand of a vector is read at a width that PoCL waits for (3 % of a
-// frame).
+// first: PoCL would read tile->y as part of a vector, wider than it was stored, and wait (3 % of
+// the paper's scene).
 Indices picture_y(const Frame* frame, const Tile* tile, Indices row) {
     Index top = frame->height - 1 - tile->y;
     return top - row;

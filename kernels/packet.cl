@@ -107,12 +107,12 @@ void count_lanes(RayCounts* counts, const PacketCounts* used) {
     counts->transmitted += (RT_COUNT)sum_lanes(used->transmitted);
 }
 
-// The pixels (x, y) of a packet, in its first lanes: so many samples of each, weighed and averaged.
-real3 trace_pixels(const SceneView* scene, const Packet* packet, Index samples, Indices x,
-                   Indices y, Mask live, RayCounts* counts) {
+// The pixels (x, y) of a packet, in its first lanes: their samples weighed and averaged.
+real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indices y, Mask live,
+                   RayCounts* counts) {
     real3 sum = make3((Reals)0, (Reals)0, (Reals)0);
     Reals total = (Reals)0;
-    for (Index first = 0; first < samples; first += packet->samples) {
+    for (Index first = 0; first < scene->frame.samples; first += packet->samples) {
         Indices k = first + packet->sample;
         PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
         real3 color = trace_sample(scene, x, y, k, live, &used);
@@ -123,9 +123,9 @@ real3 trace_pixels(const SceneView* scene, const Packet* packet, Index samples, 
         total = add_samples(total, weight, (Reals)1, packet->samples);
         count_lanes(counts, &used);
     }
-    Index together = packet->samples;
-    return make3(average(sum.x, total, together), average(sum.y, total, together),
-                 average(sum.z, total, together));
+    Index samples = packet->samples;
+    return make3(average(sum.x, total, samples), average(sum.y, total, samples),
+                 average(sum.z, total, samples));
 }
 
 #endif

@@ -43,13 +43,13 @@
 __kernel void render_pixels(__global Real* restrict film, __global RayCounts* restrict counts,
                             RT_SCENE_ARGUMENTS, Tile tile) {
     size_t item = get_global_id(0);
-    Index samples = RT_SAMPLES != 0 ? RT_SAMPLES : frame.samples;
-    Packet packet = make_packet(samples, RT_SAMPLES_TOGETHER);
+    if (RT_SAMPLES != 0) frame.samples = RT_SAMPLES;
+    Packet packet = make_packet(frame.samples, RT_SAMPLES_TOGETHER);
     TileLanes lanes = tile_lanes(&tile, &packet, (Index)item);
     if (!any_lane(lanes.live)) return;
     SceneView scene = RT_SCENE_VIEW;
     RayCounts used = {0, 0, 0};
-    real3 color = trace_pixels(&scene, &packet, samples, tile.x + lanes.column,
+    real3 color = trace_pixels(&scene, &packet, tile.x + lanes.column,
                                picture_y(&frame, &tile, lanes.row), lanes.live, &used);
     Indices places = tile.first + lanes.row * tile.film_width + lanes.column;
     store_lanes(film, color, lanes.live ? places : (Indices)-1, packet.pixels);
@@ -121,8 +121,8 @@ __kernel void render_listed(__global Real* restrict colors, __global RayCounts* 
     Mask live = (Mask)(number.all < tile.width);
     SceneView scene = RT_SCENE_VIEW;
     RayCounts used = {0, 0, 0};
-    real3 color = trace_pixels(&scene, &packet, frame.samples, tile.x + column,
-                               picture_y(&frame, &tile, row), live, &used);
+    real3 color =
+        trace_pixels(&scene, &packet, tile.x + column, picture_y(&frame, &tile, row), live, &used);
     store_lanes(colors, color, live ? number.all : (Indices)-1, packet.pixels);
     add_counts(counts, item, used);
 }

@@ -622,5 +622,5 @@ __kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* 
     SceneView scene = PROBE_SCENE_VIEW;
     RayCounts counts = {0, 0, 0};
     Packet packet = make_packet(frame->samples, RT_SAMPLES_TOGETHER);
-    out[i] = pack(trace_pixels(&scene, &packet, frame->samples, x[i], y[i], RT_ALL_LANES, &counts));
+    out[i] = pack(trace_pixels(&scene, &packet, x[i], y[i], RT_ALL_LANES, &counts));
 }

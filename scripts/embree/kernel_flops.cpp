@@ -87,7 +87,6 @@ using ulong = std::uint64_t;
 
 std::size_t get_global_id(uint) { return work_item; }
 float fabs(float x) { return std::fabs(x); }
-float fmax(float a, float b) { return std::fmax(a, b); }
 int as_int(Counted x) { return std::bit_cast<int>(x.value); }
 float as_float(int bits) { return std::bit_cast<float>(bits); }
 float convert_float(int v) { return static_cast<float>(v); }
@@ -163,12 +162,12 @@ std::vector<float> rendered_by_threads(const rt::FlatScene<float>& flat, int thr
 
 }  // namespace
 
-double kernel_flops(const rt::FlatScene<float>& flat, int threads) {
+std::int64_t kernel_flops(const rt::FlatScene<float>& flat, int threads) {
     const CountedPicture picture = render(flat, threads);
     if (picture.rgb != rendered_by_threads(flat, threads)) {
         throw std::runtime_error("the picture whose operations were counted is not mirrorball's");
     }
-    return static_cast<double>(picture.flops);
+    return picture.flops;
 }
 
 }  // namespace embree_bench

@@ -6,7 +6,6 @@
 // usage: embree-bench SCENE WIDTHxHEIGHT AA THREADS ROUNDS [PICTURE.pfm]
 #include <embree3/rtcore.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <fstream>

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <thread>
 
