@@ -38,11 +38,13 @@ TEST_P(EveryLaneWidth, GivesTheTwinsBits) {
     }
 }
 
+/// The number of samples is compiled in where a packet holds them.
 TEST_P(EveryLaneWidth, GivesTheTwinsBitsWithWhatTheSceneNeedsAlone) {
-    for (const char* stem : {"cornell-box", "vertex-normals", "many-lights", "cones", "glass"}) {
-        for (const char* aa : {"grid:1", "grid:2", "grid:3"}) {
-            expect_the_twins_hash<float>(stem, aa, false);
-        }
+    for (const char* aa : {"grid:1", "grid:2", "grid:3"}) {
+        expect_the_twins_hash<float>("cornell-box", aa, false);
+    }
+    for (const char* stem : {"vertex-normals", "many-lights", "cones", "glass"}) {
+        expect_the_twins_hash<float>(stem, "grid:2", false);
     }
     expect_the_twins_hash<float>("glass", "sobol:6", false);
     if (test_device().has_double) expect_the_twins_hash<double>("cones", "grid:3", false);

@@ -13,7 +13,7 @@ namespace rt {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_baseline_bytes = std::size_t{1} << 28;
 

@@ -2,10 +2,10 @@
 #include "host/verbs/stress_pictures.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "host/image/picture_io.h"
 #include "host/report/heatmap.h"
+#include "host/report/picture_judge.h"
 
 namespace rt {
 
@@ -17,13 +17,6 @@ std::string file_stem(const std::string& text) {
     std::replace_if(
         name.begin(), name.end(), [](char c) { return c == '/' || c == '^' || c == ' '; }, '-');
     return name;
-}
-
-Picture clamped(Picture picture) {
-    for (float& value : picture.pixels) {
-        if (!std::isnan(value)) value = std::clamp(value, 0.0F, 1.0F);
-    }
-    return picture;
 }
 
 }  // namespace
