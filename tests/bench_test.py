@@ -254,6 +254,10 @@ class Ablation(FiguresTest):
         expected = ["", *(f"{name} compiled in" for name in left_out), "everything compiled in",
                     "no caster lists", "hierarchies over few primitives"]
         self.assertEqual(changes[:len(expected)], expected)
+        lanes = next(row for row in self.rows if row["threads"] == 0)["repeats"][0]["device"]["lanes"]
+        of_packets = ["a loop over samples"] if lanes >= 4 else []
+        of_packets += [f"one lane instead of {lanes}"] if lanes > 1 else []
+        self.assertEqual(changes[len(expected):], of_packets)
         self.assertEqual([row["change"] for row in self.rows if row["threads"] == 2],
                          ["", "no caster lists", "hierarchies over few primitives"])
         self.assertEqual(self.result["rows"], [])

@@ -199,7 +199,8 @@ class ClRenderer : public Renderer<T> {
             program_options.features = either_of(scene.features, options.also);
             program_options.entries = {!launch_samples_, launch_samples_, options.will_refine};
             const int held = shape(samples()).samples;
-            if (!launch_samples_ && held == frame_.samples) program_options.samples = held;
+            const bool is_one_packet = !launch_samples_ && held == frame_.samples;
+            if (is_one_packet && !options.any_samples) program_options.samples = held;
         }
         const bool is_pocl = device_.platform == pocl_platform;
         const auto start = std::filesystem::file_time_type::clock::now();

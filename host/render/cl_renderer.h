@@ -32,6 +32,7 @@ struct ClOptions {
     bool will_refine = false;          ///< build the kernel that `refine` needs, too
     bool all_features = false;         ///< compile what scene and renderer do not need, too
     Features also = no_features();     ///< compile these, needed or not
+    bool any_samples = false;          ///< compile the loop over samples, needed or not
     bool warnings_are_errors = false;  ///< for tests
     Techniques naive;                  ///< what to do without, for comparison
 };

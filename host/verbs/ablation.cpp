@@ -2,6 +2,7 @@
 #include "host/verbs/ablation.h"
 
 #include "host/flatten/flat_scene.h"
+#include "host/render/packet_shape.h"
 
 namespace rt {
 
@@ -56,6 +57,11 @@ std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& d
     add_hierarchies(flat, changes);
     const int lanes = precision == Precision::float32 ? device.float_lanes : device.double_lanes;
     if (lanes > 1) {
+        const int samples = scene.aa.samples();
+        if (packet_shape(lanes, samples).samples == samples) {
+            changes.push_back({"a loop over samples",
+                               [](RenderOptions& options) { options.any_samples = true; }});
+        }
         changes.push_back({"one lane instead of " + std::to_string(lanes),
                            [](RenderOptions& options) { options.lanes = 1; }});
     }
