@@ -70,6 +70,7 @@ class PoclThreads(CliTest):
     @unittest.skipUnless(ALL_CORES and len(CORES) > 1, "not all cores are ours, or one")
     def test_each_keeps_to_its_own(self):
         self.assertEqual(self.kept_to_one(), sorted(CORES))
+        self.assertEqual(self.kept_to_one("--threads", len(CORES)), sorted(CORES))
 
     @unittest.skipUnless(len(CORES) > 1, "one core")
     def test_none_does_where_fewer_are_asked_for(self):
@@ -79,7 +80,9 @@ class PoclThreads(CliTest):
     @unittest.skipUnless(len(CORES) > 1, "one core")
     def test_none_does_where_the_environment_says_so(self):
         self.assertEqual(self.kept_to_one(POCL_AFFINITY="0"), [])
-        self.assertEqual(self.kept_to_one(POCL_PTHREAD_MIN_THREADS=str(len(CORES) + 2)), [])
+        most = {"POCL_PTHREAD_MIN_THREADS": str(len(CORES) + 2)}
+        self.assertEqual(self.kept_to_one(**most), [])
+        self.assertEqual(self.kept_to_one("--threads", len(CORES), **most), [])
 
     @unittest.skipUnless(len(CORES) > 1, "one core")
     def test_none_leaves_the_cores_that_the_process_was_given(self):
