@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 execute_process(
-    COMMAND git -C ${SOURCE_DIR} describe --always --dirty --abbrev=12
+    COMMAND git -C ${SOURCE_DIR} describe --always --abbrev=12
     OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+# What is in docs is not in the program, and scripts/bench writes there while it measures.
+execute_process(
+    COMMAND git -C ${SOURCE_DIR} diff --quiet HEAD -- . ":(exclude)docs"
+    RESULT_VARIABLE differs OUTPUT_QUIET ERROR_QUIET)
 if(NOT revision)
     set(revision unknown)
+elseif(differs EQUAL 1)
+    string(APPEND revision -dirty)
 endif()
 set(text "#include \"host/version.h\"\n
 namespace rt {
