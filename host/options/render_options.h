@@ -42,7 +42,7 @@ struct RenderOptions {
     int threads = 0;  ///< 0: all cores
     bool all_features = false;
     Features also_features = no_features();  ///< compiled, needed or not
-    bool any_samples = false;                ///< compile their loop, needed or not (bench --ablate)
+    bool any_samples = false;                ///< compile the loop over them, needed or not
     Techniques naive;                        ///< what OpenCL devices do without (stress)
     std::optional<bool> hierarchies;         ///< not given: where they are faster
     bool caster_lists = true;

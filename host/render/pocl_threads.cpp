@@ -29,13 +29,12 @@ int cores_to_use() {
 
 void set_pocl_threads(int count) {
     constexpr int overwrite = 1;
-    if (count == 0 && (getenv(most_threads) || getenv(least_threads))) return;
     const int cores = cores_to_use();
-    if (count == 0) count = cores;
-    if (count > 0) setenv(most_threads, std::to_string(count).c_str(), overwrite);
+    if (count == 0 && !getenv(most_threads) && !getenv(least_threads)) count = cores;
+    if (count == 0) return;
+    setenv(most_threads, std::to_string(count).c_str(), overwrite);
     // PoCL puts thread i on core i, and ends the process where there is no such core.
-    if (cores == 0 || count != cores || getenv(least_threads)) return;
-    setenv("POCL_AFFINITY", "1", !overwrite);
+    if (count == cores && !getenv(least_threads)) setenv("POCL_AFFINITY", "1", !overwrite);
 }
 
 }  // namespace rt

@@ -80,9 +80,9 @@ class PoclThreads(CliTest):
     @unittest.skipUnless(len(CORES) > 1, "one core")
     def test_none_does_where_the_environment_says_so(self):
         self.assertEqual(self.kept_to_one(POCL_AFFINITY="0"), [])
-        most = {"POCL_PTHREAD_MIN_THREADS": str(len(CORES) + 2)}
-        self.assertEqual(self.kept_to_one(**most), [])
-        self.assertEqual(self.kept_to_one("--threads", len(CORES), **most), [])
+        more = {"POCL_PTHREAD_MIN_THREADS": str(len(CORES) + 2)}
+        self.assertEqual(self.kept_to_one(**more), [])
+        self.assertEqual(self.kept_to_one("--threads", len(CORES), **more), [])
 
     @unittest.skipUnless(len(CORES) > 1, "one core")
     def test_none_leaves_the_cores_that_the_process_was_given(self):
