@@ -119,6 +119,22 @@ TEST(ParsePly, EveryCutOfABinaryFileIsRefused) {
     }
 }
 
+TEST(ParsePly, TheLastLineOfTheHeaderMayEndOtherwise) {
+    for (const std::string format : {"binary_little_endian", "binary_big_endian"}) {
+        const Scene::Mesh mesh = parse_ply(ply_of_all_types(format, "\n"), "t.ply").mesh;
+        for (const auto& [ends, last] :
+             {std::pair{"\n", "\r\n"}, {" \n", "\r\n"}, {"\r\n", "\n"}}) {
+            std::string text = ply_of_all_types(format, ends);
+            const std::size_t mark = text.find("end_header") + std::strlen("end_header");
+            text.replace(mark, std::strlen(ends), last);
+            const Model model = parse_ply(text, "t.ply");
+            EXPECT_EQ(model.mesh.positions, mesh.positions);
+            EXPECT_EQ(model.mesh.faces, mesh.faces);
+            EXPECT_TRUE(model.notes.empty());
+        }
+    }
+}
+
 TEST(ParsePly, BytesAfterTheEndAreNoted) {
     const std::string whole = ply_of_all_types("binary_little_endian", "\n");
     EXPECT_TRUE(parse_ply(whole + "\n", "t.ply").notes.empty());

@@ -51,15 +51,19 @@ class HeaderReader {
         mistakes_.throw_if_any();
     }
 
-    /// The header's last line ends as its first one does: what comes after is data, which may
-    /// begin with any byte.
+    /// What comes after the last line is data, which may begin with any byte. So a line feed after
+    /// a carriage return belongs to the line, unless the header's lines end with carriage returns
+    /// alone.
     void skip_last_line_end() {
-        const bool alone = mistakes_.text().substr(3, 2) != "\r\n";
+        const std::string_view text = mistakes_.text();
+        const std::size_t first_end = std::min(text.find_first_of("\r\n"), text.size());
+        const bool only_returns =
+            text.substr(first_end, 1) == "\r" && text.substr(first_end, 2) != "\r\n";
         scanner_.rest();
-        const std::string_view left = mistakes_.text().substr(scanner_.offset());
+        const std::string_view left = text.substr(scanner_.offset());
         if (left.empty()) return;
-        scanner_ = LineScanner(mistakes_.text(),
-                               scanner_.offset() + (!alone && left.starts_with("\r\n") ? 2 : 1));
+        const bool two = !only_returns && left.starts_with("\r\n");
+        scanner_ = LineScanner(text, scanner_.offset() + (two ? 2 : 1));
     }
 
     void read_lines() {
