@@ -80,6 +80,26 @@ TEST_F(ModelFiles, ObjWithoutMaterialsNeedsOneFromTheScene) {
     EXPECT_NE(refusal.message.find("a mesh has no \"material\""), std::string::npos);
 }
 
+TEST_F(ModelFiles, LibrariesOutOfReachAreNotReadAndTheModelIsGray) {
+    write("secret.mtl", "newmtl x\nKd 1 0 0\n");
+    fs::create_directories(folder_ / "scene/folder.mtl");
+    fs::create_symlink(folder_ / "secret.mtl", folder_ / "scene/link.mtl");
+    ASSERT_EQ(mkfifo((folder_ / "scene/pipe.mtl").c_str(), 0600), 0);
+    for (const std::string name : {"nowhere.mtl", "../secret.mtl", "/etc/passwd", "link.mtl",
+                                   "folder.mtl", "pipe.mtl", "C:\\x\\y.mtl", ""}) {
+        SCOPED_TRACE(name);
+        const std::string model =
+            write("scene/a.obj", "mtllib " + name + "\nusemtl x\n" + square + "f 1 2 3\n");
+        const std::string scene = write("scene/scene.json", scene_with(R"({"file": "a.obj"})"));
+        for (const std::string& path : {model, scene}) {
+            const Scene loaded = load_scene(path);
+            ASSERT_EQ(loaded.notes.size(), 1u);
+            EXPECT_TRUE(loaded.notes[0].starts_with(model + ":1:"));
+            EXPECT_EQ(loaded.materials.back().name, "default");
+        }
+    }
+}
+
 TEST_F(ModelFiles, AMaterialOfTheSceneMakesLibrariesNeedless) {
     write("a.obj", "mtllib nowhere.mtl\nusemtl x\n" + square + "f 1 2 3\n");
     const std::string path =

@@ -51,6 +51,12 @@ TEST(ParseMtl, IlluminationModelsChooseWhatIsTraced) {
     }
 }
 
+TEST(ParseMtl, AnIndexOfZeroIsFineWhereNothingIsGlass) {
+    EXPECT_EQ(mtl("Ni 0\nillum 2\n").ior, 1);
+    EXPECT_EQ(mtl("Ni 0\nd 0.5\n").ior, 1);
+    EXPECT_EQ(mtl("illum 4\nNi 0\nd 1\n").ior, 1);
+}
+
 TEST(ParseMtl, TransparencyIsTheRestOfDissolveWhichWins) {
     EXPECT_EQ(mtl("illum 6\nTr 0.75\n").transmission, glm::dvec3(0.75));
     EXPECT_EQ(mtl("illum 6\nd 1\nTr 1\n").transmission, glm::dvec3(0));

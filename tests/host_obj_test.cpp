@@ -30,7 +30,7 @@ Model obj_with(const std::string& text, const std::string& library) {
 
 TEST(ParseObj, BadFilesAreRefusedAsExpected) {
     const auto files = malformed_files(".obj");
-    EXPECT_GE(files.size(), 44u);
+    EXPECT_GE(files.size(), 37u);
     for (const auto& path : files) {
         expect_announced(path, refusal_of([&] { load_scene(path.string()); }));
     }
@@ -57,6 +57,21 @@ TEST(ParseObj, EveryFormOfIndicesMeansTheSameFace) {
         EXPECT_EQ(mesh.faces, expected) << face;
         EXPECT_EQ(mesh.face_normals, expected) << face;
     }
+}
+
+TEST(ParseObj, NothingAfterASlashIsNothing) {
+    const std::string head = square + "vt 0 0\nvn 0 0 1\n";
+    for (const std::string face : {"1// 2// 3//", "1/ 2/ 3/", "1/1/ 2// 3/", "1 2// 3"}) {
+        const Scene::Mesh mesh = obj(head + "f " + face + "\n").mesh;
+        EXPECT_EQ(mesh.faces, (Faces{{0, 1, 2}})) << face;
+        EXPECT_TRUE(mesh.face_normals.empty()) << face;
+    }
+}
+
+TEST(ParseObj, ColorsOfVerticesMayBeAnything) {
+    const Scene::Mesh mesh =
+        obj("v 0 0 0 nan nan nan\nv 1 0 0 -1.#IND 0 0\nv 0 1 0 1 inf 0 0 1\nf 1 2 3\n").mesh;
+    EXPECT_EQ(mesh.positions, (Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 
 TEST(ParseObj, NegativeIndicesCountFromWhereTheyStand) {
@@ -107,6 +122,28 @@ TEST(ParseObj, OneMaterialForAllIsOneIndex) {
         obj_with("usemtl b\n" + square + "f 1 2 3 4\nmtllib lib\n", "newmtl a\nnewmtl b\n");
     EXPECT_EQ(model.mesh.face_materials, std::vector<int>{1});
     EXPECT_EQ(model.materials.size(), 2u);
+}
+
+TEST(ParseObj, WithoutItsLibraryAModelIsGrayWithANote) {
+    const std::string text = "mtllib a.mtl\nmtllib b.mtl\n" + square +
+                             "usemtl in a\nf 1 2 3\nusemtl in b\nf 1 2 4\nusemtl\nf 1 3 4\n";
+    const Model model = parse_obj(text, "t.obj", [](const std::string& name) {
+        if (name == "a.mtl") return LibraryFile{name, "newmtl in a\nKd 1 0 0\n", {}};
+        return LibraryFile{{}, {}, "'b.mtl' is not there; look"};
+    });
+    ASSERT_EQ(model.materials.size(), 2u);
+    EXPECT_EQ(model.materials[1].name, "default");
+    EXPECT_EQ(model.mesh.face_materials, (std::vector<int>{0, 1, 1}));
+    EXPECT_EQ(model.notes,
+              std::vector<std::string>{"t.obj:2:8: 'b.mtl' is not there; look; until then its "
+                                       "materials are gray"});
+}
+
+TEST(ParseObj, MaterialsWithoutANameAreTheDefault) {
+    const Model model =
+        obj_with("mtllib lib\n" + square + "usemtl a\nf 1 2 3\nusemtl  \nf 1 3 4\n", "newmtl a\n");
+    EXPECT_EQ(model.mesh.face_materials, (std::vector<int>{0, 1}));
+    EXPECT_TRUE(model.notes.empty());
 }
 
 TEST(ParseObj, LibrariesAreOneNameOrSeveralAndTheFirstDefinitionCounts) {

@@ -21,7 +21,7 @@ using Faces = std::vector<Scene::Mesh::Face>;
 
 TEST(ParsePly, BadFilesAreRefusedAsExpected) {
     const auto files = malformed_files(".ply");
-    EXPECT_GE(files.size(), 52u);
+    EXPECT_GE(files.size(), 53u);
     for (const auto& path : files) {
         expect_announced(path, refusal_of([&] { load_scene(path.string()); }));
     }
@@ -141,6 +141,33 @@ TEST(ParsePly, BytesAfterTheEndAreNoted) {
     const Model model = parse_ply(whole + "more of it", "t.ply");
     ASSERT_EQ(model.notes.size(), 1u);
     EXPECT_EQ(model.notes[0], "t.ply: 10 bytes after the last element left out");
+}
+
+/// Two strips in one list, as in Stanford's models, and one that turns round a corner.
+std::string ply_of_strips(const std::string& format) {
+    PlyData data(format);
+    for (int i = 0; i < 6; ++i) {
+        data.add<float>(static_cast<float>(i / 2)).add<float>(static_cast<float>(i % 2));
+        data.add<float>(0).end_row();
+    }
+    data.add<int>(10);
+    for (const int i : {0, 1, 2, 3, -1, 2, 3, 4, 5, -1}) data.add<int>(i);
+    data.end_row();
+    data.add<int>(5);
+    for (const int i : {0, 2, 2, 1, 3}) data.add<int>(i);
+    data.end_row();
+    return data.file(
+        "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 2\nproperty list int int vertex_indices\n");
+}
+
+TEST(ParsePly, StripsAreTriangles) {
+    for (const std::string format : formats) {
+        SCOPED_TRACE(format);
+        const Model model = parse_ply(ply_of_strips(format), "t.ply");
+        EXPECT_EQ(model.mesh.faces, (Faces{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}, {2, 1, 3}}));
+        EXPECT_TRUE(model.notes.empty());
+    }
 }
 
 TEST(ParsePly, PositionsAreFloatsExactly) {

@@ -23,15 +23,22 @@ struct Mtl {
     double shininess = 1, ior = 1;
     std::optional<double> dissolve, transparency;
     int illum = 2;
+    std::size_t ior_offset = 0;  ///< where Ni stands
 };
 
 bool is_glass(int illum) { return illum == 4 || illum == 6 || illum == 7 || illum == 9; }
 
+double opacity_of(const Mtl& mtl) {
+    return mtl.dissolve.value_or(1.0 - mtl.transparency.value_or(0.0));
+}
+
+bool is_clear(const Mtl& mtl) { return is_glass(mtl.illum) && opacity_of(mtl) < 1; }
+
 /// Illumination models 3 to 8 trace reflections; 4, 6, 7 and 9 are glass; below 2 there are no
 /// highlights.
 Scene::Material to_material(const Mtl& mtl) {
-    const double opacity = mtl.dissolve.value_or(1.0 - mtl.transparency.value_or(0.0));
-    const bool clear = is_glass(mtl.illum) && opacity < 1;
+    const double opacity = opacity_of(mtl);
+    const bool clear = is_clear(mtl);
     Scene::Material material;
     material.name = mtl.name;
     material.ambient = clear ? opacity * mtl.ambient : mtl.ambient;
@@ -52,6 +59,7 @@ class MtlReader {
 
     MtlLibrary read() {
         for (; scanner_.find_word(); scanner_.next_line()) read_statement();
+        for (const Mtl& mtl : found_) check_ior(mtl);
         mistakes_.throw_if_any();
         MtlLibrary library;
         for (const Mtl& mtl : found_) library.materials.push_back(to_material(mtl));
@@ -159,15 +167,14 @@ class MtlReader {
 
     void read_ior(Mtl& mtl) {
         scanner_.word_follows();
-        const std::size_t offset = scanner_.offset();
-        double ior = 1;
-        if (!read_within("Ni", 0, max_scene_number, ior)) return;
-        if (ior == 0) {
-            mistakes_.add(offset, "Ni is 0; write an index of refraction above 0, like 1.5");
-            return;
-        }
-        mtl.ior = ior;
-        require_end("Ni");
+        mtl.ior_offset = scanner_.offset();
+        read_amount("Ni", 0, max_scene_number, mtl.ior);
+    }
+
+    /// Programs write "Ni 0" for what is not glass.
+    void check_ior(const Mtl& mtl) {
+        if (mtl.ior > 0 || !is_clear(mtl)) return;
+        mistakes_.add(mtl.ior_offset, "Ni is 0; write an index of refraction above 0, like 1.5");
     }
 
     void read_illum(Mtl& mtl) {

@@ -31,8 +31,8 @@ bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
     return std::ranges::find(words, word) != words.end();
 }
 
-/// "1", "1/2", "1//3" or "1/2/3" as the file says it; 0 where there is no number, which is none
-/// that OBJ allows.
+/// "1", "1/2", "1//3" or "1/2/3" as the file says it, or with nothing after a slash: "1/", "1//",
+/// "1/2/". 0 where there is no number, which is none that OBJ allows.
 struct Corner {
     std::int64_t position = 0, texture = 0, normal = 0;
     bool has_normal = false;
@@ -54,9 +54,10 @@ std::optional<Corner> parse_corner(std::string_view text) {
     text.remove_prefix(1);
     const bool textured = !text.empty() && text[0] != '/';
     if (textured && !take_index(text, corner.texture)) return std::nullopt;
-    if (text.empty()) return textured ? std::optional(corner) : std::nullopt;
+    if (text.empty()) return corner;
     text.remove_prefix(1);
-    corner.has_normal = true;
+    corner.has_normal = !text.empty();
+    if (text.empty()) return corner;
     if (!take_index(text, corner.normal) || !text.empty()) return std::nullopt;
     return corner;
 }
@@ -71,7 +72,7 @@ class ObjReader {
         mistakes_.throw_if_any();
         Model model;
         if (open) model = materials_.load(open, mistakes_);
-        const bool no_materials = model.materials.empty();
+        const bool no_materials = model.materials.empty() && !materials_.lacks_library();
         model.mesh = builder_.take();
         for (std::string& note : builder_.notes(file_name_)) model.notes.push_back(std::move(note));
         if (no_materials) {
@@ -94,8 +95,8 @@ class ObjReader {
         if (word == "v") return read_position();
         if (word == "f") return read_face(offset);
         if (word == "vn") return read_normal();
-        if (word == "usemtl") return builder_.use_material(materials_.use(scanner_, mistakes_));
-        if (word == "mtllib") return materials_.note_library(scanner_, mistakes_);
+        if (word == "usemtl") return builder_.use_material(materials_.use(scanner_));
+        if (word == "mtllib") return materials_.note_library(scanner_);
         if (is_one_of(word, ignored_words)) return;
         if (word == "l" || word == "p") {
             ++left_out_;
@@ -130,14 +131,10 @@ class ObjReader {
     void read_position() {
         const auto position = read_three("a coordinate");
         builder_.mesh.positions.push_back(position.value_or(glm::dvec3(0)));
-        if (!position || !scanner_.word_follows()) return;
-        constexpr int most = 5;  // a weight and a colour with alpha
-        int extra = 0;
-        while (scanner_.word_follows() && extra <= most) {
-            ++extra;
-            if (extra <= most && !read_number(scanner_, "a weight or colour", mistakes_)) return;
-        }
-        if (extra > most) require_end("v");
+        if (!position) return;
+        constexpr int most = 5;  // a weight and a color with alpha, which are not used
+        for (int extra = 0; extra < most && scanner_.word_follows(); ++extra) scanner_.word();
+        require_end("v");
     }
 
     void read_normal() {

@@ -56,35 +56,34 @@ class Libraries {
 
 }  // namespace
 
-int ObjMaterials::use(LineScanner& scanner, Mistakes& mistakes) {
+int ObjMaterials::use(LineScanner& scanner) {
     const std::size_t offset = scanner.offset();
     const std::string name = model_name(scanner.rest());
-    if (name.empty()) {
-        mistakes.add(offset, "usemtl names no material; write a name after it");
-        return -1;
-    }
+    if (name.empty()) return -1;
     const auto [found, is_new] = numbers_.emplace(name, static_cast<int>(used_.size()));
     if (is_new) used_.push_back({name, offset});
     return found->second;
 }
 
-void ObjMaterials::note_library(LineScanner& scanner, Mistakes& mistakes) {
+void ObjMaterials::note_library(LineScanner& scanner) {
     scanner.word_follows();
     const std::size_t offset = scanner.offset();
     libraries_.push_back({std::string(scanner.rest()), offset});
-    if (libraries_.back().text.empty()) {
-        mistakes.add(offset, "mtllib names no file; write the name of one after it");
-    }
 }
 
-Model ObjMaterials::load(const OpenLibrary& open, Mistakes& mistakes) const {
+Model ObjMaterials::load(const OpenLibrary& open, const Mistakes& mistakes) {
     Libraries libraries(open);
+    std::vector<std::string> notes;
     for (const Name& statement : libraries_) {
         const std::string problem = libraries.add_all(statement.text);
-        if (!problem.empty()) mistakes.add(statement.offset, problem);
+        if (problem.empty()) continue;
+        lacks_library_ = true;
+        notes.push_back(fmt::format("{}: {}; until then its materials are gray",
+                                    mistakes.place(statement.offset), problem));
     }
-    mistakes.throw_if_any();
-    return libraries.take();
+    Model model = libraries.take();
+    model.notes.insert(model.notes.begin(), notes.begin(), notes.end());
+    return model;
 }
 
 void ObjMaterials::resolve(Model& model, Mistakes& mistakes) const {
@@ -94,18 +93,18 @@ void ObjMaterials::resolve(Model& model, Mistakes& mistakes) const {
         known.emplace(material.name, static_cast<int>(known.size()));
         names.push_back(material.name);
     }
+    const auto fallback = static_cast<int>(model.materials.size());
     std::vector<int> indices;
     for (const Name& name : used_) {
         const auto found = known.find(name.text);
-        indices.push_back(found == known.end() ? -1 : found->second);
-        if (found != known.end()) continue;
+        indices.push_back(found == known.end() ? fallback : found->second);
+        if (found != known.end() || lacks_library_) continue;
         const std::string_view near = nearest_word(name.text, names);
         mistakes.add(name.offset,
                      fmt::format("unknown material {}; {}", in_quotes(name.text),
                                  near.empty() ? "the libraries hold " + listed(names)
                                               : fmt::format("did you mean {}?", in_quotes(near))));
     }
-    const auto fallback = static_cast<int>(model.materials.size());
     const auto index_of = [&](int number) {
         return number < 0 ? fallback : indices[static_cast<std::size_t>(number)];
     };

@@ -14,17 +14,22 @@ namespace rt {
 /// so names become materials only when the whole file is read.
 class ObjMaterials {
    public:
-    /// Reads what follows usemtl; the number of the name, -1 when it is missing.
-    int use(LineScanner& scanner, Mistakes& mistakes);
+    /// Reads what follows usemtl; the number of the name, -1 when there is none.
+    int use(LineScanner& scanner);
 
     /// Reads what follows mtllib.
-    void note_library(LineScanner& scanner, Mistakes& mistakes);
+    void note_library(LineScanner& scanner);
 
-    /// Reads the libraries: a model with their materials and notes, without mesh.
-    Model load(const OpenLibrary& open, Mistakes& mistakes) const;
+    /// Reads the libraries: a model with their materials and notes, without mesh. A library that is
+    /// not there is a note.
+    Model load(const OpenLibrary& open, const Mistakes& mistakes);
+
+    /// Whether load found that a library is not there.
+    bool lacks_library() const { return lacks_library_; }
 
     /// Turns the numbers in face_materials into indices of model.materials. Faces without a name
-    /// get a grey that is added there; names in no library are mistakes.
+    /// get a grey that is added there. So do names in no library if one lacks; else they are
+    /// mistakes.
     void resolve(Model& model, Mistakes& mistakes) const;
 
    private:
@@ -35,6 +40,7 @@ class ObjMaterials {
 
     std::vector<Name> used_, libraries_;
     std::unordered_map<std::string, int> numbers_;
+    bool lacks_library_ = false;
 };
 
 /// What faces wear whose file says nothing: a matt grey, seen from both sides.

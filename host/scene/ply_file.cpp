@@ -41,33 +41,39 @@ void check_vertex(const PlyElement& vertex, Mistakes& mistakes) {
     }
 }
 
-void check_face(const PlyElement& face, Mistakes& mistakes) {
-    const auto list = std::ranges::find_if(face.properties, is_corner_list);
-    if (list == face.properties.end()) {
-        mistakes.add(face.offset,
-                     "the faces have no property 'vertex_indices'; declare 'property "
-                     "list uchar int vertex_indices'");
+/// Of faces or strips.
+void check_corners(const PlyElement& element, std::string_view what, Mistakes& mistakes) {
+    const auto list = std::ranges::find_if(element.properties, is_corner_list);
+    if (list == element.properties.end()) {
+        mistakes.add(element.offset,
+                     fmt::format("the {} have no property 'vertex_indices'; declare 'property "
+                                 "list uchar int vertex_indices'",
+                                 what));
     } else if (!list->count_type || !is_whole(list->type)) {
-        mistakes.add(face.offset, fmt::format("property {} of the faces is no list of whole "
-                                              "numbers; declare 'property list uchar int {}'",
-                                              in_quotes(list->name), list->name));
+        mistakes.add(element.offset, fmt::format("property {} of the {} is no list of whole "
+                                                 "numbers; declare 'property list uchar int {}'",
+                                                 in_quotes(list->name), what, list->name));
     }
 }
 
 void check_header(const PlyHeader& header, Mistakes& mistakes) {
     const PlyElement* vertex = header.find("vertex");
     const PlyElement* face = header.find("face");
+    const PlyElement* strips = header.find("tristrips");
     if (!vertex) mistakes.add(0, "the header declares no element 'vertex'; give a mesh");
-    if (!face) {
-        mistakes.add(0, header.find("tristrips")
-                            ? "the model is made of triangle strips; save it with faces"
-                            : "the header declares no element 'face'; points alone cannot be "
-                              "drawn, give a mesh");
+    if (!face && !strips) {
+        mistakes.add(0,
+                     "the header declares no element 'face'; points alone cannot be drawn, give a "
+                     "mesh");
     }
     if (vertex) check_vertex(*vertex, mistakes);
-    if (face) check_face(*face, mistakes);
-    if (vertex && face && face < vertex) {
-        mistakes.add(face->offset, "the faces come before the vertices; save the vertices first");
+    if (face) check_corners(*face, "faces", mistakes);
+    if (strips) check_corners(*strips, "strips", mistakes);
+    for (const PlyElement* element : {face, strips}) {
+        if (!vertex || !element || element > vertex) continue;
+        mistakes.add(element->offset,
+                     fmt::format("the {} come before the vertices; save the vertices first",
+                                 element == face ? "faces" : "strips"));
     }
     mistakes.throw_if_any();
 }
@@ -112,6 +118,7 @@ class BodyReader {
         if (element.properties.empty()) return;
         if (element.name == "vertex") return read_vertices(element);
         if (element.name == "face") return read_faces(element);
+        if (element.name == "tristrips") return read_strips(element);
         read_rows(element, [&] {
             return std::ranges::all_of(element.properties,
                                        [&](const PlyProperty& property) { return skip(property); });
@@ -209,16 +216,57 @@ class BodyReader {
         for (std::uint64_t i = 0; i < *length; ++i) {
             const auto index = rows_.integer(list.type);
             if (!index) return false;
-            if (*index < 0 ||
-                static_cast<std::uint64_t>(*index) >= builder_.mesh.positions.size()) {
-                rows_.note(
-                    fmt::format("vertex {} does not exist, there are {} and the first is "
-                                "0; correct the number",
-                                *index, builder_.mesh.positions.size()));
-            }
+            check_index(*index);
             corners_.push_back(static_cast<std::uint32_t>(*index));
         }
         return true;
+    }
+
+    void check_index(std::int64_t index) {
+        const std::size_t count = builder_.mesh.positions.size();
+        if (index >= 0 && static_cast<std::uint64_t>(index) < count) return;
+        rows_.note(fmt::format(
+            "vertex {} does not exist, there are {} and the first is 0; correct the number", index,
+            count));
+    }
+
+    void read_strips(const PlyElement& element) {
+        read_rows(element, [&] {
+            for (const PlyProperty& property : element.properties) {
+                if (!(is_corner_list(property) ? read_strip(property) : skip(property))) return;
+            }
+        });
+    }
+
+    /// Triangles of three vertices in a row, each turned the other way than the one before. After
+    /// -1 another strip begins. Where a vertex repeats, the strip only turns a corner.
+    bool read_strip(const PlyProperty& list) {
+        const auto length = list_length(list);
+        if (!length) return false;
+        corners_.clear();
+        bool turned = false;
+        for (std::uint64_t i = 0; i < *length; ++i) {
+            const auto index = rows_.integer(list.type);
+            if (!index) return false;
+            if (*index == -1) {
+                corners_.clear();
+                turned = false;
+                continue;
+            }
+            check_index(*index);
+            corners_.push_back(static_cast<std::uint32_t>(*index));
+            if (corners_.size() < 3) continue;
+            if (mistakes_.count() == 0) add_strip_triangle(turned);
+            corners_.erase(corners_.begin());
+            turned = !turned;
+        }
+        return true;
+    }
+
+    void add_strip_triangle(bool turned) {
+        const auto [a, b, c] = std::array{corners_[0], corners_[1], corners_[2]};
+        if (a == b || b == c || c == a) return;
+        builder_.add_face(turned ? std::array{b, a, c} : std::array{a, b, c}, {});
     }
 
     const PlyHeader& header_;

@@ -130,7 +130,7 @@ class MalformedFiles(CliTest):
         self.assert_all_refused(malformed_files(".nff"), 60)
 
     def test_obj(self):
-        self.assert_all_refused(malformed_files(".obj"), 44)
+        self.assert_all_refused(malformed_files(".obj"), 37)
 
     def test_ply(self):
         self.assert_all_refused(malformed_files(".ply"), 52)
