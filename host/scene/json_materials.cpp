@@ -15,11 +15,11 @@ Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
     Scene::Material material;
     material.name = member.key;
     const ObjectReader reader(member.value, "a material", keys, mistakes);
-    reader.optional("ambient", material.ambient, read_colour);
-    reader.optional("diffuse", material.diffuse, read_colour);
-    reader.optional("specular", material.specular, read_colour);
-    reader.optional("mirror", material.mirror, read_colour);
-    reader.optional("transmission", material.transmission, read_colour);
+    reader.optional("ambient", material.ambient, read_reflectance);
+    reader.optional("diffuse", material.diffuse, read_reflectance);
+    reader.optional("specular", material.specular, read_reflectance);
+    reader.optional("mirror", material.mirror, read_reflectance);
+    reader.optional("transmission", material.transmission, read_reflectance);
     reader.optional("ior", material.ior, read_positive);
     reader.optional("shininess", material.shininess, read_not_negative);
     reader.optional("two_sided", material.two_sided, read_bool);

@@ -130,6 +130,16 @@ std::optional<glm::dvec3> read_colour(const JsonValue& value, std::string_view n
     return result;
 }
 
+std::optional<glm::dvec3> read_reflectance(const JsonValue& value, std::string_view name,
+                                           Mistakes& mistakes) {
+    const auto color = read_colour(value, name, mistakes);
+    if (!color) return std::nullopt;
+    const double largest = std::max({color->r, color->g, color->b});
+    if (largest <= max_reflectance) return color;
+    note_number(value, name, largest, fmt::format("{} at most", max_reflectance), mistakes);
+    return std::nullopt;
+}
+
 const JsonValue::Array* read_array(const JsonValue& value, std::string_view name, int size,
                                    Mistakes& mistakes) {
     const auto* items = value.as<JsonValue::Array>();

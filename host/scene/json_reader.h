@@ -30,6 +30,9 @@ std::optional<glm::dvec3> read_vec3(const JsonValue& value, std::string_view nam
 /// [r, g, b] or one number for a grey, not negative.
 std::optional<glm::dvec3> read_colour(const JsonValue& value, std::string_view name,
                                       Mistakes& mistakes);
+/// The same up to max_reflectance.
+std::optional<glm::dvec3> read_reflectance(const JsonValue& value, std::string_view name,
+                                           Mistakes& mistakes);
 /// An array; with `size` >= 0, of just that many items.
 const JsonValue::Array* read_array(const JsonValue& value, std::string_view name, int size,
                                    Mistakes& mistakes);

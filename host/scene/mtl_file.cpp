@@ -136,7 +136,7 @@ class MtlReader {
         std::array<double, 3> rgb{};
         int count = 0;
         while (count < 3 && (count == 0 || scanner_.word_follows())) {
-            if (!read_within(word, 0, max_scene_number, rgb[static_cast<std::size_t>(count)]))
+            if (!read_within(word, 0, max_reflectance, rgb[static_cast<std::size_t>(count)]))
                 return;
             ++count;
         }

@@ -25,9 +25,14 @@ bool NffFills::read(NffTokens& tokens) {
         mistakes_.add(places[7],
                       "ior is 0 where T is not; write an index above 0, 1 to go straight");
     }
-    if (std::max({red, green, blue}) * kd > max_scene_number) {
-        mistakes_.add(places[3], "Kd times the colour is above 1e30; make it smaller");
-    }
+    const auto check = [&](double weight, std::size_t place, std::string_view name) {
+        if (weight <= max_reflectance) return;
+        mistakes_.add(places[place],
+                      fmt::format("{} is {}; write {} at most", name, weight, max_reflectance));
+    };
+    check(std::max({red, green, blue}) * kd, 3, "Kd times the color");
+    check(ks, 4, names[4]);
+    check(t, 6, names[6]);
     use(fill);
     return true;
 }

@@ -7,6 +7,9 @@ namespace rt {
 /// with room for the differences that rendering takes.
 inline constexpr double max_scene_number = 1e30;
 
+/// The largest reflectance or transmission: light of 1e30 is still a float after one surface.
+inline constexpr double max_reflectance = 1e6;
+
 // The largest picture a scene file may ask for, in pixels.
 inline constexpr int max_image_side = 65536;
 inline constexpr int max_image_pixels = 1 << 28;

@@ -103,8 +103,9 @@ class NonFinite(CliTest):
     def test_is_said_and_is_the_exit_code(self):
         scene = self.write_scene(
             image={"width": 8, "height": 6}, ambient_light=1e30,
-            materials={"bright": {"ambient": 1e30}},
-            spheres=[{"center": [0, 0, 0], "radius": 1, "material": "bright"}])
+            materials={"bright": {"ambient": 1e6}, "brighter": {"mirror": 1e6}},
+            spheres=[{"center": [0, 0, 0], "radius": 1, "material": "brighter"},
+                     {"center": [0, 0, 0], "radius": 100, "material": "bright"}])
         for device in ["threads", "pocl"]:
             result = self.run_cli("render", scene, "--device", device, "-o", "a.png")
             self.assertEqual(result.returncode, 6, result.stderr)
