@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "host/scene/model_file.h"
@@ -124,6 +128,45 @@ TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
     const std::string path =
         write("scene/scene.json", scene_with(R"({"material": "red", "file": "alias.ply"})"));
     EXPECT_EQ(triangle_count(load_scene(path)), 1u);
+}
+
+/// Exchanges two names, over and over, on a thread of its own.
+class Exchanger {
+   public:
+    Exchanger(const fs::path& one, const fs::path& other)
+        : thread_([one, other, this] {
+              while (!done_) {
+                  renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE);
+              }
+          }) {}
+    ~Exchanger() {
+        done_ = true;
+        thread_.join();
+    }
+
+   private:
+    std::atomic<bool> done_ = false;
+    std::thread thread_;
+};
+
+TEST_F(ModelFiles, AFileThatBecomesALinkMeanwhileIsNotFollowed) {
+    const std::string secret = write(
+        "secret.ply", std::string(ply_triangle).replace(ply_triangle.find("0 1 0"), 5, "9 9 9"));
+    write("scene/inside.ply", ply_triangle);
+    fs::create_symlink(secret, folder_ / "scene/link.ply");
+    const std::string path =
+        write("scene/scene.json", scene_with(R"({"material": "red", "file": "inside.ply"})"));
+    const Exchanger exchanger(folder_ / "scene/inside.ply", folder_ / "scene/link.ply");
+    int loaded = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const Refusal refusal = refusal_of([&] {
+            ASSERT_EQ(load_scene(path).meshes.at(0).positions[2], glm::dvec3(0, 1, 0));
+            ++loaded;
+        });
+        EXPECT_TRUE(refusal.exit_code == ExitCode::done || refusal.exit_code == ExitCode::input);
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(loaded, 0);
 }
 
 TEST_F(ModelFiles, PipesAndFoldersDoNotHang) {

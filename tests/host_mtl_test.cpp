@@ -19,7 +19,7 @@ TEST(ParseMtl, BadFilesAreRefusedAsExpected) {
     EXPECT_GE(files.size(), 16u);
     for (const auto& path : files) {
         expect_announced(path, refusal_of([&] {
-                             parse_mtl(read_text_file(path.string(), 1000), path.string());
+                             parse_mtl(read_text_file(path.string(), 1000).view(), path.string());
                          }));
     }
 }

@@ -38,9 +38,9 @@ Baseline read_rows(const Json& json) {
 }  // namespace
 
 Baseline load_baseline(const std::string& path) {
-    const std::string text = read_text_file(path, max_baseline_bytes);
+    const FileText text = read_text_file(path, max_baseline_bytes);
     try {
-        return read_rows(Json::parse(text));
+        return read_rows(Json::parse(text.view()));
     } catch (const std::exception& error) {
         throw Error(ExitCode::input,
                     fmt::format("{}: not the JSON of a mirrorball bench ({}); make one with 'bench "

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/beneath.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "host/scene/words.h"
 
@@ -24,6 +28,24 @@ bool lies_in(const fs::path& file, const fs::path& root) {
     return std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
 }
 
+/// Opens a path of plain names, step by step, and follows no link: what openat2 does with
+/// RESOLVE_BENEATH and RESOLVE_NO_SYMLINKS, on any kernel. None when that cannot be.
+FileDescriptor open_steps(const fs::path& root, const fs::path& steps) {
+    constexpr int flags = O_RDONLY | O_NOFOLLOW | O_CLOEXEC;
+    FileDescriptor at(open(root.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    for (auto step = steps.begin(); at && step != steps.end(); ++step) {
+        const bool last = std::next(step) == steps.end();
+        const int kind = last ? O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
+        at = FileDescriptor(openat(at.number(), step->c_str(), flags | kind));
+    }
+    return at;
+}
+
+bool is_regular(const FileDescriptor& file) {
+    struct stat status {};
+    return fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode);
+}
+
 }  // namespace
 
 SceneFolder SceneFolder::of(const std::string& scene_path) {
@@ -31,22 +53,26 @@ SceneFolder SceneFolder::of(const std::string& scene_path) {
     return {folder, folder};
 }
 
-FoundFile find_beneath(const SceneFolder& folder, const std::string& name) {
+OpenedFile open_beneath(const SceneFolder& folder, const std::string& name) {
     const auto problem = [&](std::string_view what) {
-        return FoundFile{{}, fmt::format("{} {}", in_quotes(name), what)};
+        return OpenedFile{FileDescriptor(), {}, fmt::format("{} {}", in_quotes(name), what)};
     };
     constexpr std::string_view outside =
         "lies outside of the scene's folder; put it beside the scene, or in a folder there";
+    constexpr std::string_view unreachable = "is no file that can be reached; check the name";
     if (name.empty()) return problem("names no file; write the name of one");
     if (climbs(name)) return problem(outside);
     const fs::path path = folder.base / name;
     std::error_code error;
     const fs::path real = name.find('\0') == name.npos ? fs::canonical(path, error) : fs::path();
-    if (error || real.empty()) return problem("is no file that can be reached; check the name");
+    if (error || real.empty()) return problem(unreachable);
     const fs::path root = fs::canonical(folder_or_here(folder.root), error);
     if (error || !lies_in(real, root)) return problem(outside);
-    if (!fs::is_regular_file(real, error)) return problem("is not a regular file; name one");
-    return {path.string(), {}};
+    FileDescriptor file = open_steps(root, real.lexically_relative(root));
+    if (!file)
+        return problem(errno == EACCES ? "cannot be read; check its permissions" : unreachable);
+    if (!is_regular(file)) return problem("is not a regular file; name one");
+    return {std::move(file), path.string(), {}};
 }
 
 }  // namespace rt

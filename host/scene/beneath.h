@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "host/scene/file_descriptor.h"
+
 namespace rt {
 
 /// Where the files that a scene names may lie.
@@ -15,14 +17,16 @@ struct SceneFolder {
     static SceneFolder of(const std::string& scene_path);
 };
 
-/// One of path and problem is empty.
-struct FoundFile {
-    std::string path;
-    std::string problem;  ///< "what is wrong; what to do"
+/// An open file, or a problem.
+struct OpenedFile {
+    FileDescriptor file;
+    std::string path;     ///< for messages
+    std::string problem;  ///< "what is wrong; what to do"; empty when all is well
 };
 
-/// The regular file that a scene calls `name`. Absolute names, "..", and symbolic links that lead
-/// out of the folder are problems.
-FoundFile find_beneath(const SceneFolder& folder, const std::string& name);
+/// Opens the regular file that a scene calls `name`. Absolute names, "..", and symbolic links that
+/// lead out of the folder are problems. What is open lies beneath the folder even if somebody
+/// exchanges files and links meanwhile.
+OpenedFile open_beneath(const SceneFolder& folder, const std::string& name);
 
 }  // namespace rt

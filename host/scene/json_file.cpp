@@ -126,7 +126,7 @@ SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes&
 }  // namespace
 
 Scene load_json_scene(const std::string& path) {
-    return parse_json_scene(read_text_file(path, max_json_bytes), path);
+    return parse_json_scene(read_text_file(path, max_json_bytes).view(), path);
 }
 
 Scene parse_json_scene(std::string_view text, const std::string& file_name) {

@@ -25,9 +25,9 @@ std::optional<std::string> read_file_name(const JsonValue& value, std::string_vi
                                                in_quotes(*text)));
         return std::nullopt;
     }
-    FoundFile found = find_beneath(folder, *text);
-    if (found.problem.empty()) return std::move(found.path);
-    mistakes.add(value.offset, found.problem);
+    const OpenedFile opened = open_beneath(folder, *text);
+    if (opened.problem.empty()) return *text;
+    mistakes.add(value.offset, opened.problem);
     return std::nullopt;
 }
 
@@ -51,7 +51,7 @@ MeshRequest read_mesh(const JsonValue& value, const MaterialTable& materials,
     MeshRequest request;
     request.offset = value.offset;
     const ObjectReader reader(value, "a mesh", mesh_keys, mistakes);
-    reader.required("file", "\"file\": \"model.ply\"", request.path,
+    reader.required("file", "\"file\": \"model.ply\"", request.file,
                     [&](const JsonValue& item, std::string_view name, Mistakes& noted) {
                         return read_file_name(item, name, folder, noted);
                     });
@@ -60,7 +60,7 @@ MeshRequest read_mesh(const JsonValue& value, const MaterialTable& materials,
     };
     if (const JsonValue* material = reader.find("material")) {
         request.material = read_material(*material, "material", mistakes);
-    } else if (is_ply_name(request.path)) {
+    } else if (is_ply_name(request.file)) {
         reader.require("material", "\"material\": \"name\": PLY files bring none");
     }
     reader.optional("transform", request.transform, read_transform);
@@ -70,12 +70,18 @@ MeshRequest read_mesh(const JsonValue& value, const MaterialTable& materials,
 void load_meshes(const std::vector<MeshRequest>& requests, const SceneFolder& folder, Scene& scene,
                  Mistakes& mistakes) {
     for (const MeshRequest& request : requests) {
-        Model model = load_model(request.path, {folder.root, !request.material, request.transform});
+        const OpenedFile opened = open_beneath(folder, request.file);
+        if (!opened.problem.empty()) {
+            mistakes.add(request.offset, opened.problem);
+            continue;
+        }
+        const ModelOptions options{folder.root, !request.material, request.transform};
+        Model model = load_model(opened.file, opened.path, options);
         if (!request.material && model.materials.empty()) {
             mistakes.add(request.offset,
                          fmt::format("a mesh has no \"material\", and {} names none either; add "
                                      "\"material\": \"name\"",
-                                     in_quotes(request.path)));
+                                     in_quotes(opened.path)));
             continue;
         }
         add_model(std::move(model), request, scene);

@@ -15,7 +15,7 @@ namespace rt {
 /// An item of "meshes", read but for the model itself: that is loaded only into a scene that has
 /// no other mistakes.
 struct MeshRequest {
-    std::string path;
+    std::string file;             ///< as the scene calls it
     std::uint32_t offset = 0;     ///< of the item in the scene's text
     std::optional<int> material;  ///< for all faces, in place of the model's own
     Affine transform;

@@ -27,18 +27,20 @@ bool has_ending(const std::string& path, std::string_view ending) {
 OpenLibrary library_opener(const std::string& model_path, const std::filesystem::path& root) {
     const SceneFolder folder{root, std::filesystem::path(model_path).parent_path()};
     return [folder](const std::string& name) {
-        const FoundFile found = find_beneath(folder, name);
-        if (!found.problem.empty()) return LibraryFile{{}, {}, found.problem};
-        return LibraryFile{found.path, read_text_file(found.path, max_model_bytes), {}};
+        const OpenedFile opened = open_beneath(folder, name);
+        if (!opened.problem.empty()) return LibraryFile{{}, {}, opened.problem};
+        const FileText text = read_text_file(opened.file, opened.path, max_model_bytes);
+        return LibraryFile{opened.path, std::string(text.view()), {}};
     };
 }
 
-Model parse_model(const std::string& path, const ModelOptions& options) {
-    const std::string text = read_text_file(path, max_model_bytes);
-    if (is_ply_name(path)) return parse_ply(text, path);
+Model parse_model(const FileDescriptor& file, const std::string& path,
+                  const ModelOptions& options) {
+    const FileText text = read_text_file(file, path, max_model_bytes);
+    if (is_ply_name(path)) return parse_ply(text.view(), path);
     OpenLibrary open;
     if (options.with_materials) open = library_opener(path, options.root);
-    return parse_obj(text, path, open);
+    return parse_obj(text.view(), path, open);
 }
 
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {
@@ -75,8 +77,8 @@ Model finish_model(Model model, const std::string& path, const Affine& transform
     return model;
 }
 
-Model load_model(const std::string& path, const ModelOptions& options) {
-    return finish_model(parse_model(path, options), path, options.transform);
+Model load_model(const FileDescriptor& file, const std::string& path, const ModelOptions& options) {
+    return finish_model(parse_model(file, path, options), path, options.transform);
 }
 
 }  // namespace rt

@@ -23,10 +23,10 @@ struct ModelOptions {
     Affine transform;            ///< not singular
 };
 
-/// Reads an OBJ or PLY file: a mesh as scenes have it, but for its materials, which count from
-/// the model's own. Throws Error: ExitCode::input for a file that is wrong or holds nothing to
-/// draw, ExitCode::limit for one that is too large.
-Model load_model(const std::string& path, const ModelOptions& options);
+/// Reads an OBJ or PLY file that is open: a mesh as scenes have it, but for its materials, which
+/// count from the model's own. Throws Error: ExitCode::input for a file that is wrong or holds
+/// nothing to draw, ExitCode::limit for one that is too large.
+Model load_model(const FileDescriptor& file, const std::string& path, const ModelOptions& options);
 
 /// The same for what a file holds.
 Model finish_model(Model model, const std::string& path, const Affine& transform);

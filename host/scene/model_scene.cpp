@@ -11,6 +11,7 @@
 #include "host/scene/model_file.h"
 #include "host/scene/obj_materials.h"
 #include "host/scene/scene_name.h"
+#include "host/scene/text_file.h"
 
 namespace rt {
 namespace {
@@ -88,7 +89,7 @@ Scene make_model_scene(Model model, const std::string& path) {
 Scene load_model_scene(const std::string& path) {
     ModelOptions options;
     options.root = SceneFolder::of(path).root;
-    return make_model_scene(load_model(path, options), path);
+    return make_model_scene(load_model(open_text_file(path), path, options), path);
 }
 
 }  // namespace rt

@@ -195,7 +195,7 @@ class NffReader {
 }  // namespace
 
 Scene load_nff_scene(const std::string& path) {
-    return parse_nff_scene(read_text_file(path, max_nff_bytes), path);
+    return parse_nff_scene(read_text_file(path, max_nff_bytes).view(), path);
 }
 
 Scene parse_nff_scene(std::string_view text, const std::string& file_name) {

@@ -1,70 +1,110 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/text_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
+#include <vector>
 
 #include "host/error.h"
+#include "host/parallel.h"
 
 namespace rt {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr std::size_t piece = std::size_t{4} << 20;  // bytes that a thread reads at once
 
-void require_regular(const std::string& path) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    const auto refuse = [&](const std::string& why) {
-        throw Error(ExitCode::input, path + ": " + why);
-    };
-    if (status.type() == fs::file_type::not_found) refuse("no such file; check the path");
-    if (error) refuse(fmt::format("cannot be reached ({}); check the path", error.message()));
-    if (fs::is_directory(status)) refuse("is a directory; name a scene file in it");
-    if (!fs::is_regular_file(status)) {
-        refuse("is not a regular file; save the scene to a file first");
-    }
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+    throw Error(ExitCode::input, path + ": " + why);
 }
 
-[[noreturn]] void refuse_size(const std::string& path, std::size_t max_bytes) {
+[[noreturn]] void refuse_read(const std::string& path, int reason) {
+    refuse(path, fmt::format("cannot be read ({}); check its permissions", std::strerror(reason)));
+}
+
+[[noreturn]] void refuse_open(const std::string& path, int reason) {
+    if (reason == ENOENT) refuse(path, "no such file; check the path");
+    if (reason == EACCES || reason == EPERM) refuse_read(path, reason);
+    if (reason == ENXIO) refuse(path, "is not a regular file; save the scene to a file first");
+    refuse(path, fmt::format("cannot be reached ({}); check the path", std::strerror(reason)));
+}
+
+void require_size(const std::string& path, std::size_t size, std::size_t max_bytes) {
+    if (size <= max_bytes) return;
     throw Error(ExitCode::limit,
                 fmt::format("{}: the file is larger than {} MiB; split or shrink the scene", path,
                             max_bytes >> 20));
 }
 
+/// Reads up to `size` bytes at an offset; fewer where the file ends before.
+std::size_t read_at(const FileDescriptor& file, const std::string& path, char* target,
+                    std::size_t size, std::size_t offset) {
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t got =
+            pread(file.number(), target + done, size - done, static_cast<off_t>(offset + done));
+        if (got == 0) break;
+        if (got < 0 && errno != EINTR) refuse_read(path, errno);
+        if (got > 0) done += static_cast<std::size_t>(got);
+    }
+    return done;
+}
+
+/// A file whose size the system does not tell, as those in /proc.
+FileText read_unsized(const FileDescriptor& file, const std::string& path, std::size_t max_bytes) {
+    std::vector<char> text;
+    std::size_t size = 0;
+    do {
+        text.resize(size + piece);
+        size += read_at(file, path, text.data() + size, piece, size);
+        require_size(path, size, max_bytes);
+    } while (size == text.size());
+    auto bytes = std::make_unique_for_overwrite<char[]>(size);
+    std::copy_n(text.begin(), size, bytes.get());
+    return {std::move(bytes), size};
+}
+
+struct stat status_of(const FileDescriptor& file, const std::string& path) {
+    struct stat status {};
+    if (fstat(file.number(), &status) != 0) refuse_read(path, errno);
+    return status;
+}
+
 }  // namespace
 
-std::string read_text_file(const std::string& path, std::size_t max_bytes) {
-    require_regular(path);
-    std::error_code unknown;  // the size is a hint only: files in /proc say 0
-    const std::uintmax_t hint = fs::file_size(path, unknown);
-    if (!unknown && hint > max_bytes) refuse_size(path, max_bytes);
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    const auto refuse = [&] {
-        const std::string reason = errno != 0 ? std::strerror(errno) : "read error";
-        throw Error(ExitCode::input,
-                    fmt::format("{}: cannot be read ({}); check its permissions", path, reason));
-    };
-    if (!file) refuse();
-    std::string text;
-    constexpr std::size_t chunk = std::size_t{1} << 20;
-    if (!unknown) text.reserve(static_cast<std::size_t>(hint) + chunk);
-    std::size_t size = 0;
-    while (file && size <= max_bytes) {
-        text.resize(size + chunk);
-        file.read(text.data() + size, chunk);
-        size += static_cast<std::size_t>(file.gcount());
+FileDescriptor open_text_file(const std::string& path) {
+    FileDescriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+    if (!file) refuse_open(path, errno);
+    const mode_t mode = status_of(file, path).st_mode;
+    if (S_ISDIR(mode)) refuse(path, "is a directory; name a scene file in it");
+    if (!S_ISREG(mode)) refuse(path, "is not a regular file; save the scene to a file first");
+    return file;
+}
+
+FileText read_text_file(const FileDescriptor& file, const std::string& path,
+                        std::size_t max_bytes) {
+    const auto size = static_cast<std::size_t>(status_of(file, path).st_size);
+    require_size(path, size, max_bytes);
+    if (size == 0) return read_unsized(file, path, max_bytes);
+    auto bytes = std::make_unique_for_overwrite<char[]>(size);
+    std::vector<std::size_t> got((size + piece - 1) / piece);
+    for_each_run(size, piece, available_cores(), [&](std::size_t first, std::size_t last) {
+        got[first / piece] = read_at(file, path, bytes.get() + first, last - first, first);
+    });
+    std::size_t end = 0;  // before `size` where the file was cut meanwhile
+    for (const std::size_t part : got) {
+        end += part;
+        if (part < piece) break;
     }
-    if (file.bad()) refuse();
-    if (size > max_bytes) refuse_size(path, max_bytes);
-    text.resize(size);
-    return text;
+    return {std::move(bytes), end};
+}
+
+FileText read_text_file(const std::string& path, std::size_t max_bytes) {
+    return read_text_file(open_text_file(path), path, max_bytes);
 }
 
 }  // namespace rt

@@ -2,13 +2,38 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <string_view>
+
+#include "host/scene/file_descriptor.h"
 
 namespace rt {
 
-/// The whole of a regular file. Throws Error, with "path: what is wrong; what to do":
-/// ExitCode::input when it is missing, unreadable or not a regular file (a pipe or a device never
-/// hangs the program), ExitCode::limit when it is larger than `max_bytes`.
-std::string read_text_file(const std::string& path, std::size_t max_bytes);
+/// What a file held when it was read.
+class FileText {
+   public:
+    FileText() = default;
+    FileText(std::unique_ptr<char[]> bytes, std::size_t size)
+        : bytes_(std::move(bytes)), size_(size) {}
+
+    std::string_view view() const { return {bytes_.get(), size_}; }
+
+   private:
+    std::unique_ptr<char[]> bytes_;
+    std::size_t size_ = 0;
+};
+
+/// Opens a regular file. Throws Error, ExitCode::input with "path: what is wrong; what to do", when
+/// it is missing, unreadable or not a regular file: a pipe or a device never hangs the program.
+FileDescriptor open_text_file(const std::string& path);
+
+/// The whole of a regular file that is open; `path` is what messages call it. Large files are read
+/// by all cores. Throws Error: ExitCode::input when it cannot be read, ExitCode::limit when it is
+/// larger than `max_bytes`.
+FileText read_text_file(const FileDescriptor& file, const std::string& path, std::size_t max_bytes);
+
+/// Both in one.
+FileText read_text_file(const std::string& path, std::size_t max_bytes);
 
 }  // namespace rt
