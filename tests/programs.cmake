@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+# GoogleTest programs of many files, and a ctest test for each file.
+
+# suite_filter(FILE FILTER): a --gtest_filter of the suites whose tests stand in the file, whether
+# plain, typed or with parameters. A test begins a line there.
+function(suite_filter FILE FILTER)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${FILE})
+    file(STRINGS ${FILE} suites REGEX "^(TYPED_)?TEST(_F|_P)?\\(")
+    list(TRANSFORM suites REPLACE "^[A-Z_]+\\(([A-Za-z0-9_]+).*" "\\1")
+    list(REMOVE_DUPLICATES suites)
+    list(TRANSFORM suites REPLACE "(.+)" "\\1.*:\\1/*:*/\\1.*")
+    list(JOIN suites ":" filter)
+    set(${FILTER} ${filter} PARENT_SCOPE)
+endfunction()
+
+# add_file_tests(PROGRAM LABEL PREFIX TIMEOUT ENVIRONMENT FILES...): the tests of FILE_test.cpp as the
+# ctest test PREFIXFILE_test.
+function(add_file_tests PROGRAM LABEL PREFIX TIMEOUT ENVIRONMENT)
+    foreach(file ${ARGN})
+        get_filename_component(stem ${file} NAME_WE)
+        suite_filter(${file} filter)
+        add_test(NAME ${PREFIX}${stem} COMMAND ${PROGRAM} --gtest_filter=${filter})
+        set_tests_properties(${PREFIX}${stem} PROPERTIES LABELS ${LABEL} TIMEOUT ${TIMEOUT}
+            ENVIRONMENT "${ENVIRONMENT}")
+    endforeach()
+endfunction()
+
+# add_test_program(NAME LABEL SOURCES...): a program of the sources; each that ends in _test.cpp is a
+# ctest test of its own. NAME_whole fails where a suite is in none of them.
+function(add_test_program NAME LABEL)
+    add_executable(${NAME} ${ARGN})
+    set_target_properties(${NAME} PROPERTIES UNITY_BUILD OFF)  # test files have helpers of one name
+    target_link_libraries(${NAME} PRIVATE mirrorball_report GTest::gtest_main)
+    target_compile_definitions(${NAME} PRIVATE
+        MIRRORBALL_SCENES_DIR="${CMAKE_SOURCE_DIR}/scenes"
+        MIRRORBALL_BAD_SCENES_DIR="${CMAKE_SOURCE_DIR}/tests/scenes_bad")
+    set(files ${ARGN})
+    list(FILTER files INCLUDE REGEX "_test\\.cpp$")
+    set_target_properties(${NAME} PROPERTIES TEST_FILES "${files}")
+    add_file_tests(${NAME} ${LABEL} "" 600 "" ${files})
+    set(filters "")
+    foreach(file ${files})
+        suite_filter(${file} filter)
+        list(APPEND filters ${filter})
+    endforeach()
+    list(JOIN filters ":" filter)
+    add_test(NAME ${NAME}_whole COMMAND ${NAME} --gtest_filter=-${filter})
+    set_tests_properties(${NAME}_whole PROPERTIES LABELS ${LABEL}
+        PASS_REGULAR_EXPRESSION " 0 tests from 0 test suites ran")
+endfunction()
+
+# add_program_again(PROGRAM LABEL PREFIX TIMEOUT ENVIRONMENT EXCEPT STEMS...): its tests once more,
+# elsewhere.
+function(add_program_again PROGRAM LABEL PREFIX TIMEOUT ENVIRONMENT)
+    get_target_property(files ${PROGRAM} TEST_FILES)
+    foreach(stem ${ARGN})
+        list(REMOVE_ITEM files ${stem}.cpp)
+    endforeach()
+    add_file_tests(${PROGRAM} ${LABEL} ${PREFIX} ${TIMEOUT} "${ENVIRONMENT}" ${files})
+endfunction()
