@@ -7,8 +7,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string_view>
 
 #include "host/error.h"
+#include "host/printable.h"
 
 namespace rt {
 
@@ -17,6 +19,30 @@ namespace {
 [[noreturn]] void throw_lost_results() {
     throw Error(ExitCode::output, std::string("standard output: cannot write the results: ") +
                                       std::strerror(errno) + "; send them elsewhere");
+}
+
+/// Bytes at the start of a text that people may see, line ends and tabs among them.
+std::size_t shown_length(std::string_view text) {
+    std::size_t length = 0;
+    while (length < text.size()) {
+        const bool blank = text[length] == '\n' || text[length] == '\t';
+        const std::size_t more = blank ? 1 : printable_length(text.substr(length));
+        if (more == 0) break;
+        length += more;
+    }
+    return length;
+}
+
+/// Whatever files and drivers had to say. Allocates nothing.
+void write_lines(std::string_view text) {
+    while (!text.empty()) {
+        const std::size_t shown = shown_length(text);
+        std::fwrite(text.data(), 1, shown, stderr);
+        text.remove_prefix(shown);
+        if (text.empty()) return;
+        std::fprintf(stderr, "\\x%02x", static_cast<unsigned char>(text[0]));
+        text.remove_prefix(1);
+    }
 }
 
 }  // namespace
@@ -31,7 +57,12 @@ void open_missing_streams() {
 }
 
 void print_message(const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::string_view left = text;
+    if (left.starts_with('\r')) {
+        std::fputc('\r', stderr);
+        left.remove_prefix(1);
+    }
+    write_lines(left);
     std::fflush(stderr);
 }
 

@@ -9,7 +9,8 @@ namespace rt {
 /// its number. Call it first.
 void open_missing_streams();
 
-/// Text for people, to stderr as it stands. Never throws: a lost message must not lose a picture.
+/// Text for people, to stderr: but for line ends, tabs, and a carriage return in front, what may
+/// not be shown is escaped (printable). Never throws: a lost message must not lose a picture.
 void print_message(const std::string& text);
 
 /// Results, to stdout as they stand. Throws Error (ExitCode::output) when they cannot be written.

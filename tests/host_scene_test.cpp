@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "host/error.h"
+#include "host/printable.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/json_file.h"
 #include "host/scene/mistakes.h"
+#include "host/scene/scene_file.h"
 #include "host/scene/words.h"
 #include "tests/refusals.h"
 
@@ -324,6 +326,38 @@ TEST(PositionOf, ColumnsCountCharacters) {
     const SourcePosition position = position_of("\xEF\xBB\xBF{\n\xC3\xA4\xE2\x82\xAC!", 10);
     EXPECT_EQ(position.line, 2u);
     EXPECT_EQ(position.column, 3u);
+}
+
+TEST(Printable, LettersStayAsTheyAre) {
+    for (const std::string text : {"", "plain name.json", "Gr\u00f6\u00dfe", "\u65e5\u672c\u8a9e",
+                                   "\u05e9\u05dc\u05d5\u05dd", "\u0627\u0644", "e\u0301",
+                                   "\U0001F600", "back\\slash", "\u2200x \u2264 y"}) {
+        EXPECT_EQ(printable(text), text);
+    }
+}
+
+TEST(Printable, WhatATerminalObeysIsEscaped) {
+    EXPECT_EQ(printable("a\nb\r\t\x1b[31m\x7f"), "a\\x0ab\\x0d\\x09\\x1b[31m\\x7f");
+    EXPECT_EQ(printable(std::string_view("\0", 1)), "\\x00");
+    EXPECT_EQ(printable("\x9b"
+                        "31m"),
+              "\\x9b31m");  // CSI, 8 bits
+    EXPECT_EQ(printable("\xc2\x9b"
+                        "31m"),
+              "\\xc2\\x9b31m");  // the same in UTF-8
+    EXPECT_EQ(printable("\u202egnp.\u2066"), "\\xe2\\x80\\xaegnp.\\xe2\\x81\\xa6");
+    EXPECT_EQ(printable("\u2028\ufeff"), "\\xe2\\x80\\xa8\\xef\\xbb\\xbf");
+    EXPECT_EQ(printable("\xff\xc3"), "\\xff\\xc3");  // not UTF-8
+    EXPECT_EQ(printable("\xc3\u00f6"), "\\xc3\u00f6");
+}
+
+TEST(ParseJsonScene, MessagesShowNoBytesOfFileNamesThatTerminalsObey) {
+    for (const std::string ending : {".json", ".nff", ".obj", ".ply"}) {
+        const std::string name = "no\n\x1b[31m\x9b\u202e\u00f6" + ending;
+        const Refusal refusal = refusal_of([&] { load_scene(name); });
+        EXPECT_EQ(refusal.message, "no\\x0a\\x1b[31m\\x9b\\xe2\\x80\\xae\u00f6" + ending +
+                                       ": no such file; check the path");
+    }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "host/error.h"
+#include "host/printable.h"
 
 namespace rt {
 
@@ -19,7 +20,7 @@ constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 }  // namespace
 
 void refuse(const std::string& option, const std::string& value, const std::string& expected) {
-    throw Error(ExitCode::usage, fmt::format("{} '{}': {}", option, value, expected));
+    throw Error(ExitCode::usage, fmt::format("{} '{}': {}", option, printable(value), expected));
 }
 
 std::optional<std::vector<int>> parse_integers(std::string_view text, char separator) {

@@ -3,17 +3,19 @@
 
 #include <fmt/format.h>
 
+#include "host/printable.h"
+
 namespace rt {
 
 namespace {
 
-/// Device strings may come with padding and a closing zero.
+/// Device strings may come with padding and a closing zero, and are not to be trusted.
 std::string trimmed(const std::string& text) {
     const char* blanks = " \t\n\r";
     const std::string whole(text.c_str());
     const auto first = whole.find_first_not_of(blanks);
     if (first == std::string::npos) return "";
-    return whole.substr(first, whole.find_last_not_of(blanks) - first + 1);
+    return printable(whole.substr(first, whole.find_last_not_of(blanks) - first + 1));
 }
 
 /// "OpenCL 1.1 ..." and older cannot take the kernels.

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "host/scene/utf8.h"
+#include "host/utf8.h"
 
 namespace rt {
 

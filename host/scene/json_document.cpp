@@ -10,8 +10,8 @@
 
 #include "host/error.h"
 #include "host/scene/json_syntax.h"
-#include "host/scene/utf8.h"
 #include "host/scene/words.h"
+#include "host/utf8.h"
 
 namespace rt {
 namespace {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "host/printable.h"
 #include "host/scene/json_camera.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_meshes.h"
@@ -15,7 +16,6 @@
 #include "host/scene/scene_limits.h"
 #include "host/scene/scene_name.h"
 #include "host/scene/text_file.h"
-#include "host/scene/utf8.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -96,7 +96,7 @@ void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
     if (const JsonValue* schema = reader.find("$schema")) read_string(*schema, "$schema", mistakes);
     if (const JsonValue* value = reader.find("name")) {
         const std::string* name = read_string(*value, "name", mistakes);
-        if (name && std::any_of(name->begin(), name->end(), is_control)) {
+        if (name && printable(*name) != *name) {
             mistakes.add(value->offset, "'name' holds a control character; use plain text");
         } else if (name) {
             scene.name = *name;

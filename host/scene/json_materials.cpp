@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "host/printable.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/json_shapes.h"
 #include "host/scene/words.h"
@@ -13,7 +14,7 @@ constexpr std::string_view keys[] = {"ambient",      "diffuse",   "specular", "m
 
 Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
     Scene::Material material;
-    material.name = member.key;
+    material.name = printable(member.key);
     const ObjectReader reader(member.value, "a material", keys, mistakes);
     reader.optional("ambient", material.ambient, read_reflectance);
     reader.optional("diffuse", material.diffuse, read_reflectance);

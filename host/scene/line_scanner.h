@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "host/scene/mistakes.h"
-#include "host/scene/utf8.h"
+#include "host/utf8.h"
 
 namespace rt {
 

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "host/error.h"
-#include "host/scene/utf8.h"
+#include "host/printable.h"
+#include "host/utf8.h"
 
 namespace rt {
 
@@ -26,8 +27,8 @@ SourcePosition position_of(std::string_view text, std::size_t offset) {
     return {static_cast<std::size_t>(lines) + 1, static_cast<std::size_t>(characters) + 1};
 }
 
-Mistakes::Mistakes(std::string_view text, std::string file_name)
-    : text_(text), file_name_(std::move(file_name)) {}
+Mistakes::Mistakes(std::string_view text, std::string_view file_name)
+    : text_(text), file_name_(printable(file_name)) {}
 
 void Mistakes::add(std::size_t offset, std::string message) {
     add_in({}, offset, std::move(message));

@@ -21,7 +21,7 @@ class Mistakes {
    public:
     static constexpr std::size_t max_count = 20;
 
-    Mistakes(std::string_view text, std::string file_name);
+    Mistakes(std::string_view text, std::string_view file_name);
 
     /// Notes "what is wrong; what to do" at a byte offset. Throws when max_count is reached.
     void add(std::size_t offset, std::string message);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "host/error.h"
+#include "host/printable.h"
 #include "host/scene/mesh_finish.h"
 #include "host/scene/obj_file.h"
 #include "host/scene/ply_file.h"
@@ -30,17 +31,17 @@ OpenLibrary library_opener(const std::string& model_path, const std::filesystem:
         const OpenedFile opened = open_beneath(folder, name);
         if (!opened.problem.empty()) return LibraryFile{{}, {}, opened.problem};
         const FileText text = read_text_file(opened.file, opened.path, max_model_bytes);
-        return LibraryFile{opened.path, std::string(text.view()), {}};
+        return LibraryFile{printable(opened.path), std::string(text.view()), {}};
     };
 }
 
 Model parse_model(const FileDescriptor& file, const std::string& path,
                   const ModelOptions& options) {
     const FileText text = read_text_file(file, path, max_model_bytes);
-    if (is_ply_name(path)) return parse_ply(text.view(), path);
+    if (is_ply_name(path)) return parse_ply(text.view(), printable(path));
     OpenLibrary open;
     if (options.with_materials) open = library_opener(path, options.root);
-    return parse_obj(text.view(), path, open);
+    return parse_obj(text.view(), printable(path), open);
 }
 
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {
@@ -78,7 +79,7 @@ Model finish_model(Model model, const std::string& path, const Affine& transform
 }
 
 Model load_model(const FileDescriptor& file, const std::string& path, const ModelOptions& options) {
-    return finish_model(parse_model(file, path, options), path, options.transform);
+    return finish_model(parse_model(file, path, options), printable(path), options.transform);
 }
 
 }  // namespace rt

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/error.h"
+#include "host/printable.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/model_file.h"
 #include "host/scene/obj_materials.h"
@@ -68,7 +69,7 @@ Scene make_model_scene(Model model, const std::string& path) {
     scene.name = name_of_file(path);
     scene.camera = framing_camera(ball);
     if (nearly_same_point(scene.camera.from, scene.camera.at)) {
-        throw Error(ExitCode::input, path +
+        throw Error(ExitCode::input, printable(path) +
                                          ": the model is too small for how far it lies from "
                                          "the origin; move it nearer");
     }

@@ -8,8 +8,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "host/printable.h"
 #include "host/scene/line_scanner.h"
-#include "host/scene/model_name.h"
 #include "host/scene/scene_limits.h"
 #include "host/scene/words.h"
 
@@ -111,7 +111,7 @@ class MtlReader {
     }
 
     void start_material(std::size_t offset) {
-        const std::string name = model_name(scanner_.rest());
+        const std::string name = printable(scanner_.rest());
         if (name.empty()) mistakes_.add(offset, "newmtl gives no name; write one after it");
         const auto [first, is_new] = offsets_.emplace(name, offset);
         if (!is_new) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/error.h"
+#include "host/printable.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/nff_fill.h"
 #include "host/scene/nff_polygon.h"
@@ -169,7 +170,7 @@ class NffReader {
             scene_.spheres.size() + scene_.cones.size() + scene_.triangles.size();
         if (count <= max_nff_primitives) return;
         throw Error(ExitCode::limit, fmt::format("{}: more than {} primitives; split the scene",
-                                                 file_name_, max_nff_primitives));
+                                                 printable(file_name_), max_nff_primitives));
     }
 
     /// The databases' Readme proposes sqrt(n) / 2n, of n lights, for each light and for the

@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "host/scene/scene_limits.h"
-#include "host/scene/utf8.h"
 #include "host/scene/words.h"
+#include "host/utf8.h"
 
 namespace rt {
 namespace {

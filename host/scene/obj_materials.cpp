@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "host/scene/model_name.h"
+#include "host/printable.h"
 #include "host/scene/mtl_file.h"
 #include "host/scene/words.h"
 
@@ -58,7 +58,7 @@ class Libraries {
 
 int ObjMaterials::use(LineScanner& scanner) {
     const std::size_t offset = scanner.offset();
-    const std::string name = model_name(scanner.rest());
+    const std::string name = printable(scanner.rest());
     if (name.empty()) return -1;
     const auto [found, is_new] = numbers_.emplace(name, static_cast<int>(used_.size()));
     if (is_new) used_.push_back({name, offset});

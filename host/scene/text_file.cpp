@@ -12,6 +12,7 @@
 
 #include "host/error.h"
 #include "host/parallel.h"
+#include "host/printable.h"
 
 namespace rt {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 constexpr std::size_t piece = std::size_t{4} << 20;  // bytes that a thread reads at once
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-    throw Error(ExitCode::input, path + ": " + why);
+    throw Error(ExitCode::input, printable(path) + ": " + why);
 }
 
 [[noreturn]] void refuse_read(const std::string& path, int reason) {
@@ -36,8 +37,8 @@ constexpr std::size_t piece = std::size_t{4} << 20;  // bytes that a thread read
 void require_size(const std::string& path, std::size_t size, std::size_t max_bytes) {
     if (size <= max_bytes) return;
     throw Error(ExitCode::limit,
-                fmt::format("{}: the file is larger than {} MiB; split or shrink the scene", path,
-                            max_bytes >> 20));
+                fmt::format("{}: the file is larger than {} MiB; split or shrink the scene",
+                            printable(path), max_bytes >> 20));
 }
 
 /// Reads up to `size` bytes at an offset; fewer where the file ends before.

@@ -7,7 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "host/scene/utf8.h"
+#include "host/printable.h"
+#include "host/utf8.h"
 
 namespace rt {
 namespace {
@@ -38,29 +39,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-/// Control characters: C0, DEL, and C1 (two bytes in UTF-8, 0xC2 first).
-bool is_control(std::string_view text, std::size_t i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (c < 0x20 || c == 0x7F) return true;
-    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0u;
-    if (c == 0xC2) return next < 0xA0;
-    return i > 0 && static_cast<unsigned char>(text[i - 1]) == 0xC2 && c < 0xA0;
-}
-
 }  // namespace
 
 std::string in_quotes(std::string_view text) {
     std::size_t size = std::min(text.size(), max_quoted_bytes);
     while (size > 0 && size < text.size() && is_utf8_continuation(text[size])) --size;
-    std::string result = "'";
-    for (std::size_t i = 0; i < size; ++i) {
-        if (is_control(text, i)) {
-            result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
-        } else {
-            result += text[i];
-        }
-    }
-    return result + (size < text.size() ? "...'" : "'");
+    return fmt::format("'{}{}'", printable(text.substr(0, size)), size < text.size() ? "..." : "");
 }
 
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {

@@ -7,8 +7,7 @@
 
 namespace rt {
 
-/// 'text' for a message: control characters as \xNN, long text cut, so that what stands in a
-/// file can neither break a line nor talk to a terminal.
+/// 'text' for a message, printable and cut where it is long.
 std::string in_quotes(std::string_view text);
 
 /// The known word that a misspelt one most likely meant, or an empty view when none is near.

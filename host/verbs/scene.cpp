@@ -7,6 +7,7 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
+#include "host/printable.h"
 #include "host/report/flatten_text.h"
 #include "host/report/render_stats.h"
 #include "host/report/stats_json.h"
@@ -23,7 +24,7 @@ using Json = nlohmann::ordered_json;
 Json info_json(const std::string& path, const Scene& scene, const FlatScene<float>& flat) {
     return {{"format", "mirrorball-scene-info"},
             {"version", 1},
-            {"path", path},
+            {"path", printable(path)},
             {"name", scene.name},
             {"hash", hash_text(scene_hash(scene))},
             {"width", scene.width},
@@ -96,7 +97,7 @@ Json check_json(const std::string& path, const std::string& mistakes) {
     for (std::string line; std::getline(text, line);) lines.push_back(line);
     return {{"format", "mirrorball-scene-check"},
             {"version", 1},
-            {"path", path},
+            {"path", printable(path)},
             {"fine", lines.empty()},
             {"mistakes", lines}};
 }
@@ -110,7 +111,7 @@ int check_scene(const SceneOptions& options) {
         mistakes = error.what();
     }
     print_result(options.json ? json_text(check_json(options.scene, mistakes))
-                              : options.scene + ": fine\n");
+                              : printable(options.scene) + ": fine\n");
     return static_cast<int>(mistakes.empty() ? ExitCode::done : ExitCode::input);
 }
 

@@ -108,6 +108,21 @@ class Mistakes(CliTest):
         path = self.write_text("bad.json", '{"\\u001b[31m": 1, "camera": 1}')
         self.assertNotIn("\x1b", self.run_cli("scene", "check", path).stderr)
 
+    def test_nor_do_those_of_file_names(self):
+        names = ["new\nline", "esc\x1b[31m", b"csi\x9b31m", "c1\x9b31m", "bidi\u202e"]
+        for name in [n if isinstance(n, bytes) else n.encode() for n in names]:
+            path = os.path.join(os.fsencode(self.folder), name + b".json")
+            for text, code in [("{}", 3), (json.dumps({"camera": CAMERA}), 0)]:
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(text)
+                for verb in [("check",), ("check", "--json"), ("info",), ("info", "--json")]:
+                    with self.subTest(name=name, verb=verb):
+                        result = self.run_cli("scene", *verb, os.fsdecode(path))
+                        self.assertEqual(result.returncode, code)
+                        for stream in [result.stdout, result.stderr]:
+                            self.assertNotRegex(stream, "[\x00-\x09\x0b-\x1f\x7f-\x9f\u202e]")
+                        self.assertNotIn("new\nline", result.stdout + result.stderr)
+
     def test_nesting_bomb(self):
         self.assert_mistake("[" * 100000, "1:65")
 

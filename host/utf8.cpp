@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/utf8.h"
+#include "host/utf8.h"
 
 namespace rt {
-namespace {
-
-/// Length of the well-formed character at `at`, or 0. The second byte's narrower ranges keep out
-/// overlong forms, surrogates, and anything above U+10FFFF.
-std::size_t character_length(std::string_view text, std::size_t at) {
+/// The second byte's narrower ranges keep out overlong forms, surrogates, and anything above
+/// U+10FFFF.
+std::size_t utf8_character_length(std::string_view text) {
     const auto byte = [&](std::size_t i) -> unsigned {
-        return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
     };
     const unsigned lead = byte(0);
     if (lead < 0x80) return lead == 0 ? 0 : 1;
@@ -26,12 +24,10 @@ std::size_t character_length(std::string_view text, std::size_t at) {
     return length;
 }
 
-}  // namespace
-
 std::optional<std::size_t> find_invalid_utf8(std::string_view text) {
     std::size_t at = 0;
     while (at < text.size()) {
-        const std::size_t length = character_length(text, at);
+        const std::size_t length = utf8_character_length(text.substr(at));
         if (length == 0) return at;
         at += length;
     }

@@ -15,8 +15,9 @@ constexpr bool is_utf8_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
 }
 
-/// A control character of ASCII; C1's, two bytes each, are not told apart.
-constexpr bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+/// Bytes of the well-formed character (Unicode 15, table 3-7) that the text starts with; 0 where
+/// none does, a NUL included.
+std::size_t utf8_character_length(std::string_view text);
 
 /// Where the text stops being well-formed UTF-8 (Unicode 15, table 3-7), a NUL byte included;
 /// empty when all of it is good.

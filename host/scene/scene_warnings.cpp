@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/scene_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scene/in_view.h"
+#include "host/scene/words.h"
+
+namespace rt {
+namespace {
+
+double brightest(const glm::dvec3& color) { return std::max({color.r, color.g, color.b}); }
+
+bool has_shapes(const Scene& scene) {
+    return !scene.spheres.empty() || !scene.cones.empty() || triangle_count(scene) > 0;
+}
+
+/// Whether some light from somewhere can come off some surface.
+bool anything_shines(const Scene& scene) {
+    const auto lit = [](const Scene::Light& light) { return brightest(light.intensity) > 0; };
+    const bool lights = std::ranges::any_of(scene.lights, lit);
+    return std::ranges::any_of(scene.materials, [&](const Scene::Material& m) {
+        const bool ambient = brightest(m.ambient * scene.ambient_light) > 0;
+        const bool direct = lights && brightest(m.diffuse + m.specular) > 0;
+        const bool mirrored =
+            brightest(scene.background) > 0 && brightest(m.mirror + m.transmission) > 0;
+        return ambient || direct || mirrored;
+    });
+}
+
+/// Whole numbers, one of them too large for what is meant as a share.
+bool is_of_bytes(const glm::dvec3& color) {
+    const bool whole =
+        color == glm::dvec3(std::floor(color.r), std::floor(color.g), std::floor(color.b));
+    return whole && brightest(color) >= 2 && brightest(color) <= 255;
+}
+
+struct NamedColor {
+    std::string_view name;
+    const glm::dvec3 Scene::Material::*color;
+};
+
+constexpr NamedColor material_colors[] = {{"ambient", &Scene::Material::ambient},
+                                          {"diffuse", &Scene::Material::diffuse},
+                                          {"specular", &Scene::Material::specular},
+                                          {"mirror", &Scene::Material::mirror},
+                                          {"transmission", &Scene::Material::transmission}};
+
+/// "diffuse of material 'red'", for each color that is true of.
+template <typename Is>
+std::vector<std::string> materials_where(const Scene& scene, std::span<const NamedColor> colors,
+                                         Is is) {
+    std::vector<std::string> found;
+    for (const Scene::Material& material : scene.materials) {
+        for (const NamedColor& named : colors) {
+            if (!is(material.*named.color)) continue;
+            found.push_back(fmt::format("{} of material {}", named.name, in_quotes(material.name)));
+        }
+    }
+    return found;
+}
+
+/// "first" or "first and 3 more".
+std::string first_of(const std::vector<std::string>& found) {
+    return found.size() == 1 ? found[0] : fmt::format("{} and {} more", found[0], found.size() - 1);
+}
+
+std::vector<std::string> colors_of_bytes(const Scene& scene) {
+    std::vector<std::string> found = materials_where(scene, material_colors, is_of_bytes);
+    if (is_of_bytes(scene.background)) found.emplace_back("background");
+    return found;
+}
+
+}  // namespace
+
+std::vector<std::string> scene_warnings(const Scene& scene) {
+    std::vector<std::string> warnings;
+    if (has_shapes(scene) && !anything_shines(scene)) {
+        warnings.emplace_back(
+            "no light reaches any surface, so all of them are black; add lights, or ambient light "
+            "and ambient colors");
+    }
+    if (has_shapes(scene) && !is_anything_in_view(scene)) {
+        warnings.emplace_back(
+            "nothing is in view; look at from, at and the angle or window of the camera");
+    }
+    if (const auto found = colors_of_bytes(scene); !found.empty()) {
+        warnings.push_back(fmt::format(
+            "{}: that looks like 0 to 255; colors go from 0 to 1, divide by 255", first_of(found)));
+        return warnings;
+    }
+    const std::span<const NamedColor> passed_on(material_colors + 3, 2);
+    const auto brightens = [](const glm::dvec3& color) { return brightest(color) > 1; };
+    if (const auto found = materials_where(scene, passed_on, brightens); !found.empty()) {
+        warnings.push_back(fmt::format(
+            "{}: above 1, so that light grows at each bounce; make it 1 at most", first_of(found)));
+    }
+    return warnings;
+}
+
+}  // namespace rt
