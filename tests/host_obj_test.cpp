@@ -160,5 +160,54 @@ TEST(ParseObj, LibrariesAreOneNameOrSeveralAndTheFirstDefinitionCounts) {
     EXPECT_EQ(model.materials[0].diffuse, glm::dvec3(1));
 }
 
+/// Everything that depends on lines before: indices, materials, joined lines, polygons.
+std::string long_obj(int times) {
+    std::string text = "\xEF\xBB\xBFmtllib lib\n";
+    for (int i = 0; i < times; ++i) {
+        const std::string x = std::to_string(10 * i);
+        text += "v " + x + " 0 0\nv " + x + " 1 \\\n0 # joined\\\nvn 0 0 1\r\nv 1" + x +
+                " 1 0\rv 1" + x + " 0 0\n# v 1 2\nv 1" + x + " 0.5 0\nvt 0 \\\r\n 0\n";
+        text += "f -5 -4 -3\nusemtl " + std::string(i % 3 == 0 ? "b" : "a") +
+                "\nf -5//-1 -2//1 -3//-1 -4//1\n";
+        text += i % 2 == 0 ? "f 1 2 -1 4\n" : "usemtl\nl 1 2\nf -5 -4 -1 -3 -2\nf 5 4 3 2 1\n";
+    }
+    return text;
+}
+
+TEST(ParseObj, ChunksAndThreadsChangeNothing) {
+    const auto open = [](const std::string& name) {
+        return LibraryFile{name, "newmtl a\nnewmtl b\n", {}};
+    };
+    const std::string text = long_obj(40);
+    const Model whole = parse_obj(text, "t.obj", open, {1, text.size()});
+    EXPECT_GT(whole.mesh.faces.size(), 200u);
+    for (const std::size_t chunk : {1, 7, 100, 1000}) {
+        for (const int threads : {1, 3}) {
+            const Model cut = parse_obj(text, "t.obj", open, {threads, chunk});
+            EXPECT_EQ(cut.mesh.positions, whole.mesh.positions);
+            EXPECT_EQ(cut.mesh.normals, whole.mesh.normals);
+            EXPECT_EQ(cut.mesh.faces, whole.mesh.faces);
+            EXPECT_EQ(cut.mesh.face_normals, whole.mesh.face_normals);
+            EXPECT_EQ(cut.mesh.face_materials, whole.mesh.face_materials);
+            EXPECT_EQ(cut.notes, whole.notes);
+        }
+    }
+}
+
+TEST(ParseObj, ChunksAndThreadsFindTheSameMistakes) {
+    std::string text =
+        long_obj(5) + "f 1 2 26\nv 1 2\nf 1 2 26\nf 1 2 27\nfoo\nv nan 0 0\n" + long_obj(5);
+    for (int i = 0; i < 12; ++i) text += "f 1 2 999\nvn 1\n";
+    const Refusal whole = refusal_of([&] { parse_obj(text, "t.obj", {}, {1, text.size()}); });
+    EXPECT_EQ(std::count(whole.message.begin(), whole.message.end(), '\n'), 19);
+    EXPECT_NE(whole.message.find("vertex 27 does not exist, 26 of them"), std::string::npos);
+    for (const std::size_t chunk : {1, 50, 1000}) {
+        for (const int threads : {1, 3}) {
+            const Refusal cut = refusal_of([&] { parse_obj(text, "t.obj", {}, {threads, chunk}); });
+            EXPECT_EQ(cut.message, whole.message);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace rt

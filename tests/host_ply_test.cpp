@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -182,6 +183,76 @@ TEST(ParsePly, PositionsAreFloatsExactly) {
             .mesh;
     EXPECT_EQ(mesh.positions[0], glm::dvec3(0.1f, 1e-30f, -3e29f));
     EXPECT_EQ(mesh.faces, (Faces{{2, 0, 1}}));
+}
+
+/// A grid of squares, each as two triangles or as one quadrilateral; the last face is as told.
+std::string ply_grid(const std::string& format, int side, bool quads,
+                     const std::vector<int>& last = {}) {
+    PlyData data(format);
+    for (int i = 0; i < side * side; ++i) {
+        data.add<std::uint8_t>(9).add<float>(static_cast<float>(i % side)).add<double>(i / side);
+        data.add<std::int16_t>(static_cast<std::int16_t>(i % 7));
+        data.add<float>(0).add<float>(0).add<float>(1).end_row();
+    }
+    int count = 0;
+    const auto add = [&](const std::vector<int>& corners) {
+        data.add<std::int16_t>(-1).add<std::uint8_t>(static_cast<std::uint8_t>(corners.size()));
+        for (const int corner : corners)
+            data.add<std::uint16_t>(static_cast<std::uint16_t>(corner));
+        data.add<float>(0.5f).end_row();
+        ++count;
+    };
+    for (int i = 0; i < side * (side - 1) - 1; ++i) {
+        if (i % side == side - 1) continue;
+        if (quads) add({i, i + 1, i + side + 1, i + side});
+        if (!quads) add({i, i + 1, i + side}), add({i + 1, i + side + 1, i + side});
+    }
+    if (!last.empty()) add(last);
+    return data.file("element vertex " + std::to_string(side * side) +
+                     "\nproperty uchar red\nproperty float x\nproperty double y\nproperty short z\n"
+                     "property float nx\nproperty float ny\nproperty float nz\nelement face " +
+                     std::to_string(count) +
+                     "\nproperty short flags\nproperty list uchar ushort vertex_indices\n"
+                     "property float quality\n");
+}
+
+/// Text is read row by row.
+TEST(ParsePly, RowsReadSideBySideAreTheSame) {
+    for (const bool quads : {false, true}) {
+        for (const std::vector<int>& last :
+             {std::vector<int>{}, {0, 1, 2}, {0, 1, 13, 12}, {0, 1, 2, 14, 12}, {0, 13, 1, 12}}) {
+            const Model text = parse_ply(ply_grid("ascii", 12, quads, last), "t.ply");
+            EXPECT_GT(text.mesh.faces.size(), 200u);
+            for (const std::string format : {"binary_little_endian", "binary_big_endian"}) {
+                for (const std::size_t chunk : {1, 100, 1 << 20}) {
+                    const Model bytes =
+                        parse_ply(ply_grid(format, 12, quads, last), "t.ply", {3, chunk});
+                    EXPECT_EQ(bytes.mesh.positions, text.mesh.positions);
+                    EXPECT_EQ(bytes.mesh.normals, text.mesh.normals);
+                    EXPECT_EQ(bytes.mesh.faces, text.mesh.faces);
+                    EXPECT_EQ(bytes.notes, text.notes);
+                }
+            }
+        }
+    }
+}
+
+TEST(ParsePly, MistakesInRowsReadSideBySideAreToldByTheirRows) {
+    for (const std::size_t chunk : {1, 1 << 20}) {
+        const ReadPace pace{3, chunk};
+        const std::string text = ply_grid("binary_little_endian", 12, false, {0, 1, 144});
+        const Refusal refusal = refusal_of([&] { parse_ply(text, "t.ply", pace); });
+        EXPECT_EQ(refusal.message,
+                  "t.ply: element 'face' 242: vertex 144 does not exist, there are 144 and the "
+                  "first is 0; correct the number");
+        std::string infinite = ply_grid("binary_little_endian", 12, false);
+        const float bad = std::numeric_limits<float>::infinity();
+        const std::size_t row = infinite.find("end_header\n") + 11 + 100 * 27;
+        std::memcpy(infinite.data() + row + 1, &bad, sizeof bad);
+        const Refusal vertex = refusal_of([&] { parse_ply(infinite, "t.ply", pace); });
+        EXPECT_EQ(vertex.message,
+                  "t.ply: element 'vertex' 100: 'x' is inf; write a number from -1e30 to 1e30");
+    }
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <system_error>
 
@@ -60,7 +62,21 @@ std::string_view LineScanner::rest() {
     return {start, static_cast<std::size_t>(stop - start)};
 }
 
+/// Most lines are short and hold no backslash or carriage return.
+bool LineScanner::skip_plain_line() {
+    constexpr std::ptrdiff_t most = 512;
+    const auto window = static_cast<std::size_t>(std::min(end_ - at_, most));
+    const auto* feed = static_cast<const char*>(std::memchr(at_, '\n', window));
+    if (!feed) return false;
+    auto size = static_cast<std::size_t>(feed - at_);
+    if (size > 0 && feed[-1] == '\r') --size;
+    if (size > 0 && (std::memchr(at_, '\\', size) || std::memchr(at_, '\r', size))) return false;
+    at_ = feed + 1;
+    return true;
+}
+
 void LineScanner::next_line() {
+    if (skip_plain_line()) return;
     bool comment = false;
     while (!at_line_end()) {
         comment = comment || *at_ == '#';

@@ -27,6 +27,10 @@ class LineScanner {
     std::size_t offset() const { return static_cast<std::size_t>(at_ - begin_); }
     std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
 
+    /// What is not read yet, for who reads a word in another way, and goes past it.
+    std::string_view left() const { return {at_, bytes_left()}; }
+    void advance(std::size_t bytes) { at_ += bytes; }
+
     /// Skips blanks; whether a word follows on this line.
     bool word_follows();
     /// The next word of this line, empty at its end.
@@ -46,6 +50,7 @@ class LineScanner {
    private:
     bool at_line_end() const { return at_ == end_ || *at_ == '\n' || *at_ == '\r'; }
     std::size_t continuation() const;
+    bool skip_plain_line();
     bool at_word_end() const;
 
     const char *begin_, *at_, *end_;

@@ -19,15 +19,6 @@ Face pick(std::span<const std::uint32_t> items, const Face& which) {
     return {items[which[0]], items[which[1]], items[which[2]]};
 }
 
-/// Whether the diagonal from the first corner parts a quadrilateral well: the triangles on both of
-/// its sides face much the same way, by more than rounding explains. True for most.
-bool parts_well(const std::vector<glm::dvec3>& quad) {
-    const glm::dvec3 diagonal = quad[2] - quad[0];
-    const glm::dvec3 one = glm::cross(quad[1] - quad[0], diagonal);
-    const glm::dvec3 other = glm::cross(diagonal, quad[3] - quad[0]);
-    return glm::dot(one, other) > 0.5 * glm::length(one) * glm::length(other);
-}
-
 void make_fan(std::size_t corners, std::vector<Face>& triangles) {
     triangles.clear();
     for (std::uint32_t i = 2; i < corners; ++i) triangles.push_back({0, i - 1, i});
@@ -35,26 +26,45 @@ void make_fan(std::size_t corners, std::vector<Face>& triangles) {
 
 }  // namespace
 
-void MeshBuilder::add_triangle(const Face& face, const Face* normals) {
-    if (normals && mesh.face_normals.empty()) {
-        mesh.face_normals.reserve(mesh.faces.capacity());
-        mesh.face_normals.assign(mesh.faces.size(), flat_face);
+bool parts_well(const std::array<glm::dvec3, 4>& quad) {
+    const glm::dvec3 diagonal = quad[2] - quad[0];
+    const glm::dvec3 one = glm::cross(quad[1] - quad[0], diagonal);
+    const glm::dvec3 other = glm::cross(diagonal, quad[3] - quad[0]);
+    return glm::dot(one, other) > 0.5 * glm::length(one) * glm::length(other);
+}
+
+void append_face(const Face& face, const Face* normals, std::vector<Face>& faces,
+                 std::vector<Face>& face_normals) {
+    if (normals && face_normals.empty()) {
+        face_normals.reserve(faces.capacity());
+        face_normals.assign(faces.size(), flat_face);
     }
-    mesh.faces.push_back(face);
+    faces.push_back(face);
     if (normals) {
-        mesh.face_normals.push_back(*normals);
-    } else if (!mesh.face_normals.empty()) {
-        mesh.face_normals.push_back(flat_face);
+        face_normals.push_back(*normals);
+    } else if (!face_normals.empty()) {
+        face_normals.push_back(flat_face);
     }
+}
+
+void MeshBuilder::add_triangles(std::span<const Face> faces, std::span<const Face> normals) {
+    std::vector<Face>& all = mesh.face_normals;
+    if (!normals.empty() && all.empty()) {
+        all.reserve(mesh.faces.capacity());
+        all.assign(mesh.faces.size(), flat_face);
+    }
+    mesh.faces.insert(mesh.faces.end(), faces.begin(), faces.end());
+    all.insert(all.end(), normals.begin(), normals.end());
+    if (!all.empty()) all.resize(mesh.faces.size(), flat_face);
 }
 
 void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
                            std::span<const std::uint32_t> normals) {
     const auto add = [&](const Face& which) {
         const Face face = pick(corners, which);
-        if (normals.empty()) return add_triangle(face, nullptr);
+        if (normals.empty()) return append_face(face, nullptr, mesh.faces, mesh.face_normals);
         const Face face_normals = pick(normals, which);
-        add_triangle(face, &face_normals);
+        append_face(face, &face_normals, mesh.faces, mesh.face_normals);
     };
     if (corners.size() == 3) return add({0, 1, 2});
     split(corners);
@@ -65,7 +75,8 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
 void MeshBuilder::split(std::span<const std::uint32_t> corners) {
     outline_.clear();
     for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
-    if (corners.size() == 4 && parts_well(outline_)) return make_fan(4, parts_);
+    const auto& o = outline_;
+    if (o.size() == 4 && parts_well({o[0], o[1], o[2], o[3]})) return make_fan(4, parts_);
     constexpr std::int64_t work_of_a_corner = 64;
     work_ = std::min(max_polygon_work,
                      std::max<std::int64_t>(work_, 0) +

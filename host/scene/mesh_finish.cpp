@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host/parallel.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/scene_limits.h"
 
@@ -42,24 +43,46 @@ bool has_zero_normal(const Scene::Mesh& mesh, const Face& normals) {
     });
 }
 
+/// The triangles without area, in their order: nearly always none. Side by side.
+std::vector<std::size_t> find_zero_areas(const Scene::Mesh& mesh) {
+    constexpr std::size_t grain = 1 << 15;
+    std::vector<std::vector<std::size_t>> found((mesh.faces.size() + grain - 1) / grain);
+    for_each_run(mesh.faces.size(), grain, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) {
+                         const auto [a, b, c] = mesh.faces[i];
+                         const auto& p = mesh.positions;
+                         if (zero_area({p[a], p[b], p[c]})) found[first / grain].push_back(i);
+                     }
+                 });
+    std::vector<std::size_t> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+/// Takes out the items at these places, which rise.
+template <typename Item>
+void take_out(std::vector<Item>& items, const std::vector<std::size_t>& places) {
+    std::size_t kept = 0, next = 0;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (next < places.size() && places[next] == i) {
+            ++next;
+        } else {
+            items[kept++] = items[i];
+        }
+    }
+    items.resize(kept);
+}
+
 /// How many triangles without area were taken out.
 std::size_t drop_zero_areas(Scene::Mesh& mesh) {
+    const std::vector<std::size_t> places = find_zero_areas(mesh);
+    if (places.empty()) return 0;
     const bool many_materials = mesh.face_materials.size() == mesh.faces.size();
-    const bool smooth = !mesh.face_normals.empty();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-        const auto [a, b, c] = mesh.faces[i];
-        if (zero_area({mesh.positions[a], mesh.positions[b], mesh.positions[c]})) continue;
-        mesh.faces[kept] = mesh.faces[i];
-        if (smooth) mesh.face_normals[kept] = mesh.face_normals[i];
-        if (many_materials) mesh.face_materials[kept] = mesh.face_materials[i];
-        ++kept;
-    }
-    const std::size_t dropped = mesh.faces.size() - kept;
-    mesh.faces.resize(kept);
-    if (smooth) mesh.face_normals.resize(kept);
-    if (many_materials && kept > 0) mesh.face_materials.resize(kept);
-    return dropped;
+    if (many_materials && places.size() < mesh.faces.size()) take_out(mesh.face_materials, places);
+    if (!mesh.face_normals.empty()) take_out(mesh.face_normals, places);
+    take_out(mesh.faces, places);
+    return places.size();
 }
 
 void turn_round(std::vector<Face>& faces) {

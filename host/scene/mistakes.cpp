@@ -35,8 +35,19 @@ void Mistakes::add(std::size_t offset, std::string message) {
 }
 
 void Mistakes::add_in(std::string where, std::size_t offset, std::string message) {
+    if (is_part_ && is_full()) return;
     found_.push_back({offset, std::move(message), std::move(where)});
-    if (found_.size() >= max_count) throw_if_any();
+    if (!is_part_ && is_full()) throw_if_any();
+}
+
+Mistakes Mistakes::part() const {
+    Mistakes part(text_, file_name_);
+    part.is_part_ = true;
+    return part;
+}
+
+void Mistakes::add_all(const Mistakes& part) {
+    found_.insert(found_.end(), part.found_.begin(), part.found_.end());
 }
 
 std::string Mistakes::place(std::size_t offset) const {
@@ -49,6 +60,7 @@ void Mistakes::throw_if_any() const {
     std::vector<Mistake> sorted = found_;
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const Mistake& a, const Mistake& b) { return a.offset < b.offset; });
+    if (sorted.size() > max_count) sorted.erase(sorted.begin() + max_count, sorted.end());
     std::string lines;
     for (const Mistake& mistake : sorted) {
         if (!lines.empty()) lines += '\n';

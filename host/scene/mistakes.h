@@ -31,6 +31,15 @@ class Mistakes {
     void add_in(std::string where, std::size_t offset, std::string message);
 
     std::size_t count() const { return found_.size(); }
+
+    /// One of the same text, for some of it: it keeps its first max_count and throws none.
+    Mistakes part() const;
+    bool is_full() const { return found_.size() >= max_count; }
+
+    /// Takes over what a part has noted, and throws none; throw_if_any then tells the first
+    /// max_count of the file.
+    void add_all(const Mistakes& part);
+
     std::string_view text() const { return text_; }
 
     /// "file:line:column", for a message that points at a second place.
@@ -49,6 +58,7 @@ class Mistakes {
 
     std::string_view text_;
     std::string file_name_;
+    bool is_part_ = false;
     std::vector<Mistake> found_;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/error.h"
+#include "host/parallel.h"
 #include "host/printable.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/model_file.h"
@@ -24,21 +25,40 @@ struct Ball {
     double radius = 0;
 };
 
+struct Box {
+    glm::dvec3 low{0}, high{0};
+};
+
+/// Calls work(value, position) for the corners of all faces, side by side, with a value of its own
+/// for each run of faces, that starts as `start`; returns the values.
+template <typename Value, typename Work>
+std::vector<Value> over_corners(const Scene::Mesh& mesh, const Value& start, Work work) {
+    constexpr std::size_t grain = 1 << 15;
+    std::vector<Value> values((mesh.faces.size() + grain - 1) / grain, start);
+    for_each_run(mesh.faces.size(), grain, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     Value value = start;
+                     for (std::size_t f = first; f < last; ++f) {
+                         for (const std::uint32_t i : mesh.faces[f]) work(value, mesh.positions[i]);
+                     }
+                     values[first / grain] = value;
+                 });
+    return values;
+}
+
 /// Around the middle of the box that holds all faces. Vertices without a face do not count.
 Ball bounding_ball(const Scene::Mesh& mesh) {
-    glm::dvec3 low = mesh.positions[mesh.faces[0][0]], high = low;
-    for (const Scene::Mesh::Face& face : mesh.faces) {
-        for (const std::uint32_t i : face) {
-            low = glm::min(low, mesh.positions[i]);
-            high = glm::max(high, mesh.positions[i]);
-        }
-    }
-    Ball ball{0.5 * low + 0.5 * high, 0};
-    for (const Scene::Mesh::Face& face : mesh.faces) {
-        for (const std::uint32_t i : face) {
-            ball.radius = std::max(ball.radius, glm::length(mesh.positions[i] - ball.center));
-        }
-    }
+    const glm::dvec3 first = mesh.positions[mesh.faces[0][0]];
+    Box all{first, first};
+    const auto boxes = over_corners(mesh, all, [](Box& box, const glm::dvec3& p) {
+        box = {glm::min(box.low, p), glm::max(box.high, p)};
+    });
+    for (const Box& box : boxes) all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+    Ball ball{0.5 * all.low + 0.5 * all.high, 0};
+    const auto radii = over_corners(mesh, 0.0, [&](double& radius, const glm::dvec3& p) {
+        radius = std::max(radius, glm::length(p - ball.center));
+    });
+    ball.radius = std::ranges::max(radii);
     return ball;
 }
 

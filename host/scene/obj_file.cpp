@@ -4,72 +4,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdint>
-#include <optional>
 #include <utility>
 
-#include "host/scene/line_scanner.h"
 #include "host/scene/mesh_builder.h"
+#include "host/scene/obj_chunk.h"
 #include "host/scene/obj_materials.h"
-#include "host/scene/words.h"
 
 namespace rt {
 namespace {
 
-/// Without effect on what we draw: texture coordinates, names, and hints for other programs.
-constexpr std::string_view ignored_words[] = {
-    "vt",       "g",      "o",      "s",          "mg",        "lod",   "bevel", "c_interp",
-    "d_interp", "usemap", "maplib", "shadow_obj", "trace_obj", "stech", "ctech"};
-constexpr std::string_view free_form_words[] = {
-    "vp",   "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim",
-    "hole", "scrv",   "sp",  "end",  "con",  "bsp",  "bzp",   "cdc",  "cdp",  "res"};
-constexpr std::string_view known_words[] = {"v", "vn", "vt", "f",      "g",     "o",
-                                            "s", "l",  "p",  "usemtl", "mtllib"};
-
-bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
-    return std::ranges::find(words, word) != words.end();
-}
-
-/// "1", "1/2", "1//3" or "1/2/3" as the file says it, or with nothing after a slash: "1/", "1//",
-/// "1/2/". 0 where there is no number, which is none that OBJ allows.
-struct Corner {
-    std::int64_t position = 0, texture = 0, normal = 0;
-    bool has_normal = false;
-};
-
-/// Reads one number up to a slash or the end; whether it is one.
-bool take_index(std::string_view& text, std::int64_t& index) {
-    const char* end = text.data() + text.size();
-    const auto result = std::from_chars(text.data(), end, index);
-    if (result.ec != std::errc()) return false;
-    text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
-    return text.empty() || text[0] == '/';
-}
-
-std::optional<Corner> parse_corner(std::string_view text) {
-    Corner corner;
-    if (!take_index(text, corner.position)) return std::nullopt;
-    if (text.empty()) return corner;
-    text.remove_prefix(1);
-    const bool textured = !text.empty() && text[0] != '/';
-    if (textured && !take_index(text, corner.texture)) return std::nullopt;
-    if (text.empty()) return corner;
-    text.remove_prefix(1);
-    corner.has_normal = !text.empty();
-    if (text.empty()) return corner;
-    if (!take_index(text, corner.normal) || !text.empty()) return std::nullopt;
-    return corner;
-}
-
+/// Reads the chunks of a file side by side: vertices first, then faces. Then puts them together in
+/// their order.
 class ObjReader {
    public:
-    ObjReader(std::string_view text, const std::string& file_name)
-        : scanner_(text), mistakes_(text, file_name), file_name_(file_name) {}
+    ObjReader(std::string_view text, const std::string& file_name, const ReadPace& pace)
+        : mistakes_(text, file_name), file_name_(file_name), pace_(pace) {
+        const std::vector<std::size_t> cuts = line_cuts(text, pace.chunk_bytes);
+        for (std::size_t i = 1; i < cuts.size(); ++i) {
+            chunks_.emplace_back(mistakes_, cuts[i - 1], cuts[i]);
+        }
+    }
 
     Model read(const OpenLibrary& open) {
-        for (; scanner_.find_word(); scanner_.next_line()) read_statement();
-        mistakes_.throw_if_any();
+        read_chunks();
+        std::size_t triangles = 0;
+        for (const ObjChunk& chunk : chunks_) triangles += chunk.faces.size();
+        builder_.mesh.faces.reserve(triangles);
+        for (ObjChunk& chunk : chunks_) add(chunk);
         Model model;
         if (open) model = materials_.load(open, mistakes_);
         const bool no_materials = model.materials.empty() && !materials_.lacks_library();
@@ -89,142 +50,74 @@ class ObjReader {
     }
 
    private:
-    void read_statement() {
-        const std::size_t offset = scanner_.offset();
-        const std::string_view word = scanner_.word();
-        if (word == "v") return read_position();
-        if (word == "f") return read_face(offset);
-        if (word == "vn") return read_normal();
-        if (word == "usemtl") return builder_.use_material(materials_.use(scanner_));
-        if (word == "mtllib") return materials_.note_library(scanner_);
-        if (is_one_of(word, ignored_words)) return;
-        if (word == "l" || word == "p") {
-            ++left_out_;
-            return;
+    template <typename Work>
+    void for_each_chunk(Work work) {
+        for_each_run(chunks_.size(), 1, pace_.threads,
+                     [&](std::size_t i, std::size_t) { work(i); });
+    }
+
+    void read_chunks() {
+        for_each_chunk([&](std::size_t i) { read_obj_vertices(chunks_[i]); });
+        std::vector<ObjCounts> above{{}};
+        for (const ObjChunk& chunk : chunks_) {
+            above.push_back({above.back().positions + chunk.positions.size(),
+                             above.back().normals + chunk.normals.size()});
         }
-        refuse_statement(offset, word);
+        std::vector<glm::dvec3>& positions = builder_.mesh.positions;
+        std::vector<glm::dvec3>& normals = builder_.mesh.normals;
+        positions.resize(above.back().positions);
+        normals.resize(above.back().normals);
+        for_each_chunk([&](std::size_t i) {
+            move_to(chunks_[i].positions, positions.data() + above[i].positions);
+            move_to(chunks_[i].normals, normals.data() + above[i].normals);
+        });
+        for_each_chunk([&](std::size_t i) { read_obj_faces(chunks_[i], above[i], positions); });
+        for (const ObjChunk& chunk : chunks_) mistakes_.add_all(chunk.mistakes);
+        mistakes_.throw_if_any();
     }
 
-    void refuse_statement(std::size_t offset, std::string_view word) {
-        std::string advice = "known statements are " + listed(known_words);
-        if (is_one_of(word, free_form_words)) {
-            advice = "curves and surfaces cannot be drawn, export polygons";
-        } else if (word == "call" || word == "csh") {
-            advice = "other files and commands are not run, put their text here";
-        } else if (const auto near = nearest_word(word, known_words); !near.empty()) {
-            advice = fmt::format("did you mean {}?", in_quotes(near));
-        }
-        mistakes_.add(offset, fmt::format("unknown statement {}; {}", in_quotes(word), advice));
+    /// Leaves nothing behind.
+    static void move_to(std::vector<glm::dvec3>& items, glm::dvec3* target) {
+        std::ranges::copy(items, target);
+        std::vector<glm::dvec3>().swap(items);
     }
 
-    std::optional<glm::dvec3> read_three(std::string_view name) {
-        glm::dvec3 v(0);
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto number = read_number(scanner_, name, mistakes_);
-            if (!number) return std::nullopt;
-            v[axis] = *number;
-        }
-        return v;
-    }
-
-    /// A position that is wrong is counted all the same, so that indices keep their meaning.
-    void read_position() {
-        const auto position = read_three("a coordinate");
-        builder_.mesh.positions.push_back(position.value_or(glm::dvec3(0)));
-        if (!position) return;
-        constexpr int most = 5;  // a weight and a color with alpha, which are not used
-        for (int extra = 0; extra < most && scanner_.word_follows(); ++extra) scanner_.word();
-        require_end("v");
-    }
-
-    void read_normal() {
-        const auto normal = read_three("a normal");
-        builder_.mesh.normals.push_back(normal.value_or(glm::dvec3(0)));
-        if (normal) require_end("vn");
-    }
-
-    void require_end(std::string_view word) {
-        if (!scanner_.word_follows()) return;
-        const std::size_t offset = scanner_.offset();
-        mistakes_.add(offset, fmt::format("{} follows the numbers of {}; remove it",
-                                          in_quotes(scanner_.word()), word));
-    }
-
-    /// The index from 0 that an index from 1, or from -1 backwards, means; notes a wrong one.
-    std::optional<std::uint32_t> resolve(std::int64_t index, std::size_t count,
-                                         std::string_view what, std::size_t offset) {
-        const auto size = static_cast<std::int64_t>(count);
-        const bool good = index >= -size && index <= size && index != 0;
-        if (good) return static_cast<std::uint32_t>(index > 0 ? index - 1 : size + index);
-        if (index == 0) {
-            mistakes_.add(offset, fmt::format("{} 0 does not exist; count from 1", what));
-        } else {
-            mistakes_.add(offset, fmt::format("{} {} does not exist, {} of them stand above; "
-                                              "correct the number",
-                                              what, index, count));
-        }
-        return std::nullopt;
-    }
-
-    /// Puts one corner in corners_ and normals_; whether it is good.
-    bool read_corner() {
-        const std::size_t offset = scanner_.offset();
-        const std::string_view word = scanner_.word();
-        const auto corner = parse_corner(word);
-        if (!corner) {
-            mistakes_.add(offset, fmt::format("{} is no corner of a face; write v, v/vt, v//vn or "
-                                              "v/vt/vn in whole numbers",
-                                              in_quotes(word)));
-            return false;
-        }
-        const auto position =
-            resolve(corner->position, builder_.mesh.positions.size(), "vertex", offset);
-        if (!position) return false;
-        if (!corners_.empty() && corner->has_normal == normals_.empty()) {
-            mistakes_.add(offset,
-                          "some corners of the face have a normal and some have none; "
-                          "give all of them one, or none");
-            return false;
-        }
-        corners_.push_back(*position);
-        if (!corner->has_normal) return true;
-        const auto normal = resolve(corner->normal, builder_.mesh.normals.size(), "normal", offset);
-        if (normal) normals_.push_back(*normal);
-        return normal.has_value();
-    }
-
-    void read_face(std::size_t offset) {
-        corners_.clear();
-        normals_.clear();
-        while (scanner_.word_follows()) {
-            if (!read_corner()) return;
-            if (corners_.size() > max_face_corners) {
-                mistakes_.add(offset, fmt::format("the face has more than {} corners; split it",
-                                                  max_face_corners));
-                return;
+    void add(ObjChunk& chunk) {
+        const std::span<const Scene::Mesh::Face> faces = chunk.faces, normals = chunk.face_normals;
+        std::size_t done = 0;
+        const auto add_up_to = [&](std::size_t end) {
+            builder_.add_triangles(faces.subspan(done, end - done),
+                                   normals.empty() ? normals : normals.subspan(done, end - done));
+            done = end;
+        };
+        for (const ObjEvent& event : chunk.events) {
+            add_up_to(event.faces_before);
+            if (const auto* polygon = std::get_if<ObjPolygon>(&event.what)) {
+                builder_.add_face(polygon->corners, polygon->normals);
+            } else {
+                builder_.use_material(materials_.use(std::get<ObjMaterialUse>(event.what)));
             }
         }
-        if (corners_.size() < 3) {
-            mistakes_.add(offset, fmt::format("the face has {} corner{}; write three or more",
-                                              corners_.size(), corners_.size() == 1 ? "" : "s"));
-        } else if (mistakes_.count() == 0) {
-            builder_.add_face(corners_, normals_);
-        }
+        add_up_to(faces.size());
+        for (const ObjLibraryUse& library : chunk.libraries) materials_.note_library(library);
+        left_out_ += chunk.left_out;
+        chunk = ObjChunk(mistakes_, 0, 0);
     }
 
-    LineScanner scanner_;
     Mistakes mistakes_;
     std::string file_name_;
+    ReadPace pace_;
+    std::vector<ObjChunk> chunks_;
     MeshBuilder builder_;
     ObjMaterials materials_;
-    std::vector<std::uint32_t> corners_, normals_;  ///< of the face being read
     std::size_t left_out_ = 0;
 };
 
 }  // namespace
 
-Model parse_obj(std::string_view text, const std::string& file_name, const OpenLibrary& open) {
-    return ObjReader(text, file_name).read(open);
+Model parse_obj(std::string_view text, const std::string& file_name, const OpenLibrary& open,
+                const ReadPace& pace) {
+    return ObjReader(text, file_name, pace).read(open);
 }
 
 }  // namespace rt

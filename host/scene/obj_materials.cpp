@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "host/printable.h"
+#include "host/scene/line_scanner.h"
 #include "host/scene/mtl_file.h"
 #include "host/scene/words.h"
 
@@ -56,26 +56,18 @@ class Libraries {
 
 }  // namespace
 
-int ObjMaterials::use(LineScanner& scanner) {
-    const std::size_t offset = scanner.offset();
-    const std::string name = printable(scanner.rest());
-    if (name.empty()) return -1;
-    const auto [found, is_new] = numbers_.emplace(name, static_cast<int>(used_.size()));
-    if (is_new) used_.push_back({name, offset});
+int ObjMaterials::use(const ObjMaterialUse& use) {
+    if (use.name.empty()) return -1;
+    const auto [found, is_new] = numbers_.emplace(use.name, static_cast<int>(used_.size()));
+    if (is_new) used_.push_back(use);
     return found->second;
-}
-
-void ObjMaterials::note_library(LineScanner& scanner) {
-    scanner.word_follows();
-    const std::size_t offset = scanner.offset();
-    libraries_.push_back({std::string(scanner.rest()), offset});
 }
 
 Model ObjMaterials::load(const OpenLibrary& open, const Mistakes& mistakes) {
     Libraries libraries(open);
     std::vector<std::string> notes;
-    for (const Name& statement : libraries_) {
-        const std::string problem = libraries.add_all(statement.text);
+    for (const ObjLibraryUse& statement : libraries_) {
+        const std::string problem = libraries.add_all(statement.names);
         if (problem.empty()) continue;
         lacks_library_ = true;
         notes.push_back(fmt::format("{}: {}; until then its materials are gray",
@@ -95,13 +87,13 @@ void ObjMaterials::resolve(Model& model, Mistakes& mistakes) const {
     }
     const auto fallback = static_cast<int>(model.materials.size());
     std::vector<int> indices;
-    for (const Name& name : used_) {
-        const auto found = known.find(name.text);
+    for (const ObjMaterialUse& use : used_) {
+        const auto found = known.find(use.name);
         indices.push_back(found == known.end() ? fallback : found->second);
         if (found != known.end() || lacks_library_) continue;
-        const std::string_view near = nearest_word(name.text, names);
-        mistakes.add(name.offset,
-                     fmt::format("unknown material {}; {}", in_quotes(name.text),
+        const std::string_view near = nearest_word(use.name, names);
+        mistakes.add(use.offset,
+                     fmt::format("unknown material {}; {}", in_quotes(use.name),
                                  near.empty() ? "the libraries hold " + listed(names)
                                               : fmt::format("did you mean {}?", in_quotes(near))));
     }

@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "host/scene/line_scanner.h"
 #include "host/scene/model.h"
+#include "host/scene/obj_chunk.h"
 
 namespace rt {
 
@@ -14,11 +14,10 @@ namespace rt {
 /// so names become materials only when the whole file is read.
 class ObjMaterials {
    public:
-    /// Reads what follows usemtl; the number of the name, -1 when there is none.
-    int use(LineScanner& scanner);
+    /// The number of a name, in the order of first uses; -1 of an empty one.
+    int use(const ObjMaterialUse& use);
 
-    /// Reads what follows mtllib.
-    void note_library(LineScanner& scanner);
+    void note_library(const ObjLibraryUse& library) { libraries_.push_back(library); }
 
     /// Reads the libraries: a model with their materials and notes, without mesh. A library that is
     /// not there is a note.
@@ -33,12 +32,8 @@ class ObjMaterials {
     void resolve(Model& model, Mistakes& mistakes) const;
 
    private:
-    struct Name {
-        std::string text;
-        std::size_t offset;  ///< of its first use
-    };
-
-    std::vector<Name> used_, libraries_;
+    std::vector<ObjMaterialUse> used_;  ///< first uses
+    std::vector<ObjLibraryUse> libraries_;
     std::unordered_map<std::string, int> numbers_;
     bool lacks_library_ = false;
 };

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 #include "host/scene/mesh_builder.h"
+#include "host/scene/ply_blocks.h"
 #include "host/scene/ply_header.h"
 #include "host/scene/ply_rows.h"
 #include "host/scene/scene_limits.h"
@@ -81,8 +84,8 @@ void check_header(const PlyHeader& header, Mistakes& mistakes) {
 template <typename Rows>
 class BodyReader {
    public:
-    BodyReader(const PlyHeader& header, Rows rows, Mistakes& mistakes)
-        : header_(header), rows_(std::move(rows)), mistakes_(mistakes) {}
+    BodyReader(const PlyHeader& header, Rows rows, Mistakes& mistakes, const ReadPace& pace)
+        : header_(header), rows_(std::move(rows)), mistakes_(mistakes), pace_(pace) {}
 
     Model read(const std::string& file_name) {
         for (const PlyElement& element : header_.elements) {
@@ -153,13 +156,47 @@ class BodyReader {
         return length && rows_.skip(property.type, *length);
     }
 
+    /// All rows at once, where they are alike and right; whether they were.
+    bool read_vertices_side_by_side(const PlyElement& element) {
+        if constexpr (std::is_same_v<Rows, BinaryRows>) {
+            const auto rows = fixed_rows(rows_.left(), element);
+            if (!rows) return false;
+            auto block = read_vertex_block(*rows, element, rows_.swapped(), pace_);
+            if (!block) return false;
+            builder_.mesh.positions = std::move(block->positions);
+            builder_.mesh.normals = std::move(block->normals);
+            rows_.advance(rows->size());
+            return true;
+        }
+        return false;
+    }
+
+    bool read_faces_side_by_side(const PlyElement& element) {
+        if constexpr (std::is_same_v<Rows, BinaryRows>) {
+            auto block = read_face_block(rows_.left(), element, rows_.swapped(),
+                                         builder_.mesh.positions, pace_);
+            if (!block) return false;
+            if (builder_.mesh.faces.empty()) {
+                builder_.mesh.faces = std::move(block->faces);
+            } else {
+                builder_.add_triangles(block->faces, {});
+            }
+            rows_.advance(block->bytes);
+            return true;
+        }
+        return false;
+    }
+
     void read_vertices(const PlyElement& element) {
+        if (read_vertices_side_by_side(element)) return;
+        const bool smooth = element.find("nx") && element.find("ny") && element.find("nz");
+        const std::span<const std::string_view> used(vertex_columns, smooth ? column_count : 3);
         std::vector<std::size_t> columns;
         for (const PlyProperty& property : element.properties) {
-            const auto found = std::ranges::find(vertex_columns, property.name);
-            columns.push_back(static_cast<std::size_t>(found - std::begin(vertex_columns)));
+            const auto found = std::ranges::find(used, property.name);
+            columns.push_back(found == used.end() ? not_used
+                                                  : static_cast<std::size_t>(found - used.begin()));
         }
-        const bool smooth = element.find("nx") && element.find("ny") && element.find("nz");
         Scene::Mesh& mesh = builder_.mesh;
         mesh.positions.reserve(element.count);
         if (smooth) mesh.normals.reserve(element.count);
@@ -189,6 +226,7 @@ class BodyReader {
     }
 
     void read_faces(const PlyElement& element) {
+        if (read_faces_side_by_side(element)) return;
         constexpr std::uint64_t triangle_bytes = 8;  // of the shortest text or the usual bytes
         const std::uint64_t triangles =
             std::min(element.count, rows_.bytes_left() / triangle_bytes);
@@ -272,20 +310,21 @@ class BodyReader {
     const PlyHeader& header_;
     Rows rows_;
     Mistakes& mistakes_;
+    ReadPace pace_;
     MeshBuilder builder_;
     std::vector<std::uint32_t> corners_;  ///< of the face being read
 };
 
 }  // namespace
 
-Model parse_ply(std::string_view text, const std::string& file_name) {
+Model parse_ply(std::string_view text, const std::string& file_name, const ReadPace& pace) {
     Mistakes mistakes(text, file_name);
     const PlyHeader header = parse_ply_header(mistakes);
     check_header(header, mistakes);
     if (header.format == PlyFormat::ascii) {
-        return BodyReader(header, TextRows(text, header, mistakes), mistakes).read(file_name);
+        return BodyReader(header, TextRows(text, header, mistakes), mistakes, pace).read(file_name);
     }
-    return BodyReader(header, BinaryRows(text, header, mistakes), mistakes).read(file_name);
+    return BodyReader(header, BinaryRows(text, header, mistakes), mistakes, pace).read(file_name);
 }
 
 }  // namespace rt

@@ -198,11 +198,6 @@ class HeaderReader {
 
 }  // namespace
 
-std::size_t size_of(PlyType type) {
-    constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-    return sizes[static_cast<std::size_t>(type)];
-}
-
 const PlyProperty* PlyElement::find(std::string_view property) const {
     const auto found = std::ranges::find(properties, property, &PlyProperty::name);
     return found == properties.end() ? nullptr : &*found;

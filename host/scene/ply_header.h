@@ -15,7 +15,10 @@ namespace rt {
 enum class PlyFormat { ascii, little_endian, big_endian };
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-std::size_t size_of(PlyType type);
+constexpr std::size_t size_of(PlyType type) {
+    constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+    return sizes[static_cast<std::size_t>(type)];
+}
 inline bool is_whole(PlyType type) { return type < PlyType::float32; }
 
 struct PlyProperty {

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "host/scene/line_scanner.h"
 #include "host/scene/ply_header.h"
+#include "host/scene/ply_value.h"
 
 namespace rt {
 
@@ -40,19 +39,12 @@ class BinaryRows {
 
     std::optional<double> number(PlyType type) {
         if (!has(size_of(type))) return std::nullopt;
-        switch (type) {
-            case PlyType::float32:
-                return std::bit_cast<float>(take<std::uint32_t>());
-            case PlyType::float64:
-                return std::bit_cast<double>(take<std::uint64_t>());
-            default:
-                return static_cast<double>(take_whole(type));
-        }
+        return ply_number(take(type), type, swapped_);
     }
 
     std::optional<std::int64_t> integer(PlyType type) {
         if (!has(size_of(type))) return std::nullopt;
-        return take_whole(type);
+        return ply_whole(take(type), type, swapped_);
     }
 
     /// Skips this many values; whether they are there.
@@ -63,6 +55,10 @@ class BinaryRows {
     }
 
     std::uint64_t bytes_left() const { return static_cast<std::uint64_t>(end_ - at_); }
+    std::string_view left() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
+    /// Goes past bytes that are there and were read otherwise.
+    void advance(std::size_t bytes) { at_ += bytes; }
+    bool swapped() const { return swapped_; }
     /// A row that is cut short leaves nothing to read after it.
     bool lost() const { return lost_; }
     void note(std::string message) {
@@ -81,35 +77,7 @@ class BinaryRows {
         return false;
     }
 
-    template <typename U>
-    U take() {
-        std::array<unsigned char, sizeof(U)> bytes;
-        std::memcpy(bytes.data(), at_, sizeof(U));
-        at_ += sizeof(U);
-        if (swapped_) std::reverse(bytes.begin(), bytes.end());
-        return std::bit_cast<U>(bytes);
-    }
-
-    /// Of a whole type.
-    std::int64_t take_whole(PlyType type) {
-        switch (type) {
-            case PlyType::int8:
-                return static_cast<std::int8_t>(take<std::uint8_t>());
-            case PlyType::uint8:
-                return take<std::uint8_t>();
-            case PlyType::int16:
-                return static_cast<std::int16_t>(take<std::uint16_t>());
-            case PlyType::uint16:
-                return take<std::uint16_t>();
-            case PlyType::int32:
-                return static_cast<std::int32_t>(take<std::uint32_t>());
-            case PlyType::uint32:
-            case PlyType::float32:
-            case PlyType::float64:
-                break;
-        }
-        return take<std::uint32_t>();
-    }
+    const char* take(PlyType type) { return std::exchange(at_, at_ + size_of(type)); }
 
     const char *begin_, *at_, *end_;
     bool swapped_;
