@@ -17,6 +17,7 @@
 #include "host/scene/json_file.h"
 #include "host/scene/mistakes.h"
 #include "host/scene/scene_file.h"
+#include "host/scene/scene_warnings.h"
 #include "host/scene/words.h"
 #include "tests/refusals.h"
 
@@ -326,6 +327,88 @@ TEST(PositionOf, ColumnsCountCharacters) {
     const SourcePosition position = position_of("\xEF\xBB\xBF{\n\xC3\xA4\xE2\x82\xAC!", 10);
     EXPECT_EQ(position.line, 2u);
     EXPECT_EQ(position.column, 3u);
+}
+
+/// The warnings for a scene seen from (0, 0, 5) along -z, 40 degrees wide.
+std::vector<std::string> warnings_for(const std::string& keys,
+                                      const std::string& view = R"("fov_degrees": 40)") {
+    return scene_warnings(parse_json_scene(
+        R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0], )" + view + "}, " + keys + "}",
+        "t.json"));
+}
+
+std::string ball_at(const std::string& center, const std::string& material) {
+    return R"("materials": {"m": )" + material + R"(}, "spheres": [{"center": )" + center +
+           R"(, "radius": 1, "material": "m"}])";
+}
+
+bool warns(const std::vector<std::string>& warnings, const std::string& words) {
+    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+        return warning.find(words) != warning.npos;
+    });
+}
+
+TEST(SceneWarnings, NoLightAtAll) {
+    const std::string dark = "no light reaches any surface";
+    const std::string matt = ball_at("[0, 0, 0]", R"({"diffuse": 0.5})");
+    EXPECT_TRUE(warns(warnings_for(matt), dark));
+    EXPECT_TRUE(warns(warnings_for(matt + R"(, "ambient_light": 1)"), dark));
+    EXPECT_TRUE(warns(
+        warnings_for(matt + R"(, "lights": [{"position": [0, 9, 0], "intensity": 0}])"), dark));
+    EXPECT_TRUE(warnings_for(matt + R"(, "lights": [{"position": [0, 9, 0]}])").empty());
+    EXPECT_TRUE(
+        warnings_for(ball_at("[0, 0, 0]", R"({"ambient": 0.5})") + R"(, "ambient_light": 1)")
+            .empty());
+    EXPECT_TRUE(
+        warnings_for(ball_at("[0, 0, 0]", R"({"mirror": 0.5})") + R"(, "background": 1)").empty());
+    EXPECT_TRUE(warnings_for(R"("background": 0)").empty());
+}
+
+TEST(SceneWarnings, NothingInView) {
+    const std::string lamp = R"(, "ambient_light": 1, )";
+    const std::string words = "nothing is in view";
+    const std::string grey = R"({"ambient": 1})";
+    for (const std::string center : {"[0, 0, 7]", "[4, 0, 0]", "[0, -4, 0]", "[9, 9, -9]"}) {
+        EXPECT_TRUE(warns(warnings_for(ball_at(center, grey) + R"(, "ambient_light": 1)"), words))
+            << center;
+    }
+    for (const std::string center :
+         {"[0, 0, 5.5]", "[2.7, 0, 0]", "[0, 0, -1000]", "[30, 0, -100]"}) {
+        EXPECT_TRUE(warnings_for(ball_at(center, grey) + R"(, "ambient_light": 1)").empty())
+            << center;
+    }
+    const std::string ortho = R"("type": "orthographic", "window": [1, 3, -1, 1])";
+    EXPECT_TRUE(
+        warnings_for(ball_at("[2, 0, 0]", grey) + R"(, "ambient_light": 1)", ortho).empty());
+    EXPECT_TRUE(warns(
+        warnings_for(ball_at("[-0.5, 0, 0]", grey) + R"(, "ambient_light": 1)", ortho), words));
+    const std::string skin = R"("materials": {"m": {"ambient": 1}})" + lamp;
+    const auto triangle = [&](const std::string& vertices) {
+        return skin + R"("triangles": [{"material": "m", "vertices": )" + vertices + "}]";
+    };
+    EXPECT_TRUE(warnings_for(triangle("[[-50, -50, 0], [50, -50, 0], [0, 99, 0]]")).empty());
+    EXPECT_TRUE(warns(warnings_for(triangle("[[5, 0, 0], [6, 0, 0], [5, 1, 0]]")), words));
+    const std::string cone = R"("cones": [{"material": "m", "base_radius": 1, "apex_radius": 0, )";
+    EXPECT_TRUE(warnings_for(skin + cone + R"("base": [9, 0, 0], "apex": [0, 0, 0]}])").empty());
+    EXPECT_TRUE(
+        warns(warnings_for(skin + cone + R"("base": [9, 0, 0], "apex": [5, 0, 0]}])"), words));
+}
+
+TEST(SceneWarnings, ColorsOfBytesAndMirrorsThatBrighten) {
+    const std::string lit = R"(, "ambient_light": 1)";
+    const std::string bytes = "looks like 0 to 255";
+    const auto of = [&](const std::string& material) {
+        return warnings_for(ball_at("[0, 0, 0]", material) + lit);
+    };
+    EXPECT_TRUE(warns(of(R"({"ambient": [255, 128, 0], "diffuse": 200})"),
+                      "ambient of material 'm' and 1 more: that " + bytes));
+    EXPECT_TRUE(warns(warnings_for(ball_at("[0, 0, 0]", R"({"ambient": 1})") + lit +
+                                   R"(, "background": [135, 206, 235])"),
+                      bytes));
+    EXPECT_TRUE(of(R"({"ambient": 1, "diffuse": [1, 0, 1], "specular": 2.5})").empty());
+    EXPECT_TRUE(
+        warns(of(R"({"ambient": 1, "mirror": [0, 1.5, 0]})"), "mirror of material 'm': above 1"));
+    EXPECT_TRUE(of(R"({"ambient": 1, "mirror": 1, "transmission": 1})").empty());
 }
 
 TEST(Printable, LettersStayAsTheyAre) {

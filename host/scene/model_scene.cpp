@@ -20,7 +20,7 @@ namespace {
 
 constexpr double fov_degrees = 40;
 
-struct Ball {
+struct BoundingBall {
     glm::dvec3 center{0};
     double radius = 0;
 };
@@ -47,14 +47,14 @@ std::vector<Value> over_corners(const Scene::Mesh& mesh, const Value& start, Wor
 }
 
 /// Around the middle of the box that holds all faces. Vertices without a face do not count.
-Ball bounding_ball(const Scene::Mesh& mesh) {
+BoundingBall bounding_ball(const Scene::Mesh& mesh) {
     const glm::dvec3 first = mesh.positions[mesh.faces[0][0]];
     Box all{first, first};
     const auto boxes = over_corners(mesh, all, [](Box& box, const glm::dvec3& p) {
         box = {glm::min(box.low, p), glm::max(box.high, p)};
     });
     for (const Box& box : boxes) all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
-    Ball ball{0.5 * all.low + 0.5 * all.high, 0};
+    BoundingBall ball{0.5 * all.low + 0.5 * all.high, 0};
     const auto radii = over_corners(mesh, 0.0, [&](double& radius, const glm::dvec3& p) {
         radius = std::max(radius, glm::length(p - ball.center));
     });
@@ -63,7 +63,7 @@ Ball bounding_ball(const Scene::Mesh& mesh) {
 }
 
 /// The ball touches all sides of a square picture.
-Scene::Camera framing_camera(const Ball& ball) {
+Scene::Camera framing_camera(const BoundingBall& ball) {
     constexpr double half_angle = fov_degrees * (std::numbers::pi / 360.0);
     const glm::dvec3 towards = glm::normalize(glm::dvec3(0.6, 0.45, 1));
     Scene::Camera camera;
@@ -74,7 +74,7 @@ Scene::Camera framing_camera(const Ball& ball) {
 }
 
 /// The key lamp is left of the camera and high, the other one right and weak.
-std::vector<Scene::Light> lamps(const Ball& ball) {
+std::vector<Scene::Light> lamps(const BoundingBall& ball) {
     const glm::dvec3 key = 4.0 * ball.radius * glm::dvec3(-0.5, 1, 1);
     const glm::dvec3 fill = 4.0 * ball.radius * glm::dvec3(1, 0.4, 0.5);
     return {{ball.center + key, glm::dvec3(0.75), false},
@@ -84,7 +84,7 @@ std::vector<Scene::Light> lamps(const Ball& ball) {
 }  // namespace
 
 Scene make_model_scene(Model model, const std::string& path) {
-    const Ball ball = bounding_ball(model.mesh);
+    const BoundingBall ball = bounding_ball(model.mesh);
     Scene scene;
     scene.name = name_of_file(path);
     scene.camera = framing_camera(ball);

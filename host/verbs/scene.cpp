@@ -13,6 +13,7 @@
 #include "host/report/stats_json.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
+#include "host/scene/scene_warnings.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {
@@ -47,7 +48,8 @@ Json info_json(const std::string& path, const Scene& scene, const FlatScene<floa
             {"lit_triangles", flat.stats.lit_triangles},
             {"features_used", names_of(flat.features, true)},
             {"features_left_out", names_of(flat.features, false)},
-            {"notes", scene.notes}};
+            {"notes", scene.notes},
+            {"warnings", scene_warnings(scene)}};
 }
 
 std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
@@ -80,6 +82,9 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
                             scene.lights.size() - flat.lights.size());
     }
     for (const std::string& note : scene.notes) text += fmt::format("  note       {}\n", note);
+    for (const std::string& warning : scene_warnings(scene)) {
+        text += fmt::format("  warning    {}\n", warning);
+    }
     return text;
 }
 
@@ -91,7 +96,8 @@ int show_info(const SceneOptions& options) {
     return static_cast<int>(ExitCode::done);
 }
 
-Json check_json(const std::string& path, const std::string& mistakes) {
+Json check_json(const std::string& path, const std::string& mistakes,
+                const std::vector<std::string>& warnings) {
     Json lines = Json::array();
     std::istringstream text(mistakes);
     for (std::string line; std::getline(text, line);) lines.push_back(line);
@@ -99,19 +105,30 @@ Json check_json(const std::string& path, const std::string& mistakes) {
             {"version", 1},
             {"path", printable(path)},
             {"fine", lines.empty()},
-            {"mistakes", lines}};
+            {"mistakes", lines},
+            {"warnings", warnings}};
+}
+
+void print_warnings(const std::string& path, const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) {
+        print_message(fmt::format("mirrorball: {}: warning: {}\n", printable(path), warning));
+    }
 }
 
 int check_scene(const SceneOptions& options) {
     std::string mistakes;
+    std::vector<std::string> warnings;
     try {
-        flatten<float>(load_scene(options.scene, options.light));
+        const Scene scene = load_scene(options.scene, options.light);
+        flatten<float>(scene);
+        warnings = scene_warnings(scene);
     } catch (const Error& error) {
         if (!options.json || error.exit_code() != ExitCode::input) throw;
         mistakes = error.what();
     }
-    print_result(options.json ? json_text(check_json(options.scene, mistakes))
+    print_result(options.json ? json_text(check_json(options.scene, mistakes, warnings))
                               : printable(options.scene) + ": fine\n");
+    if (!options.json) print_warnings(options.scene, warnings);
     return static_cast<int>(mistakes.empty() ? ExitCode::done : ExitCode::input);
 }
 

@@ -265,6 +265,20 @@ class Check(CliTest):
                 self.assertEqual(result.stdout, f"{path}: fine\n")
 
 
+    def test_what_is_hardly_meant_is_a_warning(self):
+        path = self.write_scene(materials={"m": {"diffuse": 1}},
+                                spheres=[{"center": [0, 0, 9], "radius": 1, "material": "m"}])
+        result = self.run_cli("scene", "check", path)
+        self.assertEqual((result.returncode, result.stdout), (0, f"{path}: fine\n"))
+        for words in ["no light reaches", "nothing is in view"]:
+            self.assertIn(f"mirrorball: {path}: warning: {words}", result.stderr)
+        for verb in ["check", "info"]:
+            result = self.run_cli("scene", verb, path, "--json")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertEqual(len(json.loads(result.stdout)["warnings"]), 2)
+        self.assertEqual(self.run_cli("scene", "info", path).stdout.count("  warning  "), 2)
+
+
 class Info(CliTest):
     def info(self, name):
         result = self.run_cli("scene", "info", scene_path(name), "--json")
