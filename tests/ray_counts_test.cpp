@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How many rays every scene of scenes/ takes, as numbers: work that changes no pixel is seen here
+// alone, such as mirror rays that are too faint to matter.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+
+#include "host/flatten/flat_scene.h"
+#include "host/render/picture_loop.h"
+#include "tests/render_helpers.h"
+
+namespace rt::test {
+namespace {
+
+/// Primary, shadow, mirror and transmitted rays.
+using Counts = std::array<std::uint64_t, 4>;
+
+/// At 40 x 30 pixels of 2 x 2 samples, in float; as version 0.1 traced them.
+const std::map<std::string, Counts> expected{
+    {"cones", {4800, 6652, 2351, 0}},
+    {"cornell-box", {4800, 14620, 2873, 0}},
+    {"empty", {4800, 0, 0, 0}},
+    {"glass", {4800, 25787, 16365, 10696}},
+    {"many-lights", {4800, 85463, 241, 0}},
+    {"meshes", {4800, 2243, 105, 0}},
+    {"mirror-hall", {4800, 9277, 2703, 0}},
+    {"no-lights", {4800, 0, 3090, 0}},
+    {"orthographic", {4800, 4049, 319, 0}},
+    {"single-sphere", {4800, 1197, 0, 0}},
+    {"triangles-only", {4800, 2874, 0, 0}},
+    {"two-sided", {4800, 1001, 0, 0}},
+    {"vertex-normals", {4800, 6316, 1690, 0}},
+};
+
+Scene small_scene(const std::string& stem) {
+    Scene scene = load_scene(stem);
+    set_image_size(scene, 40, 30);
+    scene.aa = grid_aa(2);
+    return scene;
+}
+
+Counts rays_of(Renderer<float>& renderer, const Scene& scene) {
+    const Rect region{0, 0, scene.width, scene.height};
+    const StopFlag never_stop = 0;
+    TileQueue queue(make_tiles(region, scene.width, 10), never_stop);
+    Film<float> film(scene.width, scene.height);
+    rt::render_all(renderer, scene.aa, queue, region, film);
+    const auto rays = queue.rays();
+    return {rays.primary, rays.shadow, rays.mirror, rays.transmitted};
+}
+
+class RaysOfScene : public testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(RaysOfScene, AreAsManyAsEver) {
+    const std::string stem = GetParam().stem().string();
+    ASSERT_TRUE(expected.contains(stem)) << "a new scene needs a line in the table above";
+    const Scene scene = small_scene(stem);
+    const FlatScene<float> flat = flatten<float>(scene);
+    EXPECT_EQ(rays_of(*make_threads_renderer(flat, {}), scene), expected.at(stem));
+    // With all features: one program for all scenes.
+    const auto device = make_cl_renderer(flat, test_device(), cl_options(Launch::pixel, true));
+    EXPECT_EQ(rays_of(*device, scene), expected.at(stem));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, RaysOfScene, testing::ValuesIn(scene_files()),
+                         [](const auto& info) {
+                             std::string name = info.param.stem().string();
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace rt::test
