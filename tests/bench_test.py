@@ -98,6 +98,14 @@ class Bench(FiguresTest):
             self.assertEqual(row["verdict"], "right", row["why"])
             self.assertEqual((len(row["warm_up"]), len(row["repeats"])), (1, 5))
 
+    def test_rounds_go_over_all_rows(self):
+        """A B A B: all rows warm up, then all have their first repeat, and so on."""
+        rounds = [[row["warm_up"][0] for row in self.result["rows"]]]
+        rounds += [[row["repeats"][i] for row in self.result["rows"]] for i in range(5)]
+        times = [one["started"] for runs in rounds for one in runs]
+        self.assertEqual(times, sorted(times))
+        self.assertEqual(len(set(times)), len(times))
+
     def test_medians_and_mads(self):
         for row in self.result["rows"]:
             figures, repeats = row["figures"], row["repeats"]
@@ -309,4 +317,4 @@ class Ablation(FiguresTest):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(verbosity=2)

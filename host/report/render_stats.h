@@ -73,6 +73,7 @@ struct RenderStats {
     std::uint64_t image_hash = 0;
     std::size_t non_finite = 0;  ///< pixels
     std::optional<ImageError> error;
+    std::optional<double> started;  ///< of a benchmark's runs: seconds since the first began
 
     /// Rays per second while tracing; 0 when nothing was traced.
     double rays_per_second() const;

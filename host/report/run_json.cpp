@@ -12,6 +12,7 @@ std::string json_start(const std::string& format) { return "{\n  \"format\": \""
 Json run_json(const RenderStats& run) {
     const Json whole = stats_json(run);
     Json json;
+    if (run.started) json["started"] = *run.started;
     for (const char* key :
          {"settings", "device", "seconds", "rays", "rays_per_second", "image", "error"}) {
         if (whole.contains(key)) json[key] = whole[key];

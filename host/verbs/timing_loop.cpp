@@ -9,6 +9,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/render/stopwatch.h"
 #include "host/report/statistics.h"
 #include "host/stop_signal.h"
 #include "host/verbs/picture_job.h"
@@ -29,12 +30,14 @@ std::string what_changed(const TimedCase& timed, const RenderStats& run) {
 }
 
 /// Renders a case once more and keeps the run, unless it was stopped half-way.
-void render_once(TimedCase& timed, bool warm_up) {
+void render_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
+    const double started = watch.seconds();
     Scene scene = *timed.scene;
     apply_overrides(scene, timed.options);
     RenderedPicture rendered = render_picture(scene, timed.options);
     RenderStats& run = rendered.stats;
     if (!run.complete()) return;
+    run.started = started;
     run.scene.path = timed.options.scene;
     run.phases.load = timed.load_seconds;
     run.phases.total = timed_total(run);
@@ -50,9 +53,9 @@ void render_once(TimedCase& timed, bool warm_up) {
 }
 
 /// A device that cannot do it ends its case, not the others'.
-void try_once(TimedCase& timed, bool warm_up) {
+void try_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     try {
-        render_once(timed, warm_up);
+        render_once(timed, warm_up, watch);
     } catch (const Error& error) {
         timed.verdict = Verdict::failed;
         const std::string what = error.what();
@@ -70,6 +73,7 @@ RenderOptions timed_options() {
 }
 
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
+    const Stopwatch watch;
     for (int round = 0; round <= repeats; ++round) {
         if (!quiet) {
             const std::string name =
@@ -79,7 +83,7 @@ bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
         for (TimedCase& timed : cases) {
             if (stop_flag() != 0) return false;
             if (timed.verdict == Verdict::wrong || timed.verdict == Verdict::failed) continue;
-            try_once(timed, round == 0);
+            try_once(timed, round == 0, watch);
         }
     }
     return stop_flag() == 0;

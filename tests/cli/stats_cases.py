@@ -71,6 +71,16 @@ class Phases(CliTest):
                 self.assertLessEqual(known, seconds["total"] + 0.02)
                 self.assertLess(seconds["total"] - known, 0.1 + 0.1 * seconds["total"])
 
+    def test_kernels_take_most_of_the_trace_time(self):
+        """By the device's own clock, against the host's. The work is long enough that launching it
+        does not count."""
+        for launch in ["pixel", "sample"]:
+            seconds = self.stats_of("mirror-hall", "--size", "400", "--aa", "grid:4", "--device",
+                                    "pocl", "--launch", launch)["seconds"]
+            with self.subTest(launch=launch, seconds=seconds):
+                self.assertLessEqual(seconds["kernel"], seconds["trace"])
+                self.assertGreater(seconds["kernel"], 0.2 * seconds["trace"])
+
     def test_none_is_negative(self):
         for device in DEVICES:
             seconds = self.stats_of("empty", "--size", "9", *device)["seconds"]
