@@ -10,6 +10,7 @@ import os
 import pathlib
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -22,12 +23,14 @@ VOID = {"meta", "link", "img", "br", "hr", "input"}
 
 
 class Page(html.parser.HTMLParser):
-    """Checks that elements nest; keeps start tags and the JSON blocks."""
+    """Checks that elements nest; keeps start tags, the JSON blocks, and the tables' rows: a cell is
+    its text and its data-source."""
 
     def __init__(self, text):
         super().__init__()
         self.open, self.mistakes, self.tags, self.blocks = [], [], [], {}
-        self.block = None
+        self.tables, self.glance = [], []
+        self.block = self.cell = None
         self.feed(text)
         self.close()
 
@@ -36,6 +39,15 @@ class Page(html.parser.HTMLParser):
         self.tags.append((tag, attrs))
         if tag not in VOID:
             self.open.append(tag)
+        if tag == "table":
+            self.tables.append([])
+        if tag == "tr":
+            self.tables[-1].append([])
+        if tag in {"td", "th", "dd"}:
+            self.cell = ["", attrs.get("data-source", "")]
+            (self.glance if tag == "dd" else self.tables[-1][-1]).append(self.cell)
+        if tag in {"small", "caption"}:
+            self.cell = None
         if tag == "script":
             self.block = attrs.get("id")
             self.blocks[self.block] = (attrs.get("type"), "")
@@ -47,11 +59,48 @@ class Page(html.parser.HTMLParser):
         if not self.open or self.open.pop() != tag:
             self.mistakes.append(f"</{tag}> at {self.getpos()}")
         self.block = None
+        if tag in {"td", "th", "dd"}:
+            self.cell = None
 
     def handle_data(self, data):
+        if self.cell is not None:
+            self.cell[0] += data
         if self.block:
             kind, text = self.blocks[self.block]
             self.blocks[self.block] = (kind, text + data)
+
+
+SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+UNITS = {"s": 1, "ms": 1e-3, "µs": 1e-6, "million": 1e6}
+
+
+def number(text):
+    """What a reader takes from 1.9·10⁻⁷, 403 µs or RMSE 0.1."""
+    found = re.search(r"([0-9.]+)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?: (s|ms|µs|million)\b)?", text)
+    power = 10.0 ** int(found[2].translate(SUPERSCRIPTS)) if found[2] else 1
+    return float(found[1]) * power * UNITS.get(found[3], 1)
+
+
+def seconds_of(row, phases):
+    """The median over a row's repeats."""
+    return statistics.median(sum(one["seconds"][phase] for phase in phases)
+                             for one in row["repeats"])
+
+
+def trace(row):
+    return seconds_of(row, ["trace"])
+
+
+def total(row):
+    return seconds_of(row, ["flatten", "open", "build", "upload", "trace", "resolve", "read_back"])
+
+
+def rate(row):
+    return row["repeats"][0]["rays"]["total"] / trace(row)
+
+
+def rmse(row):
+    return row["repeats"][0]["error"]["rmse"]
 
 
 def setUpModule():
@@ -118,6 +167,64 @@ class Report(unittest.TestCase):
             self.assertEqual(row["verdict"], "right", row["why"])
             self.assertEqual(len(row["repeats"]), 5)
 
+    def source(self, pointer):
+        name, path = pointer.split("#")
+        value = json.loads(PAGE.blocks[name][1])
+        for key in path.split("/")[1:]:
+            value = value[int(key)] if isinstance(value, list) else value[key]
+        return value
+
+    def assert_shown(self, text, value, digits=3):
+        """That a text shows a number with so many digits."""
+        self.assertAlmostEqual(number(text) / value, 1, delta=0.51 * 10 ** (1 - digits), msg=text)
+
+    def table_with(self, *headings):
+        """The rows below the one table with these headings, each a dict by heading."""
+        found = [table for table in PAGE.tables
+                 if {heading for heading, _ in table[0]} >= set(headings)]
+        self.assertEqual(len(found), 1, headings)
+        names = [heading for heading, _ in found[0][0]]
+        return [dict(zip(names, row)) for row in found[0][1:]]
+
+    def test_the_table_of_every_row_shows_what_its_repeats_give(self):
+        shown = self.table_with("trace, ms", "total, ms", "Mrays/s", "RMSE")
+        self.assertEqual(len(shown), len(self.source("bench-0#/rows")))
+        for cells in shown:
+            row = self.source(cells["pixels"][1])
+            self.assertEqual(cells["pixels"][0], f"{row['width']} x {row['height']}")
+            self.assert_shown(cells["trace, ms"][0], 1e3 * trace(row))
+            self.assert_shown(cells["total, ms"][0], 1e3 * total(row))
+            self.assert_shown(cells["Mrays/s"][0], 1e-6 * rate(row))
+            self.assert_shown(cells["RMSE"][0], rmse(row), digits=2)
+            base = next(other for other in self.source("bench-0#/rows")
+                        if other["device"] == "threads:1"
+                        and other["schedule"] == (row["schedule"] or "tiles")
+                        and all(other[k] == row[k] for k in ["width", "aa", "precision"]))
+            self.assert_shown(cells["times one thread"][0], total(base) / total(row))
+
+    def test_tables_of_trace_times_show_their_rows(self):
+        cells = [cell for table in PAGE.tables if len(table[0]) < 8
+                 for line in table[1:] for cell in line if cell[1].startswith("bench-0#/rows/")]
+        self.assertGreaterEqual(len(cells), 8)
+        for text, source in cells:
+            self.assert_shown(text, 1e3 * trace(self.source(source)))
+
+    def test_the_front_shows_its_points(self):
+        for cells in self.table_with("sampling", "run time", "RMSE"):
+            point = self.source(cells["sampling"][1])
+            seconds = seconds_of(point, ["flatten", "upload", "trace", "resolve", "read_back"])
+            self.assert_shown(cells["run time"][0], seconds)
+            self.assert_shown(cells["RMSE"][0], statistics.median(
+                one["error"]["rmse"] for one in point["repeats"]))
+
+    def test_the_numbers_at_a_glance_are_those_of_their_row(self):
+        (time, source), (rays, _), (_, _), (rounding, _), (sampling, picture) = PAGE.glance
+        row = self.source(source)
+        self.assert_shown(time, trace(row))
+        self.assert_shown(rays, rate(row))
+        self.assert_shown(rounding, rmse(row), digits=2)
+        self.assert_shown(sampling, self.source(picture)["rmse"], digits=2)
+
     def chromium(self, *arguments):
         program = shutil.which("chromium") or shutil.which("chromium-browser")
         if program is None:
@@ -146,4 +253,4 @@ class Report(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(verbosity=2)
