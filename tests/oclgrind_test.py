@@ -16,9 +16,10 @@ ROOT = pathlib.Path(sys.argv.pop(1))
 
 
 def render(scene, options, device, prefix=()):
-    """The --stats=json of a 32 x 32 picture."""
+    """The --stats=json of a picture, of 32 x 32 pixels where the options do not say."""
+    size = [] if "--size" in options else ["--size", "32"]
     command = [*prefix, str(BUILD / "mirrorball"), "render", str(ROOT / "scenes" / scene),
-               "--size", "32", "--device", device, "--no-fallback", "--progress", "none",
+               *size, "--device", device, "--no-fallback", "--progress", "none",
                "--stats=json", *options]
     result = subprocess.run(command, capture_output=True, text=True, timeout=240)
     if result.returncode != 0:
@@ -37,6 +38,15 @@ class Oclgrind(unittest.TestCase):
         threads = render(scene, options, "threads")
         self.assertEqual(simulated["image"]["hash"], threads["image"]["hash"])
         self.assertEqual(simulated["rays"], threads["rays"])
+
+    def test_every_scene(self):
+        """Their cones, meshes, hierarchies, and the stack of glass."""
+        scenes = sorted(path.name for path in (ROOT / "scenes").glob("*.json")
+                        if path.name != "scene.schema.json")
+        self.assertGreater(len(scenes), 10)
+        for scene in scenes:
+            with self.subTest(scene=scene):
+                self.check(scene, "--size", "12x9", "--aa", "none")
 
     def test_render_pixels(self):
         self.check("cornell-box.json", "--launch", "pixel")
@@ -59,4 +69,4 @@ class Oclgrind(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(verbosity=2)
