@@ -11,12 +11,12 @@
 namespace rt {
 namespace {
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+char lower_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// ".nff" of "a/b.NFF".
 std::string ending_of(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
-    std::ranges::transform(ending, ending.begin(), lower);
+    std::ranges::transform(ending, ending.begin(), lower_letter);
     return ending;
 }
 
