@@ -16,8 +16,8 @@ namespace {
 
 using Fixed = Scene::FieldOfView::Fixed;
 
-constexpr std::string_view keys[] = {"type",     "from",   "at",     "up",   "fov_degrees",
-                                     "fov_axis", "window", "height", "width"};
+constexpr std::string_view camera_keys[] = {"type",     "from",   "at",     "up",   "fov_degrees",
+                                            "fov_axis", "window", "height", "width"};
 
 std::optional<Scene::Projection> read_projection(const JsonValue& value, std::string_view name,
                                                  Mistakes& mistakes) {
@@ -138,7 +138,7 @@ void check_axes(const ObjectReader& reader, const Scene::Camera& camera, Mistake
 
 Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes) {
     Scene::Camera camera;
-    const ObjectReader reader(value, "the camera", keys, mistakes);
+    const ObjectReader reader(value, "the camera", camera_keys, mistakes);
     if (!reader.is_object()) return camera;
     const std::size_t before = mistakes.count();
     reader.required("from", "\"from\": [x, y, z], where the eye is", camera.from, read_vec3);

@@ -9,13 +9,13 @@
 namespace rt {
 namespace {
 
-constexpr std::string_view keys[] = {"ambient",      "diffuse",   "specular", "mirror",
-                                     "transmission", "shininess", "ior",      "two_sided"};
+constexpr std::string_view material_keys[] = {"ambient",      "diffuse",   "specular", "mirror",
+                                              "transmission", "shininess", "ior",      "two_sided"};
 
 Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
     Scene::Material material;
     material.name = printable(member.key);
-    const ObjectReader reader(member.value, "a material", keys, mistakes);
+    const ObjectReader reader(member.value, "a material", material_keys, mistakes);
     reader.optional("ambient", material.ambient, read_reflectance);
     reader.optional("diffuse", material.diffuse, read_reflectance);
     reader.optional("specular", material.specular, read_reflectance);

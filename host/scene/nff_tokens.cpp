@@ -15,7 +15,7 @@ namespace rt {
 namespace {
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v' || is_line_end(c); }
+bool is_nff_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }  // \t \n \v \f \r
 
 /// A number too near to 0 for a double, as opposed to one too large: the exponent is negative, or
 /// there are only zeros before the digits that count.
@@ -65,12 +65,12 @@ void NffTokens::scan() {
             comment = false;
         } else if (c == '#') {
             comment = true;
-        } else if (!comment && !is_blank(c)) {
+        } else if (!comment && !is_nff_blank(c)) {
             break;
         }
     }
     const std::size_t start = at_;
-    while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '#') ++at_;
+    while (at_ < text_.size() && !is_nff_blank(text_[at_]) && text_[at_] != '#') ++at_;
     token_ = {text_.substr(start, at_ - start), start, new_line};
 }
 

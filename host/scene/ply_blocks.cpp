@@ -21,12 +21,12 @@ struct Place {
     PlyType type = PlyType::float32;
 };
 
-using Places = std::array<Place, 3>;
+using VectorPlaces = std::array<Place, 3>;
 
 /// Of three values by their names, in rows without lists; nothing when one is missing.
-std::optional<Places> places_of(const PlyElement& element,
-                                const std::array<std::string_view, 3>& names) {
-    Places places{};
+std::optional<VectorPlaces> places_of(const PlyElement& element,
+                                      const std::array<std::string_view, 3>& names) {
+    VectorPlaces places{};
     int found = 0;
     std::size_t offset = 0;
     for (const PlyProperty& property : element.properties) {
@@ -41,7 +41,7 @@ std::optional<Places> places_of(const PlyElement& element,
 }
 
 /// Whether all three are numbers in range.
-bool read_vector(const char* row, const Places& places, bool swapped, glm::dvec3& target) {
+bool read_vector(const char* row, const VectorPlaces& places, bool swapped, glm::dvec3& target) {
     bool good = true;
     for (int axis = 0; axis < 3; ++axis) {
         const Place& place = places[static_cast<std::size_t>(axis)];
@@ -61,7 +61,7 @@ bool read_floats(const char* row, glm::dvec3& target) {
     return good(target.x) && good(target.y) && good(target.z);
 }
 
-bool are_floats(const Places& places, bool swapped) {
+bool are_floats(const VectorPlaces& places, bool swapped) {
     return !swapped && std::ranges::all_of(places, [&](const Place& place) {
         const auto i = static_cast<std::size_t>(&place - places.data());
         return place.type == PlyType::float32 && place.offset == places[0].offset + 4 * i;
@@ -79,8 +79,8 @@ bool all_rows(std::size_t rows, std::size_t row_bytes, const ReadPace& pace, Wor
     return good;
 }
 
-bool read_column(std::string_view rows, std::size_t stride, const Places& places, bool swapped,
-                 std::vector<glm::dvec3>& target, const ReadPace& pace) {
+bool read_column(std::string_view rows, std::size_t stride, const VectorPlaces& places,
+                 bool swapped, std::vector<glm::dvec3>& target, const ReadPace& pace) {
     const bool floats = are_floats(places, swapped);
     target.resize(rows.size() / stride);
     return all_rows(target.size(), stride, pace, [&](std::size_t first, std::size_t last) {

@@ -12,13 +12,16 @@
 namespace rt {
 namespace {
 
-double largest(glm::dvec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+double largest_coordinate(glm::dvec3 v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
 
 bool on_one_line(std::span<const glm::dvec3> corners) {
     const glm::dvec3 start = corners[0];
-    const glm::dvec3 end = *std::max_element(
-        corners.begin(), corners.end(),
-        [&](glm::dvec3 a, glm::dvec3 b) { return largest(a - start) < largest(b - start); });
+    const glm::dvec3 end =
+        *std::max_element(corners.begin(), corners.end(), [&](glm::dvec3 a, glm::dvec3 b) {
+            return largest_coordinate(a - start) < largest_coordinate(b - start);
+        });
     return std::all_of(corners.begin(), corners.end(), [&](glm::dvec3 corner) {
         return zero_area({start, end, corner});
     });
@@ -34,7 +37,7 @@ struct Plane {
 Plane plane_of(std::span<const glm::dvec3> corners) {
     double extent = 0;
     for (const glm::dvec3& corner : corners)
-        extent = std::max(extent, largest(corner - corners[0]));
+        extent = std::max(extent, largest_coordinate(corner - corners[0]));
     const auto scaled = [&](const glm::dvec3& corner) { return (corner - corners[0]) / extent; };
     Plane plane;
     glm::dvec3 middle{0};
@@ -88,7 +91,7 @@ PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work
     if (corners.size() < 3 || on_one_line(corners)) return PolygonFault::zero_area;
     const Plane plane = plane_of(corners);
     if (plane.bend > max_bend) return PolygonFault::bent;
-    if (largest(plane.normal) == 0) return PolygonFault::crosses_itself;
+    if (largest_coordinate(plane.normal) == 0) return PolygonFault::crosses_itself;
     const PolygonFault fault = EarClipper(flattened(corners, plane.normal), work, triangles).run();
     std::erase_if(triangles, [&](const auto& triangle) {
         return zero_area({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
