@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/utf8.h"
 
+#include <cstdint>
+#include <cstring>
+
 namespace rt {
 /// The second byte's narrower ranges keep out overlong forms, surrogates, and anything above
 /// U+10FFFF.
@@ -24,9 +27,26 @@ std::size_t utf8_character_length(std::string_view text) {
     return length;
 }
 
+namespace {
+
+/// Whether the next 8 bytes are ASCII and none is 0.
+bool starts_with_ascii(std::string_view text) {
+    constexpr std::uint64_t ones = 0x0101010101010101u, tops = 0x8080808080808080u;
+    std::uint64_t bytes = 0;
+    if (text.size() < sizeof bytes) return false;
+    std::memcpy(&bytes, text.data(), sizeof bytes);
+    return ((bytes | (bytes - ones)) & tops) == 0;
+}
+
+}  // namespace
+
 std::optional<std::size_t> find_invalid_utf8(std::string_view text) {
     std::size_t at = 0;
     while (at < text.size()) {
+        if (starts_with_ascii(text.substr(at))) {
+            at += 8;
+            continue;
+        }
         const std::size_t length = utf8_character_length(text.substr(at));
         if (length == 0) return at;
         at += length;

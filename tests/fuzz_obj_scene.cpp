@@ -22,6 +22,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (name.size() > 8) return rt::LibraryFile{{}, {}, "no such file"};
         return rt::LibraryFile{"fuzz.mtl", library, {}};
     };
-    rt::fuzz::try_model([&] { return rt::parse_obj(text.substr(0, end), "fuzz.obj", open); });
+    rt::fuzz::try_model([&] {
+        return rt::parse_obj(text.substr(0, end), "fuzz.obj", open, {1, 40});
+    });
     return 0;
 }

@@ -12,6 +12,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    rt::fuzz::try_model([&] { return rt::parse_ply(text, "fuzz.ply"); });
+    rt::fuzz::try_model([&] { return rt::parse_ply(text, "fuzz.ply", {1, 40}); });
     return 0;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/error.h"
+#include "host/scene/json_plain.h"
 #include "host/scene/json_syntax.h"
 #include "host/scene/words.h"
 #include "host/utf8.h"
@@ -176,6 +177,12 @@ JsonValue parse_json(Mistakes& mistakes) {
         mistakes.add(*invalid, "the file is not UTF-8 text; save it as UTF-8");
         mistakes.throw_if_any();
     }
+    if (auto root = parse_plain_json(text)) return std::move(*root);
+    return parse_json_carefully(mistakes);
+}
+
+JsonValue parse_json_carefully(Mistakes& mistakes) {
+    const std::string_view text = mistakes.text();
     TreeBuilder builder(mistakes);
     constexpr bool strict = true, ignore_comments = true;
     nlohmann::json::sax_parse(text.begin(), text.end(), &builder,

@@ -46,6 +46,10 @@ inline constexpr std::size_t max_json_depth = 64;
 /// Throws Error with ExitCode::limit for a text beyond the sizes above.
 JsonValue parse_json(Mistakes& mistakes);
 
+/// The same value by value, of a text that is UTF-8 and not too large. parse_json leaves to it what
+/// parse_plain_json does not take.
+JsonValue parse_json_carefully(Mistakes& mistakes);
+
 /// "a number", "an array": what a value is, for messages.
 std::string_view kind_of(const JsonValue& value);
 

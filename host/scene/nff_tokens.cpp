@@ -40,7 +40,9 @@ std::optional<double> number_of(std::string_view text) {
 }  // namespace
 
 bool NffToken::is_number() const {
-    return !text.empty() && std::string_view("+-.0123456789").find(text[0]) != text.npos;
+    if (text.empty()) return false;
+    const char c = text[0];
+    return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.';
 }
 
 NffTokens::NffTokens(Mistakes& mistakes) : mistakes_(mistakes), text_(mistakes.text()) {
