@@ -31,7 +31,7 @@ def main():
         sys.exit(__doc__)
     with harness.environment(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])):
         suite = unittest.defaultTestLoader.loadTestsFromNames(names(sys.argv[3:]))
-        result = unittest.TextTestRunner().run(suite)
+        result = unittest.TextTestRunner(verbosity=2).run(suite)
     sys.exit(0 if result.wasSuccessful() else 1)
 
 
