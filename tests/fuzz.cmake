@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# add_fuzz_target(NAME LIBRARY SEEDS...): a libFuzzer program with a short run as its test. Findings and
-# new inputs stay in the build folder.
+# add_fuzz_target(NAME LIBRARY SEEDS...): a libFuzzer program with a short run as its test; a long one is
+# scripts/fuzz. Findings and new inputs stay in the build folder.
 function(add_fuzz_target NAME LIBRARY)
     add_executable(${NAME} ${NAME}.cpp)
     target_link_options(${NAME} PRIVATE -fsanitize=fuzzer,address,undefined)
     target_link_libraries(${NAME} PRIVATE ${LIBRARY})
     set(corpus ${CMAKE_BINARY_DIR}/corpus/${NAME})
     file(MAKE_DIRECTORY ${corpus})
-    add_test(NAME ${NAME} COMMAND ${NAME} -max_total_time=20 -timeout=10 -rss_limit_mb=4096
+    add_test(NAME ${NAME} COMMAND ${NAME} -max_total_time=5 -timeout=10 -rss_limit_mb=4096
         ${corpus} ${ARGN})
     set_tests_properties(${NAME} PROPERTIES LABELS fuzz TIMEOUT 300)
     add_dependencies(fuzz_targets ${NAME})
