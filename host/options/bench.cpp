@@ -40,52 +40,51 @@ double parse_percent(const std::string& text) {
     return percent / 100;
 }
 
-void add_baseline(CLI::App& app, BenchOptions& bench) {
-    app.add_option("--baseline", bench.baseline,
-                   "an earlier --json file: exit 1 when a row has become slower")
-        ->type_name("FILE");
-    add_text(app, "--max-regress", "P%",
-             "how much slower a row may become (default 5%); noise is allowed for on top",
-             [&](const std::string& text) { bench.max_regress = parse_percent(text); });
+void add_baseline(const CommandLine& verb, BenchOptions& bench) {
+    verb.option("--baseline", "FILE", "an earlier --json file: exit 1 when a row has become slower",
+                [&](const std::string& text) { bench.baseline = text; });
+    verb.option("--max-regress", "P%",
+                "how much slower a row may become (default 5%); noise is allowed for on top",
+                [&](const std::string& text) { bench.max_regress = parse_percent(text); });
 }
 
 /// What an ablation does not say otherwise: one picture on every device.
-void settle_ablation(const CLI::App& verb, BenchOptions& bench) {
+void settle_ablation(const CommandLine& verb, BenchOptions& bench) {
     if (!bench.baseline.empty()) {
         throw Error(ExitCode::usage, "--ablate and --baseline: give one of them");
     }
-    if (verb.count("--sizes") == 0) bench.sizes = {{500, 500}};
-    if (verb.count("--aa") == 0) bench.aa = parse_aa_list("--aa", "grid:2");
-    if (verb.count("--precision") == 0) bench.precisions = {Precision::float32};
+    if (!verb.given("--sizes")) bench.sizes = {{500, 500}};
+    if (!verb.given("--aa")) bench.aa = parse_aa_list("--aa", "grid:2");
+    if (!verb.given("--precision")) bench.precisions = {Precision::float32};
 }
 
 }  // namespace
 
-void add_bench(CLI::App& app, Options& options) {
+void add_bench(const CommandLine& program, Options& options) {
     BenchOptions& bench = options.bench;
     bench.aa = parse_aa_list("--aa", "none,grid:2");
-    CLI::App& verb = *app.add_subcommand("bench", "device against pthreads timings");
-    verb.add_option("SCENE", bench.scenes, "scene files (default: scenes/cornell-box.json)");
-    add_text(verb, "--sizes", "LIST", "pixels, N or WxH (default 100,200,300,400,500)",
-             [&](const std::string& text) { bench.sizes = parse_sizes(text); });
-    add_text(verb, "--aa", "LIST", "AA modes (default none,grid:2)",
-             [&](const std::string& text) { bench.aa = parse_aa_list("--aa", text); });
+    const CommandLine verb = program.verb("bench", "device against pthreads timings");
+    verb.arguments("SCENE", bench.scenes, "scene files (default: the built-in cornell-box)", false);
+    verb.option("--sizes", "LIST", "pixels, N or WxH (default 100,200,300,400,500)",
+                [&](const std::string& text) { bench.sizes = parse_sizes(text); });
+    verb.option("--aa", "LIST", "AA modes (default none,grid:2)",
+                [&](const std::string& text) { bench.aa = parse_aa_list("--aa", text); });
     add_device_list(verb, bench.devices);
     add_count(verb, "--threads", bench.threads, 1, 4096,
               "'threads' is timed with 1 to N threads (default: all cores)");
     add_precisions(verb, bench.precisions);
     add_light_options(verb, bench.light);
-    add_text(verb, "--schedules", "LIST", "of pthreads (default tiles,buffers)",
-             [&](const std::string& text) { bench.schedules = parse_schedules(text); });
+    verb.option("--schedules", "LIST", "of pthreads (default tiles,buffers)",
+                [&](const std::string& text) { bench.schedules = parse_schedules(text); });
     add_count(verb, "--repeats", bench.repeats, 1, 1000,
               "timed rounds after the warm-up (default 5)");
     add_baseline(verb, bench);
     add_result_files(verb, bench.results);
-    verb.add_flag("--ablate", bench.ablate,
-                  "what each thing left out saves: every one off and on, in turn (default "
-                  "--sizes 500 --aa grid:2 --precision float)");
-    verb.add_flag("-q,--quiet", bench.quiet, "no progress on stderr");
-    verb.callback([&options, &verb] {
+    verb.flag("--ablate", bench.ablate,
+              "measure what each omission saves: each off and on, interleaved (default "
+              "--sizes 500 --aa grid:2 --precision float)");
+    verb.flag("-q,--quiet", bench.quiet, "no progress on stderr");
+    verb.when_chosen([&options, verb] {
         check_result_files(options.bench.results);
         if (options.bench.ablate) settle_ablation(verb, options.bench);
         options.verb = Verb::bench;

@@ -17,7 +17,7 @@ struct ResultFiles {
 
 /// `mirrorball bench`
 struct BenchOptions {
-    std::vector<std::string> scenes;  ///< empty: scenes/cornell-box.json
+    std::vector<std::string> scenes;  ///< empty: the built-in scene
     std::vector<PictureSize> sizes{{100, 100}, {200, 200}, {300, 300}, {400, 400}, {500, 500}};
     std::vector<AaMode> aa;
     std::vector<std::string> devices{"all"};

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "host/image/picture_format.h"
-#include "host/options/parse.h"
+#include "host/options/lists.h"
 #include "host/options/verb_options.h"
 
 namespace rt {
@@ -24,61 +24,58 @@ double parse_limit(const std::string& option, const std::string& text) {
     return is_level ? value / 255 : value;
 }
 
-void add_limit(CLI::App& app, const std::string& option, std::optional<double>& limit,
+void add_limit(const CommandLine& verb, const std::string& option, std::optional<double>& limit,
                const char* help) {
-    add_text(app, option, "X", help,
-             [&limit, option](const std::string& text) { limit = parse_limit(option, text); });
+    verb.option(option, "X", help,
+                [&limit, option](const std::string& text) { limit = parse_limit(option, text); });
 }
 
-void add_thresholds(CLI::App& app, CompareOptions& compare) {
-    add_limit(app, "--max-rmse", compare.max_rmse, "exit 1 when the RMSE is above X");
-    add_limit(app, "--max-abs", compare.max_abs, "exit 1 when a channel differs by more than X");
-    add_limit(app, "--max-flip", compare.max_flip, "exit 1 when the mean FLIP is above X");
-    add_text(app, "--max-pixels", "N", "exit 1 when more than N pixels differ by over 1/255",
-             [&](const std::string& text) {
-                 const auto number = parse_integers(text, 'x');
-                 if (!number || number->size() != 1 || number->front() < 0) {
-                     refuse("--max-pixels", text, "give a number of pixels");
-                 }
-                 compare.max_pixels = number->front();
-             });
+void add_thresholds(const CommandLine& verb, CompareOptions& compare) {
+    add_limit(verb, "--max-rmse", compare.max_rmse, "exit 1 when the RMSE is above X");
+    add_limit(verb, "--max-abs", compare.max_abs, "exit 1 when a channel differs by more than X");
+    add_limit(verb, "--max-flip", compare.max_flip, "exit 1 when the mean FLIP is above X");
+    verb.option("--max-pixels", "N", "exit 1 when more than N pixels differ by over 1/255",
+                [&](const std::string& text) {
+                    const auto number = parse_integers(text, 'x');
+                    if (!number || number->size() != 1 || number->front() < 0) {
+                        refuse("--max-pixels", text, "give a number of pixels");
+                    }
+                    compare.max_pixels = number->front();
+                });
 }
 
-void add_heatmap(CLI::App& app, CompareOptions& compare) {
-    add_text(app, "--heatmap", "FILE.png", "write the differences as colours, black to yellow",
-             [&](const std::string& text) {
-                 if (picture_format_of_name(text) != PictureFormat::png) {
-                     refuse("--heatmap", text, "name a .png file");
-                 }
-                 compare.heatmap = text;
-             });
-    add_text(app, "--heatmap-scale", "X",
-             "the difference at the top of its colours (default: the largest)",
-             [&](const std::string& text) {
-                 compare.heatmap_scale = parse_limit("--heatmap-scale", text);
-                 if (compare.heatmap_scale == 0) refuse("--heatmap-scale", text, "0 is no scale");
-             });
+void add_heatmap(const CommandLine& verb, CompareOptions& compare) {
+    verb.option("--heatmap", "FILE.png", "write the differences as colours, black to yellow",
+                [&](const std::string& text) {
+                    if (picture_format_of_name(text) != PictureFormat::png) {
+                        refuse("--heatmap", text, "name a .png file");
+                    }
+                    compare.heatmap = text;
+                });
+    verb.option("--heatmap-scale", "X",
+                "the difference at the top of its colours (default: the largest)",
+                [&](const std::string& text) {
+                    compare.heatmap_scale = parse_limit("--heatmap-scale", text);
+                    if (compare.heatmap_scale == 0)
+                        refuse("--heatmap-scale", text, "0 is no scale");
+                });
 }
 
 }  // namespace
 
-void add_compare(CLI::App& app, Options& options) {
+void add_compare(const CommandLine& program, Options& options) {
     CompareOptions& compare = options.compare;
-    CLI::App& verb = *app.add_subcommand("compare", "how far one picture is from another");
-    verb.add_option("A", compare.picture, "picture: PNG, EXR, PFM, JPEG, TIFF, HDR, PNM")
-        ->required();
-    verb.add_option("B", compare.reference, "reference of the same size and channels")->required();
+    const CommandLine verb = program.verb("compare", "measure the difference between two images");
+    verb.argument("A", compare.picture, "picture: PNG, EXR, PFM, JPEG, TIFF, HDR, PNM");
+    verb.argument("B", compare.reference, "reference of the same size and channels");
     add_thresholds(verb, compare);
     add_heatmap(verb, compare);
-    verb.add_flag("--flip", compare.flip,
-                  "also NVIDIA's FLIP, where python3 has flip-evaluator (half a second and more)");
-    verb.add_flag("--clamp", compare.clamp, "clamp values to 0..1 first, as 8-bit files do");
-    verb.add_option_function<std::string>(
-            "--json", [&](const std::string& text) { compare.json = text.empty() ? "-" : text; },
-            "as JSON: to FILE, or instead of the text on stdout")
-        ->expected(0, 1)
-        ->type_name("[FILE|-]");
-    verb.callback([&] { options.verb = Verb::compare; });
+    verb.flag("--flip", compare.flip,
+              "also NVIDIA's FLIP, where python3 has flip-evaluator (half a second and more)");
+    verb.flag("--clamp", compare.clamp, "clamp values to 0..1 first, as 8-bit files do");
+    add_result_file(verb, "--json", compare.json,
+                    "as JSON: to FILE, or instead of the text on stdout");
+    verb.when_chosen([&] { options.verb = Verb::compare; });
 }
 
 }  // namespace rt

@@ -36,31 +36,31 @@ std::vector<int> parse_bounces(const std::string& text) {
     return bounces;
 }
 
-void add_sweep(CLI::App& app, ConvergeOptions& converge) {
-    add_text(app, "--size", "WxH|N", "pixels (default: the scene's)",
-             [&](const std::string& text) { converge.size = parse_size("--size", text); });
-    add_text(app, "--aa", "LIST", "AA modes (default " + std::string(default_sweep) + ")",
-             [&](const std::string& text) { converge.aa = parse_aa_list("--aa", text); });
-    add_device_list(app, converge.devices);
-    add_count(app, "--threads", converge.threads, 1, 4096,
+void add_sweep(const CommandLine& verb, ConvergeOptions& converge) {
+    verb.option("--size", "WxH|N", "pixels (default: the scene's)",
+                [&](const std::string& text) { converge.size = parse_size("--size", text); });
+    verb.option("--aa", "LIST", "AA modes (default " + std::string(default_sweep) + ")",
+                [&](const std::string& text) { converge.aa = parse_aa_list("--aa", text); });
+    add_device_list(verb, converge.devices);
+    add_count(verb, "--threads", converge.threads, 1, 4096,
               "threads of 'threads' (default: all cores)");
-    add_precisions(app, converge.precisions);
-    add_choice<std::vector<bool>>(app, "--math", converge.fast_math,
+    add_precisions(verb, converge.precisions);
+    add_choice<std::vector<bool>>(verb, "--math", converge.fast_math,
                                   {{"strict", {false}}, {"fast", {true}}, {"both", {false, true}}},
                                   "strict (default), fast (OpenCL devices only) or both");
-    add_text(app, "--max-bounces", "LIST",
-             "mirror and refracted rays after the eye ray (default: the scene's)",
-             [&](const std::string& text) { converge.max_bounces = parse_bounces(text); });
+    verb.option("--max-bounces", "LIST",
+                "mirror and refracted rays after the eye ray (default: the scene's)",
+                [&](const std::string& text) { converge.max_bounces = parse_bounces(text); });
 }
 
 }  // namespace
 
-void add_converge(CLI::App& app, Options& options) {
+void add_converge(const CommandLine& program, Options& options) {
     ConvergeOptions& converge = options.converge;
     converge.aa = default_modes();
     converge.cache_folder = reference_folder();
-    CLI::App& verb = *app.add_subcommand("converge", "error against run time");
-    verb.add_option("SCENE", converge.scene, "scene file (.json, .nff, .obj, .ply)")->required();
+    const CommandLine verb = program.verb("converge", "error against run time");
+    verb.argument("SCENE", converge.scene, "scene file (.json, .nff, .obj, .ply)");
     add_sweep(verb, converge);
     add_light_options(verb, converge.light);
     add_count(verb, "--repeats", converge.repeats, 5, 1000,
@@ -68,8 +68,8 @@ void add_converge(CLI::App& app, Options& options) {
     add_count(verb, "--reference-samples", converge.reference_samples, 2, 4096,
               "the reference is the mean of two sobol:N pictures in double (default 1024)");
     add_result_files(verb, converge.results);
-    verb.add_flag("-q,--quiet", converge.quiet, "no progress on stderr");
-    verb.callback([&] {
+    verb.flag("-q,--quiet", converge.quiet, "no progress on stderr");
+    verb.when_chosen([&] {
         check_result_files(options.converge.results);
         options.verb = Verb::converge;
     });

@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/options/parse.h"
 #include "host/options/verb_options.h"
 
 namespace rt {
 
-void add_devices(CLI::App& app, Options& options) {
-    CLI::App& verb =
-        *app.add_subcommand("devices", "what can render here, and why something cannot");
-    verb.add_flag("--json", options.devices.json, "as JSON on stdout");
-    verb.callback([&] { options.verb = Verb::devices; });
+namespace {
+
+/// As OpenCL's loader looks for its drivers.
+std::string icd_place() {
+    for (const char* name : {"OCL_ICD_VENDORS", "OPENCL_VENDOR_PATH"}) {
+        if (const std::string place = environment(name); !place.empty()) return place;
+    }
+    return "/etc/OpenCL/vendors";
+}
+
+}  // namespace
+
+void add_devices(const CommandLine& program, Options& options) {
+    const CommandLine verb = program.verb("devices", "list usable devices, and why others are not");
+    verb.flag("--json", options.devices.json, "as JSON on stdout");
+    verb.when_chosen([&] {
+        options.devices.drivers = icd_place();
+        options.verb = Verb::devices;
+    });
 }
 
 }  // namespace rt

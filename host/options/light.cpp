@@ -25,13 +25,14 @@ glm::dvec3 parse_ambient(const std::string& text) {
 
 }  // namespace
 
-void add_light_options(CLI::App& verb, LightOverrides& light) {
-    add_text(verb, "--light-scale", "X",
-             "intensity of lights whose file gives none (default: NFF sqrt(n)/2n, JSON 1, models "
-             "0.75 and 0.25)",
-             [&](const std::string& text) { light.light_scale = parse_light_scale(text); });
-    add_text(verb, "--ambient", "R,G,B|X", "ambient light (default: the scene's)",
-             [&](const std::string& text) { light.ambient_light = parse_ambient(text); });
+void add_light_options(const CommandLine& verb, LightOverrides& light) {
+    verb.option(
+        "--light-scale", "X",
+        "intensity of lights whose file gives none (default: NFF sqrt(n)/2n, JSON 1, models "
+        "0.75 and 0.25)",
+        [&](const std::string& text) { light.light_scale = parse_light_scale(text); });
+    verb.option("--ambient", "R,G,B|X", "ambient light (default: the scene's)",
+                [&](const std::string& text) { light.ambient_light = parse_ambient(text); });
 }
 
 }  // namespace rt

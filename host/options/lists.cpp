@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "host/render/device_spec.h"
 
@@ -11,19 +12,15 @@ namespace rt {
 
 namespace {
 
-/// --json and --csv: alone, the results go to stdout.
-void add_result_file(CLI::App& app, const std::string& option, std::string& file,
-                     const std::string& help) {
-    app.add_option_function<std::string>(
-           option,
-           [&file, option](const std::string& text) {
-               if (text.empty()) refuse(option, text, "name a file, or - for stdout");
-               file = text;
-           },
-           help)
-        ->expected(0, 1)
-        ->default_str("-")
-        ->type_name("[FILE|-]");
+/// Whether results may go to what a word names: not where a scene or a picture is already.
+bool may_take_results(const std::string& word) {
+    if (word == "-") return true;
+    if (word.starts_with("-")) return false;
+    std::ifstream file(word, std::ios::binary);
+    std::string start(32, ' ');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    return file.gcount() == 0 || word.ends_with(".csv") ||
+           start.find("\"format\": \"mirrorball") != std::string::npos;
 }
 
 }  // namespace
@@ -58,36 +55,45 @@ int parse_count(const std::string& option, const std::string& text, int least, i
     return numbers->front();
 }
 
-void add_device_list(CLI::App& app, std::vector<std::string>& devices) {
-    add_text(app, "--devices", "LIST",
-             "device specs as for render --device, with commas between; threads; all (default): "
-             "threads and every OpenCL device",
-             [&](const std::string& text) {
-                 devices = split_list("--devices", text);
-                 for (const std::string& spec : devices) {
-                     if (spec != "all") check_device_spec(spec);
-                 }
-             });
+void add_device_list(const CommandLine& verb, std::vector<std::string>& devices) {
+    verb.option("--devices", "LIST",
+                "device specs as for render --device, with commas between; threads; all (default): "
+                "threads and every OpenCL device",
+                [&](const std::string& text) {
+                    devices = split_list("--devices", text);
+                    for (const std::string& spec : devices) {
+                        if (spec != "all") check_device_spec(spec);
+                    }
+                });
 }
 
-void add_precisions(CLI::App& app, std::vector<Precision>& precisions) {
-    add_choice<std::vector<Precision>>(app, "--precision", precisions,
+void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions) {
+    add_choice<std::vector<Precision>>(verb, "--precision", precisions,
                                        {{"float", {Precision::float32}},
                                         {"double", {Precision::float64}},
                                         {"both", {Precision::float32, Precision::float64}}},
                                        "arithmetic (default both)");
 }
 
-void add_count(CLI::App& app, const std::string& option, int& count, int least, int most,
+void add_count(const CommandLine& verb, const std::string& option, int& count, int least, int most,
                const std::string& help) {
-    add_text(app, option, "N", help, [&count, option, least, most](const std::string& text) {
+    verb.option(option, "N", help, [&count, option, least, most](const std::string& text) {
         count = parse_count(option, text, least, most);
     });
 }
 
-void add_result_files(CLI::App& app, ResultFiles& files) {
-    add_result_file(app, "--json", files.json, "all raw values and figures as JSON");
-    add_result_file(app, "--csv", files.csv, "a row per run as CSV");
+void add_result_file(const CommandLine& verb, const std::string& option, std::string& file,
+                     const std::string& help) {
+    verb.optional_value(option, "FILE|-", help, "-", may_take_results,
+                        [&file, option](const std::string& text) {
+                            if (text.empty()) refuse(option, text, "name a file, or - for stdout");
+                            file = text;
+                        });
+}
+
+void add_result_files(const CommandLine& verb, ResultFiles& files) {
+    add_result_file(verb, "--json", files.json, "all raw values and figures as JSON");
+    add_result_file(verb, "--csv", files.csv, "a row per run as CSV");
 }
 
 void check_result_files(const ResultFiles& files) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,11 +20,16 @@ std::vector<AaMode> parse_aa_list(const std::string& option, const std::string& 
 int parse_count(const std::string& option, const std::string& text, int least, int most);
 
 // Options that bench and converge share.
-void add_device_list(CLI::App& app, std::vector<std::string>& devices);
-void add_precisions(CLI::App& app, std::vector<Precision>& precisions);
-void add_count(CLI::App& app, const std::string& option, int& count, int least, int most,
+void add_device_list(const CommandLine& verb, std::vector<std::string>& devices);
+void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions);
+void add_count(const CommandLine& verb, const std::string& option, int& count, int least, int most,
                const std::string& help);
-void add_result_files(CLI::App& app, ResultFiles& files);
+
+/// --json or --csv: alone, the results go to stdout ("-"). The next word is the file unless
+/// something else than results is there: a scene or a picture.
+void add_result_file(const CommandLine& verb, const std::string& option, std::string& file,
+                     const std::string& help);
+void add_result_files(const CommandLine& verb, ResultFiles& files);
 
 /// Throws Error (ExitCode::usage) when both would go to stdout.
 void check_result_files(const ResultFiles& files);

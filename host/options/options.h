@@ -14,6 +14,7 @@ namespace rt {
 
 /// `mirrorball devices`
 struct DevicesOptions {
+    std::string drivers;  ///< where OpenCL finds its .icd files: a folder, or one of them
     bool json = false;
 };
 
@@ -37,6 +38,12 @@ struct Options {
     StressOptions stress;
     DevicesOptions devices;
     SceneOptions scene;
+
+    /// -q, of whichever verb.
+    bool quiet() const {
+        return render.quiet || bench.quiet || converge.quiet || report.quiet || stress.quiet;
+    }
+
     std::string text;  ///< help or version, to be printed instead of doing anything
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "host/options/command_line.h"
 #include "host/options/render_options.h"
 
 namespace rt {
@@ -35,7 +35,7 @@ struct Choice {
 
 /// An option that takes one of several names.
 template <typename E>
-void add_choice(CLI::App& app, const std::string& option, E& value,
+void add_choice(const CommandLine& verb, const std::string& option, E& value,
                 const std::vector<Choice<E>>& choices, const std::string& help) {
     std::string names;
     for (const Choice<E>& choice : choices) {
@@ -50,14 +50,7 @@ void add_choice(CLI::App& app, const std::string& option, E& value,
         }
         refuse(option, text, "give one of " + names);
     };
-    app.add_option_function<std::string>(option, read, help)->type_name(names);
-}
-
-/// An option whose text `parse` reads.
-template <typename Parse>
-void add_text(CLI::App& app, const std::string& name, const char* type, const std::string& help,
-              const Parse& parse) {
-    app.add_option_function<std::string>(name, parse, help)->type_name(type);
+    verb.option(option, names, help, read);
 }
 
 }  // namespace rt

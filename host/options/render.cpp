@@ -60,125 +60,111 @@ void parse_features(const std::string& text, RenderOptions& render) {
     }
 }
 
-void add_picture_options(CLI::App& app, RenderOptions& render) {
-    add_text(app, "--size", "WxH|N", "pixels (default: the scene's)",
-             [&](const std::string& text) { render.size = parse_size("--size", text); });
-    add_text(app, "--aa", "MODE",
-             std::string("samples of a pixel: ") + aa_mode_help + " (default: the scene's)",
-             [&](const std::string& text) { render.aa = parse_aa(text); });
-    add_choice<Filter>(app, "--filter", render.filter,
+void add_picture_options(const CommandLine& verb, RenderOptions& render) {
+    verb.option("--size", "WxH|N", "pixels (default: the scene's)",
+                [&](const std::string& text) { render.size = parse_size("--size", text); });
+    verb.option("--aa", "MODE",
+                std::string("samples per pixel: ") + aa_mode_help + " (default: the scene's)",
+                [&](const std::string& text) { render.aa = parse_aa(text); });
+    add_choice<Filter>(verb, "--filter", render.filter,
                        {{"box", Filter::box},
                         {"tent", Filter::tent},
                         {"gaussian", Filter::gaussian},
                         {"mitchell", Filter::mitchell}},
-                       "how samples are weighed (default box)");
-    add_text(app, "--crop", "x0,y0,x1,y1",
-             "render a window: pixels from the top left, x1 and y1 not included",
-             [&](const std::string& text) { render.crop = parse_crop(text); });
-    app.add_option_function<int>(
-           "--max-bounces",
-           [&](int bounces) {
-               if (bounces < 0 || bounces > most_bounces) {
-                   refuse("--max-bounces", std::to_string(bounces), "give 0 to 100000");
-               }
-               render.max_bounces = bounces;
-           },
-           "mirror and refracted rays after the eye ray (default: the scene's)")
-        ->type_name("N");
-    add_text(app, "--encoding", "display|srgb|linear",
-             "how 8-bit files store linear light (default display: value x 255)",
-             [&](const std::string& text) { render.encoding = parse_encoding(text); });
-    app.add_option("--reference", render.reference, "also print the error against this picture");
+                       "reconstruction filter (default box)");
+    verb.option("--crop", "x0,y0,x1,y1",
+                "render a window: pixels from the top left, x1 and y1 not included",
+                [&](const std::string& text) { render.crop = parse_crop(text); });
+    verb.option("--max-bounces", "N",
+                "mirror and refracted rays after the eye ray (default: the scene's)",
+                [&](const std::string& text) {
+                    render.max_bounces = parse_count("--max-bounces", text, 0, most_bounces);
+                });
+    verb.option("--encoding", "display|srgb|linear",
+                "how 8-bit files store linear light (default display: value x 255)",
+                [&](const std::string& text) { render.encoding = parse_encoding(text); });
+    verb.option("--reference", "FILE", "also print the error against this picture",
+                [&](const std::string& text) { render.reference = text; });
 }
 
-void add_device_options(CLI::App& app, RenderOptions& render) {
-    add_text(app, "--device", "SPEC",
-             "index, platform:device, pocl, name:TEXT, cpu, gpu or threads[:N] (default: "
-             "$MIRRORBALL_DEVICE, else the best there is)",
-             [&](const std::string& text) {
-                 check_device_spec(text);
-                 render.device = text;
-             });
-    add_choice<Precision>(app, "--precision", render.precision,
+void add_device_options(const CommandLine& verb, RenderOptions& render) {
+    verb.option("--device", "SPEC",
+                "index, platform:device, pocl, name:TEXT, cpu, gpu or threads[:N] (default: "
+                "$MIRRORBALL_DEVICE, else the best available)",
+                [&](const std::string& text) {
+                    check_device_spec(text);
+                    render.device = text;
+                });
+    add_choice<Precision>(verb, "--precision", render.precision,
                           {{"float", Precision::float32}, {"double", Precision::float64}},
                           "arithmetic (default float)");
-    add_choice<bool>(app, "--math", render.fast_math, {{"strict", false}, {"fast", true}},
+    add_choice<bool>(verb, "--math", render.fast_math, {{"strict", false}, {"fast", true}},
                      "strict (default): the same bits everywhere; fast: the compiler may contract");
-    add_choice<Launch>(app, "--launch", render.launch,
+    add_choice<Launch>(verb, "--launch", render.launch,
                        {{"pixel", Launch::pixel}, {"sample", Launch::sample}},
                        "what an OpenCL work item is (default: pixel on CPUs, sample elsewhere)");
-    add_choice<int>(app, "--lanes", render.lanes,
+    add_choice<int>(verb, "--lanes", render.lanes,
                     {{"auto", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}},
                     "rays an OpenCL work item traces side by side (default: a CPU's vector width, "
                     "else 1)");
-    add_choice<Schedule>(app, "--schedule", render.schedule,
+    add_choice<Schedule>(verb, "--schedule", render.schedule,
                          {{"tiles", Schedule::tiles}, {"buffers", Schedule::buffers}},
                          "pthreads: shared tiles (default), or a thread per sample buffer");
-    app.add_option_function<int>(
-           "--threads",
-           [&](int threads) {
-               if (threads < 1 || threads > most_threads) {
-                   refuse("--threads", std::to_string(threads), "give 1 to 4096");
-               }
-               render.threads = threads;
-           },
-           "threads of the pthreads renderer, and of PoCL (default: all cores)")
-        ->type_name("N");
-    add_text(app, "--tile", "WxH|N", "pixels handed out at once",
-             [&](const std::string& text) { render.tile = parse_size("--tile", text); });
-    add_text(app, "--features", "auto|all|LIST",
-             "compile what the scene needs (default), everything, or what it needs and these",
-             [&](const std::string& text) { parse_features(text, render); });
-    add_choice<std::optional<bool>>(app, "--hierarchies", render.hierarchies,
-                                    {{"auto", std::nullopt}, {"on", true}, {"off", false}},
-                                    "over which kinds of primitives: those with enough (default), "
-                                    "two or more, none");
-    add_choice<bool>(app, "--caster-lists", render.caster_lists, {{"on", true}, {"off", false}},
+    add_count(verb, "--threads", render.threads, 1, most_threads,
+              "threads of the pthreads renderer, and of PoCL (default: all cores)");
+    verb.option("--tile", "WxH|N", "tile size in pixels (default: chosen by the device)",
+                [&](const std::string& text) { render.tile = parse_size("--tile", text); });
+    verb.option("--features", "auto|all|LIST",
+                "compile what the scene needs (default), everything, or what it needs and these",
+                [&](const std::string& text) { parse_features(text, render); });
+    add_choice<std::optional<bool>>(
+        verb, "--hierarchies", render.hierarchies,
+        {{"auto", std::nullopt}, {"on", true}, {"off", false}},
+        "build bounding volume hierarchies: auto (where they are faster, default), on, off");
+    add_choice<bool>(verb, "--caster-lists", render.caster_lists, {{"on", true}, {"off", false}},
                      "list the triangles that cast shadows, where there are few (default on)");
-    app.add_flag("--no-fallback", render.no_fallback,
-                 "fail when the device fails, instead of finishing on threads");
+    verb.flag("--no-fallback", render.no_fallback,
+              "fail when the device fails, instead of finishing on threads");
 }
 
-void add_report_options(CLI::App& app, RenderOptions& render) {
-    app.add_option_function<std::string>(
-           "--stats",
-           [&](const std::string& text) {
-               if (text != "text" && text != "json") refuse("--stats", text, "give text or json");
-               render.stats = text == "json" ? StatsFormat::json : StatsFormat::text;
-           },
-           "phases, rays, features used and left out, on stdout")
-        ->expected(0, 1)
-        ->default_str("text")
-        ->type_name("text|json");
-    add_choice<ProgressMode>(app, "--progress", render.progress,
+void add_report_options(const CommandLine& verb, RenderOptions& render) {
+    const auto is_format = [](const std::string& text) { return text == "text" || text == "json"; };
+    verb.optional_value("--stats", "text|json",
+                        "phases, rays, features used and left out, on stdout", "text", is_format,
+                        [&render, is_format](const std::string& text) {
+                            if (!is_format(text)) refuse("--stats", text, "give text or json");
+                            render.stats = text == "json" ? StatsFormat::json : StatsFormat::text;
+                        });
+    add_choice<ProgressMode>(verb, "--progress", render.progress,
                              {{"auto", ProgressMode::automatic},
                               {"bar", ProgressMode::bar},
                               {"plain", ProgressMode::plain},
                               {"json", ProgressMode::json},
                               {"none", ProgressMode::none}},
                              "on stderr (default auto: a bar on a terminal, else lines)");
-    app.add_flag("-q,--quiet", render.quiet, "errors only");
-    app.add_flag("-v,--verbose", render.verbose, "say more");
+    verb.flag("-q,--quiet", render.quiet, "errors only");
+    verb.flag("-v,--verbose", render.verbose, "say more");
 }
 
 }  // namespace
 
-void add_render(CLI::App& app, Options& options) {
-    options.render.device = device_from_environment();
+void add_render(const CommandLine& program, Options& options) {
     options.render.dumb_terminal = environment("TERM") == "dumb";
-    CLI::App& verb = *app.add_subcommand("render", "render one picture");
-    verb.add_option("SCENE", options.render.scene, "scene file (.json, .nff, .obj, .ply)")
-        ->required();
-    add_text(verb, "-o,--output", "FILE", "picture file: .png, .exr or .pfm (default: none)",
-             [&](const std::string& text) {
-                 if (text.empty()) refuse("-o", text, "name a picture file");
-                 options.render.output = text;
-             });
+    const CommandLine verb = program.verb("render", "render one picture");
+    verb.argument("SCENE", options.render.scene, "scene file (.json, .nff, .obj, .ply)");
+    verb.option("-o,--output", "FILE", "picture file: .png, .exr or .pfm (default: none)",
+                [&](const std::string& text) {
+                    if (text.empty()) refuse("-o", text, "name a picture file");
+                    options.render.output = text;
+                });
     add_picture_options(verb, options.render);
     add_light_options(verb, options.render.light);
     add_device_options(verb, options.render);
     add_report_options(verb, options.render);
-    verb.callback([&] { options.verb = Verb::render; });
+    verb.when_chosen([&options, verb] {
+        if (!verb.given("--device")) options.render.device = device_from_environment();
+        options.verb = Verb::render;
+    });
 }
 
 }  // namespace rt

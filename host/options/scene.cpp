@@ -5,14 +5,13 @@ namespace rt {
 
 namespace {
 
-void add_scene_action(CLI::App& scene, const char* name, const char* help, bool info,
+void add_scene_action(const CommandLine& scene, const char* name, const char* help, bool info,
                       Options& options) {
-    CLI::App& action = *scene.add_subcommand(name, help);
-    action.add_option("SCENE", options.scene.scene, "scene file (.json, .nff, .obj, .ply)")
-        ->required();
+    const CommandLine action = scene.verb(name, help);
+    action.argument("SCENE", options.scene.scene, "scene file (.json, .nff, .obj, .ply)");
     add_light_options(action, options.scene.light);
-    action.add_flag("--json", options.scene.json, "as JSON on stdout");
-    action.callback([&options, info] {
+    action.flag("--json", options.scene.json, "as JSON on stdout");
+    action.when_chosen([&options, info] {
         options.verb = Verb::scene;
         options.scene.info = info;
     });
@@ -20,9 +19,8 @@ void add_scene_action(CLI::App& scene, const char* name, const char* help, bool 
 
 }  // namespace
 
-void add_scene(CLI::App& app, Options& options) {
-    CLI::App& scene = *app.add_subcommand("scene", "look at a scene file");
-    scene.require_subcommand(1);
+void add_scene(const CommandLine& program, Options& options) {
+    const CommandLine scene = program.verb("scene", "inspect a scene file");
     add_scene_action(scene, "info", "what the scene holds, needs, and leaves out", true, options);
     add_scene_action(scene, "check", "read the scene and say what is wrong with it", false,
                      options);

@@ -16,9 +16,9 @@ struct StressOptions {
     bool quick = false;          ///< the cases and numbers of rays that take under a minute
     bool all_features = false;   ///< one build of the kernels for all cases; as quick has it
     bool keep_pictures = false;  ///< in the result, for the report
-    bool naive = false;          ///< textbook formulas beside ours
+    bool naive = false;          ///< textbook formulas next to ours
     bool cost = false;           ///< time each technique made naive; run no cases
-    std::string cost_scene;      ///< beside the paper's; empty: none
+    std::string cost_scene;      ///< next to the paper's; empty: none
     int repeats = 15;            ///< of each picture timed
     Techniques without;          ///< what OpenCL devices are to do without
     bool list = false;           ///< name the cases, run none

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
-
+#include "host/options/command_line.h"
 #include "host/options/options.h"
 
 namespace rt {
 
 // One function per verb, one file per function: adds the verb to the command line and says where
 // its options go.
-void add_render(CLI::App& app, Options& options);
-void add_compare(CLI::App& app, Options& options);
-void add_bench(CLI::App& app, Options& options);
-void add_converge(CLI::App& app, Options& options);
-void add_stress(CLI::App& app, Options& options);
-void add_report(CLI::App& app, Options& options);
-void add_devices(CLI::App& app, Options& options);
-void add_scene(CLI::App& app, Options& options);
+void add_render(const CommandLine& program, Options& options);
+void add_compare(const CommandLine& program, Options& options);
+void add_bench(const CommandLine& program, Options& options);
+void add_converge(const CommandLine& program, Options& options);
+void add_stress(const CommandLine& program, Options& options);
+void add_report(const CommandLine& program, Options& options);
+void add_devices(const CommandLine& program, Options& options);
+void add_scene(const CommandLine& program, Options& options);
 
 /// --light-scale and --ambient, of every verb that reads scenes.
-void add_light_options(CLI::App& verb, LightOverrides& light);
+void add_light_options(const CommandLine& verb, LightOverrides& light);
 
 }  // namespace rt

@@ -141,7 +141,7 @@ class Choice(CliTest):
 
     def test_threads_are_counted_once(self):
         result = self.run_cli("render", scene_path("empty"), "--threads", "3", "--device",
-                              "threads:2")
+                              "threads:2", "-o", "out.png")
         self.assert_refused(result, 2, "--threads 3", "threads:2")
 
     def test_a_bad_scene_is_told_before_a_device_that_is_not_there(self):
@@ -163,18 +163,24 @@ class EnvironmentDefault(CliTest):
     def test_empty_is_none(self):
         self.assertTrue(self.device_name(MIRRORBALL_DEVICE="").startswith("pthread"))
 
+    def test_mistake_in_it_concerns_render_alone(self):
+        for verb in [["devices"], ["scene", "check", scene_path("empty")],
+                     ["render", scene_path("empty"), "--size", "4", "--device", "threads"]]:
+            result = self.run_cli(*verb, env={"MIRRORBALL_DEVICE": "rubbish"})
+            self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_mistake_in_it_names_the_variable(self):
         result = self.run_cli("render", scene_path("empty"), env={"MIRRORBALL_DEVICE": "rubbish"})
         self.assert_refused(result, 2, "rubbish", "MIRRORBALL_DEVICE")
 
 
 class Unusable:
-    """What must hold when OpenCL shows no device; subclasses say why there is none."""
+    """What must hold when OpenCL has no devices; subclasses say why there is none."""
 
     env, reason = {}, ""
 
     def test_default_falls_back_to_threads_in_one_line(self):
-        result = self.render("single-sphere", "--size", "8", env=self.env)
+        result = self.render("single-sphere", "--size", "8", "-o", "out.png", env=self.env)
         lines = result.stderr.splitlines()
         self.assertEqual(len(lines), 2, result.stderr)
         self.assertIn("threads", lines[0])
@@ -186,7 +192,8 @@ class Unusable:
         self.assertEqual(result.stderr, "")
 
     def test_threads_do_not_mind(self):
-        result = self.render("empty", "--size", "8", "--device", "threads", env=self.env)
+        result = self.render("empty", "--size", "8", "--device", "threads", "-o", "out.png",
+                             env=self.env)
         self.assertEqual(len(result.stderr.splitlines()), 1)
 
     def test_named_device_fails_and_says_why(self):

@@ -135,3 +135,85 @@ class WrongOption(CliTest):
 
     def test_tile_garbage(self):
         self.assert_option_refused("--tile", "0", says=["1 pixel"])
+
+
+class Guess(CliTest):
+    def test_mistyped_verb(self):
+        for verb, meant in [("rendr", "render"), ("devcies", "devices"), ("benhc", "bench"),
+                            ("conv", "converge")]:
+            self.assert_refused(self.run_cli(verb), 2, verb, f"did you mean '{meant}'?")
+
+    def test_mistyped_option(self):
+        for option, meant in [("--sise", "--size"), ("--presicion", "--precision"),
+                              ("--outptu", "--output"), ("--hierarch", "--hierarchies")]:
+            for value in [[f"{option}=8"], [option, "8"]]:
+                result = self.run_cli("render", scene_path("empty"), *value)
+                self.assert_refused(result, 2, f"'{option}'", f"did you mean '{meant}'?")
+
+    def test_nothing_near_gives_no_guess(self):
+        for words in [["frobnicate"], ["render", scene_path("empty"), "--frobnicate"]]:
+            result = self.run_cli(*words)
+            self.assert_refused(result, 2, "frobnicate")
+            self.assertNotIn("did you mean", result.stderr)
+
+    def test_hint_names_the_verb(self):
+        for verb in [["render"], ["bench"], ["scene", "info"]]:
+            result = self.run_cli(*verb, "--frobnicate")
+            self.assert_refused(result, 2, f"'mirrorball {' '.join(verb)} --help'")
+            self.assertNotIn("VERB", result.stderr)
+
+
+class OptionalValues(CliTest):
+    """Options that may stand alone take a value with and without "=", and never the scene."""
+
+    def assert_json(self, text):
+        self.assertEqual(text.lstrip()[0], "{", text)
+
+    def test_stats_json(self):
+        scene = scene_path("empty")
+        for words in [["--stats", "json", scene], [scene, "--stats", "json"],
+                      [scene, "--stats=json"], ["--stats=json", scene]]:
+            result = self.run_cli("render", *words, "--size", "4", "-q")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assert_json(result.stdout)
+
+    def test_stats_alone_leaves_the_scene(self):
+        for words in [["--stats", scene_path("empty")], ["--stats", "text", scene_path("empty")]]:
+            result = self.run_cli("render", *words, "--size", "4")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("ray trace", result.stdout)
+
+    BENCH = ["bench", "--sizes", "8", "--aa", "none", "--devices", "threads:1", "--precision",
+             "float", "--repeats", "1", "-q"]
+
+    def test_json_file(self):
+        scene = scene_path("empty")
+        for words in [["--json", "out.json", scene], [scene, "--json", "out.json"],
+                      [scene, "--json=out.json"]]:
+            for turn in ["new", "replaced"]:
+                with self.subTest(words=words, turn=turn):
+                    result = self.run_cli(*self.BENCH, *words)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    self.assert_json((self.folder / "out.json").read_text())
+                    self.assertNotIn("{", result.stdout)
+            (self.folder / "out.json").unlink()
+
+    def test_json_alone_leaves_the_scene(self):
+        scene = self.write_scene()
+        before = (self.folder / "scene.json").read_text()
+        for words in [["--json", scene], ["--json", "-", scene], [scene, "--json"]]:
+            result = self.run_cli(*self.BENCH, *words)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assert_json(result.stdout)
+        self.assertEqual((self.folder / "scene.json").read_text(), before)
+
+    def test_compare_json_alone_leaves_the_pictures(self):
+        self.render("empty", "--size", "4", "-o", "a.pfm")
+        for words in [["--json", "a.pfm", "a.pfm"], ["a.pfm", "a.pfm", "--json"],
+                      ["a.pfm", "a.pfm", "--json", "-"]]:
+            result = self.run_cli("compare", *words)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assert_json(result.stdout)
+        result = self.run_cli("compare", "a.pfm", "a.pfm", "--json", "out.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assert_json((self.folder / "out.json").read_text())

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/options/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "host/error.h"
+#include "host/options/guess.h"
+
+namespace rt {
+
+namespace {
+
+CLI::App& app_of(void* app) { return *static_cast<CLI::App*>(app); }
+
+/// An option that may stand alone.
+struct OptionalValue {
+    const CLI::App* verb;
+    std::string name, bare;
+    AcceptsText accepts;
+};
+
+std::vector<CLI::App*> verbs_of(CLI::App& app) {
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+}  // namespace
+
+struct CommandLineParser {
+    CLI::App app;
+    std::vector<OptionalValue> optional_values;
+    std::string place;  ///< "mirrorball render": whose help to read
+
+    explicit CommandLineParser(const CommandLineTexts& texts) : app(texts.about, texts.program) {
+        app.set_version_flag("--version", texts.version);
+        app.require_subcommand(1);
+        place = texts.program;
+    }
+
+    CommandLine root() { return {*this, &app}; }
+
+    [[noreturn]] void refuse_line(const std::string& what) const {
+        throw Error(ExitCode::usage,
+                    what + (what.ends_with("?") ? " See '" : "; see '") + place + " --help'");
+    }
+
+    /// The verb that the words begin with, and its own; refuses what is none.
+    CLI::App& chosen_verb(const std::vector<std::string>& words, std::size_t& at) {
+        CLI::App* verb = &app;
+        while (at < words.size() && !words[at].starts_with("-") && !verbs_of(*verb).empty()) {
+            std::vector<std::string> names;
+            for (const CLI::App* one : verbs_of(*verb)) names.push_back(one->get_name());
+            if (std::find(names.begin(), names.end(), words[at]) == names.end()) {
+                refuse_line(fmt::format("unknown verb '{}'; available: {}{}", words[at],
+                                        fmt::join(names, ", "), guess_text(words[at], names)));
+            }
+            place += " " + words[at];
+            verb = verb->get_subcommand(words[at++]);
+        }
+        return *verb;
+    }
+
+    void check_option(const CLI::App& verb, const std::string& word) const {
+        const std::string name = word.substr(0, word.find('='));
+        if (!name.starts_with("--") || name == "--") return;
+        std::vector<std::string> names;
+        for (const CLI::Option* option : verb.get_options()) {
+            for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
+        }
+        if (std::find(names.begin(), names.end(), name) != names.end()) return;
+        refuse_line(fmt::format("unknown option '{}'{}", name, guess_text(name, names)));
+    }
+
+    const OptionalValue* optional_value(const CLI::App& verb, const std::string& word) const {
+        const auto found =
+            std::find_if(optional_values.begin(), optional_values.end(),
+                         [&](const auto& one) { return one.verb == &verb && one.name == word; });
+        return found == optional_values.end() ? nullptr : &*found;
+    }
+
+    /// Every optional value joined to its option by "=", so that none is taken for a scene or the
+    /// other way round.
+    std::vector<std::string> joined(const std::vector<std::string>& words) {
+        std::size_t at = 0;
+        const CLI::App& verb = chosen_verb(words, at);
+        std::vector<std::string> result(words.begin(),
+                                        words.begin() + static_cast<std::ptrdiff_t>(at));
+        for (bool options = true; at < words.size(); ++at) {
+            options = options && words[at] != "--";
+            const OptionalValue* const one = options ? optional_value(verb, words[at]) : nullptr;
+            if (one == nullptr) {
+                if (options) check_option(verb, words[at]);
+                result.push_back(words[at]);
+                continue;
+            }
+            const bool has_value = at + 1 < words.size() && one->accepts(words[at + 1]);
+            result.push_back(one->name + "=" + (has_value ? words[at + 1] : one->bare));
+            if (has_value) ++at;
+        }
+        return result;
+    }
+
+    std::string read(const std::vector<std::string>& words) {
+        try {
+            std::vector<std::string> last_first = joined(words);
+            std::reverse(last_first.begin(), last_first.end());
+            app.parse(std::move(last_first));
+        } catch (const CLI::CallForHelp&) {
+            return app.help();
+        } catch (const CLI::CallForAllHelp&) {
+            return app.help("", CLI::AppFormatMode::All);
+        } catch (const CLI::CallForVersion&) {
+            return app.version() + "\n";
+        } catch (const CLI::ParseError& error) {
+            refuse_line(error.what());
+        }
+        return "";
+    }
+};
+
+CommandLine CommandLine::verb(const std::string& name, const std::string& help) const {
+    CLI::App& parent = app_of(app_);
+    CLI::App* const verb = parent.add_subcommand(name, help);
+    if (parent.get_parent() != nullptr) parent.require_subcommand(1);
+    return {*parser_, verb};
+}
+
+void CommandLine::option(const std::string& name, const std::string& type, const std::string& help,
+                         const TakeText& take, bool required) const {
+    app_of(app_)
+        .add_option_function<std::string>(name, take, help)
+        ->type_name(type)
+        ->required(required);
+}
+
+void CommandLine::optional_value(const std::string& name, const std::string& type,
+                                 const std::string& help, const std::string& bare,
+                                 const AcceptsText& accepts, const TakeText& take) const {
+    option(name, "[" + type + "]", help, take);
+    parser_->optional_values.push_back({&app_of(app_), name, bare, accepts});
+}
+
+void CommandLine::flag(const std::string& names, bool& value, const std::string& help) const {
+    app_of(app_).add_flag(names, value, help);
+}
+
+void CommandLine::argument(const std::string& name, std::string& value,
+                           const std::string& help) const {
+    app_of(app_).add_option(name, value, help)->required();
+}
+
+void CommandLine::arguments(const std::string& name, std::vector<std::string>& values,
+                            const std::string& help, bool required) const {
+    app_of(app_).add_option(name, values, help)->required(required);
+}
+
+void CommandLine::when_chosen(const std::function<void()>& action) const {
+    app_of(app_).callback(action);
+}
+
+bool CommandLine::given(const std::string& option) const { return app_of(app_).count(option) > 0; }
+
+std::string read_command_line(const CommandLineTexts& texts,
+                              const std::function<void(const CommandLine&)>& describe, int argc,
+                              const char* const* argv) {
+    CommandLineParser parser(texts);
+    describe(parser.root());
+    return parser.read(std::vector<std::string>(argv + 1, argv + std::max(argc, 1)));
+}
+
+}  // namespace rt
