@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -15,6 +16,8 @@
 namespace rt {
 
 namespace {
+
+std::atomic<bool> bar_shown = false;
 
 [[noreturn]] void throw_lost_results() {
     throw Error(ExitCode::output, std::string("standard output: cannot write the results: ") +
@@ -63,6 +66,20 @@ void print_message(const std::string& text) {
         left.remove_prefix(1);
     }
     write_lines(left);
+    std::fflush(stderr);
+}
+
+void print_bar(const std::string& text, bool last) {
+    bar_shown = !last;
+    print_message("\r" + text + (last ? "\n" : ""));
+}
+
+bool bar_is_shown() { return bar_shown; }
+
+void print_error(const char* message) noexcept {
+    for (const char* part : {bar_shown ? "\n" : "", "mirrorball: ", message, "\n"}) {
+        write_lines(part);
+    }
     std::fflush(stderr);
 }
 

@@ -13,6 +13,15 @@ void open_missing_streams();
 /// not be shown is escaped (printable). Never throws: a lost message must not lose a picture.
 void print_message(const std::string& text);
 
+/// Instead of the line that the cursor is on, without an end: a progress bar. `last` ends the line.
+void print_bar(const std::string& text, bool last);
+
+/// Whether the cursor is at the end of a bar; may be asked in a signal handler.
+bool bar_is_shown();
+
+/// "mirrorball: MESSAGE". Allocates nothing: memory may be what is lacking.
+void print_error(const char* message) noexcept;
+
 /// Results, to stdout as they stand. Throws Error (ExitCode::output) when they cannot be written.
 void print_result(const std::string& text);
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
@@ -15,6 +18,7 @@ namespace {
 
 int run(int argc, char** argv, double seconds_before_main) {
     const rt::Options options = rt::parse_options(argc, argv);
+    if (options.quiet()) rt::stop_quietly();
     switch (options.verb) {
         case rt::Verb::render:
             return rt::run_render(options.render, seconds_before_main);
@@ -40,8 +44,15 @@ int run(int argc, char** argv, double seconds_before_main) {
 }
 
 int failed(rt::ExitCode code, const char* message) {
-    rt::print_message(std::string("mirrorball: ") + message + "\n");
+    rt::print_error(message);
     return static_cast<int>(code);
+}
+
+/// Without destructors: what a library was doing when memory ran out may hang them.
+[[noreturn]] void end_out_of_memory() {
+    failed(rt::ExitCode::limit, "out of memory; render a smaller picture or scene");
+    std::fflush(stdout);
+    _exit(static_cast<int>(rt::ExitCode::limit));
 }
 
 }  // namespace
@@ -57,7 +68,7 @@ int main(int argc, char** argv) {
     } catch (const rt::Error& error) {
         return failed(error.exit_code(), error.what());
     } catch (const std::bad_alloc&) {
-        return failed(rt::ExitCode::limit, "out of memory; render a smaller picture or scene");
+        end_out_of_memory();
     } catch (const std::system_error& error) {
         return failed(rt::ExitCode::limit, error.what());
     } catch (const std::exception& error) {

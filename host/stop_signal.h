@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "host/render/tile_queue.h"
 
 namespace rt {
 
-/// The number of the signal that asked us to stop (SIGINT, SIGTERM or SIGHUP), or 0.
+/// The number of the signal that asked us to stop (SIGINT, SIGTERM, SIGHUP, or SIGXCPU and SIGUSR1,
+/// with which batch systems announce the end), or 0.
 const StopFlag& stop_flag();
 
+/// What it was, for messages: "interrupted (Ctrl-C)", "terminated (SIGTERM)".
+std::string stop_reason();
+
 /// Notes which stop signals we were started to ignore, and lets writes to closed pipes and past
-/// file limits fail as calls, with an error we can report. Call it first.
+/// file limits fail as calls, with an error we can report. Until install_stop_signals a stop signal
+/// ends the program, with a line that says so. Call it first.
 void prepare_signals();
 
-/// From now on the stop signals set the stop flag, but for those we were started to ignore; a
-/// second one ends the program at once. Call it after OpenCL has started: its runtimes replace
-/// handlers that were there before them.
+/// Puts the handlers back that a driver replaced while it was loaded.
+void restore_stop_signals();
+
+/// From now on the first stop signal sets the stop flag and says what happens next, unless `quiet`;
+/// a second SIGINT, SIGTERM or SIGHUP ends the program at once. Signals that we were started to
+/// ignore stay ignored. Call it after OpenCL has started: its runtimes replace handlers that were
+/// there before them.
 void install_stop_signals();
+
+/// No line on stderr at the first stop signal.
+void stop_quietly();
 
 }  // namespace rt

@@ -61,7 +61,7 @@ ClDevice describe(const cl::Device& device) {
 
 /// PoCL hides its device when it cannot write its kernel cache.
 std::string why_no_device(const std::string& platform) {
-    return fmt::format("OpenCL platform '{}' shows no device; {}", platform,
+    return fmt::format("OpenCL platform '{}' has no devices; {}", platform,
                        platform == pocl_platform
                            ? "check that its kernel cache can be written (POCL_CACHE_DIR, else "
                              "~/.cache/pocl) and what POCL_DEVICES says"

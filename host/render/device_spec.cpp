@@ -131,13 +131,14 @@ DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>&
     std::copy_if(devices.begin(), devices.end(), std::back_inserter(fitting), test_for(spec));
     if (fitting.empty()) {
         throw Error(ExitCode::device,
-                    fmt::format("--device '{}' fits no OpenCL device; there is:{}", spec,
+                    fmt::format("--device '{}' matches no OpenCL device; available:{}", spec,
                                 describe_all(devices, problems)));
     }
     if (fitting.size() > 1) {
-        throw Error(ExitCode::usage, fmt::format("--device '{}' fits several devices; name one by "
-                                                 "its index:{}",
-                                                 spec, describe_all(fitting)));
+        throw Error(ExitCode::usage,
+                    fmt::format("--device '{}' matches several devices; name one by "
+                                "its index:{}",
+                                spec, describe_all(fitting)));
     }
     if (!fitting.front().unusable.empty()) {
         throw Error(ExitCode::device,

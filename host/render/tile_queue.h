@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -31,7 +30,8 @@ struct TileRun {
 };
 
 /// Set by a signal handler to the signal's number; 0 while none has come.
-using StopFlag = volatile std::sig_atomic_t;
+using StopFlag = std::atomic<int>;
+static_assert(StopFlag::is_always_lock_free);  // else no signal handler may set it
 
 /// The shared state of a picture in the making: hands out tiles until none is left or the stop flag
 /// is set, and keeps count of what is finished. Every member may be called from any thread.

@@ -30,8 +30,7 @@ std::string hierarchies_text(const FlattenStats& stats) {
 }
 
 std::string casters_text(const FlattenStats& stats) {
-    return fmt::format("{} of {} pairs of light and triangle can make a shadow", stats.casters,
-                       stats.lit_triangles);
+    return fmt::format("{} of {} light-triangle pairs", stats.casters, stats.lit_triangles);
 }
 
 nlohmann::ordered_json hierarchies_json(const FlattenStats& stats) {

@@ -2,6 +2,7 @@
 #include "host/report/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,7 +15,8 @@ namespace rt {
 
 namespace {
 
-constexpr int bar_width = 30;
+constexpr int widest_bar = 30, narrowest_bar = 5;
+constexpr int usual_columns = 80;
 constexpr std::chrono::milliseconds bar_interval(100);
 constexpr std::chrono::milliseconds line_interval(2000);
 
@@ -22,6 +24,12 @@ std::string eta_text(double fraction, double seconds) {
     if (fraction <= 0) return "-:--";
     const auto left = static_cast<long>(std::ceil(seconds * (1 - fraction) / fraction));
     return fmt::format("{}:{:02}", left / 60, left % 60);
+}
+
+int stderr_columns() {
+    winsize size{};
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : usual_columns;
 }
 
 }  // namespace
@@ -35,8 +43,22 @@ ProgressMode progress_mode_for_stderr(const RenderOptions& options) {
 
 std::string progress_line(double fraction, double seconds, const RayCounts& rays) {
     const double rate = seconds > 0 ? static_cast<double>(rays.total()) / seconds * 1e-6 : 0;
-    return fmt::format("{:3.0f} %  {:.1f} Mrays/s  ETA {}", 100 * fraction, rate,
-                       eta_text(fraction, seconds));
+    // Rounded down: 100 % is all of it.
+    return fmt::format("{:3.0f} %  {:.1f} Mrays/s{}", std::floor(100 * fraction), rate,
+                       fraction < 1 ? "  ETA " + eta_text(fraction, seconds) : "");
+}
+
+std::string progress_bar(double fraction, const std::string& line, int columns) {
+    const int room = std::max(columns - 1, 0);  // the last column would wrap
+    const int around = static_cast<int>(line.size()) + 3;
+    const int width = std::min(widest_bar, room - around);
+    std::string text = line;
+    if (width >= narrowest_bar) {
+        const int filled = static_cast<int>(fraction * width);
+        text = fmt::format("[{:#<{}}{:.<{}}] {}", "", filled, "", width - filled, line);
+    }
+    // Blanks over what a longer line before has left.
+    return fmt::format("{:<{}}", text, room).substr(0, static_cast<std::size_t>(room));
 }
 
 ProgressReporter::ProgressReporter(const TileQueue& queue, ProgressMode mode)
@@ -68,9 +90,8 @@ void ProgressReporter::show(bool last) {
     const double seconds = watch_.seconds();
     const RayCounts rays = queue_.rays();
     if (mode_ == ProgressMode::bar) {
-        const int filled = static_cast<int>(fraction * bar_width);
-        print_message(fmt::format("\r[{:#<{}}{:.<{}}] {}{}", "", filled, "", bar_width - filled,
-                                  progress_line(fraction, seconds, rays), last ? "  \n" : "  "));
+        print_bar(progress_bar(fraction, progress_line(fraction, seconds, rays), stderr_columns()),
+                  last);
     } else if (mode_ == ProgressMode::json) {
         print_message(fmt::format("{{\"fraction\":{:.4f},\"seconds\":{:.3f},\"rays\":{}}}\n",
                                   fraction, seconds, rays.total()));

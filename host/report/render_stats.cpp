@@ -18,6 +18,13 @@ double RenderStats::rays_per_second() const {
     return seconds > 0 ? static_cast<double>(rays.total()) / seconds : 0;
 }
 
+bool RenderStats::driver_took_its_time() const {
+    constexpr double short_picture = 0.2;
+    const RendererTimes& times = phases.renderer;
+    return times.kernel > 0 && times.trace > short_picture && times.kernel < times.trace / 2 &&
+           !aa.refines();
+}
+
 double seconds_since_process_start() {
     std::ifstream file("/proc/self/stat");
     std::string text((std::istreambuf_iterator<char>(file)), {});

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/counted.h"
 #include "host/report/flatten_text.h"
 
 namespace rt {
@@ -65,10 +66,11 @@ std::string names_text(const Features& features, bool used) {
 }
 
 std::string holdings_text(const RenderStats& stats) {
-    return fmt::format("{} spheres, {} cones, {} triangles, {} lights{}{}", stats.scene.spheres,
-                       stats.scene.cones, stats.scene.triangles, stats.scene.lights,
-                       stats.features.mirrors ? ", mirrors" : "",
-                       stats.features.glass ? ", glass" : "");
+    return fmt::format(
+        "{}, {}, {}, {}{}{}", counted(stats.scene.spheres, "sphere"),
+        counted(stats.scene.cones, "cone"), counted(stats.scene.triangles, "triangle"),
+        counted(stats.scene.lights, "light"), stats.features.mirrors ? ", mirrors" : "",
+        stats.features.glass ? ", glass" : "");
 }
 
 std::string summary_line(const RenderStats& stats) {
@@ -83,10 +85,17 @@ std::string summary_line(const RenderStats& stats) {
 
 std::string error_line(const ImageError& error) {
     return fmt::format(
-        "RMSE {:.3e}, mean {:.3e}, max {:.3e} at {},{}, PSNR {:.1f} dB, {} pixels "
+        "RMSE {:.3e}, mean {:.3e}, max {:.3e} at {},{}, PSNR {:.1f} dB, {} "
         "over 1/255, {} over 8/255, {} not finite",
-        error.rmse, error.mean, error.max, error.max_x, error.max_y, error.psnr, error.over_1,
-        error.over_8, error.non_finite);
+        error.rmse, error.mean, error.max, error.max_x, error.max_y, error.psnr,
+        counted(error.over_1, "pixel"), error.over_8, error.non_finite);
+}
+
+std::string driver_time_text(const RenderStats& stats) {
+    return fmt::format(
+        "kernels ran for {:.3f} s of the {:.3f} s of tracing; the driver seems to have compiled "
+        "meanwhile: a second run shows the speed of tracing",
+        stats.phases.renderer.kernel, stats.phases.renderer.trace);
 }
 
 std::string stats_text(const RenderStats& stats) {
@@ -98,12 +107,16 @@ std::string stats_text(const RenderStats& stats) {
         stats.region.height, to_string(stats.aa), stats.max_bounces,
         stats.double_precision ? "double" : "float", stats.fast_math ? "fast" : "strict",
         hash_text(stats.image_hash), device_text(stats.device));
+    if (!stats.device.fallback_from.empty()) {
+        text += fmt::format("        instead of {}, which failed\n", stats.device.fallback_from);
+    }
     text += fmt::format("needs   {}\nleaves out {}{}\n", names_text(stats.features, true),
                         names_text(stats.features, false),
                         stats.all_features ? " (compiled in all the same: --features all)" : "");
-    text += fmt::format("builds  {}\ncasts   {}\n", hierarchies_text(stats.scene.flatten),
+    text += fmt::format("builds  {}\ncasters {}\n", hierarchies_text(stats.scene.flatten),
                         casters_text(stats.scene.flatten));
     text += phases_text(stats.phases) + rays_text(stats);
+    if (stats.driver_took_its_time()) text += "note    " + driver_time_text(stats) + "\n";
     if (stats.error) text += "error   " + error_line(*stats.error) + "\n";
     return text;
 }

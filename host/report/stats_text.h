@@ -20,6 +20,9 @@ std::string summary_line(const RenderStats& stats);
 /// One line: every figure of an image error.
 std::string error_line(const ImageError& error);
 
+/// Where stats.driver_took_its_time(): what that means for the speed shown.
+std::string driver_time_text(const RenderStats& stats);
+
 /// The table of --stats: phases as in the paper (set-up, ray trace, resolve and write, total), rays
 /// by kind, and what the scene needed and did not need.
 std::string stats_text(const RenderStats& stats);

@@ -151,11 +151,11 @@ std::string stress_text(const StressResult& result, bool verbose) {
                             result.cost->scene, result.cost->ratio(), result.cost->robust_seconds,
                             result.cost->naive_seconds);
     }
-    const auto failed =
+    const auto passed =
         std::count_if(result.families.begin(), result.families.end(),
-                      [](const StressFamilyResult& family) { return !family.passed(); });
-    return text + fmt::format("{}: {} of {} families fall short, {:.0f} s{}\n",
-                              result.passed() ? "PASS" : "FAIL", failed, result.families.size(),
+                      [](const StressFamilyResult& family) { return family.passed(); });
+    return text + fmt::format("{}: {} of {} families, {:.0f} s{}\n",
+                              result.passed() ? "PASS" : "FAIL", passed, result.families.size(),
                               result.seconds, result.interrupted ? ", interrupted" : "");
 }
 

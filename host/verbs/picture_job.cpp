@@ -28,13 +28,15 @@ DeviceChoice chosen_device(const RenderOptions& options) {
     DeviceChoice choice;
     if (names_threads(options.device, choice)) {
         if (choice.threads > 0 && options.threads > 0 && choice.threads != options.threads) {
-            throw Error(ExitCode::usage, fmt::format("--threads {} and --device {}: say it once",
-                                                     options.threads, options.device));
+            throw Error(ExitCode::usage,
+                        fmt::format("--threads {} and --device {}: they disagree; give one",
+                                    options.threads, options.device));
         }
         return choice;
     }
     std::vector<std::string> problems;
     const std::vector<ClDevice> devices = list_cl_devices(problems);
+    restore_stop_signals();
     return choose_device(options.device, devices, problems);
 }
 

@@ -24,23 +24,32 @@ namespace rt {
 
 namespace {
 
-/// What belongs to the picture, and nothing that changes from run to run or device to device.
+/// What belongs to the picture, and nothing that changes from run to run or device to device, but
+/// that a device failed.
 PictureMetadata picture_metadata(const RenderStats& stats) {
-    return {{"mirrorball:Scene", stats.scene.name},
-            {"mirrorball:SceneHash", hash_text(stats.scene.hash)},
-            {"mirrorball:Settings",
-             fmt::format("{}x{}+{}+{} of {}x{}, {}, {} filter, {} bounces, {}, {} math",
-                         stats.region.width, stats.region.height, stats.region.x, stats.region.y,
-                         stats.width, stats.height, to_string(stats.aa), to_string(stats.filter),
-                         stats.max_bounces, stats.double_precision ? "double" : "float",
-                         stats.fast_math ? "fast" : "strict")},
-            {"mirrorball:ImageHash", hash_text(stats.image_hash)},
-            {"mirrorball:Version", version}};
+    PictureMetadata metadata{
+        {"mirrorball:Scene", stats.scene.name},
+        {"mirrorball:SceneHash", hash_text(stats.scene.hash)},
+        {"mirrorball:Settings",
+         fmt::format("{}x{}+{}+{} of {}x{}, {}, {} filter, {} bounces, {}, {} math",
+                     stats.region.width, stats.region.height, stats.region.x, stats.region.y,
+                     stats.width, stats.height, to_string(stats.aa), to_string(stats.filter),
+                     stats.max_bounces, stats.double_precision ? "double" : "float",
+                     stats.fast_math ? "fast" : "strict")},
+        {"mirrorball:ImageHash", hash_text(stats.image_hash)},
+        {"mirrorball:Version", version}};
+    if (!stats.device.fallback_from.empty()) {
+        metadata.push_back({"mirrorball:FallbackFrom", stats.device.fallback_from});
+    }
+    return metadata;
 }
 
 void print_results(const RenderStats& stats, const RenderOptions& options) {
     if (options.stats == StatsFormat::json) return print_result(json_text(stats_json(stats)));
     if (options.stats == StatsFormat::text) return print_result(stats_text(stats));
+    if (!options.quiet && stats.driver_took_its_time()) {
+        print_message("mirrorball: " + driver_time_text(stats) + "\n");
+    }
     if (!options.quiet) print_message(summary_line(stats) + "\n");
     if (stats.error) print_result(error_line(*stats.error) + "\n");
 }
@@ -63,11 +72,10 @@ int verdict(const RenderedPicture& rendered, const std::string& output) {
     const RenderStats& stats = rendered.stats;
     const bool non_finite = report_non_finite(rendered);
     if (!stats.complete()) {
-        const int signal = stop_flag();
-        print_message(fmt::format("mirrorball: stopped by signal {} after {} of {} tiles{}\n",
-                                  signal, stats.tiles_finished, stats.tiles,
+        print_message(fmt::format("mirrorball: {} after {} of {} tiles{}\n", stop_reason(),
+                                  stats.tiles_finished, stats.tiles,
                                   output.empty() ? "" : "; what was finished is in " + output));
-        return 128 + signal;
+        return 128 + stop_flag();
     }
     return static_cast<int>(non_finite ? ExitCode::non_finite : ExitCode::done);
 }
@@ -88,6 +96,14 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
                             reference.channels, width, height));
 }
 
+/// Who asks for figures alone wants no picture.
+void say_unsaved(const RenderOptions& options) {
+    const bool wants_figures =
+        options.stats != StatsFormat::summary || !options.reference.empty() || options.quiet;
+    if (wants_figures || !options.output.empty()) return;
+    print_message("mirrorball: without -o FILE the picture is not saved\n");
+}
+
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
@@ -101,6 +117,7 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     const double load_seconds = watch.lap();
     const std::optional<Picture> reference = load_reference(options, scene);
     const double reference_seconds = watch.lap();
+    say_unsaved(options);
     ImageLibraryLoading image_library;
     RenderedPicture rendered = render_picture(scene, options, std::move(device),
                                               [&] { image_library.begin_for(options.output); });

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "host/console.h"
+#include "host/counted.h"
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/printable.h"
@@ -56,30 +57,33 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
     std::string text = fmt::format(
         "{}\n"
         "  hash       {}\n"
-        "  picture    {}x{} pixels, {}, up to {} mirror bounces\n"
-        "  holds      {} spheres, {} cones, {} triangles ({} smooth), {} materials, {} lights\n"
+        "  picture    {}x{} pixels, {}, up to {}\n"
+        "  holds      {}, {}, {} ({} smooth), {}, {}\n"
         "  on device  {} bytes in float\n",
         scene.name, hash_text(scene_hash(scene)), scene.width, scene.height, to_string(scene.aa),
-        scene.max_bounces, scene.spheres.size(), scene.cones.size(), flat.triangles.size(),
-        flat.vertex_normals.size(), scene.materials.size(), scene.lights.size(), flat.bytes());
+        counted(static_cast<std::size_t>(scene.max_bounces), "mirror bounce"),
+        counted(scene.spheres.size(), "sphere"), counted(scene.cones.size(), "cone"),
+        counted(flat.triangles.size(), "triangle"), flat.vertex_normals.size(),
+        counted(scene.materials.size(), "material"), counted(scene.lights.size(), "light"),
+        flat.bytes());
     if (!flat.triangles.empty()) {
         text += fmt::format(
-            "             {:.1f} a triangle\n",
+            "             {:.1f} bytes per triangle\n",
             static_cast<double>(flat.bytes()) / static_cast<double>(flat.triangles.size()));
     }
     if (!scene.meshes.empty()) {
-        text += fmt::format("  meshes     {} of {} triangles\n", scene.meshes.size(),
-                            triangle_count(scene) - scene.triangles.size());
+        text += fmt::format("  meshes     {} of {}\n", scene.meshes.size(),
+                            counted(triangle_count(scene) - scene.triangles.size(), "triangle"));
     }
-    text += fmt::format("  builds     {}\n  casts      {}\n", hierarchies_text(flat.stats),
+    text += fmt::format("  builds     {}\n  casters    {}\n", hierarchies_text(flat.stats),
                         casters_text(flat.stats));
     for (const FeatureName& feature : feature_names) {
         const bool used = flat.features.*feature.flag;
         text += fmt::format("  {:<10} {}\n", used ? "needs" : "leaves out", feature.name);
     }
     if (flat.lights.size() < scene.lights.size()) {
-        text += fmt::format("  leaves out {} lights that shine on nothing\n",
-                            scene.lights.size() - flat.lights.size());
+        text += fmt::format("  leaves out {} that lit nothing\n",
+                            counted(scene.lights.size() - flat.lights.size(), "light"));
     }
     for (const std::string& note : scene.notes) text += fmt::format("  note       {}\n", note);
     for (const std::string& warning : scene_warnings(scene)) {

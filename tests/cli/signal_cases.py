@@ -26,9 +26,10 @@ def long_options(path):
 
 
 class Interrupted(CliTest):
-    def start_and_wait_until_tiles_are_done(self, path, output=None):
+    def start_and_wait_until_tiles_are_done(self, path, output=None, *more):
         written = ["-o", output] if output else []
-        process = self.start("render", scene_path("mirror-hall"), *written, *long_options(path))
+        process = self.start("render", scene_path("mirror-hall"), *written, *long_options(path),
+                             *more)
         for line in process.stderr:
             if line.startswith("{") and json.loads(line)["fraction"] > 0:
                 return process
@@ -76,8 +77,55 @@ class Interrupted(CliTest):
             process = self.start_and_wait_until_tiles_are_done(path)
             code, lines = self.stop(process, signal.SIGINT)
             self.assertEqual(code, 130, lines)
-            self.assertRegex(lines[-1], r"stopped by signal 2 after \d+ of \d+ tiles$")
+            self.assertRegex(lines[-1], r"interrupted \(Ctrl-C\) after \d+ of \d+ tiles$")
             self.assertEqual(self.files(), [])
+
+    def test_batch_systems_signals(self):
+        for number in [signal.SIGXCPU, signal.SIGUSR1]:
+            self.assert_stopped("threads", number, "out.pfm")
+            self.assert_has_light_and_gaps("out.pfm")
+            (self.folder / "out.pfm").unlink()
+
+    def start_and_wait_until_it_renders(self, *more):
+        """One tile that takes minutes."""
+        process = self.start("render", scene_path("glass"), "-o", "out.png", "--size", "2000",
+                             "--tile", "2000", "--aa", "sobol:4096", "--device", "threads",
+                             "--progress", "json", *more)
+        for line in process.stderr:
+            if line.startswith("{"):
+                return process
+        self.fail(f"ended before it could be interrupted: {process.wait()}")
+
+    def next_word(self, process):
+        for line in process.stderr:
+            if not line.startswith("{"):
+                return line
+        return ""
+
+    def test_says_at_once_that_it_stops(self):
+        process = self.start_and_wait_until_it_renders()
+        process.send_signal(signal.SIGINT)
+        sent = time.monotonic()
+        self.assertIn("stopping, saving what is finished; again to quit at once",
+                      self.next_word(process))
+        self.assertLess(time.monotonic() - sent, 1)
+
+    def test_a_second_signal_of_any_kind_quits_at_once(self):
+        for first, second in [(signal.SIGINT, signal.SIGINT), (signal.SIGUSR1, signal.SIGTERM)]:
+            process = self.start_and_wait_until_it_renders()
+            process.send_signal(first)
+            self.assertIn("again to quit", self.next_word(process))
+            process.send_signal(second)
+            sent = time.monotonic()
+            process.communicate(timeout=20)
+            self.assertLess(time.monotonic() - sent, 1)
+            self.assertEqual(process.returncode, -second)
+            self.assertEqual(self.files(), [])
+
+    def test_quiet_says_nothing_while_it_stops(self):
+        process = self.start_and_wait_until_tiles_are_done("threads", "out.pfm", "-q")
+        _, lines = self.stop(process, signal.SIGINT)
+        self.assertNotIn("stopping", " ".join(lines))
 
     def test_pocl_samples_sigint(self):
         self.assert_stopped("pocl samples", signal.SIGINT, "out.pfm")
@@ -121,6 +169,33 @@ class Interrupted(CliTest):
         self.assertFalse(json.loads(stdout)["complete"])
 
 
+class LargeSceneTest(CliTest):
+    def write_large_scene(self, spheres):
+        """One that takes a while to read."""
+        sphere = {"center": [0, 0, 0], "radius": 1, "material": "grey"}
+        return self.write_text("large.json", json.dumps(
+            {"camera": CAMERA, "materials": {"grey": {}}, "spheres": [sphere] * spheres}))
+
+
+class SettingUp(LargeSceneTest):
+    """Before there is a picture: one line says what happened and that nothing is saved."""
+
+    def test_every_stop_signal_says_a_word(self):
+        large = self.write_large_scene(1500000)
+        for number, reason in [(signal.SIGINT, "interrupted (Ctrl-C)"),
+                               (signal.SIGTERM, "terminated"), (signal.SIGHUP, "hung up"),
+                               (signal.SIGXCPU, "CPU time"), (signal.SIGUSR1, "told to stop")]:
+            with self.subTest(number=number):
+                process = self.start("render", large, "-o", "out.png")
+                time.sleep(0.3)
+                process.send_signal(number)
+                lines = process.communicate(timeout=20)[1].splitlines()
+                self.assertEqual(len(lines), 1, lines)
+                self.assertIn(reason, lines[0])
+                self.assertIn("nothing is saved", lines[0])
+                self.assertIn(process.returncode, [-number, 128 + number])
+
+
 class Ignored(CliTest):
     def test_signal_that_the_caller_ignores_stays_ignored(self):
         """As in `nohup` or a script's background job."""
@@ -129,16 +204,14 @@ class Ignored(CliTest):
         self.assertEqual(self.run_shell(line).returncode, 0)
 
 
-class BeforeRendering(CliTest):
+class BeforeRendering(LargeSceneTest):
     def test_leaves_nothing(self):
-        sphere = {"center": [0, 0, 0], "radius": 1, "material": "grey"}
-        text = json.dumps({"camera": CAMERA, "materials": {"grey": {}},
-                           "spheres": [sphere] * 300000})
-        scene = self.write_text("large.json", text)
+        scene = self.write_large_scene(300000)
         for number in [signal.SIGINT, signal.SIGTERM]:
             process = self.start("render", scene, "-o", "out.png", "--size", "4")
             time.sleep(0.1)
             process.send_signal(number)
-            process.communicate(timeout=20)
+            lines = process.communicate(timeout=20)[1].splitlines()
             self.assertIn(process.returncode, [128 + number, -number])
+            self.assertRegex(lines[-1], "interrupted|terminated")
             self.assertEqual(self.files(), ["large.json"])

@@ -1,21 +1,34 @@
 # SPDX-License-Identifier: Apache-2.0
 """stdout and stderr: what goes where, progress, and streams that are closed or full."""
+import fcntl
 import json
 import os
 import pty
+import struct
+import termios
+import threading
 
 from harness import CliTest, scene_path
 
-LONG = ["--size", "2000", "--aa", "grid:8", "--device", "threads"]
+LONG = ["--size", "2000", "--aa", "grid:8", "--device", "threads", "-o", "out.pfm"]
 
 
 class Summary(CliTest):
     def test_is_on_stderr_alone(self):
-        result = self.render("single-sphere", "--size", "8")
+        result = self.render("single-sphere", "--size", "8", "-o", "out.png")
         self.assertEqual(result.stdout, "")
         self.assertEqual(len(result.stderr.splitlines()), 1)
         self.assertRegex(result.stderr,
                          r"^single-sphere: 8x8 grid:2 float on .* image [0-9a-f]{16}$")
+
+    def test_a_picture_that_is_not_saved(self):
+        lines = self.render("single-sphere", "--size", "8").stderr.splitlines()
+        self.assertEqual(len(lines), 2)
+        self.assertIn("-o", lines[0])
+        self.assertIn("not saved", lines[0])
+        for more in [["-q"], ["-o", "out.png"], ["--stats=json"]]:
+            result = self.render("single-sphere", "--size", "8", *more)
+            self.assertNotIn("not saved", result.stderr)
 
     def test_quiet_says_nothing(self):
         result = self.render("single-sphere", "--size", "8", "-q", "-o", "out.png")
@@ -54,23 +67,52 @@ class Progress(CliTest):
         process.kill()
         return lines
 
-    def on_terminal(self, **env):
+    def on_terminal(self, columns=0, **env):
         """What a rendering of a second or so writes to a terminal."""
         try:
             ours, terminal = pty.openpty()
         except OSError as error:
             self.skipTest(f"no pseudo-terminal: {error}")
         self.addCleanup(os.close, ours)
+        fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+        written = []
+        reader = threading.Thread(target=self.read_all, args=[ours, written])
+        reader.start()  # a terminal that nobody reads takes 4 kB, and then holds its writer up
         result = self.run_cli("render", scene_path("mirror-hall"), "--size", "500", "--device",
                               "threads:1", "--aa", "grid:4", stderr=terminal, env=env)
         os.close(terminal)
+        reader.join()
         self.assertEqual(result.returncode, 0)
-        return os.read(ours, 100000).decode()
+        return b"".join(written).decode()
+
+    @staticmethod
+    def read_all(terminal, written):
+        try:
+            while True:
+                written.append(os.read(terminal, 4096))
+        except OSError:  # the other end is closed
+            pass
 
     def test_bar_on_a_terminal(self):
         text = self.on_terminal(TERM="xterm")
         self.assertRegex(text, r"\r\[#*\.*\] +\d+ %  [\d.]+ Mrays/s  ETA \d+:\d\d")
         self.assertRegex(text, r"\] 100 %.*\n.*image [0-9a-f]{16}\r\n$")
+
+    def test_bar_fits_its_terminal(self):
+        for columns in [20, 40, 60, 200]:
+            lines = self.on_terminal(columns, TERM="xterm").split("\r")
+            bars = [line for line in lines if "Mrays/s" in line and "image" not in line]
+            self.assertTrue(bars)
+            for line in bars:
+                self.assertLess(len(line.rstrip("\n")), columns, line)
+            self.assertEqual("[" in bars[0], columns >= 40)
+
+    def test_no_time_left_when_all_is_done(self):
+        text = self.on_terminal(TERM="xterm")
+        last = [line for line in text.split("\r") if "100 %" in line]
+        self.assertTrue(last)
+        for line in last:
+            self.assertNotIn("ETA", line)
 
     def test_no_bar_on_a_dumb_terminal(self):
         self.assertNotIn("[", self.on_terminal(TERM="dumb"))
@@ -98,11 +140,11 @@ class Progress(CliTest):
         self.assertNotIn("\x1b", result.stderr)
 
     def test_no_bar_for_a_short_picture(self):
-        result = self.render("empty", "--size", "4", "--progress", "bar")
+        result = self.render("empty", "--size", "4", "--progress", "bar", "-o", "out.png")
         self.assertEqual(len(result.stderr.splitlines()), 1)
 
     def test_none(self):
-        result = self.render("mirror-hall", "--size", "300", "--progress", "none")
+        result = self.render("mirror-hall", "--size", "300", "--progress", "none", "-o", "out.png")
         self.assertEqual(len(result.stderr.splitlines()), 1)
 
 
