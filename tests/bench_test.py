@@ -227,6 +227,11 @@ class Converge(FiguresTest):
                 self.assert_close(entry["seconds"], min(reached))
                 self.assert_close(costs[entry["point"]][0], min(reached))
 
+    def test_a_single_point_has_no_slope(self):
+        points = {len(curve["points"]): curve["slope"] for curve in self.result["curves"]}
+        self.assertIsNone(points[1])
+        self.assertLess(points[2], 0)
+
     def test_curves_hold_every_point_once(self):
         held = [i for curve in self.result["curves"] for i in curve["points"]]
         self.assertEqual(sorted(held), list(range(len(self.points))))

@@ -38,6 +38,12 @@ TEST(ImageError, RelativeMseOfBlackIsKeptFinite) {
     EXPECT_NEAR(image_error(row(1, {0.01f}), row(1, {0})).rel_mse, 1, 1e-6);
 }
 
+TEST(ImageError, RelativeMseOfANegativeReferenceIsThatOfItsSize) {
+    EXPECT_NEAR(image_error(row(1, {0.01f}), row(1, {-0.01f})).rel_mse, 1, 1e-6);
+    EXPECT_NEAR(image_error(row(1, {-0.5f}), row(1, {-1})).rel_mse,
+                image_error(row(1, {0.5f}), row(1, {1})).rel_mse, 1e-12);
+}
+
 TEST(ImageError, CountsPixelsOverLevels) {
     const auto level = [](double levels) { return static_cast<float>(levels / 255); };
     const Picture a = row(3, {level(0.9), 0, 0, 0, level(1.1), 0, 0, 0, level(2.1),  //

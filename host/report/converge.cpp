@@ -79,7 +79,7 @@ std::vector<Curve> curves_of(const ConvergeResult& result) {
             return same_build(c.of, asked) && c.of.max_bounces == asked.max_bounces &&
                    c.family == family;
         });
-        if (curve == curves.end()) curve = curves.insert(curve, Curve{asked, family, {}, 0});
+        if (curve == curves.end()) curve = curves.insert(curve, Curve{asked, family, {}, {}});
         curve->points.push_back(i);
     }
     for (Curve& curve : curves) curve.slope = log_log_slope(costs_of(result, curve.points));

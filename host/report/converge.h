@@ -34,7 +34,7 @@ struct Curve {
     ConvergeCase of;     ///< its device, precision, math and bounces
     std::string family;  ///< "grid" (with none), "sobol", "adaptive"
     std::vector<std::size_t> points;
-    double slope = 0;  ///< of log RMSE over log seconds
+    std::optional<double> slope;  ///< of log RMSE over log seconds; none of a single point
 };
 
 std::vector<Curve> curves_of(const ConvergeResult& result);

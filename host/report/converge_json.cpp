@@ -59,7 +59,7 @@ Json curves_json(const ConvergeResult& result) {
         json["max_bounces"] = curve.of.max_bounces;
         json["family"] = curve.family;
         json["points"] = curve.points;
-        json["slope"] = curve.slope;
+        json["slope"] = curve.slope ? Json(*curve.slope) : Json(nullptr);
         list.push_back(json);
     }
     return list;

@@ -48,9 +48,9 @@ std::string points_text(const ConvergeResult& result) {
 std::string curves_text(const ConvergeResult& result) {
     std::string text = "\nslope of log RMSE over log seconds\n";
     for (const Curve& curve : curves_of(result)) {
-        if (curve.points.size() < 2) continue;
+        if (!curve.slope) continue;
         text += fmt::format("{} {:>7} {:<14} {:>6.2f}\n", who(curve.of), curve.of.max_bounces,
-                            curve.family, curve.slope);
+                            curve.family, *curve.slope);
     }
     return text;
 }

@@ -79,7 +79,7 @@ ImageError image_error(const Picture& picture, const Picture& reference) {
             const double difference = double{a[c]} - double{b[c]};
             squares += difference * difference;
             sum += std::fabs(difference);
-            const double relative = difference / (double{b[c]} + 0.01);
+            const double relative = difference / (std::fabs(double{b[c]}) + 0.01);
             relative_squares += relative * relative;
         }
         error.over_1 += largest > levels(1) ? 1 : 0;

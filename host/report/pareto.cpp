@@ -25,7 +25,7 @@ std::vector<std::size_t> pareto_front(std::span<const Cost> costs) {
     return front;
 }
 
-double log_log_slope(std::span<const Cost> costs) {
+std::optional<double> log_log_slope(std::span<const Cost> costs) {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (const Cost& cost : costs) {
         if (!(cost.seconds > 0) || !(cost.rmse > 0)) continue;
@@ -37,7 +37,8 @@ double log_log_slope(std::span<const Cost> costs) {
         xy += u * v;
     }
     const double spread = n * xx - x * x;
-    return n >= 2 && spread > 0 ? (n * xy - x * y) / spread : 0;
+    if (n < 2 || !(spread > 0)) return std::nullopt;
+    return (n * xy - x * y) / spread;
 }
 
 }  // namespace rt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Cost {
 std::vector<std::size_t> pareto_front(std::span<const Cost> costs);
 
 /// The slope of log RMSE over log seconds, by least squares: -0.5 for plain random sampling. Costs
-/// with a 0 are left out; 0 when fewer than two different times remain.
-double log_log_slope(std::span<const Cost> costs);
+/// with a 0 are left out; empty when fewer than two different times remain.
+std::optional<double> log_log_slope(std::span<const Cost> costs);
 
 }  // namespace rt

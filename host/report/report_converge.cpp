@@ -66,7 +66,7 @@ std::vector<PlotCurve> plot_curves(const ConvergeResult& result, std::size_t ind
         const std::string device = device_text(result.points[measured.points.front()]);
         PlotCurve curve;
         curve.label = device + ", " + measured.family;
-        if (measured.points.size() > 1) curve.label += ", slope " + significant(measured.slope, 2);
+        if (measured.slope) curve.label += ", slope " + significant(*measured.slope, 2);
         curve.color = place_of(devices, device);
         curve.shape = place_of(families, measured.family);
         for (const std::size_t i : measured.points) {
@@ -110,7 +110,7 @@ Plot error_time_plot(const ConvergeResult& result, std::size_t index) {
 }
 
 std::string front_table(const ConvergeResult& result, std::size_t index) {
-    HtmlTable table{"Nothing measured is both faster and closer than these",
+    HtmlTable table{"Pareto front: no other setting is both faster and more exact",
                     {"sampling", "on", "run time", "noise, %", "RMSE"},
                     {}};
     for (const std::size_t i : front_of(result)) {

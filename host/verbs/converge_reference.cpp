@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "host/console.h"
 #include "host/error.h"
@@ -18,19 +20,33 @@
 #include "host/scene/scene_hash.h"
 #include "host/verbs/picture_job.h"
 #include "host/verbs/timing_loop.h"
-#include "host/version.h"
 
 namespace rt {
 
 namespace {
 
-/// Everything beside the scene's hash that a half depends on, this program's revision among it.
+/// The program's own bytes, hashed: a revision would be that of all edits not yet committed. Empty
+/// where they cannot be read.
+std::optional<std::uint64_t> program_hash() {
+    std::ifstream file("/proc/self/exe", std::ios::binary);
+    Hasher hasher;
+    std::vector<char> piece(1 << 20);
+    while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) ||
+           file.gcount() > 0) {
+        const auto count = static_cast<std::size_t>(file.gcount());
+        hasher.add_bytes(std::as_bytes(std::span(piece.data(), count)));
+    }
+    if (!file.eof()) return std::nullopt;
+    return hasher.value();
+}
+
+/// Everything but the scene's hash that a half depends on, this program included.
 std::string cache_path(const std::string& folder, const Scene& scene) {
-    if (folder.empty()) return "";
+    static const std::optional<std::uint64_t> program = program_hash();
+    if (folder.empty() || !program) return "";
     Hasher settings;
-    settings.add(std::string_view("reference 1"));
-    settings.add(std::string_view(version));
-    settings.add(std::string_view(git_revision));
+    settings.add(std::string_view("reference 2"));
+    settings.add(*program);
     settings.add(scene.width);
     settings.add(scene.height);
     settings.add(scene.max_bounces);
