@@ -31,12 +31,16 @@ Scene load(const std::string& path) {
 
 Scene load_scene(const std::string& path, const LightOverrides& light) {
     Scene scene = load(path);
+    override_light(scene, light);
+    return scene;
+}
+
+void override_light(Scene& scene, const LightOverrides& light) {
     if (light.ambient_light) scene.ambient_light = *light.ambient_light;
-    if (!light.light_scale) return scene;
+    if (!light.light_scale) return;
     for (Scene::Light& of_scene : scene.lights) {
         if (!of_scene.has_own_intensity) of_scene.intensity = glm::dvec3(*light.light_scale);
     }
-    return scene;
 }
 
 }  // namespace rt

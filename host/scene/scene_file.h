@@ -20,4 +20,7 @@ struct LightOverrides {
 /// regular, or wrong; ExitCode::limit for one that is too large.
 Scene load_scene(const std::string& path, const LightOverrides& light = {});
 
+/// Gives a scene the light that replaces its own.
+void override_light(Scene& scene, const LightOverrides& light);
+
 }  // namespace rt

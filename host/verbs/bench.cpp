@@ -22,6 +22,7 @@
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"
 #include "host/verbs/ablation.h"
+#include "host/verbs/default_scene.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/measure.h"
 #include "host/verbs/picture_job.h"
@@ -31,8 +32,6 @@
 namespace rt {
 
 namespace {
-
-constexpr const char* default_scene = "scenes/cornell-box.json";
 
 struct LoadedScene {
     std::string path;
@@ -51,12 +50,11 @@ class Plan {
    public:
     explicit Plan(const BenchOptions& options)
         : options_(options), devices_(listed_devices(options.devices)) {
-        std::vector<std::string> paths = options.scenes;
-        if (paths.empty()) {
-            paths.emplace_back(default_scene);
-            say(fmt::format("no scene given: {}", default_scene));
+        if (options.scenes.empty()) {
+            say("no scene given: the built-in cornell-box");
+            scenes_.push_back({default_scene_path, load_default_scene(options.light), 0});
         }
-        for (const std::string& path : paths) {
+        for (const std::string& path : options.scenes) {
             const Stopwatch watch;
             Scene scene = load_scene(path, options.light);
             const double seconds = watch.seconds();

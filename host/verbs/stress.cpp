@@ -12,9 +12,9 @@
 #include "host/report/stats_json.h"
 #include "host/report/stress_json.h"
 #include "host/report/stress_text.h"
-#include "host/scene/json_file.h"
 #include "host/stop_signal.h"
 #include "host/stress/naive_tracer.h"
+#include "host/verbs/default_scene.h"
 #include "host/verbs/measure.h"
 #include "host/verbs/picture_job.h"
 #include "host/verbs/stress_run.h"
@@ -26,17 +26,11 @@ namespace rt {
 
 namespace {
 
-constexpr const char* cost_scene = "scenes/cornell-box.json";
 constexpr int cost_repeats = 7;
 
-/// The paper's scene on threads in float, robust and naive in turn, medians after a warm-up.
-std::optional<StressCost> measure_cost() {
-    if (!std::filesystem::exists(cost_scene)) {
-        print_message(
-            fmt::format("mirrorball: no {} here, so the cost is not measured\n", cost_scene));
-        return std::nullopt;
-    }
-    Scene scene = load_json_scene(cost_scene);
+/// The paper's scene on threads in float, robust and naive interleaved, medians after a warm-up.
+StressCost measure_cost() {
+    Scene scene = load_default_scene();
     set_image_size(scene, 300, 300);
     RenderOptions options = timed_options();
     options.device = "threads";
@@ -48,7 +42,7 @@ std::optional<StressCost> measure_cost() {
         robust.push_back(first);
         naive.push_back(second);
     }
-    return StressCost{cost_scene, median(robust), median(naive)};
+    return StressCost{default_scene_path, median(robust), median(naive)};
 }
 
 std::vector<StressFamily> families_for(const StressOptions& options) {

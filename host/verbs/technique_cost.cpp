@@ -17,14 +17,13 @@
 #include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
 #include "host/stress/naive_tracer.h"
+#include "host/verbs/default_scene.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/timing_loop.h"
 
 namespace rt {
 
 namespace {
-
-constexpr const char* paper_scene = "scenes/cornell-box.json";
 
 /// One way to render the picture; returns the seconds of tracing it.
 struct Contender {
@@ -62,7 +61,7 @@ Contender without(const Techniques& naive, const char* name, const char* how, co
 Contenders on_device(const Scene& scene, const FlatScene<float>& flat, const ClDevice& device) {
     Contenders contenders;
     contenders.push_back(without({}, "", "", scene, flat, device));
-    contenders.push_back(without({}, "nothing", "how much chance there is", scene, flat, device));
+    contenders.push_back(without({}, "nothing", "run-to-run noise", scene, flat, device));
     for (const Technique& technique : techniques) {
         Techniques naive;
         naive.*technique.flag = true;
@@ -87,7 +86,7 @@ Contenders on_threads(const Scene& scene, const FlatScene<float>& flat, int thre
     return contenders;
 }
 
-/// Renders each once to warm up, then in turn; keeps the fastest. False at a stop signal.
+/// Renders each once to warm up, then interleaved; keeps the fastest. False at a stop signal.
 bool run_contenders(Contenders& contenders, int repeats) {
     for (int round = 0; round <= repeats; ++round) {
         for (Contender& contender : contenders) {
@@ -126,11 +125,11 @@ StressResult measure_technique_costs(const StressOptions& options) {
     result.load_before = load_average();
     const Stopwatch watch;
     const std::vector<ListedDevice> devices = listed_devices(options.devices);
-    std::vector<std::string> paths{paper_scene};
+    std::vector<std::string> paths{default_scene_path};
     if (!options.cost_scene.empty()) paths.push_back(options.cost_scene);
     install_stop_signals();
     for (const std::string& path : paths) {
-        const Scene scene = load_scene(path);
+        const Scene scene = path == default_scene_path ? load_default_scene() : load_scene(path);
         const FlatScene<float> flat = flatten<float>(scene);
         for (const ListedDevice& device : devices) {
             if (!options.quiet) {
