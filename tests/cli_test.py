@@ -16,7 +16,7 @@ import harness
 
 MODULES = {
     "calm": ["usage_cases", "scene_cases", "output_cases", "device_cases", "picture_cases",
-             "render_cases", "compare_cases", "stats_cases"],
+             "render_cases", "compare_cases", "stats_cases", "failure_cases"],
     "timed": ["stream_cases", "signal_cases"],
 }
 

@@ -10,6 +10,7 @@
 #include "host/error.h"
 #include "host/render/kept_programs.h"
 #include "host/render/opencl.h"
+#include "host/render/pocl_cache.h"
 
 namespace rt {
 
@@ -33,6 +34,14 @@ std::optional<cl::Program> built_with_own_declarations(const cl::Context& contex
         return {};
     }
     return program;
+}
+
+/// About a build that failed.
+std::string what_to_do(const ClDevice& device) {
+    const std::string cache = device.platform == pocl_platform ? why_pocl_cache_is_read_only() : "";
+    if (cache.empty()) return "update the driver";
+    return "PoCL cannot write its kernel cache (" + cache +
+           "): set POCL_CACHE_DIR to a folder that it can write";
 }
 
 }  // namespace
@@ -74,9 +83,10 @@ cl::Program build_program(const cl::Context& context, const ClDevice& device, co
         const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle);
         throw Error(
             ExitCode::device,
-            fmt::format("the kernels do not build on {} (driver {}): {}; update the driver or "
-                        "use --device threads\noptions: {}\n{}",
-                        device.name, device.driver, cl_status_text(error.err()), flags, log));
+            fmt::format("the kernels do not build on {} (driver {}): {}; {} or use --device "
+                        "threads\noptions: {}\n{}",
+                        device.name, device.driver, cl_status_text(error.err()), what_to_do(device),
+                        flags, log));
     }
     keep_program(program, device, source, flags);
     return program;

@@ -2,7 +2,11 @@
 #include "host/render/pocl_cache.h"
 
 #include <link.h>
+#include <stdlib.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <system_error>
 
 namespace rt {
@@ -10,6 +14,14 @@ namespace rt {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Where PoCL keeps kernels.
+fs::path pocl_cache_folder() {
+    if (const char* const own = getenv("POCL_CACHE_DIR")) return own;
+    if (const char* const xdg = getenv("XDG_CACHE_HOME")) return fs::path(xdg) / "pocl/kcache";
+    const char* const home = getenv("HOME");
+    return home == nullptr ? "/tmp/pocl/kcache" : fs::path(home) / ".cache/pocl/kcache";
+}
 
 struct Search {
     fs::file_time_type start;
@@ -34,6 +46,16 @@ int look_at(dl_phdr_info* info, std::size_t, void* data) {
 }
 
 }  // namespace
+
+std::string why_pocl_cache_is_read_only() {
+    const fs::path folder = pocl_cache_folder();
+    std::string probe = folder / "mirrorball-XXXXXX";
+    const int file = mkstemp(probe.data());
+    if (file < 0) return folder.string() + ": " + std::strerror(errno);
+    close(file);
+    unlink(probe.c_str());
+    return "";
+}
 
 BuildCache pocl_build_since(std::filesystem::file_time_type start) {
     Search search{start};

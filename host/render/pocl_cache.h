@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "host/render/renderer.h"
 
@@ -12,5 +13,8 @@ namespace rt {
 /// process was written at `start` or later, `warm` when all are older, `unknown` when there is
 /// none. Costs microseconds, however large the cache.
 BuildCache pocl_build_since(std::filesystem::file_time_type start);
+
+/// Why PoCL cannot write its kernel cache: "FOLDER: Permission denied"; empty where it can.
+std::string why_pocl_cache_is_read_only();
 
 }  // namespace rt

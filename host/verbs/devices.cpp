@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "host/console.h"
+#include "host/counted.h"
 #include "host/parallel.h"
 #include "host/render/cl_device.h"
+#include "host/render/icd_files.h"
 #include "host/report/stats_json.h"
 #include "host/verbs/verbs.h"
 
@@ -56,10 +58,11 @@ std::string device_text(const ClDevice& device) {
     std::string text = fmt::format(
         "{}  {}\n"
         "   {}:{} {} on {}, driver {}, {}\n"
-        "   {} units, {} float lanes, {}, {:.1f} GiB, {:.1f} GiB in one piece\n",
+        "   {}, {}, {}, {:.1f} GiB, largest buffer {:.1f} GiB\n",
         device.index, device.name, device.platform_index, device.device_index, kind_of(device),
-        device.platform, device.driver, device.version, device.compute_units, device.float_lanes,
-        device.has_double ? fmt::format("{} double lanes", device.double_lanes) : "no double",
+        device.platform, device.driver, device.version, counted(device.compute_units, "unit"),
+        counted(device.float_lanes, "float lane"),
+        device.has_double ? counted(device.double_lanes, "double lane") : "no double",
         static_cast<double>(device.memory_bytes) / gib,
         static_cast<double>(device.max_buffer_bytes) / gib);
     if (!device.rounds_correctly) {
@@ -69,21 +72,31 @@ std::string device_text(const ClDevice& device) {
     return text;
 }
 
+void print_lines(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) {
+        if (!line.empty()) print_result(line + "\n");
+    }
+}
+
 }  // namespace
 
 int run_devices(const DevicesOptions& options) {
-    std::vector<std::string> problems;
-    const std::vector<ClDevice> devices = list_cl_devices(problems);
+    std::vector<std::string> problems = broken_icd_files(options.drivers);
     if (options.json) {
+        const std::vector<ClDevice> devices = list_cl_devices(problems);
         print_json(devices, problems);
         return 0;
     }
+    print_lines(problems);
+    flush_results();  // OpenCL is about to load the same drivers: one may end the program
+    problems.clear();
+    const std::vector<ClDevice> devices = list_cl_devices(problems);
     std::string text;
     for (const ClDevice& device : devices) text += device_text(device);
     const int cores = available_cores();
     text += fmt::format("threads  POSIX threads on {} core{}\n", cores, cores == 1 ? "" : "s");
-    for (const std::string& problem : problems) text += problem + "\n";
     print_result(text);
+    print_lines(problems);
     return 0;
 }
 
