@@ -34,14 +34,15 @@ def run(*arguments, code=0):
 
 
 def validator(name):
-    schemas = {n: json.loads((ROOT / "docs" / f"{n}.schema.json").read_text(encoding="utf-8"))
-               for n in ["results", name]}
-    jsonschema.Draft202012Validator.check_schema(schemas[name])
-    base = "file:///docs/"
-    resolver = jsonschema.RefResolver(
-        f"{base}{name}.schema.json", schemas[name],
-        store={f"{base}{n}.schema.json": schema for n, schema in schemas.items()})
-    return jsonschema.Draft202012Validator(schemas[name], resolver=resolver)
+    """As docs/results-format.md says."""
+    schemas = {}
+    for path in (ROOT / "docs").glob("*.schema.json"):
+        schema = json.loads(path.read_text(encoding="utf-8"))
+        jsonschema.Draft202012Validator.check_schema(schema)
+        schemas[schema["$id"]] = schema
+    schema = schemas[f"https://mirrorball.example/{name}.schema.json"]
+    resolver = jsonschema.RefResolver.from_schema(schema, store=schemas)
+    return jsonschema.Draft202012Validator(schema, resolver=resolver)
 
 
 def picture_seconds(one):
@@ -162,7 +163,7 @@ class Bench(FiguresTest):
 
     def test_a_scene_is_never_replaced_by_results(self):
         before = pathlib.Path(SCENE).read_bytes()
-        self.assertIn("name another file", run("bench", "--json", SCENE, code=2).stderr)
+        self.assertIn("name another file", run("bench", "--json=" + SCENE, code=2).stderr)
         self.assertEqual(pathlib.Path(SCENE).read_bytes(), before)
 
     def test_wrong_usage(self):

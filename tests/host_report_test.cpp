@@ -8,8 +8,10 @@
 #include "host/processor_time.h"
 #include "host/report/html.h"
 #include "host/report/plot_axis.h"
+#include "host/report/progress.h"
 #include "host/report/render_stats.h"
 #include "host/report/report_page.h"
+#include "host/report/stats_text.h"
 #include "host/report/svg_bars.h"
 #include "host/report/svg_plot.h"
 
@@ -194,6 +196,71 @@ rt::ReportPicture tiny_picture(const std::string& name) {
     shot.stats.region = {0, 0, 16, 16};
     shot.stats.error = rt::image_error(shot.picture, shot.picture);
     return shot;
+}
+
+TEST(ProgressBar, FitsTheTerminal) {
+    const std::string line = " 42 %  12.3 Mrays/s  ETA 0:07";
+    EXPECT_EQ(rt::progress_bar(0.5, line, 80),
+              "[###############...............] " + line + std::string(17, ' '));
+    EXPECT_EQ(rt::progress_bar(0.5, line, 40), "[###....] " + line);
+    EXPECT_EQ(rt::progress_bar(0.5, line, 32), line + "  ");
+    EXPECT_EQ(rt::progress_bar(0.5, line, 20), line.substr(0, 19));
+    EXPECT_EQ(rt::progress_bar(0.5, line, 0), "");
+}
+
+TEST(ProgressLine, HasNoTimeLeftOnlyWhenAllIsDone) {
+    EXPECT_TRUE(holds(rt::progress_line(0.999, 1, {}), " 99 %  0.0 Mrays/s  ETA 0:01"));
+    EXPECT_EQ(rt::progress_line(1, 1, {}), "100 %  0.0 Mrays/s");
+    EXPECT_TRUE(holds(rt::progress_line(0, 1, {}), "ETA -:--"));
+}
+
+TEST(RenderStats, TellOfADriverThatCompiledWhileTracing) {
+    rt::RenderStats stats;
+    stats.phases.renderer.trace = 3;
+    stats.phases.renderer.kernel = 0.5;
+    EXPECT_TRUE(stats.driver_took_its_time());
+    EXPECT_TRUE(holds(rt::stats_text(stats), "kernels ran for 0.500 s of the 3.000 s"));
+    stats.phases.renderer.kernel = 2;
+    EXPECT_FALSE(stats.driver_took_its_time());
+    stats.phases.renderer.kernel = 0;  // pthreads
+    EXPECT_FALSE(stats.driver_took_its_time());
+    EXPECT_FALSE(holds(rt::stats_text(stats), "kernels ran for"));
+}
+
+TEST(StatsText, CountsInWords) {
+    rt::RenderStats stats;
+    stats.scene.spheres = stats.scene.lights = 1;
+    EXPECT_TRUE(holds(rt::holdings_text(stats), "1 sphere, 0 cones, 0 triangles, 1 light"));
+    stats.device.fallback_from = "a device";
+    EXPECT_TRUE(holds(rt::stats_text(stats), "instead of a device, which failed"));
+}
+
+/// A scene's page of which only timings are there.
+rt::Report stopped_report() {
+    rt::Report report;
+    rt::ReportScene scene;
+    scene.has_pictures = scene.complete = false;
+    scene.bench.references.emplace_back().scene.name = "half a scene";
+    report.scenes.push_back(scene);
+    report.environment = {{"program", "mirrorball"}};
+    return report;
+}
+
+TEST(ReportPage, SaysThatItIsIncomplete) {
+    rt::Report report = stopped_report();
+    report.stopped = "interrupted (Ctrl-C)";
+    const std::string page = rt::report_page(report);
+    EXPECT_TRUE(holds(page, "Incomplete: interrupted (Ctrl-C)"));
+    EXPECT_TRUE(holds(page, "half a scene (incomplete)</title>"));
+    EXPECT_FALSE(holds(page, "<h3>Pictures</h3>"));
+}
+
+TEST(ReportPage, SaysThatTheMachineWasBusy) {
+    rt::Report report = stopped_report();
+    report.load_before = 1e3;
+    EXPECT_TRUE(holds(rt::report_page(report), "busy machine (load 1000.0"));
+    report.load_before = 0;
+    EXPECT_FALSE(holds(rt::report_page(report), "busy machine"));
 }
 
 TEST(ReportPage, EscapesTheScenesNames) {

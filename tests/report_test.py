@@ -10,6 +10,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import statistics
 import subprocess
 import sys
@@ -225,6 +226,22 @@ class Report(unittest.TestCase):
         self.assert_shown(rounding, rmse(row), digits=2)
         self.assert_shown(sampling, self.source(picture)["rmse"], digits=2)
 
+    def test_a_picture_has_one_time(self):
+        """The captions give the medians of the tables, and nothing gives another."""
+        units = {"s": 1, "ms": 1e-3, "µs": 1e-6}
+        rows = json.loads(PAGE.blocks["bench-0"][1])["rows"]
+        pictures = json.loads(PAGE.blocks["pictures-0"][1])
+        captions = re.findall(r"(?:Plain|Anti-aliased): (\S+), traced in ([\d.]+) (\S+) on", TEXT)
+        self.assertEqual(len(captions), 2)
+        for (aa, shown, unit), picture in zip(captions, pictures.values()):
+            medians = [row["figures"]["trace"]["median"] for row in rows
+                       if (row["width"], row["aa"], row["device_name"]) ==
+                       (48, aa, picture["device"]["name"])]
+            self.assertEqual(len(medians), 1)
+            self.assertAlmostEqual(float(shown) * units[unit] / medians[0], 1, delta=0.01)
+        trial = re.search(r"kernels compiled with.*?</table>", TEXT, re.S).group(0)
+        self.assertNotIn("trace", trial)
+
     def chromium(self, *arguments):
         program = shutil.which("chromium") or shutil.which("chromium-browser")
         if program is None:
@@ -250,6 +267,35 @@ class Report(unittest.TestCase):
         text = result.stdout.decode(errors="replace")
         self.assertEqual(text.count("<figure"), TEXT.count("<figure"))
         self.assertEqual(text.count("<svg"), TEXT.count("<svg"))
+
+
+class Stopped(unittest.TestCase):
+    def report_stopped_at(self, step):
+        page = FOLDER / f"stopped-{step}.html"
+        command = [str(BUILD / "mirrorball"), "report", "scene.json", "-o", str(page), "--size",
+                   "64", "--devices", "threads", "--repeats", "9"]
+        environment = dict(os.environ, XDG_CACHE_HOME=str(FOLDER / "cache"))
+        with subprocess.Popen(command, cwd=FOLDER, env=environment, stderr=subprocess.PIPE,
+                              text=True) as process:
+            for line in process.stderr:
+                if step in line:
+                    break
+            process.send_signal(signal.SIGINT)
+            stderr = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 130, stderr)
+        return page.read_text(encoding="utf-8")
+
+    def test_keeps_what_is_finished(self):
+        for step in ["round 2", "step 2", "step 3"]:
+            with self.subTest(step=step):
+                text = self.report_stopped_at(step)
+                page = Page(text)
+                self.assertEqual((page.mistakes, page.open), ([], []))
+                self.assertIn("Incomplete: interrupted (Ctrl-C)", text)
+                self.assertIn("(incomplete)</title>", text)
+                rows = json.loads(page.blocks["bench-0"][1])["rows"]
+                self.assertTrue(any(row["figures"] for row in rows))
+                self.assertIn("ray trace, milliseconds", text)
 
 
 if __name__ == "__main__":

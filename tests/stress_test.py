@@ -25,14 +25,11 @@ def stress(*arguments, code=0):
 
 
 def validate(result):
-    schemas = {name: json.loads((ROOT / "docs" / f"{name}.schema.json").read_text())
-               for name in ["results", "stress"]}
-    jsonschema.Draft202012Validator.check_schema(schemas["stress"])
-    base = "file:///docs/"
-    resolver = jsonschema.RefResolver(
-        f"{base}stress.schema.json", schemas["stress"],
-        store={f"{base}{name}.schema.json": schema for name, schema in schemas.items()})
-    jsonschema.Draft202012Validator(schemas["stress"], resolver=resolver).validate(result)
+    own, used = (json.loads((ROOT / "docs" / f"{name}.schema.json").read_text())
+                 for name in ["stress", "results"])
+    jsonschema.Draft202012Validator.check_schema(own)
+    resolver = jsonschema.RefResolver.from_schema(own, store={used["$id"]: used})
+    jsonschema.Draft202012Validator(own, resolver=resolver).validate(result)
 
 
 class Quick(unittest.TestCase):

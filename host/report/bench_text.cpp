@@ -6,6 +6,7 @@
 #include <map>
 
 #include "host/report/bench.h"
+#include "host/report/machine_load.h"
 
 namespace rt {
 
@@ -111,7 +112,8 @@ constexpr const char* legend =
 }  // namespace
 
 std::string bench_text(const BenchResult& result) {
-    std::string text, group;
+    std::string text = busy_text(load_of(result.load_before)), group;
+    if (!text.empty()) text += "\n\n";
     std::map<std::string, std::vector<std::string>> images;
     for (const BenchRow& row : result.rows) {
         if (const std::string next = group_of(row.asked); next != group) {

@@ -7,6 +7,7 @@
 
 #include "host/report/bench.h"
 #include "host/report/converge.h"
+#include "host/report/machine_load.h"
 
 namespace rt {
 
@@ -41,7 +42,7 @@ std::string points_text(const ConvergeResult& result) {
         text += point_text(result, result.points[i], on_front);
     }
     return text +
-           "* no other setting is both faster and closer; < below the floor: not to be told\n"
+           "* on the Pareto front; < below the reference's own error: not to be told\n"
            "apart. seconds: medians without open and build; +-%: median absolute deviation.\n";
 }
 
@@ -105,6 +106,9 @@ std::string converge_text(const ConvergeResult& result) {
         result.scene_path, result.width, result.height, result.repeats_asked,
         result.interrupted ? ", interrupted" : "", result.load_before, reference.aa_a,
         reference.aa_b, reference.max_bounces, reference.halves_rmse, reference.floor());
+    if (const std::string busy = busy_text(load_of(result.load_before)); !busy.empty()) {
+        text.insert(0, busy + "\n\n");
+    }
     return text + points_text(result) + curves_text(result) + builds_text(result) +
            targets_text(result);
 }

@@ -21,10 +21,10 @@ struct ReportPicture {
     RenderStats stats;
 };
 
-/// One scene rendered turn by turn with the kernels it needs and with everything compiled in.
+/// One scene rendered interleaved with the kernels it needs and with everything compiled in.
 struct FeatureTrial {
     std::vector<RenderStats> lean, full;
-    std::optional<RenderStats> lean_cold, full_cold;  ///< the first of each, kernels built anew
+    std::optional<RenderStats> lean_cold, full_cold;  ///< the first of each, kernels built again
 };
 
 /// All that the page tells about one scene.
@@ -35,6 +35,8 @@ struct ReportScene {
     ConvergeResult converge;
     nlohmann::ordered_json bench_json, converge_json;
     std::optional<FeatureTrial> trial;  ///< empty without an OpenCL device
+    bool has_pictures = true;           ///< false when it was stopped before; no trial then either
+    bool complete = true;               ///< false when it was stopped
 };
 
 /// All that the page tells.
@@ -44,6 +46,8 @@ struct Report {
     nlohmann::ordered_json environment;
     std::vector<std::string> commands;  ///< that make this page, and its parts, again
     std::string date;                   ///< of the machine's clock, for people
+    std::string stopped;      ///< what stopped the measurements, in words; empty: they are complete
+    double load_before = -1;  ///< one-minute load average; below 0: unknown
 };
 
 }  // namespace rt

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "host/report/converge.h"
 #include "host/report/html.h"
+#include "host/report/machine_load.h"
 #include "host/report/plot_axis.h"
 #include "host/report/report_labels.h"
 #include "host/report/report_rows.h"
@@ -22,8 +24,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Any run of the scene, for what it says of the scene.
+const RenderStats& some_run(const ReportScene& scene) {
+    return scene.has_pictures ? scene.plain.stats : scene.bench.references.back();
+}
+
 std::string scene_name(const ReportScene& scene) {
-    const SceneStats& stats = scene.plain.stats.scene;
+    const SceneStats& stats = some_run(scene).scene;
     return stats.name.empty() ? stats.path : stats.name;
 }
 
@@ -36,7 +43,8 @@ std::string head(const Report& report) {
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
            "<meta name=\"color-scheme\" content=\"light dark\">\n"
            "<link rel=\"icon\" href=\"data:,\">\n<title>mirrorball report: " +
-           html_text(names) + "</title>\n<style>" + report_style + "</style>\n</head>\n";
+           html_text(names) + (report.stopped.empty() ? "" : " (incomplete)") +
+           "</title>\n<style>" + report_style + "</style>\n</head>\n";
 }
 
 std::string tile(const std::string& term, const std::string& value, const std::string& more,
@@ -67,15 +75,15 @@ std::string glance(const Report& report, std::size_t index) {
     html += tile("Rays per second", significant(figures.rays_per_second * 1e-6, 3) + " million",
                  on + ", all kinds of ray", fastest->source);
     if (figures.speed_up) {
-        html += tile("Against one thread", significant(*figures.speed_up, 3) + " times",
+        html += tile("Speed-up over one thread", significant(*figures.speed_up, 3) + " times",
                      "total time, " + on, fastest->source);
     }
     const auto& rounding = fastest->row->repeats.front().error;
     if (rounding) {
-        html += tile("Off by rounding", "RMSE " + scientific_text(rounding->rmse),
+        html += tile("Rounding error", "RMSE " + scientific_text(rounding->rmse),
                      "float against double, same samples", fastest->source);
     }
-    html += tile("Off by sampling", "RMSE " + scientific_text(scene.smooth.stats.error->rmse),
+    html += tile("Sampling error", "RMSE " + scientific_text(scene.smooth.stats.error->rmse),
                  fmt::format("{}; plain: {}", to_string(scene.smooth.stats.aa),
                              scientific_text(scene.plain.stats.error->rmse)),
                  fmt::format("pictures-{}#/smooth/error", index));
@@ -84,17 +92,33 @@ std::string glance(const Report& report, std::size_t index) {
 
 std::string scene_html(const Report& report, std::size_t index) {
     const ReportScene& scene = report.scenes[index];
-    const SceneStats& stats = scene.plain.stats.scene;
-    return fmt::format(
-               "<section id=\"scene-{}\" aria-labelledby=\"scene-{}-head\">\n"
-               "<h2 id=\"scene-{}-head\">{}</h2>\n"
-               "<p class=\"note\">{}: {}; {} x {} pixels, up to {} bounces; scene hash "
-               "<code>{}</code></p>\n",
-               index, index, index, html_text(scene_name(scene)), html_text(stats.path),
-               holdings_text(scene.plain.stats), scene.plain.stats.width, scene.plain.stats.height,
-               scene.plain.stats.max_bounces, hash_text(stats.hash)) +
-           glance(report, index) + pictures_section(scene, index) + timing_section(scene, index) +
-           error_time_section(scene, index) + features_section(scene, index) + "</section>\n";
+    const RenderStats& run = some_run(scene);
+    const SceneStats& stats = run.scene;
+    std::string html = fmt::format(
+        "<section id=\"scene-{}\" aria-labelledby=\"scene-{}-head\">\n"
+        "<h2 id=\"scene-{}-head\">{}</h2>\n"
+        "<p class=\"note\">{}: {}; {} x {} pixels, up to {} bounces; scene hash "
+        "<code>{}</code></p>\n",
+        index, index, index, html_text(scene_name(scene)), html_text(stats.path),
+        holdings_text(run), run.width, run.height, run.max_bounces, hash_text(stats.hash));
+    if (!scene.complete) html += "<p class=\"warning\">Incomplete: stopped on the way.</p>\n";
+    if (scene.has_pictures) html += glance(report, index) + pictures_section(scene, index);
+    html += timing_section(scene, index);
+    if (!front_of(scene.converge).empty()) html += error_time_section(scene, index);
+    if (scene.has_pictures) html += features_section(scene, index);
+    return html + "</section>\n";
+}
+
+/// What a reader must know before any number.
+std::string warnings_html(const Report& report) {
+    std::string html;
+    if (!report.stopped.empty()) {
+        html += "<p class=\"warning\">Incomplete: " + html_text(report.stopped) +
+                " before all was measured.</p>\n";
+    }
+    const std::string busy = busy_text(load_of(report.load_before));
+    if (!busy.empty()) html += "<p class=\"warning\">" + html_text(busy) + "</p>\n";
+    return html;
 }
 
 std::string text_of(const Json& value) {
@@ -125,7 +149,7 @@ std::string environment_html(const Report& report) {
 std::string commands_html(const Report& report) {
     std::string text;
     for (const std::string& command : report.commands) text += command + "\n";
-    return "<h2 id=\"commands\">Make it again</h2>\n<p>The first line makes this page; the others "
+    return "<h2 id=\"commands\">Reproduce</h2>\n<p>The first line makes this page; the others "
            "make its parts.</p>\n<pre tabindex=\"0\"><code>" +
            html_text(text) + "</code></pre>\n";
 }
@@ -139,7 +163,7 @@ std::string navigation(const Report& report) {
     if (report.stress) html += "<li><a href=\"#stress\">Numerical stability</a></li>\n";
     return html +
            "<li><a href=\"#machine\">Environment</a></li>\n"
-           "<li><a href=\"#commands\">Make it again</a></li>\n"
+           "<li><a href=\"#commands\">Reproduce</a></li>\n"
            "<li><a href=\"#data\">Raw data</a></li>\n</ul></nav>\n";
 }
 
@@ -159,9 +183,11 @@ std::string data_html(const Report& report) {
         json_block("environment", report.environment);
     for (std::size_t i = 0; i < report.scenes.size(); ++i) {
         const ReportScene& scene = report.scenes[i];
-        html += json_block(
-            fmt::format("pictures-{}", i),
-            {{"plain", stats_json(scene.plain.stats)}, {"smooth", stats_json(scene.smooth.stats)}});
+        if (scene.has_pictures) {
+            html += json_block(fmt::format("pictures-{}", i),
+                               {{"plain", stats_json(scene.plain.stats)},
+                                {"smooth", stats_json(scene.smooth.stats)}});
+        }
         html += json_block(fmt::format("bench-{}", i), scene.bench_json);
         html += json_block(fmt::format("converge-{}", i), scene.converge_json);
         if (scene.trial)
@@ -178,7 +204,7 @@ std::string report_page(const Report& report) {
                        "<body>\n<header>\n<h1>How it renders, how fast, how exactly</h1>\n"
                        "<p class=\"lead\">A mirrorball report: pictures, run times and errors, "
                        "measured on one machine in one go.</p>\n" +
-                       navigation(report) + "</header>\n<main>\n";
+                       warnings_html(report) + navigation(report) + "</header>\n<main>\n";
     for (std::size_t i = 0; i < report.scenes.size(); ++i) html += scene_html(report, i);
     if (report.stress) html += stress_section(*report.stress);
     return html + environment_html(report) + commands_html(report) + data_html(report) +

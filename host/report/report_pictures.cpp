@@ -10,6 +10,7 @@
 #include "host/report/picture_judge.h"
 #include "host/report/plot_axis.h"
 #include "host/report/report_labels.h"
+#include "host/report/report_rows.h"
 #include "host/report/report_sections.h"
 
 namespace rt {
@@ -81,10 +82,12 @@ std::string error_text(const RenderStats& stats) {
         stats.region.pixels(), error.over_8);
 }
 
-std::string made_text(const RenderStats& stats) {
-    return fmt::format("{}, traced in {} on {}, {}", to_string(stats.aa),
-                       duration_text(stats.phases.renderer.trace), device_label(stats),
-                       stats.double_precision ? "double" : "float");
+/// The picture's own run is one of many: its time is the benchmark's median, where it has one.
+std::string made_text(const RenderStats& stats, const BenchResult& bench) {
+    const auto seconds = trace_median(bench, stats);
+    return fmt::format("{}, {}{}, {}", to_string(stats.aa),
+                       seconds ? "traced in " + duration_text(*seconds) + " on " : "on ",
+                       device_label(stats), stats.double_precision ? "double" : "float");
 }
 
 std::string colour_scale() {
@@ -103,9 +106,10 @@ std::string colour_scale() {
 std::string whole_pictures(const ReportScene& scene, const std::string& source) {
     const std::string name = scene.plain.stats.scene.name;
     const auto figure = [&](const ReportPicture& shot, const char* kind, const char* key) {
-        return image_figure(shot.picture,
-                            {fmt::format("{}, {}", name, kind),
-                             fmt::format("{}: {}.", kind, made_text(shot.stats)), source + key});
+        return image_figure(
+            shot.picture,
+            {fmt::format("{}, {}", name, kind),
+             fmt::format("{}: {}.", kind, made_text(shot.stats, scene.bench)), source + key});
     };
     return "<div class=\"pictures\">\n" + figure(scene.plain, "Plain", "/plain") +
            figure(scene.smooth, "Anti-aliased", "/smooth") + "</div>\n";

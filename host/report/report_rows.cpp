@@ -18,6 +18,22 @@ std::vector<PlacedRow> rows_of(const BenchResult& result, std::size_t index) {
     return rows;
 }
 
+std::optional<double> trace_median(const BenchResult& result, const RenderStats& run) {
+    for (const BenchRow& row : result.rows) {
+        const BenchCase& asked = row.asked;
+        const bool same = asked.width == run.width && asked.height == run.height &&
+                          asked.aa == run.aa && asked.double_precision == run.double_precision;
+        const auto figures = same ? figures_of(result, row) : std::nullopt;
+        if (!figures) continue;
+        const DeviceStats& device = row.repeats.front().device;
+        if (device.name == run.device.name && device.threads == run.device.threads &&
+            device.schedule == run.device.schedule) {
+            return figures->trace.median;
+        }
+    }
+    return std::nullopt;
+}
+
 std::int64_t pixels_of(const BenchCase& asked) { return std::int64_t{asked.width} * asked.height; }
 
 std::vector<PlacedRow> largest_rows(const std::vector<PlacedRow>& rows) {

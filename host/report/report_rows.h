@@ -24,6 +24,9 @@ std::vector<PlacedRow> rows_of(const BenchResult& result, std::size_t index);
 /// The right rows of the largest picture with most samples, in float: what plots of devices show.
 std::vector<PlacedRow> largest_rows(const std::vector<PlacedRow>& rows);
 
+/// The median seconds in which the same picture was traced on the same device, where rows tell.
+std::optional<double> trace_median(const BenchResult& result, const RenderStats& run);
+
 std::int64_t pixels_of(const BenchCase& asked);
 
 }  // namespace rt

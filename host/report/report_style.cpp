@@ -51,6 +51,7 @@ p { margin: .5rem 0 1rem; }
 a { color: var(--accent); text-underline-offset: .15em; }
 :focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; }
 .lead { font-size: 1.1rem; color: var(--soft); margin-top: 0; }
+.warning { border-left: .3rem solid #c60; padding-left: .8rem; font-weight: 600; }
 .note, figcaption, caption { color: var(--soft); font-size: .9rem; line-height: 1.5; }
 nav ul { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; padding: 0; margin: 1.25rem 0 0; list-style: none; font-size: .95rem; }
 code, pre { font: .85rem/1.55 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; }

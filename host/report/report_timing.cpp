@@ -130,7 +130,7 @@ std::string timing_section(const ReportScene& scene, std::size_t index) {
     const std::vector<PlacedRow> rows = rows_of(scene.bench, index);
     if (rows.empty()) return "";
     return fmt::format(
-               "<h3>Time</h3>\n<p>Medians of {} repeats, taken turn by turn so that a slow moment "
+               "<h3>Time</h3>\n<p>Medians of {} repeats, interleaved so that a slow moment "
                "of the machine hits every row alike; the first round is not counted. A picture "
                "that is not right gets no time.</p>\n",
                scene.bench.repeats_asked) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/report/run_json.h"
 
+#include "host/report/machine_load.h"
 #include "host/report/stats_json.h"
 
 namespace rt {
@@ -33,7 +34,7 @@ Json spread_json(const Spread& spread) {
 
 Json bench_environment_json(double load_before) {
     Json json = environment_json();
-    json["load_before"] = load_before < 0 ? Json(nullptr) : Json(load_before);
+    json.update(machine_load_json(load_of(load_before)));
     return json;
 }
 

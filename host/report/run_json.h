@@ -22,7 +22,8 @@ nlohmann::ordered_json runs_json(std::span<const RenderStats> runs);
 /// {"median", "mad", "min", "max"}
 nlohmann::ordered_json spread_json(const Spread& spread);
 
-/// environment_json with the load before the measurements too; the load beside it is after them.
+/// environment_json with the load before the measurements too, and whether it makes the machine
+/// busy; the load next to it is after them.
 nlohmann::ordered_json bench_environment_json(double load_before);
 
 }  // namespace rt

@@ -37,7 +37,7 @@ struct Plot {
     Axis x, y;
     std::vector<PlotCurve> curves;
     std::vector<PlotPoint> front;  ///< a step line: the least y to be had for x or less
-    std::string front_label = "nothing found is both faster and closer";
+    std::string front_label = "Pareto front";
     std::optional<double> floor;  ///< below this y nothing can be told
     std::string floor_label;
 };

@@ -230,6 +230,7 @@ BenchResult measure_bench(const BenchOptions& options) {
     result.repeats_asked = options.repeats;
     result.load_before = load_average();
     Plan plan(options);
+    say_busy(options.quiet);
     result.interrupted = !plan.make(result);
     std::vector<TimedCase> cases;
     for (const PlannedRow& row : plan.rows) cases.push_back(row.timed);

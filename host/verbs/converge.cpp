@@ -125,6 +125,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     const Stopwatch watch;
     Scene scene = load_scene(options.scene, options.light);
     const double load_seconds = watch.seconds();
+    say_busy(options.quiet);
     if (options.size) set_image_size(scene, options.size->width, options.size->height);
     result.scene_path = options.scene;
     result.scene_name = scene.name;

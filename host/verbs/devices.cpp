@@ -8,7 +8,9 @@
 #include "host/parallel.h"
 #include "host/render/cl_device.h"
 #include "host/render/icd_files.h"
+#include "host/report/machine_load.h"
 #include "host/report/stats_json.h"
+#include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {
@@ -48,6 +50,7 @@ void print_json(const std::vector<ClDevice>& devices, const std::vector<std::str
                                       {"version", 1},
                                       {"devices", list},
                                       {"threads", {{"cores", available_cores()}}},
+                                      {"machine", machine_load_json(load_of(load_average()))},
                                       {"problems", problems}};
     print_result(json_text(json));
 }
@@ -87,6 +90,7 @@ int run_devices(const DevicesOptions& options) {
         print_json(devices, problems);
         return 0;
     }
+    print_lines({busy_text(load_of(load_average()))});
     print_lines(problems);
     flush_results();  // OpenCL is about to load the same drivers: one may end the program
     problems.clear();

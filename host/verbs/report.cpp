@@ -30,7 +30,7 @@ namespace {
 
 constexpr const char* page_start = "<!DOCTYPE html>";
 
-/// A signal has stopped the measurements: there is no page of half of them.
+/// A signal has stopped the measurements.
 struct Stopped {};
 
 /// Measures one scene for the page.
@@ -42,30 +42,33 @@ class SceneStudy {
         if (to_string(scene_.aa) == "none") scene_.aa = grid_aa(2);
     }
 
-    ReportScene run() {
-        ReportScene study;
-        say("timings");
+    /// Fills the study in part by part; Stopped leaves those that are finished.
+    void run(ReportScene& study) {
+        study.has_pictures = study.complete = false;
+        say(1, "timings");
         study.bench = measure_bench(bench_settings(options_, path_, scene_));
+        study.bench_json = bench_json(study.bench);
         stop_if(study.bench.interrupted);
-        say("error against run time");
+        say(2, "error against run time");
         const ConvergeOptions sweep = converge_settings(options_, path_, scene_);
         study.converge = measure_converge(sweep);
+        study.converge_json = converge_json(study.converge);
         stop_if(study.converge.interrupted);
         const ConvergedPicture converged = converged_picture(scene_, sweep);
         stop_if(!converged.complete);
         study.reference = clamped(converged.picture);
-        say("pictures, and what leaving features out saves");
+        say(3, "pictures, and what leaving features out saves");
         study.plain = picture(grid_aa(1), study.reference);
         study.smooth = picture(scene_.aa, study.reference);
+        study.has_pictures = true;
         study.trial = trial(study);
-        study.bench_json = bench_json(study.bench);
-        study.converge_json = converge_json(study.converge);
-        return study;
+        study.complete = true;
     }
 
    private:
-    void say(const char* what) const {
-        if (!options_.quiet) print_message(fmt::format("{}: {}\n", path_, what));
+    void say(int step, const char* what) const {
+        if (options_.quiet) return;
+        print_message(fmt::format("mirrorball: {}, step {} of 3: {}\n", path_, step, what));
     }
 
     static void stop_if(bool interrupted) {
@@ -136,7 +139,7 @@ class SceneStudy {
     Scene scene_;
 };
 
-/// The suite with textbook formulas beside it, on the report's devices.
+/// The suite with textbook formulas next to it, on the report's devices.
 StressResult stress_result(const ReportOptions& options) {
     StressOptions stress;
     stress.devices = options.devices;
@@ -145,7 +148,8 @@ StressResult stress_result(const ReportOptions& options) {
     stress.keep_pictures = true;
     stress.quiet = options.quiet;
     StressResult result = measure_stress(stress);
-    if (result.interrupted) throw Stopped{};
+    // The family that was stopped on the way has no verdict.
+    if (result.interrupted && !result.families.empty()) result.families.pop_back();
     return result;
 }
 
@@ -169,6 +173,25 @@ int verdict(const Report& report) {
     return static_cast<int>(wrong ? ExitCode::different : ExitCode::done);
 }
 
+/// Until a signal stops it; scenes of which nothing is finished are left out.
+void measure(const ReportOptions& options, Report& report) {
+    try {
+        for (const std::string& path : options.scenes) {
+            report.scenes.emplace_back();
+            SceneStudy(options, path).run(report.scenes.back());
+        }
+        if (!options.stress) return;
+        StressResult stress = stress_result(options);
+        const bool stopped = stress.interrupted;
+        if (!stress.families.empty()) report.stress = std::move(stress);
+        if (stopped) throw Stopped{};
+    } catch (const Stopped&) {
+        report.stopped = stop_reason();
+        const ReportScene& last = report.scenes.back();
+        if (!last.has_pictures && last.bench.references.empty()) report.scenes.pop_back();
+    }
+}
+
 }  // namespace
 
 int run_report(const ReportOptions& options) {
@@ -178,22 +201,21 @@ int run_report(const ReportOptions& options) {
     Report report;
     report.date = today();
     report.commands = report_commands(options);
-    try {
-        for (const std::string& path : options.scenes) {
-            report.scenes.push_back(SceneStudy(options, path).run());
-        }
-        if (options.stress) report.stress = stress_result(options);
-    } catch (const Stopped&) {
-        print_message("mirrorball: stopped; no page written\n");
+    report.load_before = load_average();
+    measure(options, report);
+    if (report.scenes.empty()) {
+        print_message(
+            fmt::format("mirrorball: {} before any picture; no page written\n", stop_reason()));
         return 128 + stop_flag();
     }
     report.environment = environment_json();
     const std::string page = report_page(report);
     write_file_atomically(options.output, std::as_bytes(std::span(page)));
     if (!options.quiet) {
-        print_message(fmt::format("{}: {} kB\n", options.output, (page.size() + 999) / 1000));
+        print_message(fmt::format("{}: {} kB{}\n", options.output, (page.size() + 999) / 1000,
+                                  report.stopped.empty() ? "" : ", incomplete: " + report.stopped));
     }
-    return verdict(report);
+    return report.stopped.empty() ? verdict(report) : 128 + stop_flag();
 }
 
 }  // namespace rt

@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 
 #include "host/console.h"
+#include "host/counted.h"
 #include "host/error.h"
 #include "host/render/stopwatch.h"
+#include "host/report/machine_load.h"
 #include "host/report/statistics.h"
 #include "host/stop_signal.h"
 #include "host/verbs/picture_job.h"
@@ -18,7 +21,7 @@ namespace rt {
 
 namespace {
 
-/// What is wrong with the newest of a case's runs beside the picture itself: that it is not the
+/// What is wrong with the newest of a case's runs next to the picture itself: that it is not the
 /// same picture as before.
 std::string what_changed(const TimedCase& timed, const RenderStats& run) {
     for (const std::vector<RenderStats>* runs : {&timed.warm_up, &timed.repeats}) {
@@ -63,6 +66,16 @@ void try_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     }
 }
 
+/// The time left is judged by the round before.
+void say_round(int round, int rounds, std::size_t pictures, double seconds_before) {
+    if (round == 0) {
+        return print_message("mirrorball: warm-up, " + counted(pictures, "picture") + "\n");
+    }
+    const auto left = static_cast<long>(std::ceil(seconds_before * (rounds - round + 1)));
+    print_message(fmt::format("mirrorball: round {} of {}, {}, about {}:{:02} left\n", round,
+                              rounds, counted(pictures, "picture"), left / 60, left % 60));
+}
+
 }  // namespace
 
 RenderOptions timed_options() {
@@ -74,12 +87,9 @@ RenderOptions timed_options() {
 
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
     const Stopwatch watch;
+    Stopwatch round_watch;
     for (int round = 0; round <= repeats; ++round) {
-        if (!quiet) {
-            const std::string name =
-                round == 0 ? "warm-up" : fmt::format("round {} of {}", round, repeats);
-            print_message(fmt::format("mirrorball: {}, {} pictures\n", name, cases.size()));
-        }
+        if (!quiet) say_round(round, repeats, cases.size(), round_watch.lap());
         for (TimedCase& timed : cases) {
             if (stop_flag() != 0) return false;
             if (timed.verdict == Verdict::wrong || timed.verdict == Verdict::failed) continue;
@@ -90,8 +100,19 @@ bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
 }
 
 double load_average() {
-    double load = 0;
-    return getloadavg(&load, 1) == 1 ? load : -1;
+    static const double at_first = [] {
+        double load = 0;
+        return getloadavg(&load, 1) == 1 ? load : -1;
+    }();
+    return at_first;
+}
+
+void say_busy(bool quiet) {
+    static bool said = false;
+    const std::string text = busy_text(load_of(load_average()));
+    if (quiet || said || text.empty()) return;
+    said = true;
+    print_message("mirrorball: " + text + "\n");
 }
 
 FreshKernelCache::FreshKernelCache() {

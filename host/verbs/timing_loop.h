@@ -35,8 +35,12 @@ RenderOptions timed_options();
 /// A line on stderr for each round unless `quiet`. Whether it ran to the end.
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet);
 
-/// The one-minute load average; -1 where the system does not tell.
+/// The one-minute load average when this was first asked, so that our own measurements do not
+/// count; -1 where the system does not tell.
 double load_average();
+
+/// Warns on stderr, once and unless `quiet`, that others use the machine.
+void say_busy(bool quiet);
 
 /// An empty kernel cache for PoCL in a folder of its own, removed at the end: the first build of
 /// each kernel is then cold and all others are warm, whatever ran before. Make it before OpenCL

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A machine that misbehaves: out of memory, with broken drivers. Where it cannot be had, a
+"""A machine that misbehaves: busy, out of memory, with broken drivers. Where it cannot be had, a
 library loaded first (LD_PRELOAD) plays it."""
 import json
+import pathlib
 import shutil
 import subprocess
 
-from harness import CliTest, scene_path
+from harness import SETTINGS, CliTest, clean_environment, scene_path
 from pictures import png_texts
 
 COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
+
+BUSY = "int getloadavg(double* load, int n) { load[0] = 7.5; (void)n; return 1; }"
+IDLE = "int getloadavg(double* load, int n) { load[0] = 0; (void)n; return 1; }"
 
 # From the first large request on no memory is left, and what ends a process in order hangs.
 NO_MEMORY = """
@@ -43,6 +47,58 @@ class PreloadTest(CliTest):
 
     def preload(self, source):
         return {"LD_PRELOAD": self.library(source)}
+
+
+class Busy(PreloadTest):
+    BENCH = ["--sizes", "8", "--aa", "none", "--devices", "threads:1",
+             "--precision", "float", "--repeats", "1"]
+    WORDS = r"busy machine \(load 7\.5 on \d+ cores?, \d+\.\d\d per core\)"
+
+    def bench(self, source, *more):
+        return self.run_cli("bench", scene_path("empty"), *self.BENCH, *more,
+                            env=self.preload(source))
+
+    def test_bench_says_so_first_and_on_top_of_its_table(self):
+        result = self.bench(BUSY)
+        self.assertRegex(result.stderr.splitlines()[0], self.WORDS)
+        self.assertRegex(result.stdout.splitlines()[0], self.WORDS)
+
+    def test_quiet_keeps_the_table_honest(self):
+        result = self.bench(BUSY, "-q")
+        self.assertEqual(result.stderr, "")
+        self.assertRegex(result.stdout, self.WORDS)
+
+    def test_json_says_it(self):
+        for source, busy, load in [(BUSY, True, 7.5), (IDLE, False, 0)]:
+            environment = json.loads(self.bench(source, "-q", "--json").stdout)["environment"]
+            self.assertEqual((environment["busy"], environment["load_before"]), (busy, load))
+
+    def test_no_word_on_an_idle_machine(self):
+        result = self.bench(IDLE)
+        self.assertNotIn("busy", result.stdout + result.stderr)
+
+    def test_devices(self):
+        result = self.run_cli("devices", env=self.preload(BUSY))
+        self.assertRegex(result.stdout.splitlines()[0], self.WORDS)
+        machine = json.loads(self.run_cli("devices", "--json", env=self.preload(BUSY)).stdout)
+        self.assertIs(machine["machine"]["busy"], True)
+        self.assertNotIn("busy", self.run_cli("devices", env=self.preload(IDLE)).stdout)
+
+    def test_converge(self):
+        result = self.run_cli("converge", scene_path("empty"), "--size", "8", "--aa", "none",
+                              "--devices", "threads", "--precision", "float",
+                              "--reference-samples", "2", "-q",
+                              env=dict(self.preload(BUSY), XDG_CACHE_HOME=str(self.folder)))
+        self.assertRegex(result.stdout.splitlines()[0], self.WORDS)
+
+    def test_scripts_bench_refuses(self):
+        root = pathlib.Path(SETTINGS["scenes"]).parent
+        result = subprocess.run(
+            [str(root / "scripts" / "bench"), "--only", "embree", SETTINGS["program"]],
+            capture_output=True, text=True, check=False, timeout=60,
+            env=clean_environment(self.preload(BUSY)))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("--anyway", result.stderr)
 
 
 class OutOfMemory(PreloadTest):
