@@ -15,13 +15,6 @@ namespace {
 
 CLI::App& app_of(void* app) { return *static_cast<CLI::App*>(app); }
 
-/// An option that may stand alone.
-struct OptionalValue {
-    const CLI::App* verb;
-    std::string name, bare;
-    AcceptsText accepts;
-};
-
 std::vector<CLI::App*> verbs_of(CLI::App& app) {
     return app.get_subcommands([](const CLI::App*) { return true; });
 }
@@ -29,6 +22,13 @@ std::vector<CLI::App*> verbs_of(CLI::App& app) {
 }  // namespace
 
 struct CommandLineParser {
+    /// An option that may stand alone.
+    struct OptionalValue {
+        const CLI::App* verb;
+        std::string name, bare;
+        AcceptsText accepts;
+    };
+
     CLI::App app;
     std::vector<OptionalValue> optional_values;
     std::string place;  ///< "mirrorball render": whose help to read

@@ -16,15 +16,15 @@ namespace rt {
 
 namespace {
 
-double build_seconds(const RenderStats& run) { return run.phases.renderer.build; }
+double kernel_build_seconds(const RenderStats& run) { return run.phases.renderer.build; }
 
 std::string build_text(const std::vector<RenderStats>& runs) {
-    return fmt::format("{} ({})", duration_text(spread_of(runs, build_seconds).median),
+    return fmt::format("{} ({})", duration_text(spread_of(runs, kernel_build_seconds).median),
                        to_string(runs.front().phases.renderer.build_cache));
 }
 
 std::string cold_text(const std::optional<RenderStats>& run) {
-    return run ? duration_text(build_seconds(*run)) : "not measured";
+    return run ? duration_text(kernel_build_seconds(*run)) : "not measured";
 }
 
 /// The ratio of two medians with its noise: relative deviations add in square.

@@ -17,7 +17,7 @@ namespace rt {
 
 namespace {
 
-constexpr double map_scale = 0.25;  ///< the difference at the top of the colour map
+constexpr double error_map_scale = 0.25;  ///< the difference at the top of the colour map
 
 struct Image {
     std::string alt, caption;
@@ -100,7 +100,7 @@ std::string colour_scale() {
         "<p class=\"scale\">0 <img src=\"{}\" alt=\"Colour scale of the error maps: black for no "
         "difference over purple and orange to pale yellow for {} and more\"> {} and more "
         "(white is 1)</p>\n",
-        png_data_uri(encode_png(bar, Encoding::display)), map_scale, map_scale);
+        png_data_uri(encode_png(bar, Encoding::display)), error_map_scale, error_map_scale);
 }
 
 std::string whole_pictures(const ReportScene& scene, const std::string& source) {
@@ -133,7 +133,7 @@ std::string crops(const ReportScene& scene) {
 std::string error_maps(const ReportScene& scene, const std::string& source) {
     const auto figure = [&](const ReportPicture& shot, const char* kind, const char* key) {
         return image_figure(
-            heat_map(clamped(shot.picture), scene.reference, map_scale),
+            heat_map(clamped(shot.picture), scene.reference, error_map_scale),
             {fmt::format("Error map of the {} picture: bright along edges where it is wrong. {}",
                          kind, error_text(shot.stats)),
              fmt::format("{}, {}: {}.", kind, to_string(shot.stats.aa), error_text(shot.stats)),
