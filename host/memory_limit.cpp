@@ -2,9 +2,13 @@
 #include "host/memory_limit.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 
 #include "host/error.h"
 
@@ -12,28 +16,111 @@ namespace rt {
 
 namespace {
 
-/// MemAvailable of /proc/meminfo in bytes; no limit where the system does not tell.
-std::uint64_t available_bytes() {
-    std::ifstream file("/proc/meminfo");
-    for (std::string key, unit; file >> key;) {
-        std::uint64_t kibibytes = 0;
-        file >> kibibytes;
-        std::getline(file, unit);
-        if (key == "MemAvailable:") return kibibytes * 1024;
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+void take_least(FreeMemory& least, std::uint64_t bytes, const char* reason) {
+    if (bytes < least.bytes) least = {bytes, reason};
+}
+
+/// The number after a key, as in "MemAvailable: 123 kB" or "inactive_file 123".
+std::optional<std::uint64_t> number_of(const fs::path& path, const std::string& key) {
+    std::ifstream file(path);
+    for (std::string word, rest; file >> word; std::getline(file, rest)) {
+        std::uint64_t number = 0;
+        if (word == key && file >> number) return number;
     }
-    return std::numeric_limits<std::uint64_t>::max();
+    return std::nullopt;
+}
+
+/// A file that is one number; none for other words, such as "max".
+std::optional<std::uint64_t> number_in(const fs::path& path) {
+    std::ifstream file(path);
+    std::uint64_t number = 0;
+    if (file >> number) return number;
+    return std::nullopt;
+}
+
+std::uint64_t difference(std::uint64_t limit, std::uint64_t used) {
+    return limit > used ? limit - used : 0;
+}
+
+/// The files of one version of control groups.
+struct GroupFiles {
+    const char* limit;
+    const char* usage;
+    const char* cache;  ///< pages of files, which the system drops first: no use of ours
+};
+
+constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
+                               "total_inactive_file"};
+constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file"};
+
+void take_group(FreeMemory& least, const fs::path& group, const GroupFiles& files) {
+    const auto limit = number_in(group / files.limit);
+    const auto usage = number_in(group / files.usage);
+    if (!limit || !usage) return;
+    const std::uint64_t cache = number_of(group / "memory.stat", files.cache).value_or(0);
+    take_least(least, difference(*limit, difference(*usage, cache)),
+               "are left by the memory limit of the container or job (cgroup)");
+}
+
+/// A group and those it is in. In a container the path may be one of the machine's, and its own
+/// group is mounted at the top.
+void take_groups(FreeMemory& least, const fs::path& mount, const std::string& path,
+                 const GroupFiles& files) {
+    fs::path group = fs::path(path).relative_path();
+    for (; !group.empty(); group = group.parent_path()) take_group(least, mount / group, files);
+    take_group(least, mount, files);
+}
+
+/// Lines of /proc/self/cgroup: "0::/path" (version 2) or "4:memory:/path" (version 1).
+void take_all_groups(FreeMemory& least, const std::string& root) {
+    std::ifstream file(root + "/proc/self/cgroup");
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t first = line.find(':');
+        const std::size_t second = first == line.npos ? first : line.find(':', first + 1);
+        if (second == line.npos) continue;
+        const std::string kinds = "," + line.substr(first + 1, second - first - 1) + ",";
+        const std::string path = line.substr(second + 1);
+        if (kinds == ",,") take_groups(least, root + "/sys/fs/cgroup", path, version_2);
+        if (kinds.find(",memory,") != kinds.npos) {
+            take_groups(least, root + "/sys/fs/cgroup/memory", path, version_1);
+        }
+    }
+}
+
+void take_address_space(FreeMemory& least, const std::string& root) {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+    const auto pages = number_in(root + "/proc/self/statm").value_or(0);
+    const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    take_least(least, difference(limit.rlim_cur, pages * page),
+               "are left of its address space (ulimit -v)");
 }
 
 }  // namespace
 
+FreeMemory free_memory(const std::string& root) {
+    FreeMemory least{unlimited, "are free"};
+    if (const auto kibibytes = number_of(root + "/proc/meminfo", "MemAvailable:")) {
+        take_least(least, *kibibytes * 1024, "are free");
+    }
+    take_all_groups(least, root);
+    take_address_space(least, root);
+    return least;
+}
+
 void check_memory(std::uint64_t bytes, const std::string& what, const std::string& advice) {
-    const std::uint64_t available = available_bytes();
-    if (bytes <= available) return;
-    constexpr double gib = 1 << 30;
+    constexpr std::uint64_t trifle = 1 << 20;
+    if (bytes < trifle) return;
+    const FreeMemory free = free_memory();
+    if (bytes <= free.bytes) return;
+    const auto mib = [](std::uint64_t count) { return static_cast<double>(count) / (1 << 20); };
     throw Error(ExitCode::limit,
-                fmt::format("{} needs {:.1f} GiB of memory and {:.1f} GiB are free; {}", what,
-                            static_cast<double>(bytes) / gib, static_cast<double>(available) / gib,
-                            advice));
+                fmt::format("{} needs {:.0f} MiB of memory and {:.0f} MiB {}; {}", what, mib(bytes),
+                            mib(free.bytes), free.reason, advice));
 }
 
 }  // namespace rt

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "host/image/atomic_file.h"
 #include "tests/picture_files.h"
@@ -107,6 +114,101 @@ TEST_F(WriteFileAtomically, ReadersSeeOneTextOrTheOther) {
     }
     writer.join();
     EXPECT_EQ(files(), 1u);
+}
+
+using AbandonedTemporaries = ScratchFolder;
+
+/// The number of a process that has ended.
+pid_t dead_process() {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    ::waitpid(child, nullptr, 0);
+    return child;
+}
+
+std::string temporary_name(pid_t process) {
+    return ".mirrorball-" + std::to_string(process) + "-0.tmp";
+}
+
+TEST_F(AbandonedTemporaries, OfDeadProcessesAreRemoved) {
+    put(path(temporary_name(dead_process())), "half a picture");
+    write_text(path("a"), "text");
+    EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(AbandonedTemporaries, OfLivingProcessesStay) {
+    put(path(temporary_name(::getppid())), "");
+    const std::string locked = path(temporary_name(dead_process()));  // as from another container
+    put(locked, "");
+    const int file = ::open(locked.c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_EQ(::flock(file, LOCK_EX), 0);
+    write_text(path("a"), "text");
+    EXPECT_EQ(files(), 3u);
+    ::close(file);
+}
+
+TEST_F(AbandonedTemporaries, OtherNamesStay) {
+    const std::string process = std::to_string(dead_process());
+    const std::string names[] = {
+        ".mirrorball-" + process + ".tmp", "mirrorball-" + process + "-0.tmp",
+        ".mirrorball-" + process + "-0.png", ".mirrorball--0.tmp", ".mirrorball-x-0.tmp"};
+    for (const std::string& name : names) put(path(name), "");
+    fs::create_directory(path(temporary_name(dead_process())));
+    fs::create_symlink("a", path(temporary_name(dead_process())));
+    write_text(path("a"), "text");
+    EXPECT_EQ(files(), 8u);
+}
+
+TEST_F(AbandonedTemporaries, AKilledWriterIsCleanedUpAfter) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        AtomicFile file(path("a"));
+        file.write(std::as_bytes(std::span(std::string_view("half"))));
+        ::kill(::getpid(), SIGKILL);
+    }
+    ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(files(), 1u);
+    write_text(path("a"), "whole");
+    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(contents(path("a")), "whole");
+}
+
+TEST_F(WriteFileAtomically, UncommittedFilesLeaveNothing) {
+    put(path("a"), "old");
+    {
+        AtomicFile file(path("a"));
+        file.write(std::as_bytes(std::span(std::string_view("new"))));
+    }
+    EXPECT_EQ(contents(path("a")), "old");
+    EXPECT_EQ(files(), 1u);
+}
+
+using OutputPath = ScratchFolder;
+
+TEST_F(OutputPath, PartialComesBeforeTheEnding) {
+    EXPECT_EQ(partial_path("out.png"), "out.partial.png");
+    EXPECT_EQ(partial_path("/a.b/out.0001.exr"), "/a.b/out.0001.partial.exr");
+    EXPECT_EQ(partial_path("a.b/out"), "a.b/out.partial");
+}
+
+TEST_F(OutputPath, OutputsThatAreInputsAreRefused) {
+    put(path("scene.json"), "");
+    put(path("other.png"), "");
+    fs::create_symlink("scene.json", path("symbolic.png"));
+    fs::create_hard_link(path("scene.json"), path("hard.png"));
+    const std::vector<std::string> inputs{path("missing"), "", path("scene.json")};
+    for (const char* name : {"scene.json", "symbolic.png", "hard.png"}) {
+        const auto [code, message] =
+            refusal_of([&] { check_output_is_no_input(path(name), inputs); });
+        EXPECT_EQ(code, ExitCode::usage) << name;
+        EXPECT_EQ(message, path(name) + ": is the same file as " + path("scene.json") +
+                               ", which is read; name another");
+    }
+    for (const std::string& name : {path("other.png"), path("new.png"), std::string("-"),
+                                    std::string(), std::string("/dev/null")}) {
+        check_output_is_no_input(name, inputs);
+        check_output_is_no_input(name, {"/dev/null"});
+    }
 }
 
 }  // namespace

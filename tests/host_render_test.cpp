@@ -57,15 +57,6 @@ TEST(TileQueue, HandsOutEveryTileOnceToManyThreads) {
     EXPECT_EQ(queue.rays().total(), 6u * 4800);
 }
 
-TEST(TileQueue, TellsOnceThatTheFirstTileIsTaken) {
-    static const StopFlag go = 0;
-    int told = 0;
-    TileQueue queue(make_tiles({0, 0, 64, 64}, 8, 8), go, [&] { ++told; });
-    EXPECT_EQ(told, 0);
-    while (queue.next()) EXPECT_EQ(told, 1);
-    EXPECT_EQ(told, 1);
-}
-
 /// The runs of a queue whose launches may have at most so many pixels.
 std::vector<Rect> runs_of(const Rect& region, int tile_width, int tile_height,
                           std::int64_t most_pixels) {

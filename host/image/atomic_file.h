@@ -2,14 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "host/image/output_path.h"
+#include "host/image/temporary_file.h"
+
 namespace rt {
 
-/// Writes a file whole or not at all: into a temporary file beside it, fsync, rename over it.
-/// A reader sees the old bytes or the new ones; after a failure the old ones are still there and
-/// no temporary is left (a killed process may leave ".mirrorball-*.tmp").
+/// Writes a file whole or not at all: into a temporary file next to it, fsync, rename over it.
+/// A reader sees the old bytes or the new ones; without commit() the old ones are still there and
+/// no temporary is left (those of killed processes go when the next file is written there).
 ///
 /// A symlink is written through, never replaced. An existing file keeps its permissions and must
 /// be writable; a new one gets 0666 less the umask. A hard link to the old file keeps the old
@@ -17,6 +21,21 @@ namespace rt {
 ///
 /// Throws Error(ExitCode::output) "path: cannot write: reason; what to do". The reasons EFBIG and
 /// EPIPE only arrive as such when the program ignores SIGXFSZ and SIGPIPE.
+class AtomicFile {
+   public:
+    explicit AtomicFile(const std::string& path);
+
+    void write(std::span<const std::byte> bytes);
+    void commit();
+
+   private:
+    const std::string path_;
+    const OutputDestination destination_;
+    std::optional<TemporaryFile> temporary_;
+    OpenFile file_;  ///< the temporary one, or the destination itself
+};
+
+/// All of it at once.
 void write_file_atomically(const std::string& path, std::span<const std::byte> bytes);
 
 }  // namespace rt

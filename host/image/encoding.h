@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -29,7 +31,12 @@ double srgb_from_linear(double linear);
 /// floor(x * 255 + 0.5). NaN becomes 0; callers count non-finite pixels before they get here.
 std::uint8_t encode_8bit(float value, Encoding encoding);
 
-/// The whole picture as 8 bits. The last of 2 or 4 channels is alpha, which has no curve.
+/// Row y of the picture as 8 bits, into as many bytes as it has values. The last of 2 or 4
+/// channels is alpha, which has no curve.
+void encode_8bit_row(const Picture& picture, int y, Encoding encoding,
+                     std::span<std::uint8_t> bytes);
+
+/// The whole picture as 8 bits.
 std::vector<std::uint8_t> encode_8bit(const Picture& picture, Encoding encoding);
 
 }  // namespace rt

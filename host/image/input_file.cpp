@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "host/error.h"
+#include "host/memory_limit.h"
 
 namespace rt {
 namespace {
@@ -48,6 +49,22 @@ void check_picture_size(const std::string& path, int width, int height, int chan
         refuse(path, "holds " + size + ", too many",
                "the limit is 65536 a side, 2^28 pixels and 2^30 values: scale it down first");
     }
+}
+
+void check_stored_size(const std::string& path, std::uintmax_t pixel_bytes,
+                       std::uintmax_t best_ratio, std::uintmax_t file_size) {
+    if (pixel_bytes / best_ratio <= file_size) return;
+    refuse(path,
+           "a file of " + std::to_string(file_size) + " bytes cannot hold the " +
+               std::to_string(pixel_bytes) + " bytes of pixels that its header promises",
+           "it may be truncated: write it again");
+}
+
+void check_picture_memory(const std::string& path, int width, int height, int channels) {
+    const std::uint64_t values =
+        std::uint64_t(width) * std::uint64_t(height) * std::uint64_t(channels);
+    check_memory(values * sizeof(float), path + ": its pixels as floats",
+                 "scale the picture down first");
 }
 
 }  // namespace rt

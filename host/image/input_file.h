@@ -20,4 +20,12 @@ InputFile open_input_file(const std::string& path);
 /// at most 65536 x 65536, 2^28 pixels, 2^30 values. Throws Error(ExitCode::input).
 void check_picture_size(const std::string& path, int width, int height, int channels);
 
+/// Refuses a file whose header promises more bytes of pixels than it could hold, compressed
+/// `best_ratio` to 1 as its format allows at most. Throws Error(ExitCode::input).
+void check_stored_size(const std::string& path, std::uintmax_t pixel_bytes,
+                       std::uintmax_t best_ratio, std::uintmax_t file_size);
+
+/// Throws Error(ExitCode::limit) when a picture of this size does not fit into free memory.
+void check_picture_memory(const std::string& path, int width, int height, int channels);
+
 }  // namespace rt

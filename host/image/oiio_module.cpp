@@ -1,35 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/image/oiio_module.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
-namespace rt::oiio {
+#include "host/image/module_guard.h"
+
+namespace rt::module {
 namespace {
-
-int fail(ErrorText error, const std::string& message) {
-    std::snprintf(error.text, error.size, "%s", message.c_str());
-    return 0;
-}
-
-/// Runs one call of the border: nothing may be thrown across it.
-template <typename Call>
-int guarded(ErrorText error, Call call) {
-    fail(error, "");
-    try {
-        return call();
-    } catch (const std::exception& exception) {
-        return fail(error, exception.what());
-    } catch (...) {
-        return fail(error, "unknown exception in OpenImageIO");
-    }
-}
 
 /// One thread (several gain nothing here), and no remarks on stderr.
 void configure_once() {
@@ -42,12 +23,8 @@ OIIO::ImageSpec make_spec(const EncodeRequest& request, OIIO::TypeDesc type) {
     OIIO::ImageSpec spec(request.width, request.height, request.channels, type);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     if (request.color_space != nullptr) spec.attribute("oiio:ColorSpace", request.color_space);
-    if (type == OIIO::TypeFloat) {
-        spec.attribute("compression", "zip");
-        // The writer stamps the time into the file unless the attribute is there; one of the
-        // wrong type is there, and is not written.
-        spec.attribute("DateTime", 0);
-    }
+    if (type == OIIO::TypeFloat) spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "");  // else TIFF is stamped with the time
     for (std::size_t i = 0; i < request.attribute_count; ++i) {
         spec.attribute(request.attribute_names[i], request.attribute_texts[i]);
     }
@@ -57,7 +34,7 @@ OIIO::ImageSpec make_spec(const EncodeRequest& request, OIIO::TypeDesc type) {
 int encode_picture(const EncodeRequest& request, const ByteSink& sink, ErrorText error) {
     configure_once();
     const std::string format = request.format;
-    const OIIO::TypeDesc type = format == "openexr" ? OIIO::TypeFloat : OIIO::TypeUInt8;
+    const OIIO::TypeDesc type = request.is_float != 0 ? OIIO::TypeFloat : OIIO::TypeUInt8;
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto output = OIIO::ImageOutput::create(format);
@@ -66,12 +43,13 @@ int encode_picture(const EncodeRequest& request, const ByteSink& sink, ErrorText
     const bool written = output->open("memory." + format, make_spec(request, type)) &&
                          output->write_image(type, request.pixels);
     const bool closed = output->close();
-    // A writer may return success and still have something to say.
+    // A writer may return success and still have something to say, but for one who says it always.
     const std::string complaint = output->geterror();
-    if (!written || !closed || !complaint.empty()) {
+    const bool is_idle = complaint == "failed TIFFWriteCustomDirectory() of the Exif data";
+    if (!written || !closed || (!complaint.empty() && !is_idle)) {
         return fail(error, complaint.empty() ? "unknown reason" : complaint);
     }
-    return sink.append(sink.context, bytes.data(), bytes.size());
+    return sink.write(sink.context, 0, bytes.data(), bytes.size());
 }
 
 template <typename Integer>
@@ -162,10 +140,11 @@ int decode(const char* path, const char* format, const PictureSink* sink, ErrorT
 }
 
 }  // namespace
-}  // namespace rt::oiio
+}  // namespace rt::module
 
-extern "C" __attribute__((visibility("default"))) const rt::oiio::Module* mirrorball_oiio_module() {
-    static constexpr rt::oiio::Module module{rt::oiio::interface_version, rt::oiio::encode,
-                                             rt::oiio::decode};
+extern "C" __attribute__((visibility("default"))) const rt::module::Module*
+mirrorball_picture_module() {
+    static constexpr rt::module::Module module{rt::module::interface_version, rt::module::encode,
+                                               rt::module::decode};
     return &module;
 }

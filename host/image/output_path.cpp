@@ -101,4 +101,25 @@ void check_output_path(const std::string& path) {
     if (::access(directory.c_str(), W_OK | X_OK) != 0) fail_to_write(path, errno);
 }
 
+std::string partial_path(const std::string& path) {
+    const fs::path name(path);
+    fs::path partial(name);
+    partial.replace_extension();
+    partial += ".partial";
+    partial += name.extension();
+    return partial.string();
+}
+
+void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs) {
+    struct stat target {};
+    if (output == "-" || ::stat(output.c_str(), &target) != 0 || !S_ISREG(target.st_mode)) return;
+    for (const std::string& input : inputs) {
+        struct stat source {};
+        if (::stat(input.c_str(), &source) != 0) continue;
+        if (source.st_dev != target.st_dev || source.st_ino != target.st_ino) continue;
+        throw Error(ExitCode::usage,
+                    output + ": is the same file as " + input + ", which is read; name another");
+    }
+}
+
 }  // namespace rt

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rt {
 
@@ -30,5 +31,12 @@ std::filesystem::path directory_of(const std::filesystem::path& file);
 /// missing or not writable, the path is a directory, the file there is read-only.
 /// Writes nothing; meant to be asked before a long computation.
 void check_output_path(const std::string& path);
+
+/// Where an unfinished picture goes: "dir/out.partial.png" for "dir/out.png".
+std::string partial_path(const std::string& path);
+
+/// Throws Error(ExitCode::usage) when the output is one of the inputs, by whatever name or link:
+/// the same device and inode. Empty names and "-" are none.
+void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs);
 
 }  // namespace rt

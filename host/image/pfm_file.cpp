@@ -11,7 +11,7 @@
 #include <span>
 
 #include "host/error.h"
-#include "host/image/input_file.h"
+#include "host/image/atomic_file.h"
 
 namespace rt {
 namespace {
@@ -70,7 +70,7 @@ Header read_header(const std::string& path, std::istream& stream) {
 
 }  // namespace
 
-std::vector<std::byte> encode_pfm(const std::string& path, const Picture& picture) {
+void write_pfm(const std::string& path, const Picture& picture) {
     if (picture.channels != 1 && picture.channels != 3) {
         throw Error(ExitCode::output, path + ": a PFM file holds 1 or 3 channels, not " +
                                           std::to_string(picture.channels) + "; write .exr");
@@ -79,22 +79,22 @@ std::vector<std::byte> encode_pfm(const std::string& path, const Picture& pictur
                                std::to_string(picture.width) + " " +
                                std::to_string(picture.height) + "\n-1.0\n";
     const auto row = static_cast<std::size_t>(picture.width) * picture.channels;
-    std::vector<float> flipped(picture.pixels.size());
-    for (std::size_t y = 0; y < static_cast<std::size_t>(picture.height); ++y) {
-        const auto* source = picture.pixels.data() + y * row;
-        std::copy_n(source, row, flipped.data() + (picture.height - 1 - y) * row);
+    AtomicFile file(path);
+    file.write(std::as_bytes(std::span(header)));
+    std::vector<float> swapped;
+    for (int y = picture.height - 1; y >= 0; --y) {
+        std::span<const float> values(picture.pixels.data() + row * y, row);
+        if (!host_is_little) {
+            swapped.assign(values.begin(), values.end());
+            swap_bytes(swapped);
+            values = swapped;
+        }
+        file.write(std::as_bytes(values));
     }
-    if (!host_is_little) swap_bytes(flipped);
-    std::vector<std::byte> bytes(header.size() + flipped.size() * sizeof(float));
-    std::memcpy(bytes.data(), header.data(), header.size());
-    if (!flipped.empty()) {
-        std::memcpy(bytes.data() + header.size(), flipped.data(), flipped.size() * sizeof(float));
-    }
-    return bytes;
+    file.commit();
 }
 
-Picture read_pfm(const std::string& path) {
-    InputFile file = open_input_file(path);
+Picture read_pfm(const std::string& path, InputFile file) {
     const Header header = read_header(path, file.stream);
     check_picture_size(path, header.width, header.height, header.channels);
 
@@ -107,6 +107,7 @@ Picture read_pfm(const std::string& path) {
                                          " bytes of pixels where the header asks for " +
                                          std::to_string(expected) + "; write the file again");
     }
+    check_picture_memory(path, header.width, header.height, header.channels);
     picture.pixels.resize(row * header.height);
     for (int y = header.height - 1; y >= 0; --y) {
         auto* target = reinterpret_cast<char*>(picture.pixels.data() + row * y);

@@ -19,4 +19,9 @@ struct Picture {
 /// What a picture file says about itself: (name, text) pairs.
 using PictureMetadata = std::vector<std::pair<std::string, std::string>>;
 
+struct PictureFile {
+    Picture picture;
+    PictureMetadata metadata;
+};
+
 }  // namespace rt

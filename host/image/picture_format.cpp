@@ -2,56 +2,114 @@
 #include "host/image/picture_format.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 
 #include "host/error.h"
 
 namespace rt {
+namespace {
 
-PictureFormat picture_format_of_name(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".png") return PictureFormat::png;
-    if (extension == ".exr") return PictureFormat::exr;
-    if (extension == ".pfm") return PictureFormat::pfm;
-    const std::string what =
-        extension.empty() ? "no extension" : "unknown extension '" + extension + "'";
-    throw Error(ExitCode::usage, path + ": " + what + "; name the picture .png, .exr or .pfm");
+struct FormatNames {
+    PictureFormat format;
+    std::string_view name;
+    const char* module_name;
+    std::array<std::string_view, 3> endings;
+};
+
+constexpr FormatNames formats[] = {
+    {PictureFormat::png, "PNG", "png", {".png"}},
+    {PictureFormat::exr, "EXR", "openexr", {".exr"}},
+    {PictureFormat::pfm, "PFM", "pfm", {".pfm"}},
+    {PictureFormat::tiff, "TIFF", "tiff", {".tif", ".tiff"}},
+    {PictureFormat::jpeg, "JPEG", "jpeg", {".jpg", ".jpeg"}},
+    {PictureFormat::webp, "WebP", "webp", {".webp"}},
+    {PictureFormat::hdr, "HDR", "hdr", {".hdr"}},
+    {PictureFormat::tga, "TGA", "targa", {".tga"}},
+    {PictureFormat::bmp, "BMP", "bmp", {".bmp"}},
+    {PictureFormat::pnm, "PNM", "pnm", {".ppm", ".pgm", ".pnm"}},
+};
+
+const FormatNames& names_of(PictureFormat format) {
+    return *std::find_if(std::begin(formats), std::end(formats),
+                         [format](const FormatNames& names) { return names.format == format; });
 }
 
-bool needs_image_library(PictureFormat format) { return format != PictureFormat::pfm; }
+std::string ending_of(const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
 
-std::string_view picture_format_of_bytes(std::string_view first_bytes) {
+}  // namespace
+
+std::string_view to_string(PictureFormat format) { return names_of(format).name; }
+
+const char* module_name(PictureFormat format) { return names_of(format).module_name; }
+
+bool stores_floats(PictureFormat format) {
+    return format == PictureFormat::exr || format == PictureFormat::pfm ||
+           format == PictureFormat::tiff || format == PictureFormat::hdr;
+}
+
+bool needs_module(PictureFormat format) {
+    return format != PictureFormat::png && format != PictureFormat::pfm;
+}
+
+std::optional<PictureFormat> known_picture_format(const std::string& path) {
+    const std::string ending = ending_of(path);
+    if (ending.empty()) return std::nullopt;
+    for (const FormatNames& names : formats) {
+        const auto& endings = names.endings;
+        if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
+            return names.format;
+        }
+    }
+    return std::nullopt;
+}
+
+PictureFormat picture_format_of_name(const std::string& path) {
+    if (const auto format = known_picture_format(path)) return *format;
+    const std::string ending = ending_of(path);
+    throw Error(ExitCode::usage,
+                path + ": " + (ending.empty() ? "no ending" : "unknown ending '" + ending + "'") +
+                    "; name the picture .png, .exr or .pfm (or .tif, .jpg, .webp, .hdr, .tga, "
+                    ".bmp, .ppm)");
+}
+
+std::optional<PictureFormat> picture_format_of_bytes(std::string_view first_bytes) {
     struct Signature {
         std::string_view bytes;
-        std::string_view format;
+        PictureFormat format;
     };
     using namespace std::string_view_literals;
     static constexpr Signature signatures[] = {
-        {"\x89PNG\r\n\x1a\n"sv, "png"},
-        {"\x76\x2f\x31\x01"sv, "openexr"},
-        {"PF"sv, "pfm"},
-        {"Pf"sv, "pfm"},
-        {"\xff\xd8\xff"sv, "jpeg"},
-        {"II*\0"sv, "tiff"},
-        {"MM\0*"sv, "tiff"},
-        {"#?RADIANCE"sv, "hdr"},
-        {"#?RGBE"sv, "hdr"},
-        {"P1"sv, "pnm"},
-        {"P2"sv, "pnm"},
-        {"P3"sv, "pnm"},
-        {"P4"sv, "pnm"},
-        {"P5"sv, "pnm"},
-        {"P6"sv, "pnm"},
+        {"\x89PNG\r\n\x1a\n"sv, PictureFormat::png},
+        {"\x76\x2f\x31\x01"sv, PictureFormat::exr},
+        {"PF"sv, PictureFormat::pfm},
+        {"Pf"sv, PictureFormat::pfm},
+        {"\xff\xd8\xff"sv, PictureFormat::jpeg},
+        {"II*\0"sv, PictureFormat::tiff},
+        {"MM\0*"sv, PictureFormat::tiff},
+        {"II+\0"sv, PictureFormat::tiff},
+        {"MM\0+"sv, PictureFormat::tiff},
+        {"#?RADIANCE"sv, PictureFormat::hdr},
+        {"#?RGBE"sv, PictureFormat::hdr},
+        {"BM"sv, PictureFormat::bmp},
     };
     for (const Signature& signature : signatures) {
-        if (first_bytes.substr(0, signature.bytes.size()) == signature.bytes) {
-            return signature.format;
-        }
+        if (first_bytes.starts_with(signature.bytes)) return signature.format;
     }
-    return {};
+    if (first_bytes.starts_with("RIFF") &&
+        first_bytes.substr(std::min(8ul, first_bytes.size())).starts_with("WEBP")) {
+        return PictureFormat::webp;
+    }
+    const bool is_pnm = first_bytes.size() > 1 && first_bytes[0] == 'P' && first_bytes[1] >= '1' &&
+                        first_bytes[1] <= '6';
+    if (is_pnm) return PictureFormat::pnm;
+    return std::nullopt;
 }
 
 }  // namespace rt

@@ -8,10 +8,11 @@
 
 #include "host/error.h"
 #include "host/image/input_file.h"
-#include "host/image/oiio_loader.h"
+#include "host/image/module_loader.h"
 #include "host/image/pfm_file.h"
 #include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
+#include "host/image/png_file.h"
 
 namespace rt {
 namespace {
@@ -19,8 +20,7 @@ namespace {
 /// What the module fills, and what went wrong on our side of the border.
 struct Target {
     const std::string& path;
-    Picture picture;
-    PictureMetadata metadata;
+    PictureFile file;
     std::exception_ptr failure;
 };
 
@@ -40,37 +40,52 @@ int keep_exception(void* context, Call call) {
 int take_header(void* context, int width, int height, int channels) {
     return keep_exception(context, [=](Target& target) {
         check_picture_size(target.path, width, height, channels);
-        target.picture = {width, height, channels, {}};
+        check_picture_memory(target.path, width, height, channels);
+        target.file.picture = {width, height, channels, {}};
     });
 }
 
 int take_attribute(void* context, const char* name, const char* text) {
     return keep_exception(context,
-                          [=](Target& target) { target.metadata.emplace_back(name, text); });
+                          [=](Target& target) { target.file.metadata.emplace_back(name, text); });
 }
 
 int take_rows(void* context, const float* values, std::size_t count) {
     return keep_exception(context, [=](Target& target) {
-        const Picture& picture = target.picture;
+        Picture& picture = target.file.picture;
         // Address space only: pages are touched as rows arrive.
-        target.picture.pixels.reserve(static_cast<std::size_t>(picture.width) * picture.height *
-                                      picture.channels);
-        target.picture.pixels.insert(target.picture.pixels.end(), values, values + count);
+        picture.pixels.reserve(static_cast<std::size_t>(picture.width) * picture.height *
+                               picture.channels);
+        picture.pixels.insert(picture.pixels.end(), values, values + count);
     });
 }
 
-std::string_view find_format(const std::string& path) {
-    InputFile file = open_input_file(path);
+[[noreturn]] void refuse_picture(const std::string& path, const std::string& reason,
+                                 const std::string& advice) {
+    throw Error(ExitCode::input, path + ": " + reason + "; " + advice);
+}
+
+/// What the first bytes say and the ending does not deny; TGA begins with nothing of its own.
+PictureFormat find_format(const std::string& path, InputFile& file) {
     char first_bytes[16] = {};
     file.stream.read(first_bytes, sizeof first_bytes);
     const auto count = static_cast<std::size_t>(file.stream.gcount());
-    const std::string_view format = picture_format_of_bytes({first_bytes, count});
-    if (format.empty()) {
-        throw Error(ExitCode::input,
-                    path + (count == 0 ? ": is empty" : ": is not a picture we can read") +
-                        "; give a PNG, EXR, PFM, JPEG, TIFF, HDR or PNM file");
+    file.stream.clear();
+    file.stream.seekg(0);
+    if (count == 0) refuse_picture(path, "is empty", "write it again");
+    const auto named = known_picture_format(path);
+    const auto held = picture_format_of_bytes({first_bytes, count});
+    if (held && (!named || named == held)) return *held;
+    if (held) {
+        const std::string what(to_string(*held));
+        refuse_picture(path, "holds a picture in " + what + " format", "name it so");
     }
-    return format;
+    if (named == PictureFormat::tga) return *named;
+    if (named)
+        refuse_picture(path, "is no " + std::string(to_string(*named)) + " picture",
+                       "write it again");
+    refuse_picture(path, "is not a picture we can read",
+                   "give a PNG, EXR, PFM, TIFF, JPEG, WebP, HDR, TGA, BMP or PNM file");
 }
 
 std::string one_line(std::string text) {
@@ -79,37 +94,31 @@ std::string one_line(std::string text) {
     return text;
 }
 
-void read_with_library(Target& target, std::string_view format, bool with_pixels) {
-    const oiio::PictureSink sink{&target, take_header, take_attribute,
-                                 with_pixels ? take_rows : nullptr};
+PictureFile read_with_module(const std::string& path, PictureFormat format) {
+    Target target{path, {}, {}};
+    const module::PictureSink sink{&target, take_header, take_attribute, take_rows};
     char error[1024] = "";
-    const oiio::Module& library = image_library(ExitCode::input);
-    const int ok = library.decode(target.path.c_str(), std::string(format).c_str(), &sink,
-                                  {error, sizeof error});
+    const module::Module& library = picture_module(format, ExitCode::input);
+    const int ok = library.decode(path.c_str(), module_name(format), &sink, {error, sizeof error});
     if (target.failure) std::rethrow_exception(target.failure);
-    if (ok != 0) return;
-    throw Error(ExitCode::input, target.path + ": cannot read the picture: " + one_line(error) +
-                                     "; the file may be damaged: write it again");
+    if (ok != 0) return std::move(target.file);
+    refuse_picture(path, "cannot read the picture: " + one_line(error),
+                   "the file may be damaged: write it again");
 }
 
 }  // namespace
 
-Picture read_picture(const std::string& path) try {
-    const std::string_view format = find_format(path);
-    if (format == "pfm") return read_pfm(path);
-    Target target{path, {}, {}, {}};
-    read_with_library(target, format, true);
-    return std::move(target.picture);
+PictureFile read_picture_file(const std::string& path) try {
+    InputFile file = open_input_file(path);
+    const PictureFormat format = find_format(path, file);
+    if (format == PictureFormat::png) return read_png(path, file.stream, file.size);
+    if (format == PictureFormat::pfm) return {read_pfm(path, std::move(file)), {}};
+    return read_with_module(path, format);
 } catch (const std::bad_alloc&) {
-    throw Error(ExitCode::limit, path + ": not enough memory to read it; scale it down first");
+    throw Error(ExitCode::limit,
+                path + ": not enough memory for its pixels; scale the picture down first");
 }
 
-PictureMetadata read_picture_metadata(const std::string& path) {
-    const std::string_view format = find_format(path);
-    if (format == "pfm") return {};
-    Target target{path, {}, {}, {}};
-    read_with_library(target, format, false);
-    return std::move(target.metadata);
-}
+Picture read_picture(const std::string& path) { return read_picture_file(path).picture; }
 
 }  // namespace rt

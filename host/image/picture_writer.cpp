@@ -3,16 +3,18 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string_view>
 #include <vector>
 
 #include "host/error.h"
 #include "host/image/atomic_file.h"
-#include "host/image/oiio_loader.h"
+#include "host/image/module_loader.h"
 #include "host/image/output_path.h"
 #include "host/image/pfm_file.h"
 #include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
+#include "host/image/png_file.h"
 
 namespace rt {
 namespace {
@@ -50,19 +52,19 @@ void check_metadata(const std::string& path, Metadata metadata) {
 }
 
 /// Never throws: called from inside the module.
-int append_bytes(void* context, const unsigned char* bytes, std::size_t count) {
+int put_bytes(void* context, std::uint64_t place, const unsigned char* bytes, std::size_t count) {
     try {
         auto& target = *static_cast<std::vector<std::byte>*>(context);
-        const auto* first = reinterpret_cast<const std::byte*>(bytes);
-        target.insert(target.end(), first, first + count);
+        if (target.size() < place + count) target.resize(place + count);
+        std::memcpy(target.data() + place, bytes, count);
         return 1;
     } catch (...) {
         return 0;
     }
 }
 
-std::vector<std::byte> encode(const std::string& path, oiio::EncodeRequest request,
-                              Metadata metadata) {
+std::vector<std::byte> encode(const std::string& path, PictureFormat format,
+                              module::EncodeRequest request, Metadata metadata) {
     std::vector<const char*> names;
     std::vector<const char*> texts;
     for (const auto& [name, text] : metadata) {
@@ -74,9 +76,12 @@ std::vector<std::byte> encode(const std::string& path, oiio::EncodeRequest reque
     request.attribute_names = names.data();
     request.attribute_texts = texts.data();
     std::vector<std::byte> bytes;
-    const oiio::ByteSink sink{&bytes, append_bytes};
+    // Address space only, so that growing copies nothing: most files are smaller than the pixels.
+    bytes.reserve(sizeof(float) * static_cast<std::size_t>(request.width) * request.height *
+                  request.channels);
+    const module::ByteSink sink{&bytes, put_bytes};
     char error[1024] = "";
-    const oiio::Module& library = image_library(ExitCode::output);
+    const module::Module& library = picture_module(format, ExitCode::output);
     if (library.encode(&request, &sink, {error, sizeof error}) == 0) {
         const std::string reason = error[0] == '\0' ? "out of memory" : error;
         throw Error(ExitCode::output, path + ": cannot encode the picture: " + reason +
@@ -85,37 +90,38 @@ std::vector<std::byte> encode(const std::string& path, oiio::EncodeRequest reque
     return bytes;
 }
 
-std::vector<std::byte> encode_png_file(const std::string& path, const Picture& picture,
-                                       Encoding encoding, Metadata metadata) {
+std::vector<std::byte> encode_with_module(const std::string& path, const Picture& picture,
+                                          Encoding encoding, Metadata metadata) {
+    const PictureFormat format = picture_format_of_name(path);
+    module::EncodeRequest request{};
+    request.format = module_name(format);
+    request.width = picture.width;
+    request.height = picture.height;
+    request.channels = picture.channels;
+    request.is_float = stores_floats(format) ? 1 : 0;
+    if (stores_floats(format)) {
+        request.pixels = picture.pixels.data();
+        return encode(path, format, request, metadata);
+    }
     const std::vector<std::uint8_t> pixels = encode_8bit(picture, encoding);
-    const char* color_space = encoding == Encoding::srgb     ? "sRGB"
-                              : encoding == Encoding::linear ? "Linear"
-                                                             : nullptr;
-    return encode(path,
-                  {"png", picture.width, picture.height, picture.channels, pixels.data(),
-                   color_space, 0, nullptr, nullptr},
-                  metadata);
+    request.pixels = pixels.data();
+    request.color_space = encoding == Encoding::srgb     ? "sRGB"
+                          : encoding == Encoding::linear ? "Linear"
+                                                         : nullptr;
+    return encode(path, format, request, metadata);
 }
 
-std::vector<std::byte> encode_exr(const std::string& path, const Picture& picture,
-                                  Metadata metadata) {
-    return encode(path,
-                  {"openexr", picture.width, picture.height, picture.channels,
-                   picture.pixels.data(), nullptr, 0, nullptr, nullptr},
-                  metadata);
-}
-
-std::vector<std::byte> encode_file(const std::string& path, const Picture& picture,
-                                   Encoding encoding, Metadata metadata) {
+void write_checked(const std::string& path, const Picture& picture, Encoding encoding,
+                   Metadata metadata) {
     switch (picture_format_of_name(path)) {
         case PictureFormat::png:
-            return encode_png_file(path, picture, encoding, metadata);
-        case PictureFormat::exr:
-            return encode_exr(path, picture, metadata);
+            return write_file_atomically(path, encode_png_file(path, picture, encoding, metadata));
         case PictureFormat::pfm:
-            return encode_pfm(path, picture);
+            return write_pfm(path, picture);
+        default:
+            return write_file_atomically(path,
+                                         encode_with_module(path, picture, encoding, metadata));
     }
-    throw Error(ExitCode::bug, path + ": unknown picture format; please report this");
 }
 
 }  // namespace
@@ -125,7 +131,7 @@ void write_picture(const std::string& path, const Picture& picture, Encoding enc
     check_picture_path(path);
     check_picture(path, picture);
     check_metadata(path, metadata);
-    write_file_atomically(path, encode_file(path, picture, encoding, metadata));
+    write_checked(path, picture, encoding, metadata);
 }
 
 std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding) {
@@ -135,8 +141,9 @@ std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding) {
 }
 
 void check_picture_path(const std::string& path) {
-    picture_format_of_name(path);
+    const PictureFormat format = picture_format_of_name(path);
     check_output_path(path);
+    if (needs_module(format)) picture_module(format, ExitCode::output);
 }
 
 }  // namespace rt

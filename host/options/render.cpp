@@ -152,7 +152,8 @@ void add_render(const CommandLine& program, Options& options) {
     options.render.dumb_terminal = environment("TERM") == "dumb";
     const CommandLine verb = program.verb("render", "render one picture");
     verb.argument("SCENE", options.render.scene, "scene file (.json, .nff, .obj, .ply)");
-    verb.option("-o,--output", "FILE", "picture file: .png, .exr or .pfm (default: none)",
+    verb.option("-o,--output", "FILE",
+                "picture file: .png, .exr, .pfm, .tif, .jpg .. (default: none)",
                 [&](const std::string& text) {
                     if (text.empty()) refuse("-o", text, "name a picture file");
                     options.render.output = text;

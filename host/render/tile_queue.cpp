@@ -35,9 +35,8 @@ TileRun side_by_side(const std::vector<Rect>& tiles, std::size_t first,
 
 }  // namespace
 
-TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop,
-                     std::function<void()> on_first_tile)
-    : tiles_(std::move(tiles)), stop_(stop), on_first_tile_(std::move(on_first_tile)) {
+TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop)
+    : tiles_(std::move(tiles)), stop_(stop) {
     for (const Rect& tile : tiles_) pixels_ += tile.pixels();
 }
 
@@ -45,7 +44,6 @@ std::optional<Rect> TileQueue::next() {
     if (stopped()) return std::nullopt;
     const std::size_t index = next_.fetch_add(1);
     if (index >= tiles_.size()) return std::nullopt;
-    if (index == 0 && on_first_tile_) on_first_tile_();
     return tiles_[index];
 }
 
@@ -54,9 +52,7 @@ std::optional<TileRun> TileQueue::next_run(const std::function<bool(const Rect&)
     std::size_t first = next_;
     while (first < tiles_.size()) {
         const TileRun run = longest_run(first, fits);
-        if (!next_.compare_exchange_weak(first, first + run.tiles)) continue;
-        if (first == 0 && on_first_tile_) on_first_tile_();
-        return run;
+        if (next_.compare_exchange_weak(first, first + run.tiles)) return run;
     }
     return std::nullopt;
 }

@@ -37,10 +37,7 @@ static_assert(StopFlag::is_always_lock_free);  // else no signal handler may set
 /// is set, and keeps count of what is finished. Every member may be called from any thread.
 class TileQueue {
    public:
-    /// `on_first_tile` is called once, by the thread that takes the first tile. All threads of the
-    /// renderer exist by then.
-    TileQueue(std::vector<Rect> tiles, const StopFlag& stop,
-              std::function<void()> on_first_tile = {});
+    TileQueue(std::vector<Rect> tiles, const StopFlag& stop);
 
     /// The next tile; empty when there is none or the work was stopped. A renderer finishes every
     /// tile it has taken.
@@ -67,7 +64,6 @@ class TileQueue {
 
     const std::vector<Rect> tiles_;
     const StopFlag& stop_;
-    const std::function<void()> on_first_tile_;
     std::int64_t pixels_ = 0;
     std::atomic<std::size_t> next_ = 0;
     std::atomic<std::size_t> tiles_finished_ = 0;

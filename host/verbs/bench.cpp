@@ -8,6 +8,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/image/output_path.h"
 #include "host/parallel.h"
 #include "host/render/stopwatch.h"
 #include "host/report/baseline.h"
@@ -248,6 +249,7 @@ BenchResult measure_bench(const BenchOptions& options) {
 
 int run_bench(const BenchOptions& options) {
     check_result_path(options.results.json, json_start("mirrorball-bench"));
+    check_output_is_no_input(options.results.json, {options.baseline});
     check_result_path(options.results.csv, run_csv_header());
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);

@@ -176,6 +176,9 @@ void print_comparison(const Comparison& result, const CompareOptions& options) {
 int run_compare(const CompareOptions& options) {
     if (!options.heatmap.empty()) check_picture_path(options.heatmap);
     if (!options.json.empty() && options.json != "-") check_output_path(options.json);
+    for (const std::string& output : {options.heatmap, options.json}) {
+        check_output_is_no_input(output, {options.picture, options.reference});
+    }
     const Comparison result = compare_pictures(options);
     if (!options.heatmap.empty()) write_heatmap(result, options);
     print_comparison(result, options);

@@ -62,7 +62,7 @@ std::optional<Picture> read_half(const std::string& path, const Scene& scene) {
     std::error_code ignored;
     if (path.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
     try {
-        Picture half = read_pfm(path);
+        Picture half = read_pfm(path, open_input_file(path));
         const bool fits =
             half.width == scene.width && half.height == scene.height && half.channels == 3;
         if (fits && count_non_finite(half) == 0) return half;
@@ -76,7 +76,7 @@ void keep_half(const std::string& path, const Picture& half) {
     try {
         std::error_code ignored;
         std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
-        write_file_atomically(path, encode_pfm(path, half));
+        write_pfm(path, half);
     } catch (const Error& error) {
         print_message(fmt::format("mirrorball: the reference is not kept: {}\n", error.what()));
     }

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "host/console.h"
 #include "host/error.h"
 #include "host/memory_limit.h"
-#include "host/parallel.h"
 #include "host/render/cl_renderer.h"
 #include "host/render/device_spec.h"
 #include "host/render/picture_loop.h"
@@ -72,8 +72,8 @@ SceneStats scene_stats(const Scene& scene) {
 template <typename T>
 class Job {
    public:
-    Job(const Scene& scene, const RenderOptions& options, const std::function<void()>& when_tracing)
-        : options_(options), when_tracing_(when_tracing), region_(chosen_region(scene, options)) {
+    Job(const Scene& scene, const RenderOptions& options)
+        : options_(options), region_(chosen_region(scene, options)) {
         const Stopwatch watch;
         FlattenOptions flatten_options;
         flatten_options.hierarchies = options.hierarchies;
@@ -155,7 +155,7 @@ class Job {
         }
         try {
             const auto renderer = make_cl_renderer(scene_, device, cl_options);
-            render_with(*renderer, device.is_cpu ? std::function<void()>() : when_tracing_);
+            render_with(*renderer);
         } catch (const Error& error) {
             if (error.exit_code() != ExitCode::device || options_.no_fallback) throw;
             const std::string what = error.what();
@@ -185,20 +185,18 @@ class Job {
         stats_.device.name = "threads";
         stats_.device.threads = thread_count(threads_options, stats_.aa.samples());
         stats_.device.schedule = options_.schedule == Schedule::tiles ? "tiles" : "buffers";
-        // Refining starts further threads, which nothing may hold up.
-        const bool leaves_a_core =
-            stats_.device.threads < available_cores() && !stats_.aa.refines();
-        render_with(*make_threads_renderer(scene_, threads_options),
-                    leaves_a_core ? when_tracing_ : std::function<void()>());
+        render_with(*make_threads_renderer(scene_, threads_options));
     }
 
-    void render_with(Renderer<T>& renderer, const std::function<void()>& when_tracing) {
+    void render_with(Renderer<T>& renderer) {
         install_stop_signals();
-        check_memory(static_cast<std::uint64_t>(region_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
-                     "the film", "use --crop to render it in parts");
+        check_memory(
+            static_cast<std::uint64_t>(region_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
+            fmt::format("the film of {}x{} pixels, with its file", region_.width, region_.height),
+            "make it smaller with --size, or render parts with --crop");
         film_ = Film<T>(region_.width, region_.height);
         const PictureSize tile = tile_size(renderer);
-        TileQueue queue(make_tiles(region_, tile.width, tile.height), stop_flag(), when_tracing);
+        TileQueue queue(make_tiles(region_, tile.width, tile.height), stop_flag());
         {
             const ProgressReporter progress(queue, progress_mode_for_stderr(options_));
             render_all(renderer, stats_.aa, queue, region_, film_);
@@ -224,14 +222,17 @@ class Job {
         RenderedPicture rendered;
         rendered.picture.width = film_.width;
         rendered.picture.height = film_.height;
-        rendered.picture.pixels.assign(film_.rgb.begin(), film_.rgb.end());
+        if constexpr (std::is_same_v<T, float>) {
+            rendered.picture.pixels = std::move(film_.rgb);
+        } else {
+            rendered.picture.pixels.assign(film_.rgb.begin(), film_.rgb.end());
+        }
         stats_.non_finite = count_non_finite(rendered.picture);
         rendered.stats = stats_;
         return rendered;
     }
 
     const RenderOptions& options_;
-    const std::function<void()>& when_tracing_;
     const Rect region_;
     FlatScene<T> scene_;
     Film<T> film_{0, 0};
@@ -282,12 +283,11 @@ std::future<DeviceChoice> find_device(const RenderOptions& options) {
 }
 
 RenderedPicture render_picture(const Scene& scene, const RenderOptions& options,
-                               std::future<DeviceChoice> device,
-                               const std::function<void()>& when_tracing) {
+                               std::future<DeviceChoice> device) {
     if (options.precision == Precision::float64) {
-        return Job<double>(scene, options, when_tracing).run(std::move(device));
+        return Job<double>(scene, options).run(std::move(device));
     }
-    return Job<float>(scene, options, when_tracing).run(std::move(device));
+    return Job<float>(scene, options).run(std::move(device));
 }
 
 RenderedPicture render_picture(const Scene& scene, const RenderOptions& options) {

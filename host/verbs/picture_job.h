@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <future>
 #include <string>
 #include <vector>
@@ -33,11 +32,8 @@ std::future<DeviceChoice> find_device(const RenderOptions& options);
 /// Flattens the scene and renders it on the device with progress on stderr. When the device
 /// fails, the picture is rendered on threads instead, with a line on stderr, unless
 /// options.no_fallback is on. SIGINT and SIGTERM end it early, with the tiles finished so far.
-/// `when_tracing` is called when tracing begins, where other work can go on beside it and takes
-/// nothing from it: the device is no CPU, or threads leave a core idle.
 RenderedPicture render_picture(const Scene& scene, const RenderOptions& options,
-                               std::future<DeviceChoice> device,
-                               const std::function<void()>& when_tracing = {});
+                               std::future<DeviceChoice> device);
 
 /// The same on the device that find_device gives.
 RenderedPicture render_picture(const Scene& scene, const RenderOptions& options);

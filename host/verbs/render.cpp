@@ -8,7 +8,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
-#include "host/image/oiio_loader.h"
+#include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/render/stopwatch.h"
 #include "host/report/image_error.h"
@@ -104,11 +104,30 @@ void say_unsaved(const RenderOptions& options) {
     print_message("mirrorball: without -o FILE the picture is not saved\n");
 }
 
+/// Writes the picture, an unfinished one next to where it belongs: what is there may be finished.
+/// Returns the name it got.
+std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options) {
+    if (options.output.empty()) return "";
+    const RenderStats& stats = rendered.stats;
+    PictureMetadata metadata = picture_metadata(stats);
+    std::string path = options.output;
+    if (!stats.complete()) {
+        path = partial_path(path);
+        metadata.emplace_back("mirrorball:Partial",
+                              fmt::format("{} of {} tiles", stats.tiles_finished, stats.tiles));
+    }
+    write_picture(path, rendered.picture, options.encoding, metadata);
+    return path;
+}
+
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
     const Stopwatch total;
-    if (!options.output.empty()) check_picture_path(options.output);
+    if (!options.output.empty()) {
+        check_picture_path(options.output);
+        check_output_is_no_input(options.output, {options.scene, options.reference});
+    }
     std::future<DeviceChoice> device = find_device(options);
     Stopwatch watch;
     Scene scene = load_scene(options.scene, options.light);
@@ -118,22 +137,18 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     const std::optional<Picture> reference = load_reference(options, scene);
     const double reference_seconds = watch.lap();
     say_unsaved(options);
-    ImageLibraryLoading image_library;
-    RenderedPicture rendered = render_picture(scene, options, std::move(device),
-                                              [&] { image_library.begin_for(options.output); });
+    RenderedPicture rendered = render_picture(scene, options, std::move(device));
     RenderStats& stats = rendered.stats;
     stats.scene.path = options.scene;
     stats.phases.start = seconds_before_main;
     stats.phases.load = load_seconds;
     watch.lap();
-    if (!options.output.empty()) {
-        write_picture(options.output, rendered.picture, options.encoding, picture_metadata(stats));
-    }
+    const std::string path = save_picture(rendered, options);
     stats.phases.write = watch.seconds();
     stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
     if (reference) stats.error = image_error(rendered.picture, *reference);
     print_results(stats, options);
-    return verdict(rendered, options.output);
+    return verdict(rendered, path);
 }
 
 }  // namespace rt

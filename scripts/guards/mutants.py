@@ -143,8 +143,8 @@ MUTANTS = [
     ], [("report_test.py", "Report.test_the_table_of_every_row_shows_what_its_repeats_give")]),
     # Files
     Mutant("8 bits cut off instead of rounded", [
-        ("host/image/encoding.cpp", "std::floor(stored * 255.0 + 0.5)",
-         "std::floor(stored * 255.0)"),
+        ("host/image/encoding.cpp", "(stored * 255.0 + 0.5)",
+         "(stored * 255.0)"),
     ], [("host_encoding_test", "Encode8bit.*")]),
     Mutant("OBJ indices from the end are off by one", [
         (S + "obj_chunk.cpp", "index > 0 ? index - 1 : size + index)",

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Output that cannot be written: exit 4, nothing left behind, nothing old destroyed."""
 import os
+import pathlib
+import resource
 import shutil
 import subprocess
 import unittest
 
-from harness import CliTest, scene_path
+from harness import SETTINGS, CliTest, scene_path
 
 SCENE = "single-sphere"
 
@@ -16,7 +18,7 @@ class WrongName(CliTest):
                             "-o", path, *arguments)
 
     def test_unknown_extension(self):
-        for name in ["out.jpg", "out", "out.png.bak", ".png", "out."]:
+        for name in ["out.gif", "out", "out.png.bak", ".png", "out."]:
             with self.subTest(name=name):
                 self.assert_refused(self.render_to(name), 2, name, ".png, .exr or .pfm")
         self.assertEqual(self.files(), [])
@@ -68,11 +70,91 @@ class WrongName(CliTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual((self.folder / "caught").stat().st_size, len("PF\n8 8\n-1.0\n") + 8 * 96)
 
+    def test_openimageio_writes_other_formats(self):
+        for name, start in [("out.jpg", b"\xff\xd8\xff"), ("out.tif", b"II*\0"), ("out.hdr", b"#?"),
+                            ("out.webp", b"RIFF"), ("out.bmp", b"BM"), ("out.ppm", b"P6"),
+                            ("out.tga", b"\0\0")]:
+            with self.subTest(name=name):
+                result = self.render_to(name)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertTrue((self.folder / name).read_bytes().startswith(start))
+        self.render_to("out.exr")
+        result = self.run_cli("compare", "out.tif", "out.exr", "--max-abs", "0")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
     def test_unreadable_reference_is_refused_before_anything_is_written(self):
         result = self.render_to("out.png", "--reference", "nowhere.png")
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertIn("nowhere.png", result.stderr)
         self.assertEqual(self.files(), [])
+
+
+class OverInputs(CliTest):
+    """An output that is an input, by whatever name, is refused before any work."""
+
+    def refuse(self, *arguments, files):
+        before = {name: (self.folder / name).read_bytes() for name in files}
+        result = self.run_cli(*arguments)
+        self.assert_refused(result, 2, "is the same file as")
+        for name, data in before.items():
+            self.assertEqual((self.folder / name).read_bytes(), data)
+
+    def test_scene_by_a_link(self):
+        scene = self.write_scene()
+        os.symlink("scene.json", self.folder / "symbolic.png")
+        os.link(scene, self.folder / "hard.pfm")
+        for name in ["symbolic.png", "hard.pfm"]:
+            self.refuse("render", "scene.json", "-o", name, files=["scene.json"])
+
+    def test_reference_and_compared_pictures(self):
+        self.render(SCENE, "--size", "8", "--device", "threads", "-o", "a.png")
+        self.refuse("render", scene_path(SCENE), "--reference", "a.png", "-o", "./a.png",
+                    files=["a.png"])
+        for option in ["--heatmap", "--json"]:
+            self.refuse("compare", "a.png", "a.png", option, "a.png", files=["a.png"])
+
+    def test_baseline_of_bench(self):
+        self.write_text("old.json", '{\n  "format": "mirrorball-bench"')
+        self.refuse("bench", scene_path(SCENE), "--baseline", "old.json", "--json", "old.json",
+                    files=["old.json"])
+
+
+class Libraries(CliTest):
+    """What loads slowly is loaded by those who need it."""
+
+    def libraries(self, *arguments):
+        result = self.run_cli(*arguments, env={"LD_DEBUG": "files"})
+        self.assertEqual(result.returncode, 0)
+        return result.stderr
+
+    def test_pictures_load_what_their_format_needs(self):
+        options = ["render", scene_path(SCENE), "--size", "8", "--device", "threads"]
+        self.assertNotIn("OpenEXR", self.libraries(*options, "-o", "a.png"))
+        self.assertNotIn("OpenEXR", self.libraries("compare", "a.png", "a.png"))
+        self.assertIn("OpenEXR", self.libraries(*options, "-o", "a.exr"))
+        for name in ["a.png", "a.exr", "a.pfm"]:
+            self.assertNotIn("OpenImageIO", self.libraries(*options, "-o", name))
+        self.assertIn("OpenImageIO", self.libraries(*options, "-o", "a.jpg"))
+
+    def test_a_missing_module_is_told_before_any_work(self):
+        program = pathlib.Path(SETTINGS["program"])
+        shutil.copy(program, self.folder / "mirrorball")
+        for name, module in [("a.exr", "mirrorball_exr"), ("a.tif", "mirrorball_oiio")]:
+            result = self.run_shell(f"./mirrorball render missing.json -o {name}")
+            self.assert_refused(result, 4, module, "no such file")
+
+    @unittest.skipUnless(os.geteuid() == 0, "changing the user takes root")
+    def test_no_more_threads_at_the_end_lose_no_picture(self):
+        """Two threads for a user: enough to trace on one, too few for OpenEXR's."""
+        self.folder.chmod(0o777)
+        for name in ["out.png", "out.exr", "out.pfm"]:
+            result = self.run_cli(
+                "render", scene_path(SCENE), "--size", "256", "--device", "threads:1",
+                "--progress", "none", "-o", name, user=65534, group=65534, extra_groups=[],
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NPROC, (2, 2)))
+            self.assertEqual(result.returncode, 0, result.stderr)
+        compared = self.run_cli("compare", "out.exr", "out.pfm", "--max-abs", "0")
+        self.assertEqual(compared.returncode, 0, compared.stderr)
 
 
 class NoRoom(CliTest):

@@ -6,7 +6,7 @@ import signal
 import time
 
 from harness import CAMERA, CliTest, scene_path
-from pictures import png_chunks, read_pfm
+from pictures import png_chunks, png_texts, read_pfm
 
 LONG = ["--size", "900", "--aa", "grid:32", "--progress", "json"]
 PATHS = {
@@ -44,11 +44,12 @@ class Interrupted(CliTest):
         process = self.start_and_wait_until_tiles_are_done(path, output)
         code, lines = self.stop(process, number)
         self.assertEqual(code, 128 + number, lines)
-        message = re.search(r"after (\d+) of (\d+) tiles.*" + re.escape(output), lines[-1])
+        partial = output.replace(".", ".partial.")
+        message = re.search(r"after (\d+) of (\d+) tiles.*" + re.escape(partial), lines[-1])
         self.assertIsNotNone(message, lines)
         self.assertGreater(int(message[1]), 0)
         self.assertLess(int(message[1]), int(message[2]))
-        self.assertEqual(self.files(), [output])
+        self.assertEqual(self.files(), [partial])
 
     def assert_has_light_and_gaps(self, name):
         _, _, values = read_pfm(self.folder / name)
@@ -58,19 +59,28 @@ class Interrupted(CliTest):
 
     def test_threads_sigint(self):
         self.assert_stopped("threads", signal.SIGINT, "out.pfm")
-        self.assert_has_light_and_gaps("out.pfm")
+        self.assert_has_light_and_gaps("out.partial.pfm")
 
     def test_threads_sigterm(self):
         self.assert_stopped("threads", signal.SIGTERM, "out.png")
-        png_chunks((self.folder / "out.png").read_bytes())
+        texts = png_texts((self.folder / "out.partial.png").read_bytes())
+        self.assertRegex(texts["mirrorball:Partial"], r"^\d+ of \d+ tiles$")
+
+    def test_a_finished_picture_is_left_alone(self):
+        self.write_text("out.png", "finished yesterday")
+        process = self.start_and_wait_until_tiles_are_done("threads", "out.png")
+        code, lines = self.stop(process, signal.SIGINT)
+        self.assertEqual(code, 130, lines)
+        self.assertEqual((self.folder / "out.png").read_text(), "finished yesterday")
+        self.assertEqual(self.files(), ["out.partial.png", "out.png"])
 
     def test_pocl_sigint(self):
         self.assert_stopped("pocl", signal.SIGINT, "out.pfm")
-        self.assert_has_light_and_gaps("out.pfm")
+        self.assert_has_light_and_gaps("out.partial.pfm")
 
     def test_pocl_sigterm(self):
         self.assert_stopped("pocl", signal.SIGTERM, "out.png")
-        png_chunks((self.folder / "out.png").read_bytes())
+        png_chunks((self.folder / "out.partial.png").read_bytes())
 
     def test_without_output_nothing_is_left(self):
         for path in ["threads", "pocl"]:
@@ -83,8 +93,8 @@ class Interrupted(CliTest):
     def test_batch_systems_signals(self):
         for number in [signal.SIGXCPU, signal.SIGUSR1]:
             self.assert_stopped("threads", number, "out.pfm")
-            self.assert_has_light_and_gaps("out.pfm")
-            (self.folder / "out.pfm").unlink()
+            self.assert_has_light_and_gaps("out.partial.pfm")
+            (self.folder / "out.partial.pfm").unlink()
 
     def start_and_wait_until_it_renders(self, *more):
         """One tile that takes minutes."""
@@ -129,11 +139,11 @@ class Interrupted(CliTest):
 
     def test_pocl_samples_sigint(self):
         self.assert_stopped("pocl samples", signal.SIGINT, "out.pfm")
-        self.assert_has_light_and_gaps("out.pfm")
+        self.assert_has_light_and_gaps("out.partial.pfm")
 
     def test_buffers_sigint(self):
         self.assert_stopped("buffers", signal.SIGINT, "out.pfm")
-        self.assert_has_light_and_gaps("out.pfm")
+        self.assert_has_light_and_gaps("out.partial.pfm")
 
     def test_finished_tiles_are_those_of_the_whole_picture(self):
         options = ["--size", "150", "--aa", "grid:16", "--device", "threads", "--tile", "10"]
@@ -144,7 +154,7 @@ class Interrupted(CliTest):
             if line.startswith("{"):
                 break
         self.stop(process, signal.SIGINT)
-        whole, part = (read_pfm(self.folder / name)[2] for name in ["whole.pfm", "part.pfm"])
+        whole, part = (read_pfm(self.folder / name)[2] for name in ["whole.pfm", "part.partial.pfm"])
         wrong = [i for i, value in enumerate(part) if value not in (0, whole[i])]
         self.assertEqual(wrong, [])
 
@@ -156,7 +166,7 @@ class Interrupted(CliTest):
         process.communicate(timeout=20)
         self.assertIn(process.returncode, [130, -signal.SIGINT])
         for name in self.files():
-            self.assertEqual(name, "out.png")
+            self.assertEqual(name, "out.partial.png")
             png_chunks((self.folder / name).read_bytes())
 
     def test_stats_say_incomplete(self):

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/image/oiio_loader.h"
+#include "host/image/module_loader.h"
 
 #include <dlfcn.h>
 #include <signal.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
-
-#include "host/image/picture_format.h"
 
 #ifndef MIRRORBALL_MODULE_DIR
 #define MIRRORBALL_MODULE_DIR ""
@@ -21,13 +20,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct ModuleFile {
+    const char* name;
+    const char* advice;
+};
+
+constexpr ModuleFile exr_module{"libmirrorball_exr.so",
+                                "install libopenexr and mirrorball again, or use .png or .pfm"};
+constexpr ModuleFile openimageio_module{
+    "libmirrorball_oiio.so",
+    "install libopenimageio and mirrorball again, or use .png, .exr or .pfm"};
+
 struct LoadResult {
-    const oiio::Module* module = nullptr;
+    const module::Module* module = nullptr;
     std::string error;
 };
 
-/// Where the module may lie, in the order of trying.
-std::vector<fs::path> candidates() {
+/// Where a module may lie, in the order of trying.
+std::vector<fs::path> candidates(const char* name) {
     std::error_code error;
     const fs::path home = fs::read_symlink("/proc/self/exe", error).parent_path();
     std::vector<fs::path> directories;
@@ -39,7 +49,7 @@ std::vector<fs::path> candidates() {
         rest = colon == rest.npos ? std::string_view() : rest.substr(colon + 1);
         if (!directory.empty()) directories.push_back(home / directory);
     }
-    for (fs::path& directory : directories) directory /= "libmirrorball_oiio.so";
+    for (fs::path& directory : directories) directory /= name;
     return directories;
 }
 
@@ -60,62 +70,58 @@ class SignalsBlocked {
     sigset_t before_;
 };
 
-LoadResult load(const fs::path& file) {
-    const std::string advice = "; install libopenimageio and mirrorball again, or use .pfm";
-    // Never closed: OpenImageIO's own destructors run when the program ends.
+LoadResult load(const fs::path& file, const ModuleFile& wanted) {
+    const std::string advice = std::string("; ") + wanted.advice;
+    // Never closed: destructors of the libraries run when the program ends.
     void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) {
         const char* reason = ::dlerror();
         return {nullptr, std::string(reason == nullptr ? file.c_str() : reason) +
                              ": cannot load the image library" + advice};
     }
-    const auto entry = reinterpret_cast<oiio::EntryPoint>(::dlsym(handle, oiio::entry_point_name));
-    const oiio::Module* module = entry == nullptr ? nullptr : entry();
-    if (module == nullptr || module->version != oiio::interface_version) {
+    const auto entry =
+        reinterpret_cast<module::EntryPoint>(::dlsym(handle, module::entry_point_name));
+    const module::Module* found = entry == nullptr ? nullptr : entry();
+    if (found == nullptr || found->version != module::interface_version) {
         return {nullptr, file.string() + ": belongs to another version of mirrorball" + advice};
     }
-    return {module, {}};
+    return {found, {}};
 }
 
-LoadResult find_and_load() {
+LoadResult find_and_load(const ModuleFile& wanted) {
     const SignalsBlocked blocked;
     std::string tried;
-    for (const fs::path& file : candidates()) {
+    for (const fs::path& file : candidates(wanted.name)) {
         std::error_code error;
-        if (fs::exists(file, error)) return load(file);
+        if (fs::exists(file, error)) return load(file, wanted);
         tried += (tried.empty() ? "" : ", ") + file.string();
     }
-    return {nullptr, tried +
-                         ": no such file, needed for every picture but .pfm; install "
-                         "mirrorball again, or use .pfm"};
+    return {nullptr, tried + ": no such file; " + wanted.advice};
+}
+
+/// OpenImageIO brings OpenBLAS along, which would start a thread for each core while it is loaded.
+LoadResult find_and_load_openimageio() {
+    ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
+    return find_and_load(openimageio_module);
 }
 
 /// Loaded by whoever comes first; all others wait.
-const LoadResult& loaded() {
-    static const LoadResult result = find_and_load();
+const LoadResult& loaded_exr() {
+    static const LoadResult result = find_and_load(exr_module);
+    return result;
+}
+
+const LoadResult& loaded_openimageio() {
+    static const LoadResult result = find_and_load_openimageio();
     return result;
 }
 
 }  // namespace
 
-const oiio::Module& image_library(ExitCode failure) {
-    const LoadResult& result = loaded();
+const module::Module& picture_module(PictureFormat format, ExitCode failure) {
+    const LoadResult& result = format == PictureFormat::exr ? loaded_exr() : loaded_openimageio();
     if (result.module == nullptr) throw Error(failure, result.error);
     return *result.module;
-}
-
-ImageLibraryLoading::~ImageLibraryLoading() {
-    if (thread_.joinable()) thread_.join();
-}
-
-void ImageLibraryLoading::begin_for(const std::string& picture_path) {
-    if (thread_.joinable() || picture_path.empty()) return;
-    if (!needs_image_library(picture_format_of_name(picture_path))) return;
-    try {
-        thread_ = std::thread([] { loaded(); });
-    } catch (const std::system_error&) {
-        // No thread to be had: image_library loads it when it is asked for.
-    }
 }
 
 }  // namespace rt

@@ -4,20 +4,22 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The border between the program and libmirrorball_oiio.so, the only part that links
-/// OpenImageIO. Plain C on purpose: no exception and no owned memory crosses it. Functions return
-/// 1 for success; 0 leaves a sentence in `error`, or nothing when a callback asked to stop.
-namespace rt::oiio {
+/// The border between the program and its picture modules: libmirrorball_exr.so, which links
+/// OpenEXR, and libmirrorball_oiio.so, which links OpenImageIO. Plain C on purpose: no exception
+/// and no owned memory crosses it. Functions return 1 for success; 0 leaves a sentence in
+/// `error`, or nothing when a callback asked to stop.
+namespace rt::module {
 
 /// Raised whenever anything below changes; the program refuses a module of another version.
-constexpr std::uint32_t interface_version = 1;
-constexpr const char* entry_point_name = "mirrorball_oiio_module";
+constexpr std::uint32_t interface_version = 2;
+constexpr const char* entry_point_name = "mirrorball_picture_module";
 
 struct EncodeRequest {
-    const char* format;  // OpenImageIO's name: "png" (8-bit pixels) or "openexr" (32-bit float)
+    const char* format;  // OpenImageIO's name, such as "jpeg"
     int width;
     int height;
     int channels;
+    int is_float;             // pixels of 32-bit float, else of 8 bits
     const void* pixels;       // row 0 on top, interleaved
     const char* color_space;  // what the file declares, OpenImageIO's word; null for nothing
     std::size_t attribute_count;
@@ -28,7 +30,8 @@ struct EncodeRequest {
 /// Callbacks must not throw; 0 stops the module.
 struct ByteSink {
     void* context;
-    int (*append)(void* context, const unsigned char* bytes, std::size_t count);
+    /// Puts bytes at a place in the file, over what is there.
+    int (*write)(void* context, std::uint64_t place, const unsigned char* bytes, std::size_t count);
 };
 
 /// Called in this order: header once, attribute for each text, rows until the picture is whole.
@@ -50,7 +53,7 @@ struct Module {
     int (*decode)(const char* path, const char* format, const PictureSink* sink, ErrorText error);
 };
 
-/// The type of the one symbol the module exports.
+/// The type of the one symbol a module exports.
 using EntryPoint = const Module* (*)();
 
-}  // namespace rt::oiio
+}  // namespace rt::module

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
+#include "host/image/exr_reader.h"
+#include "host/image/exr_writer.h"
+#include "host/image/module_guard.h"
+
+namespace rt::module {
+namespace {
+
+int encode(const EncodeRequest* request, const ByteSink* sink, ErrorText error) {
+    return guarded(error, [&] { return encode_exr(*request, *sink); });
+}
+
+int decode(const char* path, const char* /*format*/, const PictureSink* sink, ErrorText error) {
+    return guarded(error, [&] { return decode_exr(path, *sink); });
+}
+
+}  // namespace
+}  // namespace rt::module
+
+extern "C" __attribute__((visibility("default"))) const rt::module::Module*
+mirrorball_picture_module() {
+    static constexpr rt::module::Module module{rt::module::interface_version, rt::module::encode,
+                                               rt::module::decode};
+    return &module;
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/image/picture_module.h"
+
+namespace rt::module {
+
+/// Reads the first part of an OpenEXR file as floats, colors first. 0 when the sink stopped it;
+/// throws std::exception for all that is wrong with the file.
+int decode_exr(const char* path, const PictureSink& sink);
+
+}  // namespace rt::module

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/temporary_file.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <mutex>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include "host/image/output_path.h"
+
+namespace rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view prefix = ".mirrorball-";
+constexpr std::string_view suffix = ".tmp";
+
+/// Takes the lock of a file just created; whether the file is still there. Who looks for abandoned
+/// files may have come first. Where the file system knows no locks, nobody removes anything.
+bool lock_new_file(int file) {
+    while (::flock(file, LOCK_EX) != 0 && errno == EINTR) {
+    }
+    struct stat status {};
+    return ::fstat(file, &status) == 0 && status.st_nlink > 0;
+}
+
+/// The process that a temporary file's name says it is of; 0 for other names.
+pid_t process_of(std::string_view name) {
+    if (!name.starts_with(prefix) || !name.ends_with(suffix)) return 0;
+    pid_t process = 0;
+    const char* first = name.data() + prefix.size();
+    const auto [end, error] = std::from_chars(first, name.data() + name.size(), process);
+    return error == std::errc() && process > 0 && *end == '-' ? process : 0;
+}
+
+bool is_running(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
+
+/// Whoever gets the lock of a file removes it while holding the lock.
+void remove_if_abandoned(const fs::path& file) {
+    const OpenFile open(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status {};
+    if (open.number() < 0 || ::fstat(open.number(), &status) != 0) return;
+    if (!S_ISREG(status.st_mode) || status.st_uid != ::geteuid()) return;
+    if (::flock(open.number(), LOCK_EX | LOCK_NB) == 0) ::unlink(file.c_str());
+}
+
+bool first_time(const fs::path& directory) {
+    static std::mutex mutex;
+    static std::set<std::string> seen;
+    const std::scoped_lock lock(mutex);
+    return seen.insert(directory.string()).second;
+}
+
+}  // namespace
+
+OpenFile::~OpenFile() {
+    if (number_ >= 0) ::close(number_);
+}
+
+bool OpenFile::close() { return ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
+
+TemporaryFile::TemporaryFile(const std::string& path, const fs::path& directory) {
+    static std::atomic<unsigned> serial{0};  // two threads may write at once
+    const std::string start = std::string(prefix) + std::to_string(::getpid()) + "-";
+    for (int attempt = 0; attempt < 1000; ++attempt) {
+        const std::string name =
+            (directory / (start + std::to_string(serial++) + std::string(suffix))).string();
+        OpenFile file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+        if (file.number() < 0 && errno != EEXIST && errno != EINTR) fail_to_write(path, errno);
+        if (file.number() < 0 || !lock_new_file(file.number())) continue;
+        name_ = name;
+        file_ = std::move(file);
+        return;
+    }
+    fail_to_write(path, EEXIST);
+}
+
+TemporaryFile::~TemporaryFile() {
+    if (!name_.empty()) ::unlink(name_.c_str());
+}
+
+bool TemporaryFile::rename_to(const fs::path& name) {
+    // Renamed while the lock is held: nobody takes it for abandoned in between.
+    const OpenFile lock(::dup(file_.number()));
+    if (!file_.close() || ::rename(name_.c_str(), name.c_str()) != 0) return false;
+    name_.clear();
+    return true;
+}
+
+void remove_abandoned_temporaries(const fs::path& directory) {
+    if (!first_time(directory)) return;
+    std::error_code error;
+    for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const pid_t process = process_of(entry->path().filename().native());
+        if (process != 0 && !is_running(process)) remove_if_abandoned(entry->path());
+    }
+}
+
+}  // namespace rt

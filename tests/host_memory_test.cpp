@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "host/memory_limit.h"
+#include "tests/picture_files.h"
+#include "tests/refusals.h"
+
+namespace rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t mib = 1 << 20;
+
+/// A system of files, as far as free memory is told in them.
+class FreeMemoryTest : public ScratchFolder {
+   protected:
+    FreeMemoryTest() {
+        write("proc/meminfo", "MemTotal: 8388608 kB\nMemAvailable:  4194304 kB\nBuffers: 1 kB\n");
+        write("proc/self/statm", "100 10 10 1 0 1 0\n");
+    }
+
+    void write(const std::string& name, const std::string& text) {
+        fs::create_directories(fs::path(path(name)).parent_path());
+        put(path(name), text);
+    }
+
+    void group(const std::string& name, const std::string& limit, std::uint64_t usage,
+               std::uint64_t cache) {
+        write(name + "/memory.max", limit + "\n");
+        write(name + "/memory.current", std::to_string(usage) + "\n");
+        write(name + "/memory.stat", "anon 1\ninactive_file " + std::to_string(cache) + "\n");
+    }
+
+    FreeMemory free() const { return free_memory(directory_.string()); }
+};
+
+TEST_F(FreeMemoryTest, IsWhatTheMachineHas) {
+    EXPECT_EQ(free().bytes, 4096 * mib);
+    EXPECT_EQ(free().reason, "are free");
+}
+
+TEST_F(FreeMemoryTest, IsWhatTheContainerLeaves) {
+    write("proc/self/cgroup", "0::/\n");
+    group("sys/fs/cgroup", std::to_string(512 * mib), 200 * mib, 100 * mib);
+    EXPECT_EQ(free().bytes, 412 * mib);
+    EXPECT_NE(free().reason.find("cgroup"), std::string::npos);
+    group("sys/fs/cgroup", std::to_string(100 * mib), 200 * mib, 50 * mib);
+    EXPECT_EQ(free().bytes, 0u);
+    group("sys/fs/cgroup", "max", 200 * mib, 0);
+    EXPECT_EQ(free().bytes, 4096 * mib);
+}
+
+TEST_F(FreeMemoryTest, IsWhatTheTightestGroupLeaves) {
+    write("proc/self/cgroup", "0::/jobs/job 7/step\n");
+    group("sys/fs/cgroup/jobs", std::to_string(900 * mib), 300 * mib, 0);
+    group("sys/fs/cgroup/jobs/job 7", std::to_string(500 * mib), 100 * mib, 0);
+    group("sys/fs/cgroup/jobs/job 7/step", "max", 100 * mib, 0);
+    EXPECT_EQ(free().bytes, 400 * mib);
+}
+
+TEST_F(FreeMemoryTest, KnowsTheFirstVersionOfGroups) {
+    write("proc/self/cgroup", "12:cpu,cpuacct:/x\n4:memory:/docker/abc\n0::/x\n");
+    const std::string top = "sys/fs/cgroup/memory/";  // the container sees its own group on top
+    write(top + "memory.limit_in_bytes", std::to_string(300 * mib));
+    write(top + "memory.usage_in_bytes", std::to_string(100 * mib));
+    write(top + "memory.stat", "inactive_file 1\ntotal_inactive_file " + std::to_string(20 * mib));
+    EXPECT_EQ(free().bytes, 220 * mib);
+}
+
+TEST_F(FreeMemoryTest, IsUnlimitedWhereNothingTells) {
+    EXPECT_EQ(free_memory("/nowhere").bytes, std::numeric_limits<std::uint64_t>::max());
+}
+
+TEST(CheckMemory, NamesTheBufferItsBytesAndTheWayOut) {
+    check_memory(1, "a pixel", "nothing");
+    const auto [code, message] =
+        refusal_of([] { check_memory(std::uint64_t{1} << 60, "the film", "use --crop"); });
+    EXPECT_EQ(code, ExitCode::limit);
+    EXPECT_EQ(message.find("the film needs 1099511627776 MiB of memory and "), 0u) << message;
+    EXPECT_NE(message.find("; use --crop"), message.npos) << message;
+}
+
+}  // namespace
+}  // namespace rt
