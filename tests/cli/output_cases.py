@@ -111,7 +111,7 @@ class OverInputs(CliTest):
         self.refuse("render", scene_path(SCENE), "--reference", "a.png", "-o", "./a.png",
                     files=["a.png"])
         for option in ["--heatmap", "--json"]:
-            self.refuse("compare", "a.png", "a.png", option, "a.png", files=["a.png"])
+            self.refuse("compare", "a.png", "a.png", f"{option}=a.png", files=["a.png"])
 
     def test_baseline_of_bench(self):
         self.write_text("old.json", '{\n  "format": "mirrorball-bench"')
