@@ -40,6 +40,7 @@ bool is_one_way(Reals v, Mask live, bool* positive) {
 
 Traversal begin_traversal(const Ray* ray, Mask live) {
     Traversal traversal;
+    traversal.size = 0;
     if (RT_HAS_HIERARCHY) {
         real3 inverse = make3(finite_inverse(ray->dir.x), finite_inverse(ray->dir.y),
                               finite_inverse(ray->dir.z));

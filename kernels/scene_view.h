@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene as device functions see it: the buffers and the frame, gathered once in the entry
+// The scene as device functions see it: the arrays and the frame, gathered once in the entry
 // point.
 #ifndef RT_SCENE_VIEW_H
 #define RT_SCENE_VIEW_H
@@ -8,16 +8,11 @@
 #include "kernels/features.h"
 #include "kernels/lanes.h"
 
+// With hierarchies, order[i] is the number that primitive i had in the scene's own order; casters
+// lists each light's triangles that can cast a shadow.
+#define RT_SCENE_FIELD(type, name, what) __global const type* name;
 typedef struct {
-    __global const Sphere* spheres;
-    __global const Cone* cones;
-    __global const Triangle* triangles;
-    __global const VertexNormals* vertex_normals;
-    __global const Material* materials;
-    __global const Light* lights;
-    __global const BvhNode* nodes;
-    __global const Index* listed;   // with hierarchies: the number each primitive was listed under
-    __global const Index* casters;  // of each light's shadows: triangles
+    RT_SCENE_ARRAYS(RT_SCENE_FIELD)
     Frame frame;
 } SceneView;
 

@@ -29,7 +29,7 @@ Index listed_number(const SceneView* scene, Index prim) {
     if (!RT_HAS_HIERARCHY) return prim;
     bool reordered =
         (scene->frame.sphere_root | scene->frame.cone_root | scene->frame.triangle_root) != 0;
-    return reordered ? scene->listed[prim] : prim;
+    return reordered ? scene->order[prim] : prim;
 }
 
 // Takes note of primitive prim, which the lines of some lanes meet at t (behind the origin,

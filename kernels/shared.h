@@ -138,6 +138,18 @@ typedef struct {
     RT_COUNT shadow, mirror, transmitted;
 } RayCounts;
 
+// The arrays of a scene, X(type, name, what), in the order of a kernel's arguments.
+#define RT_SCENE_ARRAYS(X)                                 \
+    X(Sphere, spheres, "the spheres")                      \
+    X(Cone, cones, "the cones")                            \
+    X(Triangle, triangles, "the triangles")                \
+    X(VertexNormals, vertex_normals, "the vertex normals") \
+    X(Material, materials, "the materials")                \
+    X(Light, lights, "the lights")                         \
+    X(BvhNode, nodes, "the hierarchy")                     \
+    X(Index, order, "the primitives' order")               \
+    X(Index, casters, "the shadow casters")
+
 enum { RT_NONE = -1 };
 
 // What a ray leaves that starts at an eye on some surface (Frame::eye_on_surface).

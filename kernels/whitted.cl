@@ -18,6 +18,10 @@
 #include "kernels/camera.cl"
 #include "kernels/shade.cl"
 
+#ifndef RT_OUT_OF_LINE  // native.cl compiles the tracer once for all its entry points
+#define RT_OUT_OF_LINE
+#endif
+
 // The mirror ray at a surface. Where a blended normal would send it under the surface, it is
 // reflected about the geometric normal instead.
 Ray mirror_ray(const Surface* surface, real3 dir, Indices prim) {
@@ -156,7 +160,7 @@ bool resume(Path* path, Pending* pending) {
 }
 
 // The colours seen along the rays of the live lanes.
-real3 trace_path(const SceneView* scene, Ray ray, Mask live, PacketCounts* counts) {
+RT_OUT_OF_LINE real3 trace_path(const SceneView* scene, Ray ray, Mask live, PacketCounts* counts) {
     real3 color = make3((Reals)0, (Reals)0, (Reals)0);
     Path path = {ray, make3((Reals)1, (Reals)1, (Reals)1), live, 0};
     Pending pending;

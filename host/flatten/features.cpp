@@ -9,6 +9,14 @@ Features no_features() {
     return features;
 }
 
+Features features_of(int bits) {
+    Features features;
+    for (std::size_t i = 0; i < feature_names.size(); ++i) {
+        features.*feature_names[i].flag = (bits >> i & 1) != 0;
+    }
+    return features;
+}
+
 Features either_of(const Features& a, const Features& b) {
     Features features;
     for (const FeatureName& feature : feature_names) {

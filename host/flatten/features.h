@@ -51,6 +51,9 @@ inline constexpr std::array<FeatureName, 12> feature_names{{
 /// Nothing at all.
 Features no_features();
 
+/// Those whose bits are set: the first of feature_names is bit 0 (RT_FEATURE_BITS).
+Features features_of(int bits);
+
 /// What either has.
 Features either_of(const Features& a, const Features& b);
 

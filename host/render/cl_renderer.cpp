@@ -219,24 +219,27 @@ class ClRenderer : public Renderer<T> {
         nothing.width = 1;  // kernels divide by the width
         launch(nothing, cl::Buffer());
         if (options.will_refine) {
-            listed_ = cl::Kernel(program, "render_listed");
-            launch_listed({}, frame_, cl::Buffer(), cl::Buffer());
+            list_ = cl::Kernel(program, "render_list");
+            launch_list({}, frame_, cl::Buffer(), cl::Buffer());
         }
         queue_.finish();
         times_.build = watch.seconds();
         times_.build_cache = is_pocl ? pocl_build_since(start) : BuildCache::unknown;
     }
 
+    /// All arguments that stay for a picture; the tile's comes next.
     void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::Frame& frame) {
         kernel.setArg(1, counts_);
-        kernel.setArg(scene_->set_arguments(kernel, 2), frame);
+        const cl_uint frame_argument = scene_->set_arguments(kernel, 2);
+        kernel.setArg(frame_argument, frame);
+        tile_argument_ = frame_argument + 1;
     }
 
     /// Enqueues the kernels of one tile.
     std::vector<cl::Event> launch(const FlatTile& tile, const cl::Buffer& film) {
         std::vector<cl::Event> events(launch_samples_ ? 2 : 1);
         render_.setArg(0, launch_samples_ ? samples_ : film);
-        render_.setArg(12, tile);
+        render_.setArg(tile_argument_, tile);
         const PacketShape packet = shape(samples());
         const std::size_t rounds =
             launch_samples_ ? samples() / static_cast<std::size_t>(packet.samples) : 1;
@@ -250,15 +253,15 @@ class ClRenderer : public Renderer<T> {
         return events;
     }
 
-    cl::Event launch_listed(const FlatTile& tile, const typename Flat<T>::Frame& frame,
+    cl::Event launch_list(const FlatTile& tile, const typename Flat<T>::Frame& frame,
                             const cl::Buffer& colors, const cl::Buffer& list) {
-        set_scene_arguments(listed_, frame);
-        listed_.setArg(0, colors);
-        listed_.setArg(12, tile);
-        listed_.setArg(13, list);
+        set_scene_arguments(list_, frame);
+        list_.setArg(0, colors);
+        list_.setArg(tile_argument_, tile);
+        list_.setArg(tile_argument_ + 1, list);
         const PacketShape packet = packet_shape(lanes_, static_cast<int>(frame.samples), lanes_);
         cl::Event event;
-        enqueue(listed_,
+        enqueue(list_,
                 divided_up(static_cast<std::size_t>(tile.width),
                            static_cast<std::size_t>(packet.pixels())),
                 event);
@@ -277,7 +280,7 @@ class ClRenderer : public Renderer<T> {
         frame.samples = grid * grid;
         FlatTile tile = flat_tile<T>(region, region);
         tile.width = static_cast<typename Flat<T>::Index>(pixels.size());
-        const cl::Event event = launch_listed(tile, frame, colors, list);
+        const cl::Event event = launch_list(tile, frame, colors, list);
         std::vector<T> result(pixels.size() * 3);
         queue_.enqueueReadBuffer(colors, CL_TRUE, 0, bytes, result.data());
         times_.kernel += device_seconds(event);
@@ -337,9 +340,10 @@ class ClRenderer : public Renderer<T> {
     LaunchPacer pacer_;
     cl::Context context_;
     cl::CommandQueue queue_;
-    cl::Kernel render_, resolve_, listed_;
+    cl::Kernel render_, resolve_, list_;
     std::unique_ptr<ClScene<T>> scene_;
     cl::Buffer counts_, samples_;
+    cl_uint tile_argument_ = 0;
     std::size_t used_slots_ = 0;  ///< of counts_, so far
     std::uint64_t primary_ = 0;
     RayCounts counted_;

@@ -16,15 +16,9 @@ ClScene<T>::ClScene(const FlatScene<T>& scene, const cl::Context& context,
         if (bytes > 0) queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, items.data());
         lists_.push_back(std::move(buffer));
     };
-    upload(scene.spheres, "the spheres");
-    upload(scene.cones, "the cones");
-    upload(scene.triangles, "the triangles");
-    upload(scene.vertex_normals, "the vertex normals");
-    upload(scene.materials, "the materials");
-    upload(scene.lights, "the lights");
-    upload(scene.nodes, "the hierarchy");
-    upload(scene.order, "the primitives' numbers");
-    upload(scene.casters, "the casters of shadows");
+#define RT_UPLOAD(type, name, what) upload(scene.name, what);
+    RT_SCENE_ARRAYS(RT_UPLOAD)
+#undef RT_UPLOAD
 }
 
 template <typename T>

@@ -2,97 +2,35 @@
 #include "host/render/threads_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "host/memory_limit.h"
 #include "host/parallel.h"
+#include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
-#include "host/trace/whitted.h"
 
 namespace rt {
 
 namespace {
 
-template <typename T>
-void store3(std::vector<T>& rgb, typename Flat<T>::Index pixel, const Vec3<T>& color) {
-    const std::size_t at = 3 * static_cast<std::size_t>(pixel);
-    rgb[at] = color.x;
-    rgb[at + 1] = color.y;
-    rgb[at + 2] = color.z;
-}
-
-/// Calls body(x, y, film index) for each pixel of the tile, with y counted from the bottom.
-template <typename T, typename Body>
-void for_each_pixel(const typename Flat<T>::Tile& tile, typename Flat<T>::Index picture_height,
-                    const Body& body) {
-    using Index = typename Flat<T>::Index;
-    for (Index row = 0; row < tile.height; ++row) {
-        for (Index column = 0; column < tile.width; ++column) {
-            body(tile.x + column, picture_height - 1 - (tile.y + row),
-                 tile.first + row * tile.film_width + column);
-        }
-    }
-}
-
-/// Twin of trace_pixel in kernels/render.cl.
-template <typename T>
-Vec3<T> trace_pixel(const trace::SceneView<T>& scene, typename Flat<T>::Index x,
-                    typename Flat<T>::Index y, RayCounts& counts) {
-    Vec3<T> sum(T(0));
-    T total = 0;
-    for (typename Flat<T>::Index k = 0; k < scene.frame.samples; ++k) {
-        const T weight = trace::sample_weight<T>(scene.frame, x, y, k);
-        sum = trace::add_scaled(sum, weight, trace::trace_sample(scene, x, y, k, counts));
-        total += weight;
-    }
-    return sum / total;
-}
-
-template <typename T>
-RayCounts render_pixels(const trace::SceneView<T>& scene, const typename Flat<T>::Tile& tile,
-                        std::vector<T>& rgb) {
-    using Index = typename Flat<T>::Index;
-    RayCounts counts;
-    for_each_pixel<T>(tile, scene.frame.height, [&](Index x, Index y, Index pixel) {
-        store3(rgb, pixel, trace_pixel(scene, x, y, counts));
-    });
-    return counts;
-}
-
-/// Twin of render_listed in kernels/render.cl.
-template <typename T>
-RayCounts refine_pixels(const trace::SceneView<T>& scene, std::span<const std::int32_t> pixels,
-                        const Rect& region, std::vector<T>& rgb) {
-    RayCounts counts;
-    for (const std::int32_t pixel : pixels) {
-        const int column = pixel % region.width, row = pixel / region.width;
-        store3(rgb, typename Flat<T>::Index{pixel},
-               trace_pixel<T>(scene, region.x + column, scene.frame.height - 1 - (region.y + row),
-                              counts));
-    }
-    return counts;
-}
-
-/// One sample of each of the tile's pixels, into a buffer of its own.
-template <typename T>
-RayCounts render_sample(const trace::SceneView<T>& scene, const typename Flat<T>::Tile& tile,
-                        typename Flat<T>::Index k, std::vector<T>& rgb) {
-    using Index = typename Flat<T>::Index;
-    RayCounts counts;
-    for_each_pixel<T>(tile, scene.frame.height, [&](Index x, Index y, Index pixel) {
-        store3(rgb, pixel, trace::trace_sample(scene, x, y, k, counts));
-    });
-    return counts;
-}
-
 /// Pixels that a thread takes at once when refining.
 constexpr std::size_t refine_run = 64;
+
+RayCounts rays_of(const f32::RayCounts& counts, std::uint64_t primary) {
+    return {primary, counts.shadow, counts.mirror, counts.transmitted};
+}
+RayCounts rays_of(const f64::RayCounts& counts, std::uint64_t primary) {
+    return {primary, counts.shadow, counts.mirror, counts.transmitted};
+}
 
 template <typename T>
 class ThreadsRenderer : public Renderer<T> {
    public:
     ThreadsRenderer(const FlatScene<T>& scene, const ThreadsOptions& options)
-        : scene_(scene), options_(options) {}
+        : options_(options),
+          kernels_(native_kernels_for(scene, options)),
+          view_(native_view(scene)) {}
 
     Rect tile_size(int) const override { return {0, 0, 32, 32}; }
 
@@ -108,17 +46,17 @@ class ThreadsRenderer : public Renderer<T> {
     void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
                 const Rect& region, Film<T>& film) override {
         const Stopwatch watch;
-        trace::SceneView<T> view = trace::view_of(scene_);
+        NativeView<T> view = view_;
         view.frame.grid = grid;
         view.frame.samples = grid * grid;
         std::atomic<std::size_t> next = 0;
-        run_on_threads(thread_count({options_.threads, Schedule::tiles}, 1), [&](int) {
+        const int threads = options_.threads > 0 ? options_.threads : available_cores();
+        run_on_threads(threads, [&](int) {
             for (;;) {
                 const std::size_t at = next.fetch_add(refine_run);
                 if (at >= pixels.size()) return;
-                queue.add_rays(refine_pixels(
-                    view, pixels.subspan(at, std::min(refine_run, pixels.size() - at)), region,
-                    film.rgb));
+                refine_some(pixels.subspan(at, std::min(refine_run, pixels.size() - at)), view,
+                            queue, region, film);
             }
         });
         times_.trace += watch.seconds();
@@ -127,68 +65,129 @@ class ThreadsRenderer : public Renderer<T> {
     RendererTimes times() const override { return times_; }
 
    private:
-    int samples() const { return static_cast<int>(scene_.frame.samples); }
+    using Index = typename Flat<T>::Index;
+    using FlatTile = typename Flat<T>::Tile;
+    using FlatCounts = typename Flat<T>::RayCounts;
+
+    /// Packets of a launch: rows of them over a tile.
+    struct PacketGrid {
+        Index across, down;  ///< packets
+        Index rows;          ///< pixels in a packet's column
+
+        PacketGrid(const FlatTile& tile, const PacketShape& shape)
+            : across((tile.width + shape.width - 1) / shape.width),
+              down((tile.height + shape.height - 1) / shape.height),
+              rows(shape.height) {}
+    };
+
+    int samples() const { return static_cast<int>(view_.frame.samples); }
+
+    /// Calls work(first, end) for the packets of each row until the queue is stopped. Pixels whose
+    /// rows were worked on.
+    template <typename Work>
+    std::uint64_t for_each_row(const PacketGrid& grid, const FlatTile& tile, const TileQueue& queue,
+                               const Work& work) const {
+        for (Index row = 0; row < grid.down; ++row) {
+            if (queue.stopped()) return static_cast<std::uint64_t>(row * grid.rows * tile.width);
+            work(row * grid.across, (row + 1) * grid.across);
+        }
+        return static_cast<std::uint64_t>(tile.height * tile.width);
+    }
 
     void render_tiles(TileQueue& queue, const Rect& region, Film<T>& film) {
         const Stopwatch watch;
-        const trace::SceneView<T> view = trace::view_of(scene_);
+        const PacketShape shape = packet_shape(kernels_.lanes, samples());
         run_on_threads(thread_count(options_, samples()), [&](int) {
-            while (const auto tile = queue.next()) {
-                queue.add_rays(render_pixels<T>(view, flat_tile<T>(*tile, region), film.rgb));
-                queue.finish(*tile);
+            while (const auto rect = queue.next()) {
+                const FlatTile tile = flat_tile<T>(*rect, region);
+                FlatCounts counts{};
+                const std::uint64_t pixels =
+                    for_each_row(PacketGrid(tile, shape), tile, queue, [&](Index first, Index end) {
+                        kernels_.render_pixels(film.rgb.data(), &counts, &view_, &tile, first, end);
+                    });
+                queue.add_rays(rays_of(counts, pixels * static_cast<std::uint64_t>(samples())));
+                if (pixels == static_cast<std::uint64_t>(rect->pixels())) queue.finish(*rect);
             }
         });
         times_.trace = watch.seconds();
     }
 
-    /// The paper's schedule. A tile is finished once every buffer has it.
+    /// Renders the pixels with the view's grid of samples.
+    void refine_some(std::span<const std::int32_t> pixels, const NativeView<T>& view,
+                     TileQueue& queue, const Rect& region, Film<T>& film) const {
+        std::array<T, 3 * refine_run> colors;
+        FlatTile tile = flat_tile<T>(region, region);
+        tile.width = static_cast<Index>(pixels.size());
+        FlatCounts counts{};
+        const int held =
+            packet_shape(kernels_.lanes, static_cast<int>(view.frame.samples), kernels_.lanes)
+                .pixels();
+        kernels_.render_list(colors.data(), &counts, &view, &tile, pixels.data(), 0,
+                             (tile.width + held - 1) / held);
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            std::copy_n(colors.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                        film.rgb.begin() + std::ptrdiff_t{3} * pixels[i]);
+        }
+        queue.add_rays(
+            rays_of(counts, pixels.size() * static_cast<std::uint64_t>(view.frame.samples)));
+    }
+
+    /// The paper's schedule: a thread renders whole sample buffers, which are averaged at the end.
+    /// A tile is finished once every buffer has it. Its part of all buffers lies together.
     void render_buffers(TileQueue& queue, const Rect& region, Film<T>& film) {
         Stopwatch watch;
-        const trace::SceneView<T> view = trace::view_of(scene_);
-        check_memory(static_cast<std::uint64_t>(samples()) * film.rgb.size() * sizeof(T),
-                     "a buffer for each sample", "use --schedule tiles or fewer samples");
-        std::vector<std::vector<T>> buffers(static_cast<std::size_t>(samples()),
-                                            std::vector<T>(film.rgb.size()));
-        std::vector<std::atomic<int>> missing(queue.tiles().size());
+        const auto all = static_cast<std::size_t>(samples());
+        check_memory(all * film.rgb.size() * sizeof(T), "a buffer for each sample",
+                     "use --schedule tiles or fewer samples");
+        std::vector<T> buffers(all * film.rgb.size());
+        const std::vector<Rect>& tiles = queue.tiles();
+        std::vector<std::size_t> begins;
+        for (std::size_t at = 0; const Rect& tile : tiles) {
+            begins.push_back(at);
+            at += all * 3 * static_cast<std::size_t>(tile.pixels());
+        }
+        std::vector<std::atomic<int>> missing(tiles.size());
         for (auto& count : missing) count = samples();
         std::atomic<int> next_buffer = 0;
         run_on_threads(thread_count(options_, samples()), [&](int) {
             for (int k = next_buffer++; k < samples(); k = next_buffer++) {
-                for (std::size_t i = 0; i < missing.size() && !queue.stopped(); ++i) {
-                    const auto tile = flat_tile<T>(queue.tiles()[i], region);
-                    queue.add_rays(
-                        render_sample<T>(view, tile, k, buffers[static_cast<std::size_t>(k)]));
-                    if (--missing[i] == 0) queue.finish(queue.tiles()[i]);
+                for (std::size_t i = 0; i < tiles.size() && !queue.stopped(); ++i) {
+                    if (!render_sample(tiles[i], k, &buffers[begins[i]], queue, region)) break;
+                    if (--missing[i] == 0) queue.finish(tiles[i]);
                 }
             }
         });
         times_.trace = watch.lap();
-        for (std::size_t i = 0; i < missing.size(); ++i) {
-            if (missing[i] == 0) average(flat_tile<T>(queue.tiles()[i], region), buffers, film.rgb);
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            if (missing[i] == 0) average(tiles[i], &buffers[begins[i]], region, film);
         }
         times_.resolve = watch.lap();
     }
 
-    /// Twin of resolve_samples in kernels/render.cl.
-    void average(const typename Flat<T>::Tile& tile, const std::vector<std::vector<T>>& buffers,
-                 std::vector<T>& rgb) const {
-        using Index = typename Flat<T>::Index;
-        for_each_pixel<T>(tile, scene_.frame.height, [&](Index x, Index y, Index pixel) {
-            const std::size_t at = 3 * static_cast<std::size_t>(pixel);
-            Vec3<T> sum(T(0));
-            T total = 0;
-            for (std::size_t k = 0; k < buffers.size(); ++k) {
-                const T weight = trace::sample_weight<T>(scene_.frame, x, y, static_cast<Index>(k));
-                const Vec3<T> color(buffers[k][at], buffers[k][at + 1], buffers[k][at + 2]);
-                sum = trace::add_scaled(sum, weight, color);
-                total += weight;
-            }
-            store3(rgb, pixel, sum / total);
+    /// Sample k of a tile's pixels; false when stopped before the last.
+    bool render_sample(const Rect& rect, Index k, T* buffers, TileQueue& queue,
+                       const Rect& region) const {
+        const FlatTile tile = flat_tile<T>(rect, region);
+        const PacketGrid grid(tile, packet_shape(kernels_.lanes, 1));
+        const Index before = k * grid.across * grid.down;
+        FlatCounts counts{};
+        const std::uint64_t pixels = for_each_row(grid, tile, queue, [&](Index first, Index end) {
+            kernels_.render_samples(buffers, &counts, &view_, &tile, before + first, before + end);
         });
+        queue.add_rays(rays_of(counts, pixels));
+        return pixels == static_cast<std::uint64_t>(rect.pixels());
     }
 
-    const FlatScene<T>& scene_;
+    void average(const Rect& rect, const T* buffers, const Rect& region, Film<T>& film) const {
+        const FlatTile tile = flat_tile<T>(rect, region);
+        const PacketGrid grid(tile, packet_shape(kernels_.lanes, 1));
+        kernels_.resolve_samples(film.rgb.data(), buffers, &view_.frame, &tile, 0,
+                                 grid.across * grid.down);
+    }
+
     const ThreadsOptions options_;
+    const NativeKernels<T>& kernels_;
+    const NativeView<T> view_;
     RendererTimes times_;
 };
 
@@ -202,11 +201,28 @@ int thread_count(const ThreadsOptions& options, int samples) {
 }
 
 template <typename T>
+const NativeKernels<T>& native_kernels_for(const FlatScene<T>& scene,
+                                           const ThreadsOptions& options) {
+    NativeChoice choice;
+    choice.lanes = options.lanes;
+    choice.isa = options.isa;
+    if (!options.all_features) {
+        choice.features = either_of(scene.features, options.also);
+        if (!options.any_samples) choice.samples = static_cast<int>(scene.frame.samples);
+    }
+    return choose_native<T>(choice);
+}
+
+template <typename T>
 std::unique_ptr<Renderer<T>> make_threads_renderer(const FlatScene<T>& scene,
                                                    const ThreadsOptions& options) {
     return std::make_unique<ThreadsRenderer<T>>(scene, options);
 }
 
+template const NativeKernels<float>& native_kernels_for(const FlatScene<float>&,
+                                                        const ThreadsOptions&);
+template const NativeKernels<double>& native_kernels_for(const FlatScene<double>&,
+                                                         const ThreadsOptions&);
 template std::unique_ptr<Renderer<float>> make_threads_renderer(const FlatScene<float>&,
                                                                 const ThreadsOptions&);
 template std::unique_ptr<Renderer<double>> make_threads_renderer(const FlatScene<double>&,

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "host/flatten/flat_scene.h"
+#include "host/render/native_kernels.h"
 #include "host/render/renderer.h"
 
 namespace rt {
@@ -16,12 +18,23 @@ enum class Schedule {
 struct ThreadsOptions {
     int threads = 0;  ///< 0: all cores, or one a sample buffer with Schedule::buffers
     Schedule schedule = Schedule::tiles;
+    int lanes = 0;                  ///< rays of a packet: 1, 2, 4, 8 or 16; 0: a vector's
+    std::string isa;                ///< instruction set of the kernels; empty: the best here
+    bool all_features = false;      ///< run kernels that hold what the scene does not need, too
+    Features also = no_features();  ///< and these, needed or not
+    bool any_samples = false;       ///< run kernels for any number of samples
 };
 
 /// Threads that will run for these options and sampling.
 int thread_count(const ThreadsOptions& options, int samples);
 
-/// The baseline: plain scalar C++ on POSIX threads. The scene must outlive the renderer.
+/// The kernels that make_threads_renderer runs for these options.
+template <typename T>
+const NativeKernels<T>& native_kernels_for(const FlatScene<T>& scene,
+                                           const ThreadsOptions& options);
+
+/// The kernels on POSIX threads, compiled ahead of time; one ray at a time with lanes = 1. The
+/// scene must outlive the renderer. Throws as choose_native.
 template <typename T>
 std::unique_ptr<Renderer<T>> make_threads_renderer(const FlatScene<T>& scene,
                                                    const ThreadsOptions& options);

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/trace/ray_counts.h"
+#include "host/render/ray_counts.h"
 
 namespace rt {
 

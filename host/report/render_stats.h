@@ -11,7 +11,7 @@
 #include "host/render/renderer.h"
 #include "host/report/image_error.h"
 #include "host/scene/aa_mode.h"
-#include "host/trace/ray_counts.h"
+#include "host/render/ray_counts.h"
 
 namespace rt {
 

@@ -3,7 +3,7 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/flatten/flat_types.h"
-#include "host/trace/ray_counts.h"
+#include "host/render/ray_counts.h"
 
 // Twin of kernels/scene_view.h.
 namespace rt::trace {

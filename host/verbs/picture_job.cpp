@@ -121,9 +121,6 @@ class Job {
         if (choice.use_threads && options_.launch != Launch::automatic) {
             say("--launch is for OpenCL devices; threads ignore it");
         }
-        if (choice.use_threads && options_.lanes != 0) {
-            say("--lanes is for OpenCL devices; threads ignore it");
-        }
         if (!choice.use_threads && options_.schedule != Schedule::tiles) {
             say("--schedule is for --device threads; OpenCL devices ignore it");
         }
@@ -182,6 +179,11 @@ class Job {
         ThreadsOptions threads_options;
         threads_options.threads = threads > 0 ? threads : options_.threads;
         threads_options.schedule = options_.schedule;
+        threads_options.lanes = options_.lanes;
+        threads_options.all_features = options_.all_features;
+        threads_options.also = options_.also_features;
+        threads_options.any_samples = options_.any_samples;
+        stats_.device.lanes = native_kernels_for(scene_, threads_options).lanes;
         stats_.device.name = "threads";
         stats_.device.threads = thread_count(threads_options, stats_.aa.samples());
         stats_.device.schedule = options_.schedule == Schedule::tiles ? "tiles" : "buffers";

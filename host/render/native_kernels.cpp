@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/native_kernels.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "host/error.h"
+#include "native_table.h"
+
+// The entry points of every variant, as native.cl declares them.
+#define RT_DECLARE_NATIVE(T, name)                                                         \
+    extern "C" {                                                                           \
+    extern const int name##_traits[3];                                                     \
+    void name##_pixels(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,              \
+                       const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index);  \
+    void name##_samples(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,             \
+                        const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index); \
+    void name##_resolve(T*, const T*, const rt::Flat<T>::Frame*, const rt::Flat<T>::Tile*, \
+                        rt::Flat<T>::Index, rt::Flat<T>::Index);                           \
+    void name##_list(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                \
+                     const rt::Flat<T>::Tile*, const std::int32_t*, rt::Flat<T>::Index,    \
+                     rt::Flat<T>::Index);                                                  \
+    }
+#define RT_DECLARE_FLOAT(name, isa, lanes) RT_DECLARE_NATIVE(float, name)
+#define RT_DECLARE_DOUBLE(name, isa, lanes) RT_DECLARE_NATIVE(double, name)
+RT_NATIVE_FLOAT(RT_DECLARE_FLOAT)
+RT_NATIVE_DOUBLE(RT_DECLARE_DOUBLE)
+
+namespace rt {
+
+namespace {
+
+#define RT_NATIVE_ROW(name, isa, isa_lanes) \
+    {isa,                                   \
+     isa_lanes,                             \
+     features_of(name##_traits[0]),         \
+     name##_traits[1],                      \
+     name##_traits[2],                      \
+     name##_pixels,                         \
+     name##_samples,                        \
+     name##_resolve,                        \
+     name##_list},
+
+template <typename T>
+std::span<const NativeKernels<T>> all_kernels();
+
+template <>
+std::span<const NativeKernels<float>> all_kernels() {
+    static const NativeKernels<float> kernels[] = {RT_NATIVE_FLOAT(RT_NATIVE_ROW)};
+    return kernels;
+}
+
+template <>
+std::span<const NativeKernels<double>> all_kernels() {
+    static const NativeKernels<double> kernels[] = {RT_NATIVE_DOUBLE(RT_NATIVE_ROW)};
+    return kernels;
+}
+
+/// Of the levels of x86-64 (its psABI) what kernels can use.
+bool processor_has([[maybe_unused]] const std::string& isa) {
+#ifdef __x86_64__
+    if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) return false;
+    if (isa == "x86-64-v2") return true;
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") ||
+        !__builtin_cpu_supports("bmi") || !__builtin_cpu_supports("bmi2")) {
+        return false;
+    }
+    if (isa == "x86-64-v3") return true;
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+#else
+    return true;
+#endif
+}
+
+template <typename T>
+bool serves(const NativeKernels<T>& kernels, const NativeChoice& choice) {
+    const int lanes = choice.lanes == 0 ? kernels.isa_lanes : choice.lanes;
+    return kernels.isa == choice.isa && kernels.lanes == lanes &&
+           (kernels.samples == 0 || kernels.samples == choice.samples) &&
+           either_of(kernels.features, choice.features) == kernels.features;
+}
+
+}  // namespace
+
+template <typename T>
+NativeView<T> native_view(const FlatScene<T>& scene) {
+#define RT_NATIVE_DATA(type, name, what) scene.name.data(),
+    return {RT_SCENE_ARRAYS(RT_NATIVE_DATA) scene.frame};
+#undef RT_NATIVE_DATA
+}
+
+std::vector<std::string> native_isas() {
+    std::vector<std::string> isas;
+    for (const auto& kernels : all_kernels<float>()) {
+        const std::string isa = kernels.isa;
+        if (std::find(isas.begin(), isas.end(), isa) == isas.end() && processor_has(isa)) {
+            isas.push_back(isa);
+        }
+    }
+    return isas;
+}
+
+bool has_fast_fma(const std::string& isa) { return isa != "x86-64-v2"; }
+
+template <typename T>
+const NativeKernels<T>& choose_native(const NativeChoice& choice) {
+    const std::vector<std::string> isas = native_isas();
+    NativeChoice wanted = choice;
+    if (wanted.isa.empty() && !isas.empty()) wanted.isa = isas.front();
+    if (std::find(isas.begin(), isas.end(), wanted.isa) == isas.end()) {
+        throw Error(ExitCode::device,
+                    fmt::format("this processor cannot run the kernels{}; it can run those for: {}",
+                                wanted.isa.empty() ? "" : " for " + wanted.isa,
+                                isas.empty() ? "none" : fmt::format("{}", fmt::join(isas, ", "))));
+    }
+    for (const NativeKernels<T>& kernels : all_kernels<T>()) {
+        if (serves(kernels, wanted)) return kernels;
+    }
+    throw Error(ExitCode::usage,
+                fmt::format("no kernels for {} trace {} rays side by side; use --lanes 1 or auto",
+                            wanted.isa, wanted.lanes));
+}
+
+template NativeView<float> native_view(const FlatScene<float>&);
+template NativeView<double> native_view(const FlatScene<double>&);
+template const NativeKernels<float>& choose_native(const NativeChoice&);
+template const NativeKernels<double>& choose_native(const NativeChoice&);
+
+}  // namespace rt

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/flatten/features.h"
+#include "host/flatten/flat_scene.h"
+
+// The kernels as machine code, compiled ahead of time (cmake/native_kernels.cmake): what pthreads
+// run.
+namespace rt {
+
+/// A scene as the kernels see it; SceneView of kernels/scene_view.h. The flat scene must outlive
+/// it.
+template <typename T>
+struct NativeView {
+#define RT_NATIVE_FIELD(type, name, what) const typename Flat<T>::type* name;
+    RT_SCENE_ARRAYS(RT_NATIVE_FIELD)
+#undef RT_NATIVE_FIELD
+    typename Flat<T>::Frame frame;
+};
+
+template <typename T>
+NativeView<T> native_view(const FlatScene<T>& scene);
+
+/// One compilation of the kernels. The functions run work items first.. before end; what an item is
+/// stands in kernels/items.cl, their arguments in kernels/native/native.cl.
+template <typename T>
+struct NativeKernels {
+    using Index = typename Flat<T>::Index;
+    using Tile = typename Flat<T>::Tile;
+    using Counts = typename Flat<T>::RayCounts;
+    using View = NativeView<T>;
+
+    const char* isa;  ///< the instruction set: x86-64-v4..
+    int isa_lanes;    ///< numbers of T that a vector of it holds
+    Features features;
+    int lanes;    ///< rays of a packet
+    int samples;  ///< of a pixel, compiled in; 0: any number
+
+    void (*render_pixels)(T* film, Counts*, const View*, const Tile*, Index first, Index end);
+    void (*render_samples)(T* samples, Counts*, const View*, const Tile*, Index first, Index end);
+    void (*resolve_samples)(T* film, const T* samples, const typename Flat<T>::Frame*, const Tile*,
+                            Index first, Index end);
+    void (*render_list)(T* colors, Counts*, const View*, const Tile*, const std::int32_t* pixels,
+                        Index first, Index end);
+};
+
+/// Which kernels to run.
+struct NativeChoice {
+    int lanes = 0;      ///< 1, 2, 4, 8 or 16; 0: as many as a vector of this processor holds
+    std::string isa;    ///< an instruction set that native_isas names; empty: the best here
+    Features features;  ///< at least these
+    int samples = 0;    ///< of a pixel
+};
+
+/// The instruction sets that there are kernels for and that this processor has, the best first.
+std::vector<std::string> native_isas();
+
+/// Whether fma is one instruction there; else each is a call, with the same result.
+bool has_fast_fma(const std::string& isa);
+
+/// The leanest kernels with all that the choice asks for. Throws Error (ExitCode::device) where
+/// this processor cannot run the instruction set.
+template <typename T>
+const NativeKernels<T>& choose_native(const NativeChoice& choice);
+
+}  // namespace rt

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The entry points of pthreads: the same work items (kernels/items.cl) in loops, compiled ahead of
+// time to machine code (cmake/native_kernels.cmake). Each variant has a prefix of its own,
+// RT_NATIVE_NAME. The scene comes as a SceneView; counts is one slot, and added to.
+#define RT_OUT_OF_LINE __attribute__((noinline))
+
+#include "kernels/items.cl"
+
+#define RT_NATIVE(function) RT_JOIN(RT_NATIVE_NAME, function)
+
+// What this variant is (NativeVariant, host/render/native_kernels.h).
+__constant int RT_NATIVE(_traits)[] = {RT_FEATURE_BITS, RT_LANES, RT_SAMPLES};
+
+void RT_NATIVE(_pixels)(__global Real* film, __global RayCounts* counts, const SceneView* view,
+                        const Tile* tile, Index first, Index end) {
+    SceneView scene = *view;
+    for (Index item = first; item < end; ++item) {
+        add_counts(counts, 0, pixels_item(film, &scene, tile, item));
+    }
+}
+
+void RT_NATIVE(_samples)(__global Real* samples, __global RayCounts* counts, const SceneView* view,
+                         const Tile* tile, Index first, Index end) {
+    SceneView scene = *view;
+    for (Index item = first; item < end; ++item) {
+        add_counts(counts, 0, samples_item(samples, &scene, tile, item, 1));
+    }
+}
+
+void RT_NATIVE(_resolve)(__global Real* film, __global const Real* samples, const Frame* frame,
+                         const Tile* tile, Index first, Index end) {
+    for (Index item = first; item < end; ++item) resolve_item(film, samples, frame, tile, item);
+}
+
+void RT_NATIVE(_list)(__global Real* colors, __global RayCounts* counts, const SceneView* view,
+                      const Tile* tile, __global const int* pixels, Index first, Index end) {
+    SceneView scene = *view;
+    for (Index item = first; item < end; ++item) {
+        add_counts(counts, 0, list_item(colors, pixels, &scene, tile, item));
+    }
+}
