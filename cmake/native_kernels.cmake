@@ -21,7 +21,8 @@ set(NATIVE_KERNEL_FLAGS -x cl -cl-std=CL1.2 -cl-no-stdinc
 
 # Each instruction set: its flags, and how many floats and doubles a vector holds.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    set(NATIVE_ISAS x86-64-v4 x86-64-v3 x86-64-v2)
+    set(MIRRORBALL_ISAS x86-64-v4 x86-64-v3 x86-64-v2 CACHE STRING
+        "Instruction sets to compile kernels for, the best first")
     set(x86-64-v4_FLAGS -march=x86-64-v4 -mprefer-vector-width=512)
     set(x86-64-v4_WIDTHS 16 8)
     set(x86-64-v3_FLAGS -march=x86-64-v3)
@@ -29,18 +30,18 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(x86-64-v2_FLAGS -march=x86-64-v2)
     set(x86-64-v2_WIDTHS 4 2)
 else()
-    set(NATIVE_ISAS generic)
+    set(MIRRORBALL_ISAS generic CACHE STRING "Instruction sets to compile kernels for")
     set(generic_FLAGS "")
     set(generic_WIDTHS 4 2)
 endif()
 
 # What a set of features leaves out, the leanest set first: a scene takes the first that holds all it
 # needs. `plain` is the paper's scene, `mesh` a model among mirror balls; with _4 where a pixel has 4
-# samples.
-set(NATIVE_PLAIN -DRT_HAS_HUGE_SPHERES=0 -DRT_HAS_EYE_ON_SURFACE=0 -DRT_HAS_CONES=0
+# samples. Single rays are traced by `all` alone.
+set(NATIVE_PLAIN -DRT_TRACES_RAYS=0 -DRT_HAS_HUGE_SPHERES=0 -DRT_HAS_EYE_ON_SURFACE=0 -DRT_HAS_CONES=0
     -DRT_HAS_VERTEX_NORMALS=0 -DRT_HAS_HIERARCHY=0 -DRT_HAS_GLASS=0 -DRT_HAS_SOBOL=0
     -DRT_HAS_FILTERS=0)
-set(NATIVE_MESH -DRT_HAS_HUGE_SPHERES=0 -DRT_HAS_EYE_ON_SURFACE=0 -DRT_HAS_CONES=0
+set(NATIVE_MESH -DRT_TRACES_RAYS=0 -DRT_HAS_HUGE_SPHERES=0 -DRT_HAS_EYE_ON_SURFACE=0 -DRT_HAS_CONES=0
     -DRT_HAS_GLASS=0 -DRT_HAS_SOBOL=0 -DRT_HAS_FILTERS=0)
 set(plain_4_FLAGS ${NATIVE_PLAIN} -DRT_SAMPLES=4)
 set(plain_FLAGS ${NATIVE_PLAIN})
@@ -64,7 +65,7 @@ function(native_kernels TABLE OBJECTS)
     set(objects "")
     set(names_float "")
     set(names_double "")
-    foreach(isa IN LISTS NATIVE_ISAS)
+    foreach(isa IN LISTS MIRRORBALL_ISAS)
         foreach(type float double)
             set(real "")
             list(GET ${isa}_WIDTHS 0 width)

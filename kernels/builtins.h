@@ -22,7 +22,6 @@ RT_DECLARE_FMA(RT_JOIN(RT_REAL, 16));
 
 Reals RT_BUILTIN sqrt(Reals x);
 Reals RT_BUILTIN fabs(Reals x);
-Reals RT_BUILTIN pow(Reals x, Reals y);
 
 #if RT_LANES != 1
 Real RT_BUILTIN fabs(Real x);

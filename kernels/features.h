@@ -46,10 +46,10 @@
 #endif
 
 // The switches as bits, in the order of host/flatten/features.h.
-#define RT_FEATURE_BITS                                                                         \
+#define RT_FEATURE_BITS                                                                           \
     (RT_HAS_SPHERES | RT_HAS_HUGE_SPHERES << 1 | RT_HAS_EYE_ON_SURFACE << 2 | RT_HAS_CONES << 3 | \
-     RT_HAS_TRIANGLES << 4 | RT_HAS_VERTEX_NORMALS << 5 | RT_HAS_HIERARCHY << 6 |                \
-     RT_HAS_LIGHTS << 7 | RT_HAS_MIRRORS << 8 | RT_HAS_GLASS << 9 | RT_HAS_SOBOL << 10 |         \
+     RT_HAS_TRIANGLES << 4 | RT_HAS_VERTEX_NORMALS << 5 | RT_HAS_HIERARCHY << 6 |                 \
+     RT_HAS_LIGHTS << 7 | RT_HAS_MIRRORS << 8 | RT_HAS_GLASS << 9 | RT_HAS_SOBOL << 10 |          \
      RT_HAS_FILTERS << 11)
 
 // Samples of a pixel, where a packet holds them all and their number is compiled in; else 0.
@@ -63,8 +63,11 @@
 #ifndef RT_RENDERS_SAMPLES
 #define RT_RENDERS_SAMPLES 1
 #endif
-#ifndef RT_RENDERS_LISTED
-#define RT_RENDERS_LISTED 1
+#ifndef RT_RENDERS_LIST
+#define RT_RENDERS_LIST 1
+#endif
+#ifndef RT_TRACES_RAYS
+#define RT_TRACES_RAYS 1
 #endif
 
 #endif

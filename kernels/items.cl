@@ -20,6 +20,9 @@
 #endif
 
 #include "kernels/film.cl"
+#if RT_TRACES_RAYS
+#include "kernels/rays.cl"
+#endif
 
 RayCounts pixels_item(__global Real* film, SceneView* scene, const Tile* tile, Index item) {
     RayCounts used = {0, 0, 0};

@@ -37,11 +37,21 @@ __kernel void resolve_samples(__global Real* restrict film, __global const Real*
 }
 #endif
 
-#if RT_RENDERS_LISTED
+#if RT_RENDERS_LIST
 __kernel void render_list(__global Real* restrict colors, __global RayCounts* restrict counts,
                           RT_SCENE_ARGUMENTS, Tile tile, __global const int* restrict pixels) {
     SceneView scene = RT_SCENE_VIEW;
     size_t item = get_global_id(0);
     add_counts(counts, item, list_item(colors, pixels, &scene, &tile, (Index)item));
+}
+#endif
+
+#if RT_TRACES_RAYS
+__kernel void trace_rays(__global RayAnswer* restrict answers,
+                         __global const RayQuery* restrict queries, RT_SCENE_ARGUMENTS,
+                         Index count) {
+    SceneView scene = RT_SCENE_VIEW;
+    Index item = (Index)get_global_id(0);
+    if (item * RT_LANES < count) rays_item(answers, queries, &scene, count, item);
 }
 #endif

@@ -138,6 +138,27 @@ typedef struct {
     RT_COUNT shadow, mirror, transmitted;
 } RayCounts;
 
+// A ray to trace by itself, outside a picture (kernels/rays.cl).
+typedef struct {
+    Packed3 origin;
+    Real t_max;    // whether anything lies in (0, t_max] is asked, too, where it is finite
+    Packed3 dir;   // unit
+    Index from;    // the primitive the origin lies on, or RT_NONE
+    Packed3 next;  // unit: trace on from the hit in this direction; 0: do not
+    Real chord;    // of the primitive it leaves (kernels/scene_view.h)
+} RayQuery;
+
+typedef struct {
+    Real t, u, v;
+    Index prim;     // RT_NONE: a miss, and nothing else counts but is_blocked
+    Packed3 point;  // on the surface
+    Index is_blocked;
+    Packed3 normal;   // shading normal
+    Index next_prim;  // of the ray traced on
+    Real next_t;
+    Real pad[3];
+} RayAnswer;
+
 // The arrays of a scene, X(type, name, what), in the order of a kernel's arguments.
 #define RT_SCENE_ARRAYS(X)                                 \
     X(Sphere, spheres, "the spheres")                      \
@@ -179,3 +200,5 @@ RT_STATIC_ASSERT(sizeof(Light) == 8 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(BvhNode) == 8 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Frame) == 48 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Tile) == 8 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(RayQuery) == 12 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(RayAnswer) == 16 * sizeof(Real));

@@ -10,7 +10,6 @@
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/cl_program.h"
-#include "host/render/techniques.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -148,11 +147,11 @@ std::string entry_points_of(const ProgramOptions& options) {
 TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
     ProgramOptions options;
     options.features = no_features();
-    options.entries = {true, false, false};
+    options.entries = {true, false, false, false};
     EXPECT_EQ(entry_points_of(options), "render_pixels");
-    options.entries = {false, true, false};
+    options.entries = {false, true, false, false};
     EXPECT_EQ(entry_points_of(options), "render_samples;resolve_samples");
-    options.entries = {true, false, true};
+    options.entries = {true, false, true, false};
     EXPECT_EQ(entry_points_of(options), "render_pixels;render_listed");
 }
 
@@ -168,7 +167,7 @@ TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
     options.warnings_are_errors = true;
     options.lanes = 16;
     expect_own_declarations(render_kernels, options);
-    options.entries = {true, false, false};
+    options.entries = {true, false, false, false};
     for (const int lanes : {1, 4}) {
         options.lanes = lanes;
         for (const bool double_precision : {false, true}) {
@@ -176,8 +175,6 @@ TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
             expect_own_declarations(render_kernels, options);
         }
     }
-    options.naive = all_techniques();
-    expect_own_declarations(naive_kernels, options);
 }
 
 TEST(BuildProgram, LeavesTheDeclarationsToTheCompilerWhereKernelsCallOtherFunctions) {

@@ -93,43 +93,6 @@ class Output(unittest.TestCase):
             self.assertEqual(path.read_text(), "{}")
 
 
-class Techniques(unittest.TestCase):
-    def test_cost(self):
-        result = json.loads(stress("--cost", "--repeats", "1", "-q", "--json").stdout)
-        validate(result)
-        self.assertEqual(result["families"], [])
-        tables = {table["renderer"]: table["rows"] for table in result["costs"]}
-        self.assertEqual([row["technique"] for row in tables.pop("threads")], ["all"])
-        for rows in tables.values():
-            self.assertEqual([row["technique"] for row in rows],
-                             ["nothing", *self.names(), "all", "all but lobe"])
-            self.assertTrue(all(row["seconds"] > 0 and row["ratio"] > 0 for row in rows))
-
-    def test_cost_as_text(self):
-        with tempfile.TemporaryDirectory() as folder:
-            scene = pathlib.Path(folder) / "s.nff"
-            scene.write_text("v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\n"
-                             "resolution 8 8\nf 1 0 0 1 0 0 0 0\ns 0 0 0 1\nl 1 2 3\n")
-            lines = stress("--cost", str(scene), "--repeats", "1", "--device", "threads",
-                           "-q").stdout.splitlines()
-        self.assertRegex(lines[0], "^scenes/cornell-box.json, 500x500 grid:2, threads: robust ")
-        self.assertRegex(lines[2], "^  all +a textbook's +[0-9.]+ +[0-9.]+$")
-        self.assertIn("s.nff, 8x8", lines[3])
-
-    def test_without(self):
-        highlight = ["--case", "highlight/1e+06", "-q"]
-        stress(*highlight)
-        text = stress(*highlight, "--without", "lobe,spheres", code=1).stdout
-        self.assertIn("FAIL: 1 of 1", text)
-        self.assertNotIn("threads", text)
-        error = stress("--without", "epsilon", code=2).stderr
-        self.assertIn(", ".join(self.names()), error)
-
-    @staticmethod
-    def names():
-        return ["spheres", "triangles", "boxes", "ties", "points", "offsets", "lobe", "arithmetic"]
-
-
 class Usage(unittest.TestCase):
     def test_unknown_family(self):
         error = stress("--case", "scale-3", code=2).stderr

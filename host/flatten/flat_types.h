@@ -25,6 +25,8 @@ static_assert(offsetof(Light, caster_count) == 28);
 static_assert(offsetof(BvhNode, count) == 28);
 static_assert(offsetof(Frame, pad2) == 188);
 static_assert(offsetof(Tile, film_width) == 20);
+static_assert(offsetof(RayQuery, chord) == 44);
+static_assert(offsetof(RayAnswer, next_t) == 48);
 }  // namespace rt::f32
 
 namespace rt::f64 {
@@ -58,6 +60,8 @@ struct Flat<float> {
     using Frame = f32::Frame;
     using Tile = f32::Tile;
     using RayCounts = f32::RayCounts;
+    using RayQuery = f32::RayQuery;
+    using RayAnswer = f32::RayAnswer;
     static constexpr Index none = f32::RT_NONE;
     static constexpr Index eye = f32::RT_EYE;
     static constexpr float roundoff = 0x1p-24f;  ///< half an ulp of 1
@@ -77,6 +81,8 @@ struct Flat<double> {
     using Frame = f64::Frame;
     using Tile = f64::Tile;
     using RayCounts = f64::RayCounts;
+    using RayQuery = f64::RayQuery;
+    using RayAnswer = f64::RayAnswer;
     static constexpr Index none = f64::RT_NONE;
     static constexpr Index eye = f64::RT_EYE;
     static constexpr double roundoff = 0x1p-53;

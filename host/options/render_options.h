@@ -7,7 +7,6 @@
 #include "host/flatten/features.h"
 #include "host/image/encoding.h"
 #include "host/render/cl_renderer.h"
-#include "host/render/techniques.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
 #include "host/scene/aa_mode.h"
@@ -43,7 +42,6 @@ struct RenderOptions {
     bool all_features = false;
     Features also_features = no_features();  ///< compiled, needed or not
     bool any_samples = false;                ///< compile the loop over them, needed or not
-    Techniques naive;                        ///< what OpenCL devices do without (stress)
     std::optional<bool> hierarchies;         ///< not given: where they are faster
     bool caster_lists = true;
     std::optional<Rect> crop;

@@ -4,7 +4,6 @@
 #include "host/options/lists.h"
 #include "host/options/verb_options.h"
 #include "host/render/device_spec.h"
-#include "host/render/techniques.h"
 
 namespace rt {
 
@@ -36,24 +35,7 @@ void add_stress(const CommandLine& program, Options& options) {
     verb.flag("--quick", stress.quick, "the cases that take under a minute in all");
     verb.flag("--all-features", stress.all_features,
               "compile all features into the kernels: one build for all cases");
-    verb.flag("--naive", stress.naive,
-              "also textbook formulas, for comparison, and what robustness costs");
-    verb.optional_value(
-        "--cost", "SCENE",
-        "instead of the cases: what each robust technique costs, timed interleaved with "
-        "the textbook's on the built-in cornell-box and SCENE",
-        "-", [](const std::string& word) { return !word.starts_with("-"); },
-        [&](const std::string& text) {
-            stress.cost = true;
-            stress.cost_scene = text == "-" ? "" : text;
-        });
-    add_count(verb, "--repeats", stress.repeats, 1, 1000, "pictures timed of each with --cost");
-    verb.option("--without", "TECHNIQUE,...",
-                "run the cases on OpenCL devices with textbook formulas in place of " +
-                    fmt::format("{}", fmt::join(names_of(all_techniques()), ", ")),
-                [&](const std::string& text) {
-                    stress.without = techniques_named("--without", split_list("--without", text));
-                });
+    verb.flag("--naive", stress.naive, "also textbook formulas, for comparison");
     verb.flag("--list", stress.list, "name the cases, run none");
     add_result_file(verb, "--json", stress.json,
                     "as JSON: to FILE, or instead of the table on stdout");

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "host/render/techniques.h"
-
 namespace rt {
 
 /// `mirrorball stress`
@@ -17,10 +15,6 @@ struct StressOptions {
     bool all_features = false;   ///< one build of the kernels for all cases; as quick has it
     bool keep_pictures = false;  ///< in the result, for the report
     bool naive = false;          ///< textbook formulas next to ours
-    bool cost = false;           ///< time each technique made naive; run no cases
-    std::string cost_scene;      ///< next to the paper's; empty: none
-    int repeats = 15;            ///< of each picture timed
-    Techniques without;          ///< what OpenCL devices are to do without
     bool list = false;           ///< name the cases, run none
     std::string json;            ///< empty: none; "-": stdout
     std::string output;          ///< folder for pictures; empty: none

@@ -62,12 +62,8 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     if (options.samples != 0) text += fmt::format(" -DRT_SAMPLES={}", options.samples);
     if (!options.entries.pixels) text += " -DRT_RENDERS_PIXELS=0";
     if (!options.entries.samples) text += " -DRT_RENDERS_SAMPLES=0";
-    if (!options.entries.listed) text += " -DRT_RENDERS_LISTED=0";
-    for (const Technique& technique : techniques) {
-        if (technique.macro && options.naive.*technique.flag) {
-            text += fmt::format(" -D{}=1", technique.macro);
-        }
-    }
+    if (!options.entries.list) text += " -DRT_RENDERS_LIST=0";
+    if (!options.entries.rays) text += " -DRT_TRACES_RAYS=0";
     return text;
 }
 

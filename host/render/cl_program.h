@@ -5,22 +5,19 @@
 
 #include "host/flatten/features.h"
 #include "host/render/cl_device.h"
-#include "host/render/techniques.h"
 
 namespace rt {
 
 /// kernels/render.cl with its includes, embedded at build time (host/embed_kernels.cpp).
 extern const char* const render_kernels;
 
-/// kernels/naive/render.cl, likewise: the same entry points for programs that are naive somewhere.
-extern const char* const naive_kernels;
-
 /// The entry points of kernels/render.cl that a renderer launches; the switches RT_RENDERS_.. of
 /// kernels/features.h.
 struct EntryPoints {
     bool pixels = true;   ///< render_pixels
     bool samples = true;  ///< render_samples and resolve_samples
-    bool listed = true;   ///< render_listed
+    bool list = true;     ///< render_list
+    bool rays = true;     ///< trace_rays
 };
 
 /// What a program is compiled for. `features` says what may be left out.
@@ -32,7 +29,6 @@ struct ProgramOptions {
     int samples = 0;  ///< of a pixel, where a packet holds them all: compiled in; 0: any number
     Features features;
     EntryPoints entries;
-    Techniques naive;  ///< of naive_kernels: what to do without
 };
 
 /// The options of clBuildProgram; the same for the same arguments, since drivers cache by them.

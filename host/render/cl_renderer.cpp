@@ -192,12 +192,13 @@ class ClRenderer : public Renderer<T> {
         ProgramOptions program_options;
         program_options.double_precision = sizeof(T) == sizeof(double);
         program_options.lanes = lanes_;
-        program_options.fast_math = options.fast_math || options.naive.arithmetic;
-        program_options.naive = options.naive;
+        program_options.fast_math = options.fast_math;
         program_options.warnings_are_errors = options.warnings_are_errors;
+        program_options.entries.rays = false;
         if (!options.all_features) {
             program_options.features = either_of(scene.features, options.also);
-            program_options.entries = {!launch_samples_, launch_samples_, options.will_refine};
+            program_options.entries = {!launch_samples_, launch_samples_, options.will_refine,
+                                       false};
             const int held = shape(samples()).samples;
             const bool is_one_packet = !launch_samples_ && held == frame_.samples;
             if (is_one_packet && !options.any_samples) program_options.samples = held;
@@ -206,8 +207,7 @@ class ClRenderer : public Renderer<T> {
         const auto start = std::filesystem::file_time_type::clock::now();
         const Stopwatch watch;
         const cl::Program program =
-            build_program(context_, device_, options.naive.any() ? naive_kernels : render_kernels,
-                          program_options);
+            build_program(context_, device_, render_kernels, program_options);
         render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
         set_scene_arguments(render_, frame_);
         if (launch_samples_) {
@@ -254,7 +254,7 @@ class ClRenderer : public Renderer<T> {
     }
 
     cl::Event launch_list(const FlatTile& tile, const typename Flat<T>::Frame& frame,
-                            const cl::Buffer& colors, const cl::Buffer& list) {
+                          const cl::Buffer& colors, const cl::Buffer& list) {
         set_scene_arguments(list_, frame);
         list_.setArg(0, colors);
         list_.setArg(tile_argument_, tile);

@@ -7,7 +7,6 @@
 #include "host/flatten/flat_scene.h"
 #include "host/render/cl_device.h"
 #include "host/render/renderer.h"
-#include "host/render/techniques.h"
 
 namespace rt {
 
@@ -34,7 +33,6 @@ struct ClOptions {
     Features also = no_features();     ///< compile these, needed or not
     bool any_samples = false;          ///< compile the loop over samples, needed or not
     bool warnings_are_errors = false;  ///< for tests
-    Techniques naive;                  ///< what to do without, for comparison
 };
 
 /// A renderer on an OpenCL device: builds the kernels for the scene's features and uploads it. The

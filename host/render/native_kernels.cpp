@@ -24,6 +24,9 @@
     void name##_list(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                \
                      const rt::Flat<T>::Tile*, const std::int32_t*, rt::Flat<T>::Index,    \
                      rt::Flat<T>::Index);                                                  \
+    void name##_rays(rt::Flat<T>::RayAnswer*, const rt::Flat<T>::RayQuery*,                \
+                     const rt::NativeView<T>*, rt::Flat<T>::Index, rt::Flat<T>::Index,     \
+                     rt::Flat<T>::Index) __attribute__((weak)); /* not in the lean ones */ \
     }
 #define RT_DECLARE_FLOAT(name, isa, lanes) RT_DECLARE_NATIVE(float, name)
 #define RT_DECLARE_DOUBLE(name, isa, lanes) RT_DECLARE_NATIVE(double, name)
@@ -43,7 +46,8 @@ namespace {
      name##_pixels,                         \
      name##_samples,                        \
      name##_resolve,                        \
-     name##_list},
+     name##_list,                           \
+     name##_rays},
 
 template <typename T>
 std::span<const NativeKernels<T>> all_kernels();

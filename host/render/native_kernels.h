@@ -46,6 +46,9 @@ struct NativeKernels {
                             Index first, Index end);
     void (*render_list)(T* colors, Counts*, const View*, const Tile*, const std::int32_t* pixels,
                         Index first, Index end);
+    /// Null but where all features are.
+    void (*trace_rays)(typename Flat<T>::RayAnswer*, const typename Flat<T>::RayQuery*, const View*,
+                       Index count, Index first, Index end);
 };
 
 /// Which kernels to run.

@@ -219,6 +219,25 @@ std::unique_ptr<Renderer<T>> make_threads_renderer(const FlatScene<T>& scene,
     return std::make_unique<ThreadsRenderer<T>>(scene, options);
 }
 
+template <typename T>
+RayTracer<T> make_threads_ray_tracer(const FlatScene<T>& scene, const ThreadsOptions& options) {
+    NativeChoice choice;
+    choice.lanes = options.lanes;
+    choice.isa = options.isa;
+    const NativeKernels<T>& kernels = choose_native<T>(choice);
+    const int threads = options.threads > 0 ? options.threads : available_cores();
+    return [&kernels, threads, view = native_view(scene)](auto queries, auto answers) {
+        constexpr std::size_t run = 4096;
+        for_each_run(answers.size(), run, threads, [&](std::size_t first, std::size_t last) {
+            const auto count = static_cast<typename Flat<T>::Index>(last - first);
+            kernels.trace_rays(&answers[first], &queries[first], &view, count, 0,
+                               (count + kernels.lanes - 1) / kernels.lanes);
+        });
+    };
+}
+
+template RayTracer<float> make_threads_ray_tracer(const FlatScene<float>&, const ThreadsOptions&);
+template RayTracer<double> make_threads_ray_tracer(const FlatScene<double>&, const ThreadsOptions&);
 template const NativeKernels<float>& native_kernels_for(const FlatScene<float>&,
                                                         const ThreadsOptions&);
 template const NativeKernels<double>& native_kernels_for(const FlatScene<double>&,

@@ -6,6 +6,7 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/render/native_kernels.h"
+#include "host/render/ray_tracer.h"
 #include "host/render/renderer.h"
 
 namespace rt {
@@ -38,5 +39,9 @@ const NativeKernels<T>& native_kernels_for(const FlatScene<T>& scene,
 template <typename T>
 std::unique_ptr<Renderer<T>> make_threads_renderer(const FlatScene<T>& scene,
                                                    const ThreadsOptions& options);
+
+/// Single rays on all threads.
+template <typename T>
+RayTracer<T> make_threads_ray_tracer(const FlatScene<T>& scene, const ThreadsOptions& options);
 
 }  // namespace rt

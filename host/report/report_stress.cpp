@@ -125,14 +125,6 @@ Plot family_plot(const StressFamilyResult& family, std::size_t index) {
     return plot;
 }
 
-std::string cost_text(const StressCost& cost) {
-    return fmt::format(
-        "<p>What it costs: robust arithmetic takes {} times the textbook formulas' time "
-        "({} against {}; threads, float, the paper's scene).</p>\n",
-        html_text(significant(cost.ratio(), 3)), html_text(duration_text(cost.robust_seconds)),
-        html_text(duration_text(cost.naive_seconds)));
-}
-
 }  // namespace
 
 std::string stress_section(const StressResult& result) {
@@ -142,7 +134,6 @@ std::string stress_section(const StressResult& result) {
         "when a channel is off by over 1/255 where the reference itself does not change within "
         "0.02 pixel; the error is the largest there.</p>\n";
     html += verdicts_table(result);
-    if (result.cost) html += cost_text(*result.cost);
     for (std::size_t i = 0; i < result.families.size(); ++i) {
         const StressFamilyResult& family = result.families[i];
         const bool is_plotted = std::find(plotted_families.begin(), plotted_families.end(),

@@ -72,26 +72,6 @@ Json case_json(const StressCaseResult& one) {
             {"rows", rows}};
 }
 
-Json cost_json(const CostTable& table) {
-    Json rows = Json::array();
-    for (const TechniqueCost& row : table.rows) {
-        rows.push_back({{"technique", row.technique},
-                        {"naive", row.naive},
-                        {"seconds", row.seconds},
-                        {"ratio", table.ratio(row)}});
-    }
-    return {{"scene", table.scene},
-            {"renderer", table.renderer},
-            {"device", table.device},
-            {"width", table.width},
-            {"height", table.height},
-            {"aa", table.aa},
-            {"repeats", table.repeats},
-            {"of_processor", table.of_processor},
-            {"robust_seconds", table.robust_seconds},
-            {"rows", rows}};
-}
-
 Json family_json(const StressFamilyResult& family) {
     Json cases = Json::array();
     for (const StressCaseResult& one : family.cases) cases.push_back(case_json(one));
@@ -109,22 +89,14 @@ Json stress_json(const StressResult& result) {
     for (const StressFamilyResult& family : result.families) {
         families.push_back(family_json(family));
     }
-    Json json{{"format", "mirrorball-stress"},
-              {"version", 1},
-              {"environment", bench_environment_json(result.load_before)},
-              {"quick", result.quick},
-              {"interrupted", result.interrupted},
-              {"passed", result.passed()},
-              {"seconds", result.seconds},
-              {"families", families}};
-    json["cost"] = result.cost ? Json{{"scene", result.cost->scene},
-                                      {"robust_seconds", result.cost->robust_seconds},
-                                      {"naive_seconds", result.cost->naive_seconds},
-                                      {"ratio", result.cost->ratio()}}
-                               : Json();
-    json["costs"] = Json::array();
-    for (const CostTable& table : result.costs) json["costs"].push_back(cost_json(table));
-    return json;
+    return {{"format", "mirrorball-stress"},
+            {"version", 1},
+            {"environment", bench_environment_json(result.load_before)},
+            {"quick", result.quick},
+            {"interrupted", result.interrupted},
+            {"passed", result.passed()},
+            {"seconds", result.seconds},
+            {"families", families}};
 }
 
 }  // namespace rt

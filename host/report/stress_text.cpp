@@ -134,22 +134,16 @@ StressBar loosest_bar(const StressFamilyResult& family) {
 }
 
 std::string stress_text(const StressResult& result, bool verbose) {
-    const bool naive =
-        result.cost.has_value() || std::any_of(result.families.begin(), result.families.end(),
-                                               [](const StressFamilyResult& family) {
-                                                   const auto& rows = family.cases.front().rows;
-                                                   return !rows.empty() && rows.back().naive;
-                                               });
+    const bool naive = std::any_of(result.families.begin(), result.families.end(),
+                                   [](const StressFamilyResult& family) {
+                                       const auto& rows = family.cases.front().rows;
+                                       return !rows.empty() && rows.back().naive;
+                                   });
     std::string text =
         fmt::format("{:<20} {:>3}  {:<36} {:<20}{} {:<4}  {}\n", "family", "n", "worst", "bar",
                     naive ? fmt::format(" {:>8} {:>8}", "naive", "its NaN") : "", "", "why");
     for (const StressFamilyResult& family : result.families) {
         text += family_lines(family, naive, verbose);
-    }
-    if (result.cost) {
-        text += fmt::format("robust over naive, threads, float, {}: {:.2f} ({:.4f} s, {:.4f} s)\n",
-                            result.cost->scene, result.cost->ratio(), result.cost->robust_seconds,
-                            result.cost->naive_seconds);
     }
     const auto passed =
         std::count_if(result.families.begin(), result.families.end(),

@@ -55,43 +55,11 @@ struct StressFamilyResult {
     bool passed() const;
 };
 
-/// What robust arithmetic costs: medians of tracing the same picture, turn by turn.
-struct StressCost {
-    std::string scene;
-    double robust_seconds = 0, naive_seconds = 0;
-
-    double ratio() const { return naive_seconds > 0 ? robust_seconds / naive_seconds : 0; }
-};
-
-/// The time of one picture with one technique, or all of them ("all"), as a textbook has it.
-struct TechniqueCost {
-    std::string technique, naive;
-    double seconds = 0;
-};
-
-/// What each technique costs on one scene and renderer, in float: seconds of the fastest of
-/// `repeats` pictures, timed turn by turn. On CPUs those of all cores together, which other
-/// programs on the machine disturb least.
-struct CostTable {
-    std::string scene, renderer, device;
-    int width = 0, height = 0, repeats = 0;
-    std::string aa;
-    bool of_processor = false;  ///< seconds of processor time, not of the clock
-    double robust_seconds = 0;
-    std::vector<TechniqueCost> rows;
-
-    double ratio(const TechniqueCost& row) const {
-        return row.seconds > 0 ? robust_seconds / row.seconds : 0;
-    }
-};
-
 struct StressResult {
     double load_before = 0;
     double seconds = 0;
     bool quick = false, interrupted = false;
     std::vector<StressFamilyResult> families;
-    std::optional<StressCost> cost;
-    std::vector<CostTable> costs;
 
     bool passed() const;
 };

@@ -144,7 +144,6 @@ class Job {
         cl_options.all_features = options_.all_features;
         cl_options.also = options_.also_features;
         cl_options.any_samples = options_.any_samples;
-        cl_options.naive = options_.naive;
         if (!options_.fast_math && !device.rounds_correctly) {
             say_verbose(device.name +
                         " does not promise correctly rounded division and square "

@@ -33,7 +33,6 @@ RenderOptions row_options(const StressRow& row, const StressOptions& stress) {
     options.device = row.device;
     options.precision = row.double_precision ? Precision::float64 : Precision::float32;
     options.all_features = stress.quick || stress.all_features;
-    options.naive = stress.without;
     return options;
 }
 
@@ -66,7 +65,6 @@ class Runner {
     std::vector<StressRow> planned_rows(const StressBar& bar) const {
         std::vector<StressRow> rows;
         for (const ListedDevice& device : devices_) {
-            if (options_.without.any() && device.is_threads) continue;
             for (const bool double_precision : {false, true}) {
                 if (double_precision && !device.has_double) continue;
                 StressRow row;

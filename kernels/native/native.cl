@@ -40,3 +40,12 @@ void RT_NATIVE(_list)(__global Real* colors, __global RayCounts* counts, const S
         add_counts(counts, 0, list_item(colors, pixels, &scene, tile, item));
     }
 }
+
+#if RT_TRACES_RAYS
+void RT_NATIVE(_rays)(__global RayAnswer* answers, __global const RayQuery* queries,
+                      const SceneView* scene, Index count, Index first, Index end) {
+    for (Index item = first; item < end; ++item) {
+        rays_item(answers, queries, scene, count, item);
+    }
+}
+#endif

@@ -37,13 +37,11 @@ RT_VECTORS(double)
 #endif
 
 // For one width and precision: numbers, their integers, and unsigned 32-bit integers.
-#define RT_DEFINE_BUILTINS(real, index, uints)                                      \
-    RT_FMA_HERE real fma(real a, real b, real c) {                              \
-        return __builtin_elementwise_fma(a, b, c);                                  \
-    }                                                                               \
-    RT_BUILTIN_HERE real sqrt(real x) { return __builtin_elementwise_sqrt(x); }     \
-    RT_BUILTIN_HERE real fabs(real x) { return __builtin_elementwise_abs(x); }      \
-    RT_BUILTIN_HERE index as_##index(real x) { return __builtin_astype(x, index); } \
+#define RT_DEFINE_BUILTINS(real, index, uints)                                                  \
+    RT_FMA_HERE real fma(real a, real b, real c) { return __builtin_elementwise_fma(a, b, c); } \
+    RT_BUILTIN_HERE real sqrt(real x) { return __builtin_elementwise_sqrt(x); }                 \
+    RT_BUILTIN_HERE real fabs(real x) { return __builtin_elementwise_abs(x); }                  \
+    RT_BUILTIN_HERE index as_##index(real x) { return __builtin_astype(x, index); }             \
     RT_BUILTIN_HERE real as_##real(index x) { return __builtin_astype(x, real); }
 
 #define RT_DEFINE_CONVERSIONS(real, index, uints)                                               \

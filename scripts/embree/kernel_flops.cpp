@@ -78,7 +78,7 @@ rt::Features features;  ///< the scene's, in place of the kernels' switches
 #define RT_HAS_SOBOL features.sobol
 #define RT_HAS_FILTERS features.filters
 #define RT_RENDERS_SAMPLES 0
-#define RT_RENDERS_LISTED 0
+#define RT_RENDERS_LIST 0
 
 namespace kernels {
 
