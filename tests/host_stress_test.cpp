@@ -262,15 +262,15 @@ TEST(RayTrials, AHoleInAMeshIsCounted) {
     mesh.faces.pop_back();
     add_mesh(scene, mesh, add_matt(scene, glm::dvec3(1)));
     set_view(scene, {0, 0, 0}, {0, 0, -1}, 60);
-    EXPECT_GT(count_leaks<float>(scene, RayAim::edges, 10000).failures, 50U);
+    EXPECT_GT(count_leaks<float>(scene, RayAim::edges, 10000, threads_ray_caster()).failures, 50U);
 }
 
 TEST(RayTrials, AreTheSameEachTime) {
     Scene scene = bare_scene();
     add_sphere(scene, {0, 0, -4}, 1e-5, add_matt(scene, glm::dvec3(1)));
     set_view(scene, {0, 0, 0}, {0, 0, -1}, 60);
-    const RayFigures first = count_sphere_failures<float>(scene, 20000);
-    const RayFigures second = count_sphere_failures<float>(scene, 20000);
+    const RayFigures first = count_sphere_failures<float>(scene, 20000, threads_ray_caster());
+    const RayFigures second = count_sphere_failures<float>(scene, 20000, threads_ray_caster());
     EXPECT_EQ(first.rays, 20000U);
     EXPECT_EQ(first.failures, second.failures);
     EXPECT_EQ(first.max_error, second.max_error);

@@ -3,10 +3,10 @@
 
 #include "host/flatten/bvh.h"
 
-// Boxes that no ray can miss which hits what is in them, by the arithmetic of host/trace: every
+// Boxes that no ray can miss which hits what is in them, by the arithmetic of kernels/: every
 // coordinate is moved out by box_slack half-ulps of the box's largest one. The triangle test works
 // on vertices rounded in the ray's frame, at most 8 half-ulps of |vertex| + |origin| away, and t is
-// rounded once more on top; the origin's share is added to the ray (host/trace/bvh.h).
+// rounded once more on top; the origin's share is added to the ray (kernels/bvh.cl).
 namespace rt {
 
 inline constexpr int box_slack = 16;

@@ -25,12 +25,17 @@ inline StressCase ray_case(std::string label, double value, InQuick quick, RayTr
     return {std::move(label), value, bar, std::move(trial), quick == InQuick::yes};
 }
 
-/// The trial count<T>(rays) in the arithmetic of both types; count is a generic lambda over T.
+/// The trial count<T>(rays, caster) in the arithmetic of both types; count is a generic lambda over
+/// T.
 template <typename Count>
 RayTrial both_precisions(const Count& count) {
     RayTrial trial;
-    trial.in_float = [=](std::uint64_t rays) { return count.template operator()<float>(rays); };
-    trial.in_double = [=](std::uint64_t rays) { return count.template operator()<double>(rays); };
+    trial.in_float = [=](std::uint64_t rays, const RayCaster& caster) {
+        return count.template operator()<float>(rays, caster);
+    };
+    trial.in_double = [=](std::uint64_t rays, const RayCaster& caster) {
+        return count.template operator()<double>(rays, caster);
+    };
     return trial;
 }
 

@@ -156,8 +156,8 @@ StressFamily leaving_cones(const char* name, double distances, const char* why) 
     const double shallowest = is_far ? 0.1 : 0.01;
     return leaving_family(name, why, is_far ? 1e-2 : 1e-3, [=](double radius) {
         const Scene scene = cone_to_aim_at(radius, distances * radius);
-        return both_precisions([=]<typename T>(std::uint64_t rays) {
-            return count_cone_leaving_failures<T>(scene, shallowest, rays);
+        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+            return count_cone_leaving_failures<T>(scene, shallowest, rays, caster);
         });
     });
 }
@@ -165,8 +165,9 @@ StressFamily leaving_cones(const char* name, double distances, const char* why) 
 StressFamily cone_rays() {
     return outline_family("cone-rays", [](double radius) {
         const Scene scene = cone_to_aim_at(radius, 1);
-        return both_precisions(
-            [=]<typename T>(std::uint64_t rays) { return count_cone_failures<T>(scene, rays); });
+        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+            return count_cone_failures<T>(scene, rays, caster);
+        });
     });
 }
 

@@ -6,7 +6,6 @@
 #include "host/stress/ray_trials.h"
 #include "host/stress/secondary_ray.h"
 #include "host/stress/wide_shapes.h"
-#include "host/trace/closest_hit.h"
 
 namespace rt {
 
@@ -31,12 +30,13 @@ glm::dvec3 way_to(const typename Flat<T>::Cone& cone, Dice& dice) {
     return in_double(cone.base) + at * in_double(cone.axis) + reach * dice.direction();
 }
 
-/// Distance at which an exact ray from this surface of the cone meets it again, negative where it
+/// Distance at which an exact ray from this point of the cone meets it again, negative where it
 /// does not; nothing where that is within a thousandth of the length of a rim.
 template <typename T>
-std::optional<Quad> exact_return(const trace::Surface<T>& start, const Vec3<T>& dir,
+std::optional<Quad> exact_return(const typename Flat<T>::Packed3& start,
+                                 const typename Flat<T>::Packed3& dir,
                                  const stress::WideFrustum<Quad>& cone) {
-    const Wide3<Quad> along = in_quad(start.point) - cone.base;
+    const Wide3<Quad> along = in_quad(start) - cone.base;
     const Quad height = dot(along, cone.axis);
     const Wide3<Quad> outwards = unit(along - height * cone.axis);
     stress::WideRay<Quad> ray;
@@ -54,50 +54,54 @@ std::optional<Quad> exact_return(const trace::Surface<T>& start, const Vec3<T>& 
     return t;
 }
 
-/// Outwards nothing must be hit; inwards the exact far side, where it lies clear of the rims.
-template <typename T>
-void leave_cone(const trace::SceneView<T>& view, const stress::WideFrustum<Quad>& cone,
-                double shallowest, Dice& dice, RayFigures& figures) {
-    const auto prim = view.frame.sphere_count;
-    const glm::dvec3 target = way_to<T>(view.cones[0], dice);
-    const auto leaving = leave_primitive<T>(view, prim, target, shallowest, dice);
-    if (!leaving) return;
-    const std::optional<Quad> exact =
-        leaving->outwards ? Quad(-1) : exact_return(leaving->start, leaving->ray.dir, cone);
-    if (!exact) return;
-    const trace::Hit<T> hit = trace::closest_hit(view, leaving->ray);
-    note_hit(figures, hit.prim == prim, double(hit.t), *exact, 1e-2);
-}
-
 }  // namespace
 
+/// Outwards nothing must be hit; inwards the exact far side, where it lies clear of the rims.
 template <typename T>
-RayFigures count_cone_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays) {
+RayFigures count_cone_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays,
+                                       const RayCaster& caster) {
     const FlatScene<T> flat = flatten<T>(scene);
-    const trace::SceneView<T> view = trace::view_of(flat);
-    const stress::WideFrustum<Quad> exact = exact_frustum<T>(flat.cones[0]);
-    return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
-        leave_cone(view, exact, shallowest, dice, figures);
-    });
-}
-
-template <typename T>
-RayFigures count_cone_failures(const Scene& scene, std::uint64_t rays) {
-    const FlatScene<T> flat = flatten<T>(scene);
-    const trace::SceneView<T> view = trace::view_of(flat);
     const stress::WideFrustum<Quad> cone = exact_frustum<T>(flat.cones[0]);
-    return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
-        const trace::Ray<T> ray = make_ray<T>(Vec3<T>(T(0)), way_to<T>(flat.cones[0], dice));
-        const trace::Hit<T> hit = trace::closest_hit(view, ray);
-        const Quad exact =
-            stress::hit_frustum<Quad>({in_quad(ray.origin), in_quad(ray.dir)}, cone, false);
-        note_hit(figures, hit.prim == flat.frame.sphere_count, double(hit.t), exact);
-    });
+    const auto prim = flat.frame.sphere_count;
+    const auto make = [&](Dice& dice) {
+        return ray_query<T>(glm::dvec3(0), way_to<T>(flat.cones[0], dice));
+    };
+    const auto go_on = [=](Dice& dice, auto& query, const auto& answer) {
+        leave_primitive<T>(dice, query, answer, prim, shallowest);
+    };
+    return many_rays<T>(
+        caster.tracer(flat), rays, make, go_on,
+        [&](const auto& query, const auto& answer, RayFigures& figures) {
+            if (!has_left<T>(query)) return;
+            const std::optional<Quad> exact = is_outwards<T>(query, answer)
+                                                  ? Quad(-1)
+                                                  : exact_return<T>(answer.point, query.next, cone);
+            if (!exact) return;
+            note_hit(figures, answer.next_prim == prim, double(answer.next_t), *exact, 1e-2);
+        });
 }
 
-template RayFigures count_cone_leaving_failures<float>(const Scene&, double, std::uint64_t);
-template RayFigures count_cone_leaving_failures<double>(const Scene&, double, std::uint64_t);
-template RayFigures count_cone_failures<float>(const Scene&, std::uint64_t);
-template RayFigures count_cone_failures<double>(const Scene&, std::uint64_t);
+template <typename T>
+RayFigures count_cone_failures(const Scene& scene, std::uint64_t rays, const RayCaster& caster) {
+    const FlatScene<T> flat = flatten<T>(scene);
+    const stress::WideFrustum<Quad> cone = exact_frustum<T>(flat.cones[0]);
+    const auto make = [&](Dice& dice) {
+        return ray_query<T>(glm::dvec3(0), way_to<T>(flat.cones[0], dice));
+    };
+    return many_rays<T>(
+        caster.tracer(flat), rays, make, nullptr,
+        [&](const auto& query, const auto& answer, RayFigures& figures) {
+            const Quad exact =
+                stress::hit_frustum<Quad>({in_quad(query.origin), in_quad(query.dir)}, cone, false);
+            note_hit(figures, answer.prim == flat.frame.sphere_count, double(answer.t), exact);
+        });
+}
+
+template RayFigures count_cone_leaving_failures<float>(const Scene&, double, std::uint64_t,
+                                                       const RayCaster&);
+template RayFigures count_cone_leaving_failures<double>(const Scene&, double, std::uint64_t,
+                                                        const RayCaster&);
+template RayFigures count_cone_failures<float>(const Scene&, std::uint64_t, const RayCaster&);
+template RayFigures count_cone_failures<double>(const Scene&, std::uint64_t, const RayCaster&);
 
 }  // namespace rt

@@ -21,8 +21,9 @@ Scene mesh_scene(const StressMesh& mesh, glm::dvec3 eye) {
 }
 
 RayTrial leak_trial(const Scene& scene, RayAim aim) {
-    return both_precisions(
-        [=]<typename T>(std::uint64_t rays) { return count_leaks<T>(scene, aim, rays); });
+    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+        return count_leaks<T>(scene, aim, rays, caster);
+    });
 }
 
 StressFamily leak_rays(RayAim aim) {
@@ -75,8 +76,8 @@ StressFamily leaving_spheres(const char* name, double distances, const char* why
     const double shallowest = distances > 10 ? 0.1 : 1e-3;
     return leaving_family(name, why, 1e-3, [=](double radius) {
         const Scene scene = sphere_scene(radius, distances * radius);
-        return both_precisions([=]<typename T>(std::uint64_t rays) {
-            return count_leaving_failures<T>(scene, shallowest, rays);
+        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+            return count_leaving_failures<T>(scene, shallowest, rays, caster);
         });
     });
 }
@@ -84,8 +85,9 @@ StressFamily leaving_spheres(const char* name, double distances, const char* why
 StressFamily sphere_rays() {
     return outline_family("sphere-rays", [](double radius) {
         const Scene scene = sphere_scene(radius, 1);
-        return both_precisions(
-            [=]<typename T>(std::uint64_t rays) { return count_sphere_failures<T>(scene, rays); });
+        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+            return count_sphere_failures<T>(scene, rays, caster);
+        });
     });
 }
 

@@ -2,18 +2,19 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <mutex>
 #include <numbers>
 #include <random>
+#include <type_traits>
+#include <vector>
 
 #include "host/parallel.h"
+#include "host/render/ray_tracer.h"
 #include "host/stress/stress_case.h"
 #include "host/stress/wide_real.h"
-#include "host/trace/surface.h"
 
 // What trials with many random rays have in common.
 namespace rt {
@@ -45,40 +46,72 @@ glm::dvec3 in_double(const P& p) {
     return {double(p.x), double(p.y), double(p.z)};
 }
 
-/// The unit direction along dir, which may have any length, as the tracer rounds it.
 template <typename T>
-Vec3<T> rounded_unit(const glm::dvec3& dir) {
-    return trace::normalize3(Vec3<T>(dir / glm::length(dir)));
+typename Flat<T>::Packed3 rounded(const glm::dvec3& v) {
+    return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
 }
 
+/// The unit direction along dir, which may have any length, rounded to T and made unit there.
 template <typename T>
-trace::Ray<T> make_ray(const Vec3<T>& origin, const glm::dvec3& dir) {
-    trace::Ray<T> ray;
-    ray.origin = origin;
-    ray.dir = rounded_unit<T>(dir);
-    ray.t_max = std::numeric_limits<T>::infinity();
-    ray.from = Flat<T>::none;
-    return ray;
+typename Flat<T>::Packed3 rounded_unit(const glm::dvec3& dir) {
+    const auto d = rounded<T>(dir / glm::length(dir));
+    const T inverse = T(1) / std::sqrt(std::fma(d.z, d.z, std::fma(d.y, d.y, d.x * d.x)));
+    return {inverse * d.x, inverse * d.y, inverse * d.z};
 }
 
-/// Sums try_ray(dice, figures) over many rays, in blocks with dice of their own, on all cores.
-template <typename Try>
-RayFigures many_rays(std::uint64_t rays, const Try& try_ray) {
-    constexpr std::uint64_t block = 4096;
-    std::atomic<std::uint64_t> next = 0;
-    std::mutex mutex;
+/// An endless ray.
+template <typename T>
+typename Flat<T>::RayQuery ray_query(const glm::dvec3& origin, const glm::dvec3& dir) {
+    typename Flat<T>::RayQuery query{};
+    query.origin = rounded<T>(origin);
+    query.dir = rounded_unit<T>(dir);
+    query.t_max = std::numeric_limits<T>::infinity();
+    query.from = Flat<T>::none;
+    return query;
+}
+
+/// Traces many rays and sums what becomes of them. make(dice) gives a query; go_on(dice, query,
+/// answer) may set the direction of a ray that goes on from a hit (or pass nothing: none does);
+/// judge(query, answer, figures) counts. Rays come in blocks with dice of their own, so that they
+/// are the same on any number of cores.
+template <typename T, typename Make, typename GoOn, typename Judge>
+RayFigures many_rays(const RayTracer<T>& trace, std::uint64_t rays, const Make& make,
+                     const GoOn& go_on, const Judge& judge) {
+    constexpr std::size_t block = 4096, batch = 16 * block;
+    std::vector<typename Flat<T>::RayQuery> queries;
+    std::vector<typename Flat<T>::RayAnswer> answers;
     RayFigures sum;
-    run_on_threads(available_cores(), [&](int) {
-        RayFigures own;
-        for (std::uint64_t at = next.fetch_add(block); at < rays; at = next.fetch_add(block)) {
-            Dice dice(at + 1);
-            for (std::uint64_t i = at; i < std::min(at + block, rays); ++i) try_ray(dice, own);
+    std::mutex mutex;
+    for (std::uint64_t at = 0; at < rays; at += batch) {
+        const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(rays - at, batch));
+        std::vector<Dice> dice;
+        for (std::size_t i = 0; i < count; i += block) dice.emplace_back(at + i + 1);
+        queries.resize(count);
+        answers.resize(count);
+        const auto in_blocks = [&](const auto& work) {
+            for_each_run(count, block, available_cores(), [&](std::size_t first, std::size_t last) {
+                work(dice[first / block], first, last);
+            });
+        };
+        in_blocks([&](Dice& own, std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) queries[i] = make(own);
+        });
+        trace(queries, answers);
+        if constexpr (!std::is_null_pointer_v<GoOn>) {
+            in_blocks([&](Dice& own, std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) go_on(own, queries[i], answers[i]);
+            });
+            trace(queries, answers);
         }
-        const std::lock_guard lock(mutex);
-        sum.rays += own.rays;
-        sum.failures += own.failures;
-        sum.max_error = std::max(sum.max_error, own.max_error);
-    });
+        in_blocks([&](Dice&, std::size_t first, std::size_t last) {
+            RayFigures own;
+            for (std::size_t i = first; i < last; ++i) judge(queries[i], answers[i], own);
+            const std::lock_guard lock(mutex);
+            sum.rays += own.rays;
+            sum.failures += own.failures;
+            sum.max_error = std::max(sum.max_error, own.max_error);
+        });
+    }
     return sum;
 }
 

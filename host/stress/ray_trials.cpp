@@ -4,9 +4,9 @@
 #include <array>
 
 #include "host/flatten/flat_scene.h"
+#include "host/render/threads_renderer.h"
 #include "host/stress/ray_dice.h"
 #include "host/stress/secondary_ray.h"
-#include "host/trace/closest_hit.h"
 
 namespace rt {
 
@@ -36,7 +36,7 @@ Bounds bounds_of(const FlatScene<T>& flat) {
 
 /// The distance to the ray's sphere by the quadratic formula; negative for a miss.
 template <typename T>
-Quad exact_distance(const trace::Ray<T>& ray, const typename Flat<T>::Sphere& sphere) {
+Quad exact_distance(const typename Flat<T>::RayQuery& ray, const typename Flat<T>::Sphere& sphere) {
     const Wide3<Quad> f = in_quad(ray.origin) - in_quad(sphere.center), d = in_quad(ray.dir);
     const Quad radius = sphere.radius;
     const Quad a = dot(d, d), b = dot(f, d);
@@ -47,36 +47,26 @@ Quad exact_distance(const trace::Ray<T>& ray, const typename Flat<T>::Sphere& sp
     return near > 0 ? near : (-b + root) / a;
 }
 
-/// The far side for a ray from this point of the sphere, put onto it exactly.
-template <typename T>
-Quad far_side(const trace::Surface<T>& start, const Vec3<T>& dir,
-              const typename Flat<T>::Sphere& sphere) {
-    const Wide3<Quad> out = unit(in_quad(start.normal));
-    return Quad(-2) * Quad(sphere.radius) * dot(out, unit(in_quad(dir)));
-}
-
-/// Outwards nothing must be hit; inwards the far side.
-template <typename T>
-void leave_sphere(const trace::SceneView<T>& view, double shallowest, Dice& dice,
-                  RayFigures& figures) {
-    const auto& sphere = view.spheres[0];
-    const glm::dvec3 target = in_double(sphere.center) + double(sphere.radius) * dice.direction();
-    const auto leaving = leave_primitive<T>(view, 0, target, shallowest, dice);
-    if (!leaving) return;
-    const Quad exact =
-        leaving->outwards ? Quad(-1) : far_side(leaving->start, leaving->ray.dir, sphere);
-    const trace::Hit<T> hit = trace::closest_hit(view, leaving->ray);
-    note_hit(figures, hit.prim == 0, double(hit.t), exact, 1e-3);
+/// The far side for a ray from the point of the sphere with this normal, put onto it exactly.
+template <typename P, typename Sphere>
+Quad far_side(const P& normal, const P& dir, const Sphere& sphere) {
+    return Quad(-2) * Quad(sphere.radius) * dot(unit(in_quad(normal)), unit(in_quad(dir)));
 }
 
 }  // namespace
 
+RayCaster threads_ray_caster(int lanes) {
+    ThreadsOptions options;
+    options.lanes = lanes;
+    return {[=](const auto& scene) { return make_threads_ray_tracer<float>(scene, options); },
+            [=](const auto& scene) { return make_threads_ray_tracer<double>(scene, options); }};
+}
+
 template <typename T>
-RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays) {
+RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays, const RayCaster& caster) {
     const FlatScene<T> flat = flatten<T>(mesh);
-    const trace::SceneView<T> view = trace::view_of(flat);
     const Bounds bounds = bounds_of(flat);
-    return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
+    const auto make = [&](Dice& dice) {
         const auto& triangle = flat.triangles[dice.index(flat.triangles.size())];
         const std::array<glm::dvec3, 3> corners{in_double(triangle.p0), in_double(triangle.p1),
                                                 in_double(triangle.p2)};
@@ -85,41 +75,62 @@ RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays) {
         const glm::dvec3 target =
             corners[first] + share * (corners[(first + 1) % 3] - corners[first]);
         const double spread = 0.15 * bounds.radius * dice.uniform(0, 1);
-        const Vec3<T> origin(bounds.middle + spread * dice.direction());
-        const trace::Ray<T> ray = make_ray<T>(origin, target - in_double(origin));
-        ++figures.rays;
-        figures.failures += trace::closest_hit(view, ray).prim == Flat<T>::none ? 1 : 0;
-    });
+        const glm::dvec3 origin = in_double(rounded<T>(bounds.middle + spread * dice.direction()));
+        return ray_query<T>(origin, target - origin);
+    };
+    return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
+                        [](const auto&, const auto& answer, RayFigures& figures) {
+                            ++figures.rays;
+                            figures.failures += answer.prim == Flat<T>::none ? 1 : 0;
+                        });
 }
 
+/// Outwards nothing must be hit; inwards the far side.
 template <typename T>
-RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays) {
+RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays,
+                                  const RayCaster& caster) {
     const FlatScene<T> flat = flatten<T>(scene);
-    const trace::SceneView<T> view = trace::view_of(flat);
-    return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
-        leave_sphere(view, shallowest, dice, figures);
-    });
-}
-
-template <typename T>
-RayFigures count_sphere_failures(const Scene& scene, std::uint64_t rays) {
-    const FlatScene<T> flat = flatten<T>(scene);
-    const trace::SceneView<T> view = trace::view_of(flat);
     const auto& sphere = flat.spheres[0];
-    return many_rays(rays, [&](Dice& dice, RayFigures& figures) {
-        const double reach = 1.5 * double(sphere.radius) * dice.uniform(0, 1);
-        const glm::dvec3 target = in_double(sphere.center) + reach * dice.direction();
-        const trace::Ray<T> ray = make_ray<T>(Vec3<T>(T(0)), target);
-        const trace::Hit<T> hit = trace::closest_hit(view, ray);
-        note_hit(figures, hit.prim == 0, double(hit.t), exact_distance(ray, sphere));
-    });
+    const auto make = [&](Dice& dice) {
+        return ray_query<T>(glm::dvec3(0),
+                            in_double(sphere.center) + double(sphere.radius) * dice.direction());
+    };
+    const auto go_on = [=](Dice& dice, auto& query, const auto& answer) {
+        leave_primitive<T>(dice, query, answer, 0, shallowest);
+    };
+    return many_rays<T>(caster.tracer(flat), rays, make, go_on,
+                        [&](const auto& query, const auto& answer, RayFigures& figures) {
+                            if (!has_left<T>(query)) return;
+                            const Quad exact = is_outwards<T>(query, answer)
+                                                   ? Quad(-1)
+                                                   : far_side(answer.normal, query.next, sphere);
+                            note_hit(figures, answer.next_prim == 0, double(answer.next_t), exact,
+                                     1e-3);
+                        });
 }
 
-template RayFigures count_leaks<float>(const Scene&, RayAim, std::uint64_t);
-template RayFigures count_leaks<double>(const Scene&, RayAim, std::uint64_t);
-template RayFigures count_leaving_failures<float>(const Scene&, double, std::uint64_t);
-template RayFigures count_leaving_failures<double>(const Scene&, double, std::uint64_t);
-template RayFigures count_sphere_failures<float>(const Scene&, std::uint64_t);
-template RayFigures count_sphere_failures<double>(const Scene&, std::uint64_t);
+template <typename T>
+RayFigures count_sphere_failures(const Scene& scene, std::uint64_t rays, const RayCaster& caster) {
+    const FlatScene<T> flat = flatten<T>(scene);
+    const auto& sphere = flat.spheres[0];
+    const auto make = [&](Dice& dice) {
+        const double reach = 1.5 * double(sphere.radius) * dice.uniform(0, 1);
+        return ray_query<T>(glm::dvec3(0), in_double(sphere.center) + reach * dice.direction());
+    };
+    return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
+                        [&](const auto& query, const auto& answer, RayFigures& figures) {
+                            note_hit(figures, answer.prim == 0, double(answer.t),
+                                     exact_distance<T>(query, sphere));
+                        });
+}
+
+template RayFigures count_leaks<float>(const Scene&, RayAim, std::uint64_t, const RayCaster&);
+template RayFigures count_leaks<double>(const Scene&, RayAim, std::uint64_t, const RayCaster&);
+template RayFigures count_leaving_failures<float>(const Scene&, double, std::uint64_t,
+                                                  const RayCaster&);
+template RayFigures count_leaving_failures<double>(const Scene&, double, std::uint64_t,
+                                                   const RayCaster&);
+template RayFigures count_sphere_failures<float>(const Scene&, std::uint64_t, const RayCaster&);
+template RayFigures count_sphere_failures<double>(const Scene&, std::uint64_t, const RayCaster&);
 
 }  // namespace rt

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/scene/scene.h"
+#include "host/stress/ray_caster.h"
 
 namespace rt {
 
@@ -53,9 +54,9 @@ struct RayFigures {
     double max_error = 0;        ///< relative error of a distance, where the trial measures it
 };
 
-/// Rays against the C++ tracer, without a picture. The bar's most_wrong counts failures.
+/// Rays without a picture. The bar's most_wrong counts failures.
 struct RayTrial {
-    std::function<RayFigures(std::uint64_t rays)> in_float, in_double;
+    std::function<RayFigures(std::uint64_t rays, const RayCaster&caster)> in_float, in_double;
     std::uint64_t rays = 10'000'000, quick_rays = 100'000;
 };
 

@@ -7,16 +7,18 @@ namespace rt {
 
 bool StressCaseResult::passed() const {
     return disagreement.empty() &&
+           std::any_of(rows.begin(), rows.end(), [](const StressRow& row) { return !row.naive; }) &&
            std::all_of(rows.begin(), rows.end(), [](const StressRow& row) { return row.passed(); });
 }
 
 bool StressFamilyResult::passed() const {
-    return std::all_of(cases.begin(), cases.end(),
-                       [](const StressCaseResult& one) { return one.passed(); });
+    return !cases.empty() && std::all_of(cases.begin(), cases.end(),
+                                         [](const StressCaseResult& one) { return one.passed(); });
 }
 
 bool StressResult::passed() const {
-    return std::all_of(families.begin(), families.end(),
+    return !families.empty() &&
+           std::all_of(families.begin(), families.end(),
                        [](const StressFamilyResult& family) { return family.passed(); });
 }
 

@@ -10,10 +10,13 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/hash.h"
+#include "host/render/cl_ray_tracer.h"
+#include "host/render/device_spec.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/json_file.h"
 #include "host/stop_signal.h"
 #include "host/stress/naive_tracer.h"
+#include "host/stress/ray_trials.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/picture_job.h"
 #include "host/verbs/stress_pictures.h"
@@ -34,6 +37,26 @@ RenderOptions row_options(const StressRow& row, const StressOptions& stress) {
     options.precision = row.double_precision ? Precision::float64 : Precision::float32;
     options.all_features = stress.quick || stress.all_features;
     return options;
+}
+
+/// Traces the rays of a trial where pictures with this --device are traced.
+RayCaster ray_caster(const std::string& spec) {
+    DeviceChoice choice;
+    if (names_threads(spec, choice)) return threads_ray_caster();
+    std::vector<std::string> problems;
+    const auto devices = list_cl_devices(problems);
+    const ClDevice device = choose_device(spec, devices, problems).device;
+    return {[=](const auto& scene) { return make_cl_ray_tracer<float>(scene, device, {}); },
+            [=](const auto& scene) { return make_cl_ray_tracer<double>(scene, device, {}); }};
+}
+
+std::string broken_ray_bar(const RayFigures& rays, const StressBar& bar) {
+    if (rays.rays == 0) return "no ray was traced";
+    if (rays.failures > bar.most_wrong) {
+        return fmt::format("{} of {} rays fail", rays.failures, rays.rays);
+    }
+    if (!(rays.max_error <= bar.max_error)) return fmt::format("off by {:.2g}", rays.max_error);
+    return "";
 }
 
 /// The first row of a renderer that must give the same bits as others of its family.
@@ -206,20 +229,21 @@ class Runner {
         }
     }
 
-    /// The C++ tracer stands for all: the kernels are its twins, bit for bit.
     void run_trial(const StressFamily&, const StressCase& one, const RayTrial& trial,
                    StressCaseResult& result) {
         const std::uint64_t rays = options_.quick ? trial.quick_rays : trial.rays;
         for (StressRow& row : planned_rows(one.bar)) {
-            if (row.device.rfind("threads", 0) != 0 || stop_flag() != 0) continue;
+            if (stop_flag() != 0) return;
             const Stopwatch watch;
-            row.rays = row.double_precision ? trial.in_double(rays) : trial.in_float(rays);
-            row.seconds = watch.seconds();
-            if (row.rays->failures > one.bar.most_wrong) {
-                row.why = fmt::format("{} of {} rays fail", row.rays->failures, row.rays->rays);
-            } else if (!(row.rays->max_error <= one.bar.max_error)) {
-                row.why = fmt::format("off by {:.2g}", row.rays->max_error);
+            try {
+                const RayCaster caster = ray_caster(row.device);
+                row.rays = row.double_precision ? trial.in_double(rays, caster)
+                                                : trial.in_float(rays, caster);
+                row.why = broken_ray_bar(*row.rays, one.bar);
+            } catch (const Error& error) {
+                row.why = first_line(error);
             }
+            row.seconds = watch.seconds();
             result.rows.push_back(std::move(row));
         }
     }
