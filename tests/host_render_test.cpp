@@ -2,9 +2,13 @@
 //
 // The small parts around the tracer: tiles, threads, device choice, film, image error, statistics.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <set>
 
@@ -13,6 +17,7 @@
 #include "host/render/adaptive.h"
 #include "host/render/device_spec.h"
 #include "host/render/film.h"
+#include "host/render/gpu_nodes.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
@@ -187,10 +192,33 @@ TEST(ChooseDevice, RefusesWhatFitsNoneOrSeveral) {
     EXPECT_EQ(refusal("gpu", broken), ExitCode::device);
 }
 
-TEST(ChooseDevice, FallsBackToThreadsWithANote) {
-    const DeviceChoice choice = choose_device("", {}, {"no OpenCL platform"});
+TEST(ChooseDevice, AutoTakesAGpuElseThreads) {
+    auto devices = three_devices();
+    const auto gpu = std::find_if(devices.begin(), devices.end(),
+                                  [](const ClDevice& device) { return device.is_gpu; });
+    EXPECT_FALSE(choose_device("auto", devices, {}).use_threads);
+    EXPECT_TRUE(choose_device("", devices, {}).device.is_gpu);
+    gpu->unusable = "its driver has no compiler";
+    const DeviceChoice choice = choose_device("auto", devices, {});
     EXPECT_TRUE(choice.use_threads);
-    EXPECT_NE(choice.note.find("no OpenCL platform"), std::string::npos);
+    EXPECT_NE(choice.note.find("its driver has no compiler"), std::string::npos);
+    devices.erase(gpu);
+    EXPECT_TRUE(choose_device("auto", devices, {}).use_threads);
+}
+
+TEST(ChooseWithoutOpencl, KnowsAGpuByItsDeviceFile) {
+    const std::filesystem::path dev =
+        std::filesystem::temp_directory_path() / ("dev-" + std::to_string(getpid()));
+    std::filesystem::create_directories(dev / "dri");
+    EXPECT_FALSE(gpu_may_be_here(dev));
+    EXPECT_FALSE(gpu_may_be_here(dev / "missing"));
+    std::ofstream(dev / "dri/card0") << "";
+    EXPECT_FALSE(gpu_may_be_here(dev));
+    std::ofstream(dev / "dri/renderD128") << "";
+    EXPECT_TRUE(gpu_may_be_here(dev));
+    std::filesystem::remove_all(dev);
+    EXPECT_TRUE(choose_without_opencl("threads:3")->use_threads);
+    EXPECT_FALSE(choose_without_opencl("pocl").has_value());
 }
 
 TEST(NamesThreads, ReadsTheCount) {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "host/error.h"
@@ -6,6 +9,7 @@
 #include "host/options/parse.h"
 #include "host/options/verb_options.h"
 #include "host/render/device_spec.h"
+#include "host/render/native_kernels.h"
 
 namespace rt {
 
@@ -28,6 +32,15 @@ Rect parse_crop(const std::string& text) {
         refuse("--crop", text, "give x0,y0,x1,y1 in pixels from the top left, with x0<x1, y0<y1");
     }
     return {(*n)[0], (*n)[1], (*n)[2] - (*n)[0], (*n)[3] - (*n)[1]};
+}
+
+std::string parse_isa(const std::string& text) {
+    const std::vector<std::string> isas = native_isas();
+    if (text == "auto") return "";
+    if (std::find(isas.begin(), isas.end(), text) == isas.end()) {
+        refuse("--isa", text, fmt::format("this processor runs {}", fmt::join(isas, ", ")));
+    }
+    return text;
 }
 
 std::string device_from_environment() {
@@ -105,8 +118,11 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
                        "what an OpenCL work item is (default: pixel on CPUs, sample elsewhere)");
     add_choice<int>(verb, "--lanes", render.lanes,
                     {{"auto", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}},
-                    "rays an OpenCL work item traces side by side (default: a CPU's vector width, "
-                    "else 1)");
+                    "rays traced side by side (default: a CPU's vector width; 1 on GPUs)");
+    verb.option(
+        "--isa", "NAME",
+        "instruction set of the threads' kernels, as `devices` names them (default: the best)",
+        [&](const std::string& text) { render.isa = parse_isa(text); });
     add_choice<Schedule>(verb, "--schedule", render.schedule,
                          {{"tiles", Schedule::tiles}, {"buffers", Schedule::buffers}},
                          "pthreads: shared tiles (default), or a thread per sample buffer");

@@ -36,7 +36,8 @@ struct RenderOptions {
     Precision precision = Precision::float32;
     bool fast_math = false;
     Launch launch = Launch::automatic;
-    int lanes = 0;  ///< rays of a packet on OpenCL devices; 0: as suits the device
+    int lanes = 0;    ///< rays of a packet; 0: as suits the device
+    std::string isa;  ///< instruction set of the threads' kernels; empty: the best
     Schedule schedule = Schedule::tiles;
     int threads = 0;  ///< 0: all cores
     bool all_features = false;

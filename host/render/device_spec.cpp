@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "host/error.h"
+#include "host/render/gpu_nodes.h"
 
 namespace rt {
 
@@ -75,31 +76,24 @@ Test test_for(const std::string& spec) {
     }
     throw Error(ExitCode::usage,
                 fmt::format("--device '{}' is not understood; use an index, platform:device, pocl, "
-                            "name:TEXT, cpu, gpu or threads[:N]",
+                            "name:TEXT, cpu, gpu, threads[:N] or auto",
                             spec));
 }
 
-int preference(const ClDevice& device) {
-    if (!device.unusable.empty()) return 3;
-    return device.is_gpu ? 0 : (device.is_cpu ? 2 : 1);
-}
-
-DeviceChoice best_device(const std::vector<ClDevice>& devices,
-                         const std::vector<std::string>& problems) {
+/// A GPU before any other accelerator; CPUs never: threads run the same kernels there.
+DeviceChoice best_device(const std::vector<ClDevice>& devices) {
     DeviceChoice choice;
-    const auto best = std::min_element(
-        devices.begin(), devices.end(),
-        [](const ClDevice& a, const ClDevice& b) { return preference(a) < preference(b); });
-    if (best != devices.end() && best->unusable.empty()) {
-        choice.device = *best;
-        return choice;
-    }
     choice.use_threads = true;
-    choice.note = "no usable OpenCL device; rendering on threads";
-    if (best != devices.end())
-        choice.note += fmt::format(" ({}: {})", best->name, best->unusable);
-    else if (!problems.empty())
-        choice.note += " (" + problems.front() + ")";
+    for (const ClDevice& device : devices) {
+        if (device.is_cpu) continue;
+        if (!device.unusable.empty()) {
+            choice.note = fmt::format("rendering on threads: {}: {}", device.name, device.unusable);
+        } else if (choice.use_threads || (device.is_gpu && !choice.device.is_gpu)) {
+            choice.use_threads = false;
+            choice.device = device;
+        }
+    }
+    if (!choice.use_threads) choice.note.clear();
     return choice;
 }
 
@@ -119,14 +113,24 @@ bool names_threads(const std::string& spec, DeviceChoice& choice) {
     return true;
 }
 
+bool is_auto(const std::string& spec) { return spec.empty() || spec == "auto"; }
+
+std::optional<DeviceChoice> choose_without_opencl(const std::string& spec) {
+    DeviceChoice choice;
+    if (names_threads(spec, choice)) return choice;
+    if (!is_auto(spec) || gpu_may_be_here()) return std::nullopt;
+    choice.use_threads = true;
+    return choice;
+}
+
 void check_device_spec(const std::string& spec) {
     DeviceChoice ignored;
-    if (!spec.empty() && !names_threads(spec, ignored)) test_for(spec);
+    if (!is_auto(spec) && !names_threads(spec, ignored)) test_for(spec);
 }
 
 DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,
                            const std::vector<std::string>& problems) {
-    if (spec.empty()) return best_device(devices, problems);
+    if (is_auto(spec)) return best_device(devices);
     std::vector<ClDevice> fitting;
     std::copy_if(devices.begin(), devices.end(), std::back_inserter(fitting), test_for(spec));
     if (fitting.empty()) {

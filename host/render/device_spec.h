@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,21 @@ struct DeviceChoice {
 /// be looked for. Throws Error (ExitCode::usage) for threads:0 and the like.
 bool names_threads(const std::string& spec, DeviceChoice& choice);
 
+/// Whether the text leaves the choice to the program: "auto" or "".
+bool is_auto(const std::string& spec);
+
+/// What can be chosen without loading OpenCL: threads where the text names them, or where it leaves
+/// the choice and this machine shows no GPU. Throws as names_threads.
+std::optional<DeviceChoice> choose_without_opencl(const std::string& spec);
+
 /// Throws Error (ExitCode::usage) unless the text is a spec, whatever devices there are.
 void check_device_spec(const std::string& spec);
 
-/// Chooses among the devices: "0", "0:1", "pocl", "name:TEXT", "cpu", "gpu", or "" for the best.
+/// Chooses among the devices: "0", "0:1", "pocl", "name:TEXT", "cpu", "gpu", or "auto": a
+/// GPU or accelerator if there is one, else threads, which start sooner than OpenCL on the same CPU.
 /// Text must fit exactly one usable device, else Error (ExitCode::usage) lists the candidates; a
-/// device that cannot be used is Error (ExitCode::device) with the reason. Without any usable
-/// device, "" chooses threads and says so in `note`.
+/// device that cannot be used is Error (ExitCode::device) with the reason; "auto" then chooses
+/// threads and says so in `note`.
 DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,
                            const std::vector<std::string>& problems);
 

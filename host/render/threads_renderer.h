@@ -20,7 +20,7 @@ struct ThreadsOptions {
     int threads = 0;  ///< 0: all cores, or one a sample buffer with Schedule::buffers
     Schedule schedule = Schedule::tiles;
     int lanes = 0;                  ///< rays of a packet: 1, 2, 4, 8 or 16; 0: a vector's
-    std::string isa;                ///< instruction set of the kernels; empty: the best here
+    std::string isa = {};           ///< instruction set of the kernels; empty: the best here
     bool all_features = false;      ///< run kernels that hold what the scene does not need, too
     Features also = no_features();  ///< and these, needed or not
     bool any_samples = false;       ///< run kernels for any number of samples

@@ -77,11 +77,12 @@ Json device_json(const DeviceStats& device) {
         json["platform"] = device.platform;
         json["driver"] = device.driver;
         json["launch"] = device.launch;
-        json["lanes"] = device.lanes;
     } else {
         json["threads"] = device.threads;
         json["schedule"] = device.schedule;
     }
+    json["lanes"] = device.lanes;
+    if (!device.isa.empty()) json["isa"] = device.isa;
     if (!device.fallback_from.empty()) json["fallback_from"] = device.fallback_from;
     return json;
 }

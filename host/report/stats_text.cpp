@@ -12,8 +12,9 @@ namespace {
 
 std::string device_text(const DeviceStats& device) {
     if (!device.schedule.empty()) {
-        return fmt::format("{} thread{}, {}", device.threads, device.threads == 1 ? "" : "s",
-                           device.schedule);
+        return fmt::format("{} thread{}, {}, {} lane{} ({})", device.threads,
+                           device.threads == 1 ? "" : "s", device.schedule, device.lanes,
+                           device.lanes == 1 ? "" : "s", device.isa);
     }
     return fmt::format("{}, per {}, {} lane{}", device.name, device.launch, device.lanes,
                        device.lanes == 1 ? "" : "s");

@@ -141,9 +141,7 @@ class Plan {
         const int last = device.threads > 0 ? device.threads : most;
         for (const Schedule schedule : options_.schedules) {
             for (int threads = first; threads <= last; ++threads) {
-                const int running = thread_count(
-                    ThreadsOptions{.threads = threads, .schedule = schedule, .isa = {}},
-                    picture.aa->samples());
+                const int running = thread_count({threads, schedule}, picture.aa->samples());
                 if (running < threads) break;
                 picture.schedule = schedule;
                 picture.device = fmt::format("threads:{}", threads);

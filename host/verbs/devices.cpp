@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -8,6 +9,7 @@
 #include "host/parallel.h"
 #include "host/render/cl_device.h"
 #include "host/render/icd_files.h"
+#include "host/render/native_kernels.h"
 #include "host/report/machine_load.h"
 #include "host/report/stats_json.h"
 #include "host/verbs/timing_loop.h"
@@ -46,12 +48,13 @@ nlohmann::ordered_json to_json(const ClDevice& device) {
 void print_json(const std::vector<ClDevice>& devices, const std::vector<std::string>& problems) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const ClDevice& device : devices) list.push_back(to_json(device));
-    const nlohmann::ordered_json json{{"format", "mirrorball-devices"},
-                                      {"version", 1},
-                                      {"devices", list},
-                                      {"threads", {{"cores", available_cores()}}},
-                                      {"machine", machine_load_json(load_of(load_average()))},
-                                      {"problems", problems}};
+    const nlohmann::ordered_json json{
+        {"format", "mirrorball-devices"},
+        {"version", 1},
+        {"devices", list},
+        {"threads", {{"cores", available_cores()}, {"isas", native_isas()}}},
+        {"machine", machine_load_json(load_of(load_average()))},
+        {"problems", problems}};
     print_result(json_text(json));
 }
 
@@ -81,6 +84,17 @@ void print_lines(const std::vector<std::string>& lines) {
     }
 }
 
+/// The pthreads' line: cores, and the instruction sets that there are kernels for.
+std::string threads_text(int cores) {
+    const std::vector<std::string> isas = native_isas();
+    std::string text =
+        fmt::format("threads  POSIX threads on {} core{}", cores, cores == 1 ? "" : "s");
+    if (isas.empty()) return text + ": no kernels for this processor\n";
+    text += fmt::format(", kernels for {}", fmt::join(isas, ", "));
+    if (!has_fast_fma(isas.front())) text += " (slow: no fused multiply-add)";
+    return text + "\n";
+}
+
 }  // namespace
 
 int run_devices(const DevicesOptions& options) {
@@ -97,8 +111,7 @@ int run_devices(const DevicesOptions& options) {
     const std::vector<ClDevice> devices = list_cl_devices(problems);
     std::string text;
     for (const ClDevice& device : devices) text += device_text(device);
-    const int cores = available_cores();
-    text += fmt::format("threads  POSIX threads on {} core{}\n", cores, cores == 1 ? "" : "s");
+    text += threads_text(available_cores());
     print_result(text);
     print_lines(problems);
     return 0;

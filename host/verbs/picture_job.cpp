@@ -25,14 +25,13 @@ namespace rt {
 namespace {
 
 DeviceChoice chosen_device(const RenderOptions& options) {
-    DeviceChoice choice;
-    if (names_threads(options.device, choice)) {
-        if (choice.threads > 0 && options.threads > 0 && choice.threads != options.threads) {
+    if (const auto choice = choose_without_opencl(options.device)) {
+        if (choice->threads > 0 && options.threads > 0 && choice->threads != options.threads) {
             throw Error(ExitCode::usage,
-                        fmt::format("--threads {} and --device {}: they disagree; give one",
+                        fmt::format("--threads {} and --device {} disagree; give one",
                                     options.threads, options.device));
         }
-        return choice;
+        return *choice;
     }
     std::vector<std::string> problems;
     const std::vector<ClDevice> devices = list_cl_devices(problems);
@@ -121,6 +120,9 @@ class Job {
         if (choice.use_threads && options_.launch != Launch::automatic) {
             say("--launch is for OpenCL devices; threads ignore it");
         }
+        if (choice.use_threads && options_.fast_math) {
+            say("--math fast is for OpenCL devices; threads are strict");
+        }
         if (!choice.use_threads && options_.schedule != Schedule::tiles) {
             say("--schedule is for --device threads; OpenCL devices ignore it");
         }
@@ -182,7 +184,10 @@ class Job {
         threads_options.all_features = options_.all_features;
         threads_options.also = options_.also_features;
         threads_options.any_samples = options_.any_samples;
-        stats_.device.lanes = native_kernels_for(scene_, threads_options).lanes;
+        threads_options.isa = options_.isa;
+        const NativeKernels<T>& kernels = native_kernels_for(scene_, threads_options);
+        stats_.device.lanes = kernels.lanes;
+        stats_.device.isa = kernels.isa;
         stats_.device.name = "threads";
         stats_.device.threads = thread_count(threads_options, stats_.aa.samples());
         stats_.device.schedule = options_.schedule == Schedule::tiles ? "tiles" : "buffers";
@@ -272,8 +277,7 @@ void apply_overrides(Scene& scene, const RenderOptions& options) {
 
 std::future<DeviceChoice> find_device(const RenderOptions& options) {
     const auto choose = [options] { return chosen_device(options); };
-    DeviceChoice threads;
-    if (!names_threads(options.device, threads)) {
+    if (!choose_without_opencl(options.device)) {
         set_pocl_threads(options.threads);
         try {
             return std::async(std::launch::async, choose);
