@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "host/flatten/flat_scene.h"
-#include "host/trace/math.h"
-#include "host/trace/surface.h"
 #include "tests/test_random.h"
 #include "tests/test_shapes.h"
 
@@ -64,7 +62,7 @@ struct BothWays {
 
 /// A ray that starts or ends somewhere interesting, in the author's numbering.
 template <typename T>
-trace::Ray<T> some_ray(const FlatScene<T>& scene, Random& random) {
+ProbeRay<T> some_ray(const FlatScene<T>& scene, Random& random) {
     const auto vertex = [&]() -> glm::dvec3 {
         if (scene.triangles.empty() || random.index(8) == 0) return random.in_cube(1.2);
         const auto& triangle =
@@ -90,7 +88,7 @@ trace::Ray<T> some_ray(const FlatScene<T>& scene, Random& random) {
         }
     }
     if (!(glm::length(dir) > 1e-9)) dir = random.unit_vector();
-    trace::Ray<T> ray;
+    ProbeRay<T> ray{};
     const int count = int(scene.spheres.size() + scene.cones.size() + scene.triangles.size());
     ray.from = random.index(4) == 0 ? random.index(count) : Flat<T>::none;
     if (ray.from >= 0 && ray.from < scene.frame.sphere_count) {  // a ray from a sphere starts on it
@@ -108,8 +106,8 @@ trace::Ray<T> some_ray(const FlatScene<T>& scene, Random& random) {
         origin = in_double(cone.base) + height * axis +
                  (double(cone.base_radius) + double(cone.slope) * height) * across;
     }
-    ray.origin = Vec3<T>(origin);
-    ray.dir = trace::normalize3(Vec3<T>(glm::normalize(dir)));
+    ray.origin = round_to<T>(origin);
+    ray.dir = round_to<T>(glm::normalize(dir));
     ray.t_max = static_cast<T>(random.uniform(0.1, 4));
     return ray;
 }

@@ -1,65 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hierarchies change nothing: the same hits, bit for bit, as from testing every primitive in the
-// author's order. MIRRORBALL_TEST_RAYS sets how many rays each scene gets.
+// What rays hit on pthreads: in packets of every width, with hierarchies and by testing every
+// primitive, the same bits; and what the textbook's tracer in long double hits.
+// MIRRORBALL_TEST_RAYS sets how many rays each scene gets.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstring>
 
-#include "host/parallel.h"
-#include "host/trace/closest_hit.h"
+#include "host/render/threads_renderer.h"
 #include "tests/hit_scenes.h"
 
 namespace rt {
 namespace {
 
 template <typename T>
-bool same(T a, T b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
-template <typename T>
 class Hits : public testing::Test {};
 using Precisions = testing::Types<float, double>;
 TYPED_TEST_SUITE(Hits, Precisions);
 
+template <typename T>
+using Query = typename Flat<T>::RayQuery;
+template <typename T>
+using Answer = typename Flat<T>::RayAnswer;
+
+template <typename T>
+Query<T> query_of(const ProbeRay<T>& ray) {
+    return {ray.origin, ray.t_max, ray.dir, ray.from, {}, ray.chord};
+}
+
+/// Rays in the author's numbering; every other one is traced on from where it hits.
+template <typename T>
+std::vector<Query<T>> some_queries(const FlatScene<T>& scene, std::size_t count) {
+    Random random(1);
+    return many(count, [&] {
+        Query<T> query = query_of(some_ray(scene, random));
+        if (random.coin()) query.next = round_to<T>(random.unit_vector());
+        return query;
+    });
+}
+
+/// Answers in the author's numbering, and what does not count blanked.
+template <typename T>
+std::vector<Answer<T>> answers(const Numbered<T>& numbered, std::vector<Query<T>> queries,
+                               int lanes) {
+    for (Query<T>& query : queries) {
+        if (query.from >= 0) query.from = numbered.place[std::size_t(query.from)];
+    }
+    ThreadsOptions options;
+    options.lanes = lanes;
+    std::vector<Answer<T>> found(queries.size());
+    make_threads_ray_tracer(numbered.scene, options)(queries, found);
+    for (Answer<T>& answer : found) {
+        answer.prim = numbered.listed(answer.prim);
+        answer.next_prim = numbered.listed(answer.next_prim);
+        if (answer.next_prim == Flat<T>::none) answer.next_t = 0;
+        if (answer.prim != Flat<T>::none) continue;
+        const auto is_blocked = answer.is_blocked;
+        answer = {};
+        answer.prim = Flat<T>::none;
+        answer.is_blocked = is_blocked;
+    }
+    return found;
+}
+
+/// Answers that differ in any bit.
+template <typename T>
+std::size_t differing(const std::vector<Answer<T>>& a, const std::vector<Answer<T>>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        count += std::memcmp(&a[i], &b[i], sizeof a[i]) != 0 ? 1 : 0;
+    }
+    return count;
+}
+
+/// Ends half the rays that hit something there, or just before.
+template <typename T>
+void end_at_hits(std::vector<Query<T>>& queries, const std::vector<Answer<T>>& hits) {
+    Random random(2);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        if (hits[i].prim == Flat<T>::none || random.coin()) continue;
+        queries[i].t_max = random.coin() ? hits[i].t : std::nextafter(hits[i].t, T(0));
+    }
+}
+
+/// One answer on all ways: it is returned.
+template <typename T>
+std::vector<Answer<T>> expect_one_answer(const BothWays<T>& both,
+                                         const std::vector<Query<T>>& queries) {
+    const auto plain = answers(both.plain, queries, 1);
+    for (const int lanes : {1, 2, 4, 8, 16}) {
+        EXPECT_EQ(differing<T>(answers(both.plain, queries, lanes), plain), 0u)
+            << lanes << " lanes";
+        EXPECT_EQ(differing<T>(answers(both.bvh, queries, lanes), plain), 0u)
+            << lanes << " lanes, hierarchies";
+    }
+    return plain;
+}
+
 TYPED_TEST(Hits, AreThoseOfTestingEveryPrimitive) {
     using T = TypeParam;
+    std::size_t found_next = 0;
     for (const HitScene& made_of : hit_scenes()) {
         SCOPED_TRACE(made_of.name);
         const BothWays<T> both(make_scene(made_of));
-        const Numbered<T>&plain = both.plain, &bvh = both.bvh;
-        ASSERT_TRUE(plain.scene.nodes.empty());
-        ASSERT_FALSE(bvh.scene.nodes.empty());
-        const auto plain_view = trace::view_of(plain.scene), bvh_view = trace::view_of(bvh.scene);
-        std::atomic<std::size_t> differ = 0, hits = 0, ties = 0;
-        constexpr std::size_t run = 1000;
-        for_each_run(ray_count(), run, available_cores(), [&](std::size_t first, std::size_t last) {
-            Random random(first + 1);
-            for (std::size_t i = first; i < last; ++i) {
-                trace::Ray<T> ray = some_ray(plain.scene, random);
-                trace::Ray<T> twin = ray;
-                if (ray.from >= 0) twin.from = bvh.place[std::size_t(ray.from)];
-                const auto a = trace::closest_hit(plain_view, ray);
-                const auto b = trace::closest_hit(bvh_view, twin);
-                hits += a.prim != Flat<T>::none ? 1 : 0;
-                ties += a.tied != 0 ? 1 : 0;
-                if (a.prim != bvh.listed(b.prim) || !same(a.t, b.t) || !same(a.u, b.u) ||
-                    !same(a.v, b.v) || a.tied != b.tied) {
-                    ++differ;
-                }
-                if (random.coin() && a.prim != Flat<T>::none) {
-                    ray.t_max = random.coin() ? a.t : std::nextafter(a.t, T(0));
-                    twin.t_max = ray.t_max;
-                }
-                if (trace::any_hit(plain_view, ray) != trace::any_hit(bvh_view, twin)) ++differ;
-            }
-        });
-        EXPECT_EQ(differ, 0u) << ties << " ties";
-        EXPECT_GT(hits, ray_count() / 100);
-        this->RecordProperty(std::string(made_of.name) + " ties", int(ties));
+        ASSERT_TRUE(both.plain.scene.nodes.empty());
+        ASSERT_FALSE(both.bvh.scene.nodes.empty());
+        auto queries = some_queries(both.plain.scene, ray_count(5000));
+        const auto hits = expect_one_answer(both, queries);
+        end_at_hits<T>(queries, hits);
+        std::size_t blocked = 0, found = 0;
+        for (const auto& answer : expect_one_answer(both, queries)) {
+            blocked += answer.is_blocked != 0 ? 1 : 0;
+            found += answer.prim != Flat<T>::none ? 1 : 0;
+            found_next += answer.prim != Flat<T>::none && answer.next_prim != Flat<T>::none ? 1 : 0;
+        }
+        EXPECT_GT(found, queries.size() / 100);
+        EXPECT_GT(blocked, queries.size() / 200);
     }
+    EXPECT_GT(found_next, ray_count(5000) / 10);
 }
 
 /// Rounding in the frame of a ray grows with its origin's distance from the eye.
@@ -69,42 +127,22 @@ TYPED_TEST(Hits, AreThoseOfTestingEveryPrimitiveFromFarAway) {
     scene.materials.emplace_back();
     add_floor(scene, 8, 1);
     const BothWays<T> both(scene);
-    const Numbered<T>&plain = both.plain, &bvh = both.bvh;
-    const auto plain_view = trace::view_of(plain.scene), bvh_view = trace::view_of(bvh.scene);
     Random random(21);
-    std::size_t differ = 0, hits = 0;
-    for (std::size_t i = 0; i < ray_count(); ++i) {
-        const auto& triangles = plain.scene.triangles;
+    auto queries = many(ray_count(), [&] {
+        const auto& triangles = both.plain.scene.triangles;
         const auto& triangle = triangles[std::size_t(random.index(int(triangles.size())))];
         const glm::dvec3 way = random.unit_vector();
-        trace::Ray<T> ray{};
-        ray.origin = Vec3<T>(in_double(triangle.p0) - 1000.0 * way);
-        ray.dir = trace::normalize3(Vec3<T>(in_double(triangle.p0)) - ray.origin);
-        ray.from = Flat<T>::none;
-        const auto a = trace::closest_hit(plain_view, ray), b = trace::closest_hit(bvh_view, ray);
-        differ += a.prim != bvh.listed(b.prim) || !same(a.t, b.t) || a.tied != b.tied ? 1 : 0;
-        ray.t_max = a.prim == Flat<T>::none ? T(2000) : a.t;
-        differ += trace::any_hit(plain_view, ray) != trace::any_hit(bvh_view, ray) ? 1 : 0;
-        hits += a.prim != Flat<T>::none ? 1 : 0;
+        auto ray = make_ray<T>(in_double(triangle.p0) - 1000.0 * way, way);
+        ray.t_max = 2000;
+        return query_of(ray);
+    });
+    const auto hits = expect_one_answer(both, queries);
+    end_at_hits<T>(queries, hits);
+    std::size_t found = 0;
+    for (const auto& hit : expect_one_answer(both, queries)) {
+        found += hit.prim != Flat<T>::none ? 1 : 0;
     }
-    EXPECT_EQ(differ, 0u);
-    EXPECT_GT(hits, ray_count() / 4);
-}
-
-/// 0 times infinity, on one axis after the other.
-TYPED_TEST(Hits, AreFoundAlongTheSideOfABox) {
-    using T = TypeParam;
-    for (int axis = 0; axis < 3; ++axis) {
-        trace::Ray<T> ray{};
-        ray.dir = Vec3<T>(T(0.5));
-        ray.dir[axis] = 0;
-        for (const T side : {T(0), T(1)}) {
-            trace::BoxRay<T> box_ray = trace::make_box_ray(ray);
-            box_ray.low_origin[axis] = box_ray.high_origin[axis] = side;
-            const typename Flat<T>::BvhNode unit{{0, 0, 0}, 0, {1, 1, 1}, 1};
-            EXPECT_EQ(trace::enter_box(box_ray, unit), T(0)) << axis;
-        }
-    }
+    EXPECT_GT(found, ray_count() / 4);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace rt {
 namespace {
 
 /// Rays of one launch, so that a large count takes no more memory.
-constexpr std::size_t most_rays = 1 << 18;
+constexpr std::size_t most_rays = 1 << 20;
 
 struct ClosedShape {
     const char* name;

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <optional>
 
 #include "host/error.h"
 #include "host/render/cl_program.h"
 #include "host/render/device_spec.h"
+#include "tests/native_bits.h"
 
 namespace rt {
 
@@ -24,6 +26,18 @@ namespace {
 /// again for more than 64 K items.
 constexpr std::size_t local_size = 64;
 constexpr std::size_t launch_items = 65536 - local_size;
+
+/// While a FastMath lives.
+bool fast_math = false;
+
+/// What MIRRORBALL_TEST_DEVICE says, or nothing.
+std::string asked_device() {
+    const char* spec = std::getenv("MIRRORBALL_TEST_DEVICE");
+    return spec == nullptr ? "" : spec;
+}
+
+/// Without OpenCL: the native probes alone.
+bool is_native_alone() { return asked_device() == "none"; }
 
 ClDevice default_device(const std::vector<ClDevice>& devices) {
     const auto usable = [](const ClDevice& device) { return device.unusable.empty(); };
@@ -42,8 +56,8 @@ ClDevice default_device(const std::vector<ClDevice>& devices) {
 ClDevice test_device() {
     std::vector<std::string> problems;
     const auto devices = list_cl_devices(problems);
-    const char* spec = std::getenv("MIRRORBALL_TEST_DEVICE");
-    if (spec == nullptr || *spec == '\0') return default_device(devices);
+    const std::string spec = asked_device();
+    if (spec.empty()) return default_device(devices);
     const DeviceChoice choice = choose_device(spec, devices, problems);
     if (choice.use_threads) {
         throw Error(ExitCode::usage,
@@ -60,8 +74,6 @@ class ProbeDevice {
 
     const ClDevice& device() const { return device_; }
 
-    bool fast_math = false;
-
     void launch(bool double_precision, const std::string& function, std::size_t count,
                 std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
         cl::Kernel kernel(program(double_precision), ("probe_" + function).c_str());
@@ -77,7 +89,7 @@ class ProbeDevice {
         }
         for (std::size_t i = 0; i < outputs.size(); ++i) {
             const cl::Buffer& buffer = buffers[inputs.size() + i];
-            queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, outputs[i].bytes, outputs[i].data);
+            queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, outputs[i].bytes(), outputs[i].data);
         }
     }
 
@@ -115,7 +127,7 @@ class ProbeDevice {
             queue_.enqueueWriteBuffer(buffers.back(), CL_TRUE, 0, input.bytes, input.data);
         }
         for (const ProbeOutput& output : outputs) {
-            buffers.emplace_back(context_, CL_MEM_READ_WRITE, output.bytes);
+            buffers.emplace_back(context_, CL_MEM_READ_WRITE, output.bytes());
         }
         for (cl_uint i = 0; i < buffers.size(); ++i) kernel.setArg(2 + i, buffers[i]);
         return buffers;
@@ -145,10 +157,17 @@ class ProbeEnvironment : public testing::Environment {
 ProbeEnvironment* const environment = new ProbeEnvironment;
 [[maybe_unused]] const auto* const registered = testing::AddGlobalTestEnvironment(environment);
 
-}  // namespace
+/// The native probe of one lane instead of a device's.
+void launch_native(bool double_precision, const std::string& function, std::size_t count,
+                   std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
+    const auto results = native_results(double_precision, 1, function, count, inputs, outputs);
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        std::memcpy(outputs[i].data, results[i].data(), results[i].size());
+    }
+}
 
-void launch_probe(bool double_precision, const std::string& function, std::size_t count,
-                  std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
+void launch_on_device(bool double_precision, const std::string& function, std::size_t count,
+                      std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
     ProbeDevice& probes = environment->open();
     const auto failed = [&](const std::string& what) {
         return Error(ExitCode::device, fmt::format("probe_{} in {} on {}: {}", function,
@@ -164,10 +183,23 @@ void launch_probe(bool double_precision, const std::string& function, std::size_
     }
 }
 
-FastMath::FastMath() { environment->open().fast_math = true; }
-FastMath::~FastMath() { environment->open().fast_math = false; }
+}  // namespace
 
-std::string test_device_name() { return environment->open().device().name; }
-bool test_device_has_double() { return environment->open().device().has_double; }
+void launch_probe(bool double_precision, const std::string& function, std::size_t count,
+                  std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
+    const auto launch = is_native_alone() ? launch_native : launch_on_device;
+    launch(double_precision, function, count, inputs, outputs);
+    if (!fast_math) expect_native_bits(double_precision, function, count, inputs, outputs);
+}
+
+FastMath::FastMath() { fast_math = true; }
+FastMath::~FastMath() { fast_math = false; }
+
+std::string test_device_name() {
+    return is_native_alone() ? "pthreads" : environment->open().device().name;
+}
+bool test_device_has_double() {
+    return is_native_alone() || environment->open().device().has_double;
+}
 
 }  // namespace rt

@@ -21,7 +21,7 @@
 //     }
 //
 // The device is the one MIRRORBALL_TEST_DEVICE names (as --device does), else the first PoCL
-// device, else the first that can render.
+// device, else the first that can render; `none` takes the native probes for it, without OpenCL.
 namespace rt {
 
 struct ProbeInput {
@@ -29,14 +29,21 @@ struct ProbeInput {
     std::size_t bytes;
 };
 
+/// Room for `count` items.
 struct ProbeOutput {
     void* data;
-    std::size_t bytes;
+    std::size_t count, item_bytes;
+    bool holds_numbers;  ///< and integers, perhaps; else integers alone
+
+    std::size_t bytes() const { return count * item_bytes; }
 };
 
 /// Runs probe_FUNCTION over `count` items; the kernel's arguments are first, count, the inputs and
 /// the outputs. Builds the probes on first use, once per precision and arithmetic, with warnings as
-/// errors. Throws Error (ExitCode::device) that names the device, the probe and the OpenCL status.
+/// errors. In strict arithmetic the same probe runs on this processor, too, in packets of every
+/// width, and the test fails where any bit differs; any NaN is like any other, since IEEE 754
+/// leaves sign and payload to the machine. Throws Error (ExitCode::device) that names the device,
+/// the probe and the OpenCL status.
 void launch_probe(bool double_precision, const std::string& function, std::size_t count,
                   std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs);
 
@@ -52,6 +59,14 @@ class FastMath {
 /// The test device's name, and whether it has the double type.
 std::string test_device_name();
 bool test_device_has_double();
+
+/// Whether results of this type are integers alone.
+template <typename X>
+inline constexpr bool is_integers = std::is_integral_v<X>;
+template <>
+inline constexpr bool is_integers<f32::RayCounts> = true;
+template <>
+inline constexpr bool is_integers<f64::RayCounts> = true;
 
 template <typename X>
 void add_inputs(std::vector<ProbeInput>& inputs, const std::vector<X>& values) {
@@ -83,7 +98,7 @@ auto run(const std::string& function, std::size_t count, const Ins&... ins) {
     std::vector<ProbeOutput> outputs;
     std::apply(
         [&](auto&... out) {
-            (outputs.push_back({out.data(), count * sizeof(out[0])}), ...);
+            (outputs.push_back({out.data(), count, sizeof(Outs), !is_integers<Outs>}), ...);
         },
         results);
     launch_probe(std::is_same_v<T, double>, function, count, inputs, outputs);
@@ -97,19 +112,19 @@ auto run(const std::string& function, std::size_t count, const Ins&... ins) {
 /// Whether two arrays of T, or of structs made of T and Flat<T>::Index, hold the same bits. Any NaN
 /// is like any other: IEEE 754 leaves sign and payload to the machine.
 template <typename T, typename X>
-testing::AssertionResult same_bits(const std::vector<X>& device, const std::vector<X>& twin) {
+testing::AssertionResult same_bits(const std::vector<X>& device, const std::vector<X>& expected) {
     static_assert(sizeof(X) % sizeof(T) == 0 && std::is_trivially_copyable_v<X>);
-    if (device.size() != twin.size()) return testing::AssertionFailure() << "different lengths";
+    if (device.size() != expected.size()) return testing::AssertionFailure() << "different lengths";
     constexpr std::size_t words = sizeof(X) / sizeof(T);
     for (std::size_t i = 0; i < device.size(); ++i) {
         T a[words], b[words];
         std::memcpy(a, &device[i], sizeof(X));
-        std::memcpy(b, &twin[i], sizeof(X));
+        std::memcpy(b, &expected[i], sizeof(X));
         for (std::size_t k = 0; k < words; ++k) {
             const bool both_nan = a[k] != a[k] && b[k] != b[k];
             if (both_nan || std::memcmp(&a[k], &b[k], sizeof(T)) == 0) continue;
             return testing::AssertionFailure() << "item " << i << ", number " << k << ": device "
-                                               << std::hexfloat << a[k] << ", twin " << b[k];
+                                               << std::hexfloat << a[k] << ", expected " << b[k];
         }
     }
     return testing::AssertionSuccess();

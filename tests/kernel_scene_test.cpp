@@ -4,7 +4,6 @@
 // half-ulps of the nearest are one; its lowest index is hit), whatever the order of the primitives.
 #include <numeric>
 
-#include "host/trace/closest_hit.h"
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"
 #include "tests/probe_types.h"
@@ -15,7 +14,7 @@ namespace rt {
 namespace {
 
 template <typename T>
-using Hit = trace::Hit<T>;
+using Hit = ProbeHit<T>;
 
 /// What a scene answers for one ray, by the definition of the rule: distances of all primitives
 /// first, from the device.
@@ -95,9 +94,6 @@ TYPED_TEST(ClosestHit, IsTheLowestIndexAmongTheNearest) {
     }
     EXPECT_GT(found, 5000);
     EXPECT_GT(ties, 100);
-    EXPECT_TRUE(same_bits<TypeParam>(hits, for_each_item(rays.size(), [&](std::size_t i) {
-                                         return trace::closest_hit(view(scene), unpack(rays[i]));
-                                     })));
 }
 
 /// Triangles across the z axis at these distances, each a little turned.
@@ -180,7 +176,6 @@ TYPED_TEST(ClosestHit, SkipsTheTriangleItLeaves) {
     const auto hits = run<TypeParam, Hit<TypeParam>>("closest_hit", 2, at.scene, at.rays);
     EXPECT_EQ(hits[0].prim, 0);
     EXPECT_EQ(hits[1].prim, 1);
-    EXPECT_EQ(trace::closest_hit(view(at.scene), unpack(at.rays[1])).prim, 1);
 }
 
 /// A floor of 8 x 8 squares, and rays at its vertices from a thousand times as far as it is wide.
@@ -236,7 +231,6 @@ TYPED_TEST(AnyHit, SkipsTheTriangleItLeaves) {
     const auto found = run<TypeParam, Index<TypeParam>>("any_hit", 2, at.scene, at.rays);
     EXPECT_NE(found[0], 0);
     EXPECT_EQ(found[1], 0);
-    EXPECT_FALSE(trace::any_hit(view(at.scene), unpack(at.rays[1])));
 }
 TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
     Random random(4);
@@ -255,7 +249,6 @@ TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_EQ(found[i] != 0, all.nearest(i) <= rays[i].t_max && std::isfinite(all.nearest(i)))
             << i;
-        ASSERT_EQ(trace::any_hit(view(scene), unpack(rays[i])), found[i] != 0) << i;
     }
 }
 TYPED_TEST(AnyHit, IsNotBlockedByTheBallItsLightLiesOn) {

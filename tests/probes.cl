@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One tiny entry point per device function, for the kernel tests: probe_FUNCTION takes the numbers
-// of the first item and of all items, then one array for each argument and one for each result.
+// of the first packet and of all items, then one array for each argument and one for each result.
 // A host test runs it with run<...>("FUNCTION", ...) (tests/kernel_runner.h). 3-vectors, rays and
 // surfaces travel packed, as everything in memory does.
+//
+// A packet holds RT_LANES items, one a lane. Where a function takes one primitive for all lanes, it
+// is called for each lane with that lane's, and that lane's result kept.
 #include "kernels/render.cl"
+#include "tests/probe_structs.h"
 
-#define PROBE_ITEMS uint first, uint count
-#define PROBE_ITEM                       \
-    size_t i = first + get_global_id(0); \
-    if (i >= count) return
 #define PROBE_SCENE                                                                       \
     __global const Sphere *spheres, __global const Cone *cones,                           \
         __global const Triangle *triangles, __global const VertexNormals *vertex_normals, \
@@ -19,107 +19,17 @@
 #define PROBE_SCENE_VIEW \
     { spheres, cones, triangles, vertex_normals, materials, lights, nodes, listed, casters, *frame }
 
-typedef struct {
-    Packed3 origin;
-    Real t_max;
-    Packed3 dir;
-    Index from;
-    Real chord;
-    Packed3 dir_low, origin_low;
-} ProbeRay;
-
-typedef struct {
-    Packed3 point;
-    Real offset;
-    Packed3 normal;
-    Index material;
-    Packed3 geometric;
-    Real diameter;
-    Packed3 point_low;
-} ProbeSurface;
-
-typedef struct {
-    Index kx, ky, kz;
-    Real origin_x, origin_y, origin_z;
-    Real sx, sy, sz;
-} ProbeShear;
-
-typedef struct {
-    Real t, u, v;
-    Index prim, tied;
-} ProbeHit;
-
-typedef struct {
-    ulong offset, bytes;
-} ProbeField;
-
-Packed3 pack(real3 v) {
-    Packed3 packed = {v.x, v.y, v.z};
-    return packed;
-}
-
-Ray unpack_ray(ProbeRay packed) {
-    Ray ray;
-    ray.origin = load3(packed.origin);
-    ray.dir = load3(packed.dir);
-    ray.dir_low = load3(packed.dir_low);
-    ray.origin_low = load3(packed.origin_low);
-    ray.t_max = packed.t_max;
-    ray.from = packed.from;
-    ray.chord = packed.chord;
-    return ray;
-}
-
-Hit unpack_hit(ProbeHit packed) {
-    Hit hit = {packed.t, packed.u, packed.v, packed.prim, packed.tied != 0};
-    return hit;
-}
-
-ProbeHit pack_hit(Hit hit) {
-    ProbeHit packed = {hit.t, hit.u, hit.v, hit.prim, hit.tied};
-    return packed;
-}
-
-RayCounts pack_counts(PacketCounts counts) {
-    RayCounts packed = {0, 0, 0};
-    count_lanes(&packed, &counts);
-    return packed;
-}
-
-// The finish of a surface of a probe's scene.
+// The finishes of the surfaces of a probe's scene.
 Finish probe_finish(const SceneView* scene, const Surface* surface) {
     return finish_of(scene, surface->material, RT_ALL_LANES);
-}
-
-ProbeRay pack_ray(Ray ray) {
-    ProbeRay packed = {pack(ray.origin), ray.t_max,         pack(ray.dir),       ray.from,
-                       ray.chord,        pack(ray.dir_low), pack(ray.origin_low)};
-    return packed;
-}
-
-Surface unpack_surface(ProbeSurface packed) {
-    Surface surface;
-    surface.point = load3(packed.point);
-    surface.normal = load3(packed.normal);
-    surface.geometric = load3(packed.geometric);
-    surface.offset = packed.offset;
-    surface.material = packed.material;
-    surface.diameter = packed.diameter;
-    surface.point_low = load3(packed.point_low);
-    return surface;
-}
-
-ProbeSurface pack_surface(Surface s) {
-    ProbeSurface packed = {pack(s.point),     s.offset,   pack(s.normal),   s.material,
-                           pack(s.geometric), s.diameter, pack(s.point_low)};
-    return packed;
 }
 
 // shared.h: offset and size of entry i of tests/layout_fields.h
 
 __kernel void probe_layout(PROBE_ITEMS, __global ProbeField* out) {
-    PROBE_ITEM;
-    size_t n = 0;
+    PROBE_PACKET;
+    PROBE_EACH_ITEM {
+        size_t n = 0;
 #define RT_STRUCT(type)              \
     if (n++ == i) {                  \
         out[i].offset = 0;           \
@@ -132,14 +42,15 @@ __kernel void probe_layout(PROBE_ITEMS, __global ProbeField* out) {
         out[i].bytes = sizeof(object.member);                            \
     }
 #include "tests/layout_fields.h"
+    }
 }
 
 // One number in, one out
 
 #define PROBE_UNARY(function)                                                                 \
     __kernel void probe_##function(PROBE_ITEMS, __global const Real* x, __global Real* out) { \
-        PROBE_ITEM;                                                                           \
-        out[i] = function(x[i]);                                                              \
+        PROBE_PACKET;                                                                         \
+        PUT_REALS(out, function(REALS(x)));                                                   \
     }
 PROBE_UNARY(log2_tail)
 PROBE_UNARY(log2_series)
@@ -149,65 +60,67 @@ PROBE_UNARY(exp2_series)
 
 __kernel void probe_one_ulp_towards(PROBE_ITEMS, __global const Real* x,
                                     __global const Real* direction, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = one_ulp_towards(x[i], direction[i]);
+    PROBE_PACKET;
+    PUT_REALS(out, one_ulp_towards(REALS(x), REALS(direction)));
 }
 
 __kernel void probe_log2_cosine(PROBE_ITEMS, __global const Real* along,
                                 __global const Real* across, __global const Real* squared,
                                 __global Real* out) {
-    PROBE_ITEM;
-    out[i] = log2_cosine(along[i], across[i], squared[i]);
+    PROBE_PACKET;
+    PUT_REALS(out, log2_cosine(REALS(along), REALS(across), REALS(squared)));
 }
 
 __kernel void probe_exp2_of_product(PROBE_ITEMS, __global const Real* a, __global const Real* b,
                                     __global Real* out) {
-    PROBE_ITEM;
-    out[i] = exp2_of_product(a[i], b[i]);
+    PROBE_PACKET;
+    PUT_REALS(out, exp2_of_product(REALS(a), REALS(b)));
 }
 
 __kernel void probe_blinn_lobe(PROBE_ITEMS, __global const Real* along, __global const Real* across,
                                __global const Real* squared, __global const Real* exponent,
                                __global Real* out) {
-    PROBE_ITEM;
-    out[i] = blinn_lobe(along[i], across[i], squared[i], exponent[i]);
+    PROBE_PACKET;
+    PUT_REALS(out, blinn_lobe(REALS(along), REALS(across), REALS(squared), REALS(exponent)));
 }
 
 // math.cl
 
 __kernel void probe_load3(PROBE_ITEMS, __global const Packed3* a, __global Packed3* out) {
-    PROBE_ITEM;
-    out[i] = pack(load3(a[i]));
+    PROBE_PACKET;
+    real3 loaded = make3((Reals)0, (Reals)0, (Reals)0);
+    PROBE_EACH_LANE loaded = select3(THIS_LANE, load3(a[THIS_ITEM]), loaded);
+    PUT_REAL3(out, loaded);
 }
 
 __kernel void probe_dot3(PROBE_ITEMS, __global const Packed3* a, __global const Packed3* b,
                          __global Real* out) {
-    PROBE_ITEM;
-    out[i] = dot3(load3(a[i]), load3(b[i]));
+    PROBE_PACKET;
+    PUT_REALS(out, dot3(REAL3(a), REAL3(b)));
 }
 
 __kernel void probe_add_scaled(PROBE_ITEMS, __global const Packed3* a, __global const Real* s,
                                __global const Packed3* b, __global Packed3* out) {
-    PROBE_ITEM;
-    out[i] = pack(add_scaled(load3(a[i]), s[i], load3(b[i])));
+    PROBE_PACKET;
+    PUT_REAL3(out, add_scaled(REAL3(a), REALS(s), REAL3(b)));
 }
 
 __kernel void probe_multiply_add(PROBE_ITEMS, __global const Real* a, __global const Real* b,
                                  __global const Real* c, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = a[i] * b[i] + c[i];
+    PROBE_PACKET;
+    PUT_REALS(out, REALS(a) * REALS(b) + REALS(c));
 }
 
 __kernel void probe_length3(PROBE_ITEMS, __global const Packed3* a, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = length3(load3(a[i]));
+    PROBE_PACKET;
+    PUT_REALS(out, length3(REAL3(a)));
 }
 
 #define PROBE_UNARY3(function)                                             \
     __kernel void probe_##function(PROBE_ITEMS, __global const Packed3* a, \
                                    __global Packed3* out) {                \
-        PROBE_ITEM;                                                        \
-        out[i] = pack(function(load3(a[i])));                              \
+        PROBE_PACKET;                                                      \
+        PUT_REAL3(out, function(REAL3(a)));                                \
     }
 PROBE_UNARY3(abs3)
 PROBE_UNARY3(negate3)
@@ -216,173 +129,223 @@ PROBE_UNARY3(normalize3)
 #define PROBE_BINARY3(function)                                                        \
     __kernel void probe_##function(PROBE_ITEMS, __global const Packed3* a,             \
                                    __global const Packed3* b, __global Packed3* out) { \
-        PROBE_ITEM;                                                                    \
-        out[i] = pack(function(load3(a[i]), load3(b[i])));                             \
+        PROBE_PACKET;                                                                  \
+        PUT_REAL3(out, function(REAL3(a), REAL3(b)));                                  \
     }
 PROBE_BINARY3(add3)
 PROBE_BINARY3(sub3)
 PROBE_BINARY3(mul3)
 PROBE_BINARY3(reflect3)
+PROBE_BINARY3(cross3)
 
 __kernel void probe_scale3(PROBE_ITEMS, __global const Real* s, __global const Packed3* v,
                            __global Packed3* out) {
-    PROBE_ITEM;
-    out[i] = pack(scale3(s[i], load3(v[i])));
+    PROBE_PACKET;
+    PUT_REAL3(out, scale3(REALS(s), REAL3(v)));
 }
 
 __kernel void probe_divide3(PROBE_ITEMS, __global const Packed3* v, __global const Real* s,
                             __global Packed3* out) {
-    PROBE_ITEM;
-    out[i] = pack(divide3(load3(v[i]), s[i]));
+    PROBE_PACKET;
+    PUT_REAL3(out, divide3(REAL3(v), REALS(s)));
 }
 
 __kernel void probe_difference_of_products(PROBE_ITEMS, __global const Real* a,
                                            __global const Real* b, __global const Real* c,
                                            __global const Real* d, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = difference_of_products(a[i], b[i], c[i], d[i]);
+    PROBE_PACKET;
+    PUT_REALS(out, difference_of_products(REALS(a), REALS(b), REALS(c), REALS(d)));
 }
 
-// camera.cl, intersect.cl
+// camera.cl, intersect.cl, cone.cl
 
 __kernel void probe_camera_ray(PROBE_ITEMS, __global const Frame* frame, __global const Index* x,
                                __global const Index* y, __global const Index* k,
                                __global ProbeRay* out) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     Frame copy = *frame;
-    out[i] = pack_ray(camera_ray(&copy, x[i], y[i], k[i]));
+    PUT_RAY(out, camera_ray(&copy, INDICES(x), INDICES(y), INDICES(k)));
 }
 
 __kernel void probe_intersect_sphere(PROBE_ITEMS, __global const ProbeRay* rays,
                                      __global const Sphere* spheres, __global Real* out) {
-    PROBE_ITEM;
-    Ray ray = unpack_ray(rays[i]);
-    Real t;
-    out[i] = intersect_sphere(&ray, &spheres[i], (Index)i, &t) ? t : -1;
-}
-
-__kernel void probe_cross3(PROBE_ITEMS, __global const Packed3* a, __global const Packed3* b,
-                           __global Packed3* out) {
-    PROBE_ITEM;
-    out[i] = pack(cross3(load3(a[i]), load3(b[i])));
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
+    Reals found = (Reals)-1;
+    PROBE_EACH_LANE {
+        Reals t = (Reals)0;
+        Mask met = intersect_sphere(&ray, &spheres[THIS_ITEM], (Index)THIS_ITEM, &t);
+        found = (THIS_LANE & met) ? t : found;
+    }
+    PUT_REALS(out, found);
 }
 
 __kernel void probe_intersect_cone(PROBE_ITEMS, __global const ProbeRay* rays,
                                    __global const Cone* cones, __global const Index* leaving,
                                    __global Real* out) {
-    PROBE_ITEM;
-    Ray ray = unpack_ray(rays[i]);
-    Real t;
-    out[i] = intersect_cone(&ray, &cones[i], leaving[i] != 0, &t) ? t : -1;
-}
-
-__kernel void probe_cone_surface(PROBE_ITEMS, __global const ProbeRay* rays, __global const Real* t,
-                                 __global const Cone* cones, __global ProbeSurface* out) {
-    PROBE_ITEM;
-    Ray ray = unpack_ray(rays[i]);
-    out[i] = pack_surface(cone_surface(&ray, t[i], &cones[i]));
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
+    Mask leaves = INDICES(leaving) != 0;
+    Reals found = (Reals)-1;
+    PROBE_EACH_LANE {
+        Reals t = (Reals)0;
+        Mask met = intersect_cone(&ray, &cones[THIS_ITEM], leaves, &t);
+        found = (THIS_LANE & met) ? t : found;
+    }
+    PUT_REALS(out, found);
 }
 
 __kernel void probe_component3(PROBE_ITEMS, __global const Packed3* v, __global const Index* k,
                                __global Real* out) {
-    PROBE_ITEM;
-    out[i] = component3(load3(v[i]), k[i]);
+    PROBE_PACKET;
+    PUT_REALS(out, component3(REAL3(v), INDICES(k)));
 }
 
 __kernel void probe_make_shear(PROBE_ITEMS, __global const ProbeRay* rays,
                                __global ProbeShear* out) {
-    PROBE_ITEM;
-    Ray ray = unpack_ray(rays[i]);
-    RayShear s = make_shear(&ray, RT_ALL_LANES);
-    ProbeShear packed = {next_axis(s.axis),
-                         next_axis(next_axis(s.axis)),
-                         s.axis,
-                         s.origin.x,
-                         s.origin.y,
-                         s.origin.z,
-                         s.sx,
-                         s.sy,
-                         s.sz};
-    out[i] = packed;
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
+    RayShear shear = make_shear(&ray, RT_ALL_LANES);
+    PUT_INDICES_OF(out, kx, next_axis(shear.axis));
+    PUT_INDICES_OF(out, ky, next_axis(next_axis(shear.axis)));
+    PUT_INDICES_OF(out, kz, shear.axis);
+    PUT_REALS_OF(out, origin_x, shear.origin.x);
+    PUT_REALS_OF(out, origin_y, shear.origin.y);
+    PUT_REALS_OF(out, origin_z, shear.origin.z);
+    PUT_REALS_OF(out, sx, shear.sx);
+    PUT_REALS_OF(out, sy, shear.sy);
+    PUT_REALS_OF(out, sz, shear.sz);
 }
 
 __kernel void probe_shear_vertex(PROBE_ITEMS, __global const ProbeRay* rays,
                                  __global const Packed3* vertices, __global Packed3* out) {
-    PROBE_ITEM;
-    Ray ray = unpack_ray(rays[i]);
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
     RayShear shear = make_shear(&ray, RT_ALL_LANES);
-    out[i] = pack(shear_vertex(&shear, shear.axis, &vertices[i]));
+    real3 sheared = make3((Reals)0, (Reals)0, (Reals)0);
+    PROBE_EACH_LANE {
+        Index axis = lane_of(shear.axis, lane);
+        real3 vertex = shear_vertex(&shear, axis, &vertices[THIS_ITEM]);
+        sheared = select3(THIS_LANE, vertex, sheared);
+    }
+    PUT_REAL3(out, sheared);
 }
 
 __kernel void probe_intersect_triangle(PROBE_ITEMS, __global const ProbeRay* rays,
                                        __global const Triangle* triangles, __global ProbeHit* out) {
-    PROBE_ITEM;
-    Ray ray = unpack_ray(rays[i]);
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
     RayShear shear = make_shear(&ray, RT_ALL_LANES);
-    ProbeHit hit = {-1, 0, 0, 0, 0};
-    Real t, u, v;
-    if (intersect_triangle(&shear, shear.axis, &triangles[i], &t, &u, &v)) {
-        hit.t = t;
-        hit.u = u;
-        hit.v = v;
+    Hit hit = no_hit();
+    PROBE_EACH_LANE {
+        Index axis = lane_of(shear.axis, lane);
+        Reals t = (Reals)0, u = (Reals)0, v = (Reals)0;
+        Mask met = intersect_triangle(&shear, axis, &triangles[THIS_ITEM], &t, &u, &v) & THIS_LANE;
+        hit.t = met ? t : hit.t;
+        hit.u = met ? u : hit.u;
+        hit.v = met ? v : hit.v;
     }
-    out[i] = hit;
+    PUT_HIT(out, hit);
 }
 
-// closest_hit.cl
+// bvh.cl, closest_hit.cl
+
+// Where the rays enter the boxes; -1 where they do not.
+__kernel void probe_meets_box(PROBE_ITEMS, __global const ProbeRay* rays,
+                              __global const BvhNode* boxes, __global Real* out) {
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
+    Traversal traversal = begin_traversal(&ray, RT_ALL_LANES);
+    Reals found = (Reals)-1;
+    PROBE_EACH_LANE {
+        Reals entry;
+        Mask meets = meets_box(&traversal, &boxes[THIS_ITEM], ray.t_max, &entry);
+        found = (THIS_LANE & meets) ? entry : found;
+    }
+    PUT_REALS(out, found);
+}
 
 // Distance to primitive prims[i] alone.
 __kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                         __global const Index* prims, __global ProbeHit* out) {
-    PROBE_ITEM;
-    Ray ray = unpack_ray(rays[i]);
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
     RayShear shear = make_shear(&ray, RT_ALL_LANES);
-    ProbeHit hit = {-1, 0, 0, prims[i], 0};
-    Real t, u, v;
-    Index cone = prims[i] - frame->sphere_count;
-    Index triangle = cone - frame->cone_count;
-    if (cone < 0) {
-        if (intersect_sphere(&ray, &spheres[prims[i]], prims[i], &t)) hit.t = t;
-    } else if (triangle < 0) {
-        if (intersect_cone(&ray, &cones[cone], ray.from == prims[i], &t)) hit.t = t;
-    } else if (ray.from != prims[i] &&
-               intersect_triangle(&shear, shear.axis, &triangles[triangle], &t, &u, &v)) {
-        hit.t = t;
+    Hit hit = no_hit();
+    hit.prim = INDICES(prims);
+    PROBE_EACH_LANE {
+        Index prim = prims[THIS_ITEM];
+        Index cone = prim - frame->sphere_count;
+        Index triangle = cone - frame->cone_count;
+        Reals t = (Reals)0, u, v;
+        Mask met = THIS_LANE;
+        if (cone < 0) {
+            met &= intersect_sphere(&ray, &spheres[prim], prim, &t);
+        } else if (triangle < 0) {
+            met &= intersect_cone(&ray, &cones[cone], ray.from == prim, &t);
+        } else {
+            Index axis = lane_of(shear.axis, lane);
+            met &= intersect_triangle(&shear, axis, &triangles[triangle], &t, &u, &v);
+            met &= ray.from != prim;
+        }
+        hit.t = met ? t : hit.t;
     }
-    out[i] = hit;
+    PUT_HIT(out, hit);
 }
 
 __kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                 __global ProbeHit* out) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    Ray ray = unpack_ray(rays[i]);
-    out[i] = pack_hit(closest_hit(&scene, &ray, RT_ALL_LANES));
+    Ray ray = RAYS(rays);
+    PUT_HIT(out, closest_hit(&scene, &ray, RT_ALL_LANES));
 }
 
 __kernel void probe_any_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                             __global Index* out) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    Ray ray = unpack_ray(rays[i]);
-    out[i] = any_hit(&scene, &ray, 0, frame->triangle_count);
+    Ray ray = RAYS(rays);
+    PUT_MASK(out, any_hit(&scene, &ray, 0, frame->triangle_count));
 }
 
-// surface.cl
+// surface.cl, hit_surface.cl
 
 __kernel void probe_sphere_surface(PROBE_ITEMS, __global const ProbeRay* rays,
                                    __global const Real* t, __global const Sphere* spheres,
                                    __global ProbeSurface* out) {
-    PROBE_ITEM;
-    Ray ray = unpack_ray(rays[i]);
-    out[i] = pack_surface(sphere_surface(&ray, t[i], &spheres[i]));
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
+    Surface surface = no_surface();
+    PROBE_EACH_LANE {
+        Surface met = sphere_surface(&ray, REALS(t), &spheres[THIS_ITEM]);
+        surface = select_surface(THIS_LANE, met, surface);
+    }
+    PUT_SURFACE(out, surface);
+}
+
+__kernel void probe_cone_surface(PROBE_ITEMS, __global const ProbeRay* rays, __global const Real* t,
+                                 __global const Cone* cones, __global ProbeSurface* out) {
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
+    Surface surface = no_surface();
+    PROBE_EACH_LANE {
+        Surface met = cone_surface(&ray, REALS(t), &cones[THIS_ITEM]);
+        surface = select_surface(THIS_LANE, met, surface);
+    }
+    PUT_SURFACE(out, surface);
 }
 
 __kernel void probe_blended_normal(PROBE_ITEMS, __global const VertexNormals* normals,
                                    __global const Packed3* faces, __global const Real* u,
                                    __global const Real* v, __global Packed3* out) {
-    PROBE_ITEM;
-    out[i] = pack(blended_normal(&normals[i], load3(faces[i]), u[i], v[i]));
+    PROBE_PACKET;
+    real3 blended = make3((Reals)0, (Reals)0, (Reals)0);
+    PROBE_EACH_LANE {
+        real3 normal = blended_normal(&normals[THIS_ITEM], REAL3(faces), REALS(u), REALS(v));
+        blended = select3(THIS_LANE, normal, blended);
+    }
+    PUT_REAL3(out, blended);
 }
 
 __kernel void probe_triangle_surface(PROBE_ITEMS, __global const ProbeRay* rays,
@@ -390,65 +353,75 @@ __kernel void probe_triangle_surface(PROBE_ITEMS, __global const ProbeRay* rays,
                                      __global const Triangle* triangles,
                                      __global const VertexNormals* vertex_normals,
                                      __global ProbeSurface* out) {
-    PROBE_ITEM;
-    Ray ray = unpack_ray(rays[i]);
-    Hit hit = unpack_hit(hits[i]);
-    out[i] = pack_surface(triangle_surface(&ray, &hit, &triangles[i], vertex_normals));
+    PROBE_PACKET;
+    Ray ray = RAYS(rays);
+    Hit hit = HITS(hits);
+    Surface surface = no_surface();
+    PROBE_EACH_LANE {
+        Surface met = triangle_surface(&ray, &hit, &triangles[THIS_ITEM], vertex_normals);
+        surface = select_surface(THIS_LANE, met, surface);
+    }
+    PUT_SURFACE(out, surface);
 }
 
 __kernel void probe_primitive_surface(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                       __global const ProbeHit* hits, __global ProbeSurface* out) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    Ray ray = unpack_ray(rays[i]);
-    Hit hit = unpack_hit(hits[i]);
-    out[i] = pack_surface(primitive_surface(&scene, &ray, &hit, hit.prim));
+    Ray ray = RAYS(rays);
+    Hit hit = HITS(hits);
+    Surface surface = no_surface();
+    PROBE_EACH_LANE {
+        Surface met = primitive_surface(&scene, &ray, &hit, hits[THIS_ITEM].prim);
+        surface = select_surface(THIS_LANE, met, surface);
+    }
+    PUT_SURFACE(out, surface);
 }
 
 __kernel void probe_is_on_edge(PROBE_ITEMS, PROBE_SCENE, __global const ProbeHit* hits,
                                __global Index* out) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    Hit hit = unpack_hit(hits[i]);
-    out[i] = is_on_edge(&scene, &hit);
+    Hit hit = HITS(hits);
+    PUT_MASK(out, is_on_edge(&scene, &hit));
 }
 
 __kernel void probe_surface_at(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                __global const ProbeHit* hits, __global ProbeSurface* out) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    Ray ray = unpack_ray(rays[i]);
-    Hit hit = unpack_hit(hits[i]);
-    out[i] = pack_surface(surface_at(&scene, &ray, &hit, RT_ALL_LANES));
+    Ray ray = RAYS(rays);
+    Hit hit = HITS(hits);
+    PUT_SURFACE(out, surface_at(&scene, &ray, &hit, RT_ALL_LANES));
 }
 
 __kernel void probe_offset_origin(PROBE_ITEMS, __global const ProbeSurface* surfaces,
                                   __global const Packed3* sides, __global Packed3* out) {
-    PROBE_ITEM;
-    Surface surface = unpack_surface(surfaces[i]);
-    out[i] = pack(offset_origin(&surface, load3(sides[i])));
+    PROBE_PACKET;
+    Surface surface = SURFACES(surfaces);
+    PUT_REAL3(out, offset_origin(&surface, REAL3(sides)));
 }
 
 __kernel void probe_leave_surface(PROBE_ITEMS, __global const ProbeSurface* surfaces,
                                   __global const Packed3* origins, __global const Packed3* dirs,
                                   __global const Index* prims, __global ProbeRay* out) {
-    PROBE_ITEM;
-    Surface surface = unpack_surface(surfaces[i]);
-    out[i] = pack_ray(leave_surface(&surface, load3(origins[i]), load3(dirs[i]), prims[i]));
+    PROBE_PACKET;
+    Surface surface = SURFACES(surfaces);
+    PUT_RAY(out, leave_surface(&surface, REAL3(origins), REAL3(dirs), INDICES(prims)));
 }
 
-// shade.cl
+// material.cl, shade.cl
 
 __kernel void probe_is_black(PROBE_ITEMS, __global const Packed3* colors, __global Index* out) {
-    PROBE_ITEM;
-    out[i] = is_black(load3(colors[i]));
+    PROBE_PACKET;
+    PUT_MASK(out, is_black(REAL3(colors)));
 }
 
 __kernel void probe_specular_lobe(PROBE_ITEMS, __global const Packed3* normals,
                                   __global const Packed3* to_light, __global const Packed3* to_eye,
                                   __global const Real* shininess, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = specular_lobe(load3(normals[i]), load3(to_light[i]), load3(to_eye[i]), shininess[i]);
+    PROBE_PACKET;
+    PUT_REALS(out, specular_lobe(REAL3(normals), REAL3(to_light), REAL3(to_eye), REALS(shininess)));
 }
 
 // Light 0 of the scene; the surface says which material and, where it is one, which primitive.
@@ -457,27 +430,27 @@ __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
                                        __global const Packed3* origins,
                                        __global const Packed3* to_eye, __global const Index* prims,
                                        __global Packed3* out, __global RayCounts* counts) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    Surface surface = unpack_surface(surfaces[i]);
+    Surface surface = SURFACES(surfaces);
     Finish finish = probe_finish(&scene, &surface);
-    PacketCounts used = {0, 0, 0};
-    out[i] = pack(light_contribution(&scene, &surface, &finish, &lights[0], load3(origins[i]),
-                                     load3(to_eye[i]), prims[i], RT_ALL_LANES, &used));
-    counts[i] = pack_counts(used);
+    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
+    PUT_REAL3(out, light_contribution(&scene, &surface, &finish, &lights[0], REAL3(origins),
+                                      REAL3(to_eye), INDICES(prims), RT_ALL_LANES, &used));
+    PUT_COUNTS(counts, used);
 }
 
 __kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface* surfaces,
                           __global const Packed3* to_eye, __global const Index* prims,
                           __global Packed3* out, __global RayCounts* counts) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    Surface surface = unpack_surface(surfaces[i]);
+    Surface surface = SURFACES(surfaces);
     Finish finish = probe_finish(&scene, &surface);
-    PacketCounts used = {0, 0, 0};
-    out[i] =
-        pack(shade(&scene, &surface, &finish, load3(to_eye[i]), prims[i], RT_ALL_LANES, &used));
-    counts[i] = pack_counts(used);
+    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
+    PUT_REAL3(out,
+              shade(&scene, &surface, &finish, REAL3(to_eye), INDICES(prims), RT_ALL_LANES, &used));
+    PUT_COUNTS(counts, used);
 }
 
 // whitted.cl
@@ -485,119 +458,152 @@ __kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface*
 __kernel void probe_mirror_ray(PROBE_ITEMS, __global const ProbeSurface* surfaces,
                                __global const Packed3* dirs, __global const Index* prims,
                                __global ProbeRay* out) {
-    PROBE_ITEM;
-    Surface surface = unpack_surface(surfaces[i]);
-    out[i] = pack_ray(mirror_ray(&surface, load3(dirs[i]), prims[i]));
+    PROBE_PACKET;
+    Surface surface = SURFACES(surfaces);
+    PUT_RAY(out, mirror_ray(&surface, REAL3(dirs), INDICES(prims)));
 }
 
 __kernel void probe_refracted_ray(PROBE_ITEMS, __global const ProbeSurface* surfaces,
                                   __global const Packed3* dirs, __global const Real* eta,
                                   __global const Index* prims, __global ProbeRay* out,
                                   __global Index* total) {
-    PROBE_ITEM;
-    Surface surface = unpack_surface(surfaces[i]);
+    PROBE_PACKET;
+    Surface surface = SURFACES(surfaces);
     Mask is_total;
-    out[i] = pack_ray(refracted_ray(&surface, load3(dirs[i]), eta[i], prims[i], &is_total));
-    total[i] = is_total;
+    PUT_RAY(out, refracted_ray(&surface, REAL3(dirs), REALS(eta), INDICES(prims), &is_total));
+    PUT_MASK(total, is_total);
 }
 
 __kernel void probe_trace_path(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                __global Packed3* out, __global RayCounts* counts) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    PacketCounts used = {0, 0, 0};
-    out[i] = pack(trace_path(&scene, unpack_ray(rays[i]), RT_ALL_LANES, &used));
-    counts[i] = pack_counts(used);
+    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
+    PUT_REAL3(out, trace_path(&scene, RAYS(rays), RT_ALL_LANES, &used));
+    PUT_COUNTS(counts, used);
 }
 
 __kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
                                  __global const Index* y, __global const Index* k,
                                  __global Packed3* out, __global RayCounts* counts) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    PacketCounts used = {0, 0, 0};
-    out[i] = pack(trace_sample(&scene, x[i], y[i], k[i], RT_ALL_LANES, &used));
-    counts[i] = pack_counts(used);
+    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
+    PUT_REAL3(out, trace_sample(&scene, INDICES(x), INDICES(y), INDICES(k), RT_ALL_LANES, &used));
+    PUT_COUNTS(counts, used);
 }
 
-// render.cl
+// packet.cl, film.cl
+
+// Pixels in any places, so many at a time as a packet holds.
+__kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
+                                __global const Index* y, __global Packed3* out) {
+    PROBE_PACKET;
+    SceneView scene = PROBE_SCENE_VIEW;
+    Packet packet = make_packet(frame->samples, RT_SAMPLES_TOGETHER);
+    for (Index done = 0; done < RT_LANES; done += packet.pixels) {
+        IndexLanes pixel, column, row;
+        pixel.all = packet.pixel + done;
+        PROBE_EACH_LANE {
+            size_t i = lane_item(at, count, pixel.lane[lane]);
+            column.lane[lane] = x[i];
+            row.lane[lane] = y[i];
+        }
+        RayCounts counts = {0, 0, 0};
+        real3 colors = trace_pixels(&scene, &packet, column.all, row.all, RT_ALL_LANES, &counts);
+        Indices places = packet.pixel + (done + (Index)at);
+        places = places < (Indices)(Index)count ? places : (Indices)-1;
+        store_lanes((__global Real*)out, colors, places, packet.pixels);
+    }
+}
 
 __kernel void probe_store3(PROBE_ITEMS, __global const Packed3* colors, __global Packed3* out) {
-    PROBE_ITEM;
-    store3((__global Real*)out, (Index)i, colors[i].x, colors[i].y, colors[i].z);
+    PROBE_PACKET;
+    PROBE_EACH_ITEM {
+        store3((__global Real*)out, (Index)i, colors[i].x, colors[i].y, colors[i].z);
+    }
 }
 
 __kernel void probe_add_counts(PROBE_ITEMS, __global const RayCounts* a,
                                __global const RayCounts* b, __global RayCounts* out) {
-    PROBE_ITEM;
-    out[i] = a[i];
-    add_counts(out, i, b[i]);
+    PROBE_PACKET;
+    PROBE_EACH_ITEM {
+        out[i] = a[i];
+        add_counts(out, i, b[i]);
+    }
 }
 
 // sampling.cl
 
 __kernel void probe_reverse_bits(PROBE_ITEMS, __global const uint* v, __global uint* out) {
-    PROBE_ITEM;
-    out[i] = reverse_bits(v[i]);
+    PROBE_PACKET;
+    PUT_UINTS(out, reverse_bits(UINTS(v)));
 }
 
 __kernel void probe_swap_bits(PROBE_ITEMS, __global const uint* v, __global const uint* mask,
                               __global const uint* shift, __global uint* out) {
-    PROBE_ITEM;
-    out[i] = swap_bits(v[i], mask[i], shift[i]);
+    PROBE_PACKET;
+    PUT_UINTS(out, swap_bits(UINTS(v), UINTS(mask), UINTS(shift)));
 }
 
 __kernel void probe_hash_bits(PROBE_ITEMS, __global const uint* v, __global uint* out) {
-    PROBE_ITEM;
-    out[i] = hash_bits(v[i]);
+    PROBE_PACKET;
+    PUT_UINTS(out, hash_bits(UINTS(v)));
 }
 
 __kernel void probe_owen_scramble(PROBE_ITEMS, __global const uint* v, __global const uint* seed,
                                   __global uint* out) {
-    PROBE_ITEM;
-    out[i] = owen_scramble(v[i], seed[i]);
+    PROBE_PACKET;
+    PUT_UINTS(out, owen_scramble(UINTS(v), UINTS(seed)));
 }
 
 __kernel void probe_sobol_second(PROBE_ITEMS, __global const uint* index, __global uint* out) {
-    PROBE_ITEM;
-    out[i] = sobol_second(index[i]);
+    PROBE_PACKET;
+    PUT_UINTS(out, sobol_second(UINTS(index)));
 }
 
 __kernel void probe_unit_from_bits(PROBE_ITEMS, __global const uint* bits, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = unit_from_bits(bits[i]);
+    PROBE_PACKET;
+    PUT_REALS(out, unit_from_bits(UINTS(bits)));
 }
 
 __kernel void probe_sobol_position(PROBE_ITEMS, __global const uint* seed, __global const uint* k,
                                    __global Real* x, __global Real* y) {
-    PROBE_ITEM;
-    Position position = sobol_position(seed[i], k[i]);
-    x[i] = position.x;
-    y[i] = position.y;
+    PROBE_PACKET;
+    Position position = sobol_position(UINTS(seed), UINTS(k));
+    PUT_REALS(x, position.x);
+    PUT_REALS(y, position.y);
 }
 
 __kernel void probe_grid_position(PROBE_ITEMS, __global const Index* grid, __global const Index* k,
                                   __global Real* x, __global Real* y) {
-    PROBE_ITEM;
-    Position position = grid_position(grid[i], k[i]);
-    x[i] = position.x;
-    y[i] = position.y;
+    PROBE_PACKET;
+    Reals across = (Reals)0, up = (Reals)0;
+    PROBE_EACH_LANE {
+        Position position = grid_position(grid[THIS_ITEM], INDICES(k));
+        across = THIS_LANE ? position.x : across;
+        up = THIS_LANE ? position.y : up;
+    }
+    PUT_REALS(x, across);
+    PUT_REALS(y, up);
 }
 
 __kernel void probe_filter_radius(PROBE_ITEMS, __global const Index* filter, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = filter_radius(filter[i]);
+    PROBE_PACKET;
+    PROBE_EACH_ITEM out[i] = filter_radius(filter[i]);
 }
 
 __kernel void probe_mitchell_weight(PROBE_ITEMS, __global const Real* d, __global Real* out) {
-    PROBE_ITEM;
-    out[i] = mitchell_weight(d[i]);
+    PROBE_PACKET;
+    PUT_REALS(out, mitchell_weight(REALS(d)));
 }
 
 __kernel void probe_filter_weight(PROBE_ITEMS, __global const Index* filter, __global const Real* d,
                                   __global Real* out) {
-    PROBE_ITEM;
-    out[i] = filter_weight(filter[i], d[i]);
+    PROBE_PACKET;
+    Reals weight = (Reals)0;
+    PROBE_EACH_LANE { weight = THIS_LANE ? filter_weight(filter[THIS_ITEM], REALS(d)) : weight; }
+    PUT_REALS(out, weight);
 }
 
 // unit_position, sample_position and sample_weight of one sample.
@@ -605,22 +611,13 @@ __kernel void probe_sample(PROBE_ITEMS, __global const Frame* frame, __global co
                            __global const Index* y, __global const Index* k, __global Real* unit_x,
                            __global Real* unit_y, __global Real* sample_x, __global Real* sample_y,
                            __global Real* weight) {
-    PROBE_ITEM;
+    PROBE_PACKET;
     Frame f = *frame;
-    Position unit = unit_position(&f, x[i], y[i], k[i]);
-    Position sample = sample_position(&f, x[i], y[i], k[i]);
-    unit_x[i] = unit.x;
-    unit_y[i] = unit.y;
-    sample_x[i] = sample.x;
-    sample_y[i] = sample.y;
-    weight[i] = sample_weight(&f, x[i], y[i], k[i]);
-}
-
-__kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
-                                __global const Index* y, __global Packed3* out) {
-    PROBE_ITEM;
-    SceneView scene = PROBE_SCENE_VIEW;
-    RayCounts counts = {0, 0, 0};
-    Packet packet = make_packet(frame->samples, RT_SAMPLES_TOGETHER);
-    out[i] = pack(trace_pixels(&scene, &packet, x[i], y[i], RT_ALL_LANES, &counts));
+    Position unit = unit_position(&f, INDICES(x), INDICES(y), INDICES(k));
+    Position sample = sample_position(&f, INDICES(x), INDICES(y), INDICES(k));
+    PUT_REALS(unit_x, unit.x);
+    PUT_REALS(unit_y, unit.y);
+    PUT_REALS(sample_x, sample.x);
+    PUT_REALS(sample_y, sample.y);
+    PUT_REALS(weight, sample_weight(&f, INDICES(x), INDICES(y), INDICES(k)));
 }

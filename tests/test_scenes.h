@@ -4,20 +4,11 @@
 #include <type_traits>
 
 #include "host/flatten/flat_scene.h"
-#include "host/trace/scene_view.h"
 #include "tests/test_random.h"
 #include "tests/test_shapes.h"
 
 // Scenes for the kernel tests, and rays for them.
 namespace rt {
-
-template <typename T>
-using Index = typename Flat<T>::Index;
-
-template <typename T>
-trace::SceneView<T> view(const FlatScene<T>& scene) {
-    return trace::view_of(scene);
-}
 
 /// Sets the frame's counts; all triangles cast shadows.
 template <typename T>
