@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "host/render/threads_renderer.h"
+#include "tests/brute_force.h"
 #include "tests/hit_scenes.h"
 
 namespace rt {
@@ -143,6 +144,68 @@ TYPED_TEST(Hits, AreThoseOfTestingEveryPrimitiveFromFarAway) {
         found += hit.prim != Flat<T>::none ? 1 : 0;
     }
     EXPECT_GT(found, ray_count() / 4);
+}
+
+/// Rays through the middle that leave no surface.
+template <typename T>
+std::vector<Query<T>> random_queries(std::size_t count) {
+    Random random(3);
+    return many(count, [&] {
+        const glm::dvec3 origin = random.in_cube(1.5);
+        auto ray = make_ray<T>(origin, random.in_cube(1) - origin);
+        ray.t_max = static_cast<T>(random.uniform(0.1, 4));
+        return query_of(ray);
+    });
+}
+
+/// How many of the answers could be compared.
+struct Compared {
+    std::size_t hits = 0, skipped = 0, blocked = 0, unsure = 0;
+};
+
+/// Holds an answer to what the textbook says, unless rounding decides.
+template <typename T>
+void compare(const BruteForce& right, const Query<T>& query, const Answer<T>& found, Index<T> prim,
+             Compared& compared) {
+    if (right.has_doubt_within(right.nearest_end())) {
+        ++compared.skipped;
+    } else {
+        compared.hits += prim >= 0 ? 1 : 0;
+        EXPECT_TRUE(right.agrees(prim, found.t))
+            << "primitive " << prim << " at " << found.t << ", and the nearest one ends before "
+            << double(right.nearest_end());
+    }
+    if (right.is_unsure_at(query.t_max)) {
+        ++compared.unsure;
+    } else {
+        compared.blocked += found.is_blocked != 0 ? 1 : 0;
+        EXPECT_EQ(found.is_blocked != 0, right.is_blocked(query.t_max));
+    }
+}
+
+TYPED_TEST(Hits, AreTheTextbooks) {
+    using T = TypeParam;
+    std::size_t hits = 0, blocked = 0;
+    for (const HitScene& made_of : hit_scenes()) {
+        SCOPED_TRACE(made_of.name);
+        const Numbered<T> bvh(flatten<T>(make_scene(made_of)));
+        const auto queries = random_queries<T>(ray_count() / 10);
+        const auto found = answers(bvh, queries, 0);
+        Compared compared;
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const BruteForce right(bvh.scene, wide(queries[i].origin), wide(queries[i].dir));
+            const auto prim = found[i].prim;
+            compare<T>(right, queries[i], found[i], prim < 0 ? prim : bvh.place[std::size_t(prim)],
+                       compared);
+        }
+        const std::size_t few = queries.size() / 20;
+        EXPECT_LE(compared.skipped, few);
+        EXPECT_LE(compared.unsure, few);
+        hits += compared.hits;
+        blocked += compared.blocked;
+    }
+    EXPECT_GT(hits, ray_count() / 8);
+    EXPECT_GT(blocked, ray_count() / 8);
 }
 
 }  // namespace
