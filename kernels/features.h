@@ -46,11 +46,13 @@
 #endif
 
 // The switches as bits, in the order of host/flatten/features.h.
+#ifndef RT_FEATURE_BITS
 #define RT_FEATURE_BITS                                                                           \
     (RT_HAS_SPHERES | RT_HAS_HUGE_SPHERES << 1 | RT_HAS_EYE_ON_SURFACE << 2 | RT_HAS_CONES << 3 | \
      RT_HAS_TRIANGLES << 4 | RT_HAS_VERTEX_NORMALS << 5 | RT_HAS_HIERARCHY << 6 |                 \
      RT_HAS_LIGHTS << 7 | RT_HAS_MIRRORS << 8 | RT_HAS_GLASS << 9 | RT_HAS_SOBOL << 10 |          \
      RT_HAS_FILTERS << 11)
+#endif
 
 // Samples of a pixel, where a packet holds them all and their number is compiled in; else 0.
 #ifndef RT_SAMPLES

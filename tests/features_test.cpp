@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every feature and every two of them alone, and all but one, are built, with warnings as
-// errors, and rendered; leaving out changes no bit.
+// Every feature alone, and all but one, are built for the device, with warnings as errors, and
+// rendered; leaving out changes no bit. Every possible set of them is in switches_test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,81 +10,11 @@
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/cl_program.h"
+#include "tests/feature_scenes.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
 namespace {
-
-/// Enough of a shape that the scene has for a hierarchy.
-void add_a_row(Scene& scene) {
-    for (int i = 0; i < 30; ++i) {
-        const glm::dvec3 p(0.1 * i - 1.5, 0.8 - 0.05 * (i % 5), -0.5);
-        if (!scene.spheres.empty()) {
-            scene.spheres.push_back({p, 0.06, 0});
-        } else if (!scene.cones.empty()) {
-            scene.cones.push_back({p, p + glm::dvec3(0, 0.1, 0), 0.06, 0.02, 0});
-        } else {
-            scene.triangles.push_back(
-                {{{p, p + glm::dvec3(0.1, 0, 0), p + glm::dvec3(0, 0.1, 0)}}, {}, 0});
-        }
-    }
-}
-
-/// A small scene that needs exactly these features.
-Scene scene_needing(const Features& features) {
-    Scene scene;
-    scene.camera.from = {0, 0.5, 3};
-    scene.camera.window = {-1, 1, -0.75, 0.75};
-    scene.width = 32;
-    scene.height = 24;
-    scene.background = {0.1, 0.2, 0.3};
-    scene.ambient_light = {0.3, 0.3, 0.3};
-    Scene::Material material;
-    material.ambient = material.diffuse = {0.8, 0.6, 0.4};
-    material.specular = {0.5, 0.5, 0.5};
-    material.shininess = 20;
-    if (features.mirrors) material.mirror = {0.3, 0.4, 0.5};
-    if (features.glass) {
-        material.transmission = {0.6, 0.5, 0.4};
-        material.ior = 1.4;
-    }
-    scene.materials.push_back(material);
-    if (features.lights) scene.lights = {{{2, 3, 4}, {1, 1, 1}}, {{-3, 1, 2}, {0.4, 0.5, 0.6}}};
-    if (features.spheres) scene.spheres = {{{0, 0.2, 0}, 0.7, 0}, {{0.9, 0, 0.6}, 0.4, 0}};
-    if (features.cones) {
-        scene.cones = {{{-0.8, -0.9, 0.8}, {-0.5, 0.6, 0.4}, 0.3, 0.1, 0},
-                       {{0.9, 0.5, 0.4}, {0.2, 0.9, 0.2}, 0.2, 0.2, 0}};
-    }
-    if (features.triangles) {
-        scene.triangles = {{{{{-3, -1, 3}, {3, -1, 3}, {0, -1, -6}}}, {}, 0},
-                           {{{{-1, -1, -1}, {-0.2, -1, 0.2}, {-0.8, 1, 0}}}, {}, 0}};
-    }
-    if (features.huge_spheres) scene.spheres.push_back({{0, -1e5 - 2, 0}, 1e5, 0});
-    if (features.eye_on_surface && features.spheres) {
-        scene.spheres.push_back({{0, 0.5, 3.25}, 0.25, 0});
-    } else if (features.eye_on_surface && features.cones) {
-        scene.cones.push_back({{-0.2, 0.5, 3.25}, {0.2, 0.5, 3.25}, 0.25, 0.25, 0});
-    } else if (features.eye_on_surface) {
-        scene.triangles.push_back({{{{-2, 0.5, 0}, {2, 0.5, 0}, {0, 0.5, -2}}}, {}, 0});
-    }
-    if (features.vertex_normals) {
-        scene.triangles[1].normals = {{{-0.6, 0, 0.8}, {0.6, 0, 0.8}, {0, 0.6, 0.8}}};
-    }
-    if (features.hierarchy) add_a_row(scene);
-    if (features.sobol) scene.aa = *parse_aa_mode("sobol:4");
-    if (features.filters) scene.filter = Filter::tent;
-    return scene;
-}
-
-/// Whether some scene needs exactly these.
-bool is_possible(const Features& features) {
-    if (features.vertex_normals && !features.triangles) return false;
-    if (features.huge_spheres && !features.spheres) return false;
-    const bool any_shape = features.spheres || features.cones || features.triangles;
-    if (features.eye_on_surface && !any_shape) return false;
-    return any_shape ||
-           !(features.hierarchy || features.lights || features.mirrors || features.glass);
-}
 
 std::vector<Features> some_combinations() {
     std::vector<Features> combinations;
@@ -94,7 +24,7 @@ std::vector<Features> some_combinations() {
             features.*feature_names[i].flag = (bits >> i & 1) != 0;
         }
         const int used = std::popcount(bits), left_out = int(feature_names.size()) - used;
-        if ((used <= 2 || left_out <= 1) && is_possible(features)) combinations.push_back(features);
+        if ((used <= 1 || left_out <= 1) && is_possible(features)) combinations.push_back(features);
     }
     return combinations;
 }

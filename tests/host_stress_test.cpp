@@ -197,7 +197,6 @@ TEST(StressJson, SaysTheSame) {
     EXPECT_EQ(json["families"][0]["cases"][1]["rows"][0]["verdict"], "fail");
     EXPECT_EQ(json["families"][0]["cases"][1]["rows"][1]["verdict"], "not judged");
     EXPECT_TRUE(json["families"][0]["cases"][0]["bar"]["wrong_at_edges"].is_null());
-    EXPECT_DOUBLE_EQ(json["cost"]["ratio"].get<double>(), 1.5);
 }
 
 TEST(StressSection, ShowsVerdictsAndCurves) {

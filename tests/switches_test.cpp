@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every set of features that a scene can need gives the bits of all of them: the kernels with their
+// switches as variables, in packets and one ray at a time.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+
+#include "host/flatten/flat_scene.h"
+#include "host/render/packet_shape.h"
+#include "host/render/threads_renderer.h"
+#include "tests/feature_scenes.h"
+#include "tests/render_helpers.h"
+
+extern "C" {
+/// What tests/switchable_features.h reads.
+int rt_switches[12];
+
+#define DECLARE_SWITCHABLE(name)                                                  \
+    void name##_pixels(float*, rt::f32::RayCounts*, const rt::NativeView<float>*, \
+                       const rt::f32::Tile*, rt::f32::Index, rt::f32::Index)
+DECLARE_SWITCHABLE(rt_switchable_1);
+DECLARE_SWITCHABLE(rt_switchable_8);
+}
+
+namespace rt::test {
+namespace {
+
+using RenderPixels = decltype(&rt_switchable_1_pixels);
+
+void set_switches(const Features& features) {
+    for (std::size_t i = 0; i < feature_names.size(); ++i) {
+        rt_switches[i] = features.*feature_names[i].flag ? 1 : 0;
+    }
+}
+
+std::uint64_t hash_by(RenderPixels render, int lanes, const FlatScene<float>& flat) {
+    const Rect whole{0, 0, flat.frame.width, flat.frame.height};
+    const auto tile = flat_tile<float>(whole, whole);
+    const PacketShape shape = packet_shape(lanes, flat.frame.samples);
+    const int across = (whole.width + shape.width - 1) / shape.width;
+    const int down = (whole.height + shape.height - 1) / shape.height;
+    Film<float> film(whole.width, whole.height);
+    f32::RayCounts counts{};
+    const NativeView<float> view = native_view(flat);
+    render(film.rgb.data(), &counts, &view, &tile, 0, across * down);
+    return hash_of(film);
+}
+
+TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
+    static_assert(feature_names.size() == std::size(rt_switches));
+    ThreadsOptions everything;
+    everything.all_features = true;
+    int sets = 0;
+    for (int bits = 0; bits < 1 << feature_names.size(); ++bits) {
+        const Features features = features_of(bits);
+        if (!is_possible(features)) continue;
+        ++sets;
+        const Scene scene = scene_needing(features);
+        const FlatScene<float> flat = flatten<float>(scene);
+        ASSERT_EQ(flat.features, features) << bits;
+        const std::uint64_t expected = hash_of(render_on_threads<float>(scene, everything));
+        set_switches(features);
+        EXPECT_EQ(hash_by(rt_switchable_1_pixels, 1, flat), expected) << bits;
+        EXPECT_EQ(hash_by(rt_switchable_8_pixels, 8, flat), expected) << bits;
+    }
+    EXPECT_GT(sets, 2000);
+}
+
+/// Else the test above would compare a picture with itself.
+TEST(Switches, DoSomething) {
+    const FlatScene<float> flat = flatten<float>(scene_needing(features_of(0xfff)));
+    set_switches(features_of(0xfff));
+    const std::uint64_t all = hash_by(rt_switchable_8_pixels, 8, flat);
+    for (const int bit : {0, 3, 4, 5, 7, 8, 9, 10, 11}) {
+        set_switches(features_of(0xfff & ~(1 << bit)));
+        EXPECT_NE(hash_by(rt_switchable_8_pixels, 8, flat), all) << feature_names[bit].name;
+    }
+}
+
+}  // namespace
+}  // namespace rt::test
