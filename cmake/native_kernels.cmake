@@ -19,10 +19,25 @@ set(NATIVE_KERNEL_FLAGS -x cl -cl-std=CL1.2 -cl-no-stdinc
     -O3 -ffp-contract=off -cl-fp32-correctly-rounded-divide-sqrt -fno-math-errno -fPIC
     -Wall -Wextra -Werror -Wno-unused-parameter -Wno-unused-function -Wno-psabi)
 
+# Under sanitizers and fuzzers the kernels of all features stand for all: they take long to compile.
+set(NATIVE_SETS plain_4 plain mesh_4 mesh all)
+if(MIRRORBALL_SANITIZE OR MIRRORBALL_FUZZ)
+    set(NATIVE_SETS all)
+    set(NATIVE_FEWER_ISAS x86-64-v3)
+endif()
+if(MIRRORBALL_SANITIZE)
+    # The bits of numbers are added as integers that may wrap (kernels/power.cl).
+    list(APPEND NATIVE_KERNEL_FLAGS -O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all
+        -fno-sanitize=signed-integer-overflow -fno-omit-frame-pointer)
+endif()
+
 # Each instruction set: its flags, and how many floats and doubles a vector holds.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(MIRRORBALL_ISAS x86-64-v4 x86-64-v3 x86-64-v2 CACHE STRING
         "Instruction sets to compile kernels for, the best first")
+    if(NATIVE_FEWER_ISAS)
+        set(MIRRORBALL_ISAS ${NATIVE_FEWER_ISAS})
+    endif()
     set(x86-64-v4_FLAGS -march=x86-64-v4 -mprefer-vector-width=512)
     set(x86-64-v4_WIDTHS 16 8)
     set(x86-64-v3_FLAGS -march=x86-64-v3)
@@ -73,7 +88,7 @@ function(native_kernels TABLE OBJECTS)
                 set(real -DRT_DOUBLE=1)
                 list(GET ${isa}_WIDTHS 1 width)
             endif()
-            foreach(set plain_4 plain mesh_4 mesh all)
+            foreach(set IN LISTS NATIVE_SETS)
                 set(widths 1 ${width})
                 if(isa STREQUAL x86-64-v2)
                     if(NOT set STREQUAL all)

@@ -31,7 +31,7 @@ TEST(Compiler, RoundsNeighbouringDoublesToFloat) {
     EXPECT_EQ(out[1], 0.300000011920928955078125);
 }
 
-// a * b + c must not become one fma behind our back, or the twin leaves the strict kernels.
+// a * b + c must not become one fma behind our back, or host and kernels part.
 __attribute__((noinline)) float multiply_add(float a, float b, float c) { return a * b + c; }
 
 TEST(Compiler, DoesNotContract) {

@@ -82,7 +82,7 @@ TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
     options.entries = {false, true, false, false};
     EXPECT_EQ(entry_points_of(options), "render_samples;resolve_samples");
     options.entries = {true, false, true, false};
-    EXPECT_EQ(entry_points_of(options), "render_pixels;render_listed");
+    EXPECT_EQ(entry_points_of(options), "render_pixels;render_list");
 }
 
 TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {

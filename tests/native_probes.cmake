@@ -9,11 +9,6 @@ set(native_probe_flags ${NATIVE_KERNEL_FLAGS} -O1
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND native_probe_flags -march=x86-64-v3)
 endif()
-if(MIRRORBALL_SANITIZE)
-    # The bits of numbers are added as integers that may wrap (kernels/power.cl).
-    list(APPEND native_probe_flags -g1 -fsanitize=address,undefined -fno-sanitize-recover=all
-        -fno-sanitize=signed-integer-overflow -fno-omit-frame-pointer)
-endif()
 
 set(native_probe_objects "")
 foreach(type float double)

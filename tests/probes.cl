@@ -10,14 +10,14 @@
 #include "kernels/render.cl"
 #include "tests/probe_structs.h"
 
-#define PROBE_SCENE                                                                       \
-    __global const Sphere *spheres, __global const Cone *cones,                           \
-        __global const Triangle *triangles, __global const VertexNormals *vertex_normals, \
-        __global const Material *materials, __global const Light *lights,                 \
-        __global const BvhNode *nodes, __global const Index *listed,                      \
-        __global const Index *casters, __global const Frame *frame
+#define PROBE_SCENE                                                                                \
+    __global const Sphere *spheres, __global const Cone *cones,                                    \
+        __global const Triangle *triangles, __global const VertexNormals *vertex_normals,          \
+        __global const Material *materials, __global const Light *lights,                          \
+        __global const BvhNode *nodes, __global const Index *order, __global const Index *casters, \
+        __global const Frame *frame
 #define PROBE_SCENE_VIEW \
-    { spheres, cones, triangles, vertex_normals, materials, lights, nodes, listed, casters, *frame }
+    { spheres, cones, triangles, vertex_normals, materials, lights, nodes, order, casters, *frame }
 
 // The finishes of the surfaces of a probe's scene.
 Finish probe_finish(const SceneView* scene, const Surface* surface) {

@@ -32,9 +32,9 @@ std::optional<DeviceChoice> choose_without_opencl(const std::string& spec);
 void check_device_spec(const std::string& spec);
 
 /// Chooses among the devices: "0", "0:1", "pocl", "name:TEXT", "cpu", "gpu", or "auto": a
-/// GPU or accelerator if there is one, else threads, which start sooner than OpenCL on the same CPU.
-/// Text must fit exactly one usable device, else Error (ExitCode::usage) lists the candidates; a
-/// device that cannot be used is Error (ExitCode::device) with the reason; "auto" then chooses
+/// GPU or accelerator if there is one, else threads, which start sooner than OpenCL on the same
+/// CPU. Text must fit exactly one usable device, else Error (ExitCode::usage) lists the candidates;
+/// a device that cannot be used is Error (ExitCode::device) with the reason; "auto" then chooses
 /// threads and says so in `note`.
 DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,
                            const std::vector<std::string>& problems);

@@ -1,11 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/film.h"
 
+#include <algorithm>
 #include <span>
+#include <utility>
 
 #include "host/hash.h"
 
 namespace rt {
+
+template <typename T>
+Film<T> part_of(Film<T>& film, const Rect& shown, const Rect& part) {
+    if (part == shown) return std::move(film);
+    Film<T> cut(part.width, part.height);
+    const auto row_length = 3 * static_cast<std::ptrdiff_t>(part.width);
+    for (int row = 0; row < part.height; ++row) {
+        const std::ptrdiff_t from =
+            3 * (std::ptrdiff_t{part.y - shown.y + row} * film.width + (part.x - shown.x));
+        std::copy_n(film.rgb.begin() + from, row_length, cut.rgb.begin() + row * row_length);
+    }
+    return cut;
+}
+
+template Film<float> part_of(Film<float>&, const Rect&, const Rect&);
+template Film<double> part_of(Film<double>&, const Rect&, const Rect&);
 
 template <typename T>
 std::uint64_t hash_of(const Film<T>& film) {

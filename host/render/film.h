@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "host/render/rect.h"
+
 namespace rt {
 
 /// The rendered picture in linear light, unclamped: three numbers a pixel, row 0 at the top.
@@ -18,6 +20,10 @@ struct Film {
     int width, height;  ///< pixels
     std::vector<T> rgb;
 };
+
+/// The part of a film of `shown` that shows `part`, which lies in it.
+template <typename T>
+Film<T> part_of(Film<T>& film, const Rect& shown, const Rect& part);
 
 /// 64 bits over size and every bit of the film (FNV-1a): equal hashes, equal pictures.
 template <typename T>

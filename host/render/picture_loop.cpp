@@ -12,13 +12,12 @@ namespace rt {
 
 namespace {
 
-constexpr int refine_passes = 2;
-
 /// Samples of the first call to refine, and of the largest.
 constexpr std::int64_t first_samples = 1 << 17, most_samples = 1 << 24;
 
+/// Whether all were refined.
 template <typename T>
-void refine_all(Renderer<T>& renderer, const Refinement& refinement, LaunchPacer& pacer,
+bool refine_all(Renderer<T>& renderer, const Refinement& refinement, LaunchPacer& pacer,
                 TileQueue& queue, const Rect& region, Film<T>& film) {
     const std::int64_t samples = refinement.grid * refinement.grid;
     std::span<const std::int32_t> pixels(refinement.pixels);
@@ -31,25 +30,37 @@ void refine_all(Renderer<T>& renderer, const Refinement& refinement, LaunchPacer
         pacer.note(static_cast<std::int64_t>(count) * samples, watch.seconds());
         pixels = pixels.subspan(count);
     }
+    return pixels.empty();
 }
 
 }  // namespace
 
-template <typename T>
-void render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const Rect& region,
-                Film<T>& film) {
-    renderer.render(queue, region, film);
-    if (!aa.refines()) return;
-    std::vector<std::uint8_t> levels(static_cast<std::size_t>(region.pixels()), 1);
-    LaunchPacer pacer(first_samples, most_samples);
-    for (int pass = 0; pass < refine_passes && !queue.stopped(); ++pass) {
-        for (const Refinement& refinement : plan_refinement(film, aa.threshold, levels)) {
-            refine_all(renderer, refinement, pacer, queue, region, film);
-        }
-    }
+Rect region_to_render(const AaMode& aa, const Rect& wanted, int picture_width, int picture_height) {
+    if (!aa.refines()) return wanted;
+    const int left = std::max(wanted.x - refine_passes, 0);
+    const int top = std::max(wanted.y - refine_passes, 0);
+    const int right = std::min(wanted.x + wanted.width + refine_passes, picture_width);
+    const int bottom = std::min(wanted.y + wanted.height + refine_passes, picture_height);
+    return {left, top, right - left, bottom - top};
 }
 
-template void render_all(Renderer<float>&, const AaMode&, TileQueue&, const Rect&, Film<float>&);
-template void render_all(Renderer<double>&, const AaMode&, TileQueue&, const Rect&, Film<double>&);
+template <typename T>
+bool render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const Rect& region,
+                Film<T>& film) {
+    renderer.render(queue, region, film);
+    if (queue.tiles_finished() < queue.tiles().size()) return false;
+    if (!aa.refines()) return true;
+    std::vector<std::uint8_t> levels(static_cast<std::size_t>(region.pixels()), 1);
+    LaunchPacer pacer(first_samples, most_samples);
+    for (int pass = 0; pass < refine_passes; ++pass) {
+        for (const Refinement& refinement : plan_refinement(film, aa.threshold, levels)) {
+            if (!refine_all(renderer, refinement, pacer, queue, region, film)) return false;
+        }
+    }
+    return true;
+}
+
+template bool render_all(Renderer<float>&, const AaMode&, TileQueue&, const Rect&, Film<float>&);
+template bool render_all(Renderer<double>&, const AaMode&, TileQueue&, const Rect&, Film<double>&);
 
 }  // namespace rt

@@ -6,11 +6,18 @@
 
 namespace rt {
 
-/// Renders the queue's tiles and, for an adaptive mode, refines the picture until neighbours agree
-/// or two passes are done. `region` is what the film shows of the picture. Stops early, with every
-/// pixel sampled at least once, when the queue is stopped after the tiles.
+/// Passes of refinement, and so how far away, in pixels, lies what an adaptive pixel depends on.
+inline constexpr int refine_passes = 2;
+
+/// The region to render so that `wanted`, a part of a picture of this size, has the pixels that it
+/// has in the whole: for an adaptive mode more than the region itself.
+Rect region_to_render(const AaMode& aa, const Rect& wanted, int picture_width, int picture_height);
+
+/// Renders the queue's tiles and, for an adaptive mode, refines the picture until neighbors agree
+/// or two passes are done. `region` is what the film shows of the picture. Returns whether it came
+/// to the end: false when the queue was stopped with tiles left, or pixels to refine.
 template <typename T>
-void render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const Rect& region,
+bool render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const Rect& region,
                 Film<T>& film);
 
 }  // namespace rt

@@ -9,16 +9,9 @@
 #include <vector>
 
 #include "host/render/ray_counts.h"
+#include "host/render/rect.h"
 
 namespace rt {
-
-/// A rectangle of picture pixels; rows counted from the top.
-struct Rect {
-    int x = 0, y = 0, width = 0, height = 0;
-
-    std::int64_t pixels() const { return std::int64_t{width} * height; }
-    bool operator==(const Rect&) const = default;
-};
 
 /// Cuts a region into tiles of at most the given size, row by row from the top left.
 std::vector<Rect> make_tiles(const Rect& region, int tile_width, int tile_height);

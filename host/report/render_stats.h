@@ -8,10 +8,10 @@
 
 #include "host/flatten/features.h"
 #include "host/flatten/flat_scene.h"
+#include "host/render/ray_counts.h"
 #include "host/render/renderer.h"
 #include "host/report/image_error.h"
 #include "host/scene/aa_mode.h"
-#include "host/render/ray_counts.h"
 
 namespace rt {
 
@@ -71,6 +71,7 @@ struct RenderStats {
     bool caster_lists = true;
     RayCounts rays;
     std::size_t tiles = 0, tiles_finished = 0;
+    bool refined = true;  ///< false when stopped before an adaptive mode came to its end
     std::uint64_t image_hash = 0;
     std::size_t non_finite = 0;  ///< pixels
     std::optional<ImageError> error;
@@ -84,7 +85,7 @@ struct RenderStats {
     /// kernels, nor of short pictures.
     bool driver_took_its_time() const;
 
-    bool complete() const { return tiles_finished == tiles; }
+    bool complete() const { return refined && tiles_finished == tiles; }
 };
 
 /// Seconds since the system started this process: what its one thread has computed since, as long

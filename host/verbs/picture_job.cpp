@@ -72,7 +72,9 @@ template <typename T>
 class Job {
    public:
     Job(const Scene& scene, const RenderOptions& options)
-        : options_(options), region_(chosen_region(scene, options)) {
+        : options_(options),
+          region_(chosen_region(scene, options)),
+          rendered_(region_to_render(scene.aa, region_, scene.width, scene.height)) {
         const Stopwatch watch;
         FlattenOptions flatten_options;
         flatten_options.hierarchies = options.hierarchies;
@@ -197,16 +199,18 @@ class Job {
     void render_with(Renderer<T>& renderer) {
         install_stop_signals();
         check_memory(
-            static_cast<std::uint64_t>(region_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
-            fmt::format("the film of {}x{} pixels, with its file", region_.width, region_.height),
+            static_cast<std::uint64_t>(rendered_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
+            fmt::format("the film of {}x{} pixels, with its file", rendered_.width,
+                        rendered_.height),
             "make it smaller with --size, or render parts with --crop");
-        film_ = Film<T>(region_.width, region_.height);
+        film_ = Film<T>(rendered_.width, rendered_.height);
         const PictureSize tile = tile_size(renderer);
-        TileQueue queue(make_tiles(region_, tile.width, tile.height), stop_flag());
+        TileQueue queue(make_tiles(rendered_, tile.width, tile.height), stop_flag());
         {
             const ProgressReporter progress(queue, progress_mode_for_stderr(options_));
-            render_all(renderer, stats_.aa, queue, region_, film_);
+            stats_.refined = render_all(renderer, stats_.aa, queue, rendered_, film_);
         }
+        film_ = part_of(film_, rendered_, region_);
         stats_.phases.renderer = renderer.times();
         stats_.rays = queue.rays();
         stats_.tiles = queue.tiles().size();
@@ -215,12 +219,12 @@ class Job {
 
     /// The tile asked for, cut down to the region and to what the renderer takes.
     PictureSize tile_size(const Renderer<T>& renderer) const {
-        const Rect own = renderer.tile_size(region_.width);
+        const Rect own = renderer.tile_size(rendered_.width);
         const PictureSize asked = options_.tile.value_or(PictureSize{own.width, own.height});
-        const auto most =
-            static_cast<int>(std::min<std::int64_t>(renderer.most_tile_pixels(), region_.pixels()));
-        const int width = std::min({asked.width, region_.width, most});
-        return {width, std::min({asked.height, region_.height, most / width})};
+        const auto most = static_cast<int>(
+            std::min<std::int64_t>(renderer.most_tile_pixels(), rendered_.pixels()));
+        const int width = std::min({asked.width, rendered_.width, most});
+        return {width, std::min({asked.height, rendered_.height, most / width})};
     }
 
     RenderedPicture finished_picture() {
@@ -239,7 +243,8 @@ class Job {
     }
 
     const RenderOptions& options_;
-    const Rect region_;
+    const Rect region_;    ///< asked for
+    const Rect rendered_;  ///< that, and what it takes to refine it
     FlatScene<T> scene_;
     Film<T> film_{0, 0};
     RenderStats stats_;

@@ -67,13 +67,18 @@ bool report_non_finite(const RenderedPicture& rendered) {
     return true;
 }
 
+/// What there is of a picture that was stopped.
+std::string share_done(const RenderStats& stats) {
+    return fmt::format("{} of {} tiles{}", stats.tiles_finished, stats.tiles,
+                       stats.tiles_finished == stats.tiles ? ", not all refined" : "");
+}
+
 /// What is wrong with a picture that was rendered, on stderr; and the exit status it means.
 int verdict(const RenderedPicture& rendered, const std::string& output) {
     const RenderStats& stats = rendered.stats;
     const bool non_finite = report_non_finite(rendered);
     if (!stats.complete()) {
-        print_message(fmt::format("mirrorball: {} after {} of {} tiles{}\n", stop_reason(),
-                                  stats.tiles_finished, stats.tiles,
+        print_message(fmt::format("mirrorball: {} after {}{}\n", stop_reason(), share_done(stats),
                                   output.empty() ? "" : "; what was finished is in " + output));
         return 128 + stop_flag();
     }
@@ -113,8 +118,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     std::string path = options.output;
     if (!stats.complete()) {
         path = partial_path(path);
-        metadata.emplace_back("mirrorball:Partial",
-                              fmt::format("{} of {} tiles", stats.tiles_finished, stats.tiles));
+        metadata.emplace_back("mirrorball:Partial", share_done(stats));
     }
     write_picture(path, rendered.picture, options.encoding, metadata);
     return path;

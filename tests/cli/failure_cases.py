@@ -116,7 +116,7 @@ class Fallback(PreloadTest):
 
     def test_stats_text_says_so(self):
         text = self.render_without_opencl("--stats").stdout
-        self.assertRegex(text, r"(?m)^device  \d+ threads?, tiles\n +instead of pthread.*, which failed$")
+        self.assertRegex(text, r"(?m)^device  \d+ threads?, tiles, .*\n +instead of pthread.*, which failed$")
 
     def test_picture_says_so(self):
         self.render_without_opencl("-q", "-o", "out.png")

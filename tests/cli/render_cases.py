@@ -143,11 +143,13 @@ class Reference(CliTest):
     def test_quiet_still_prints_the_result(self):
         self.assertIn("RMSE", self.compare("same.pfm", "-q").stdout)
 
-    def test_may_be_the_file_that_is_then_overwritten(self):
+    def test_is_not_overwritten(self):
         other = self.write_scene("other.json", background=0)
         self.render(other, "--size", "16", "--device", "threads", "-o", "same.pfm")
-        answer = json.loads(self.compare("same.pfm", "-o", "same.pfm", "--stats=json").stdout)
-        self.assertEqual(answer["error"]["max"], 1)
+        before = (self.folder / "same.pfm").read_bytes()
+        result = self.compare("same.pfm", "-o", "same.pfm", "--stats=json")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertEqual((self.folder / "same.pfm").read_bytes(), before)
 
     def test_other_size_is_refused(self):
         result = self.compare("larger.pfm")
