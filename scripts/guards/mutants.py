@@ -78,10 +78,10 @@ MUTANTS = [
          "position.y = fma(position.x - (Reals)0.5f, side, (Reals)0.5f);"),
     ], [("kernel_sampling_test", "SamplePosition*"), ("picture_test", "AaModes/*")]),
     Mutant("one refining pass", [
-        ("host/render/picture_loop.cpp", "refine_passes = 2;", "refine_passes = 1;"),
+        ("host/render/picture_loop.h", "refine_passes = 2;", "refine_passes = 1;"),
     ], [("host_refine_test", "RenderAll.*")]),
     Mutant("three refining passes", [
-        ("host/render/picture_loop.cpp", "refine_passes = 2;", "refine_passes = 3;"),
+        ("host/render/picture_loop.h", "refine_passes = 2;", "refine_passes = 3;"),
     ], [("host_refine_test", "RenderAll.*")]),
     # Measuring
     Mutant("bench repeats A A B B", [
