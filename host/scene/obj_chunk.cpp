@@ -96,8 +96,9 @@ class FaceReader {
 
     void read_material() {
         const std::size_t offset = scanner_.offset();
-        chunk_.events.push_back(
-            {chunk_.faces.size(), ObjMaterialUse{printable(scanner_.rest()), offset}});
+        ObjEvent& event = chunk_.events.emplace_back();
+        event.faces_before = chunk_.faces.size();
+        event.what = ObjMaterialUse{printable(scanner_.rest()), offset};
     }
 
     void read_library() {
