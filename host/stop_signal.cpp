@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "host/console.h"
+#include "host/image/temporary_file.h"
 
 namespace rt {
 
@@ -55,6 +56,7 @@ void write_line(std::string_view a, std::string_view b) {
 
 /// As if there were no handler, but for batch systems' signals, whose default is a core dump.
 void end_by(const StopSignal& signal) {
+    unlink_temporaries();
     if (!signal.by_hand) _exit(128 + signal.number);
     std::signal(signal.number, SIG_DFL);
     std::raise(signal.number);

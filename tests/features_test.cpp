@@ -19,10 +19,7 @@ namespace {
 std::vector<Features> some_combinations() {
     std::vector<Features> combinations;
     for (unsigned bits = 0; bits < 1u << feature_names.size(); ++bits) {
-        Features features;
-        for (std::size_t i = 0; i < feature_names.size(); ++i) {
-            features.*feature_names[i].flag = (bits >> i & 1) != 0;
-        }
+        const Features features = features_of(static_cast<int>(bits));
         const int used = std::popcount(bits), left_out = int(feature_names.size()) - used;
         if ((used <= 1 || left_out <= 1) && is_possible(features)) combinations.push_back(features);
     }

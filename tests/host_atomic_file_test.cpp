@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "host/image/atomic_file.h"
+#include "host/image/temporary_file.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
@@ -36,6 +37,17 @@ TEST_F(WriteFileAtomically, NewFilesGetTheModeOfTheUmask) {
     EXPECT_EQ(contents(path("a")), "text");
     EXPECT_EQ(fs::status(path("a")).permissions(), static_cast<fs::perms>(0640));
     EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(WriteFileAtomically, ASecondSignalLeavesNoTemporary) {
+    put(path("a"), "finished");
+    write_text(path("b"), "written, and no longer in the list");
+    AtomicFile half(path("a"));
+    half.write(std::as_bytes(std::span(std::string_view("half"))));
+    EXPECT_EQ(files(), 3u);
+    unlink_temporaries();
+    EXPECT_EQ(files(), 2u);
+    EXPECT_EQ(contents(path("a")), "finished");
 }
 
 TEST_F(WriteFileAtomically, ExistingFilesKeepTheirMode) {

@@ -25,8 +25,8 @@ void keep_owner_and_mode(int file, const struct stat& existing) {
     if (::fchmod(file, existing.st_mode & 0777) != 0) errno = 0;
 }
 
-OpenFile open_in_place(const std::string& path) {
-    OpenFile file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+FileDescriptor open_in_place(const std::string& path) {
+    FileDescriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
     if (file.number() < 0) fail_to_write(path, errno);
     return file;
 }
@@ -66,7 +66,7 @@ void AtomicFile::commit() {
     }
     if (!flush_to_disk(temporary_->file().number())) fail_to_write(path_, errno);
     if (!temporary_->rename_to(destination_.file)) fail_to_write(path_, errno);
-    const OpenFile entry(
+    const FileDescriptor entry(
         ::open(directory_of(destination_.file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (entry.number() >= 0) flush_to_disk(entry.number());
 }

@@ -32,7 +32,7 @@ class AtomicFile {
     const std::string path_;
     const OutputDestination destination_;
     std::optional<TemporaryFile> temporary_;
-    OpenFile file_;  ///< the temporary one, or the destination itself
+    FileDescriptor file_;  ///< the temporary one, or the destination itself
 };
 
 /// All of it at once.

@@ -7,13 +7,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <mutex>
 #include <set>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "host/image/output_path.h"
 
@@ -24,6 +25,18 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view prefix = ".mirrorball-";
 constexpr std::string_view suffix = ".tmp";
+
+/// Names of the temporary files that are open; more than there are slots are not listed.
+std::array<std::atomic<const char*>, 16> open_names;
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+std::atomic<const char*>* list_name(const char* name) {
+    for (std::atomic<const char*>& slot : open_names) {
+        const char* none = nullptr;
+        if (slot.compare_exchange_strong(none, name)) return &slot;
+    }
+    return nullptr;
+}
 
 /// Takes the lock of a file just created; whether the file is still there. Who looks for abandoned
 /// files may have come first. Where the file system knows no locks, nobody removes anything.
@@ -47,7 +60,7 @@ bool is_running(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRC
 
 /// Whoever gets the lock of a file removes it while holding the lock.
 void remove_if_abandoned(const fs::path& file) {
-    const OpenFile open(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    const FileDescriptor open(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
     if (open.number() < 0 || ::fstat(open.number(), &status) != 0) return;
     if (!S_ISREG(status.st_mode) || status.st_uid != ::geteuid()) return;
@@ -63,23 +76,18 @@ bool first_time(const fs::path& directory) {
 
 }  // namespace
 
-OpenFile::~OpenFile() {
-    if (number_ >= 0) ::close(number_);
-}
-
-bool OpenFile::close() { return ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
-
 TemporaryFile::TemporaryFile(const std::string& path, const fs::path& directory) {
     static std::atomic<unsigned> serial{0};  // two threads may write at once
     const std::string start = std::string(prefix) + std::to_string(::getpid()) + "-";
     for (int attempt = 0; attempt < 1000; ++attempt) {
         const std::string name =
             (directory / (start + std::to_string(serial++) + std::string(suffix))).string();
-        OpenFile file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+        FileDescriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
         if (file.number() < 0 && errno != EEXIST && errno != EINTR) fail_to_write(path, errno);
         if (file.number() < 0 || !lock_new_file(file.number())) continue;
         name_ = name;
         file_ = std::move(file);
+        listed_ = list_name(name_.c_str());
         return;
     }
     fail_to_write(path, EEXIST);
@@ -87,12 +95,20 @@ TemporaryFile::TemporaryFile(const std::string& path, const fs::path& directory)
 
 TemporaryFile::~TemporaryFile() {
     if (!name_.empty()) ::unlink(name_.c_str());
+    if (listed_ != nullptr) *listed_ = nullptr;
+}
+
+void unlink_temporaries() {
+    for (const std::atomic<const char*>& slot : open_names) {
+        if (const char* name = slot) ::unlink(name);
+    }
 }
 
 bool TemporaryFile::rename_to(const fs::path& name) {
     // Renamed while the lock is held: nobody takes it for abandoned in between.
-    const OpenFile lock(::dup(file_.number()));
+    const FileDescriptor lock(::dup(file_.number()));
     if (!file_.close() || ::rename(name_.c_str(), name.c_str()) != 0) return false;
+    if (listed_ != nullptr) *std::exchange(listed_, nullptr) = nullptr;
     name_.clear();
     return true;
 }

@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <string>
-#include <utility>
+
+#include "host/file_descriptor.h"
 
 namespace rt {
-
-/// Owns an open file; close() is for when its result matters.
-class OpenFile {
-   public:
-    explicit OpenFile(int number = -1) : number_(number) {}
-    OpenFile(OpenFile&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    OpenFile& operator=(OpenFile&& other) noexcept {
-        std::swap(number_, other.number_);
-        return *this;
-    }
-    ~OpenFile();
-
-    int number() const { return number_; }
-    bool close();
-
-   private:
-    int number_;
-};
 
 /// A new file ".mirrorball-PID-SERIAL.tmp" in a directory, with the mode an ordinary new file
 /// would get; it is removed again unless it is renamed. As long as it is open its process holds
@@ -36,15 +20,19 @@ class TemporaryFile {
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     ~TemporaryFile();
 
-    const OpenFile& file() const { return file_; }
+    const FileDescriptor& file() const { return file_; }
 
     /// Closes it and gives it that name; false with errno when either fails.
     bool rename_to(const std::filesystem::path& name);
 
    private:
     std::string name_;
-    OpenFile file_;
+    FileDescriptor file_;
+    std::atomic<const char*>* listed_ = nullptr;  ///< where unlink_temporaries() finds the name
 };
+
+/// Removes the temporary files that this process has open. For signal handlers that end it.
+void unlink_temporaries();
 
 /// Removes the temporary files that killed processes left in a directory, never one that a living
 /// process holds. Looks at each directory once; what cannot be read or removed stays.

@@ -17,10 +17,9 @@ namespace {
 /// Pixels that a thread takes at once when refining.
 constexpr std::size_t refine_run = 64;
 
-RayCounts rays_of(const f32::RayCounts& counts, std::uint64_t primary) {
-    return {primary, counts.shadow, counts.mirror, counts.transmitted};
-}
-RayCounts rays_of(const f64::RayCounts& counts, std::uint64_t primary) {
+/// Those that kernels count, and the primary rays.
+template <typename Counts>
+RayCounts rays_of(const Counts& counts, std::uint64_t primary) {
     return {primary, counts.shadow, counts.mirror, counts.transmitted};
 }
 
@@ -50,8 +49,7 @@ class ThreadsRenderer : public Renderer<T> {
         view.frame.grid = grid;
         view.frame.samples = grid * grid;
         std::atomic<std::size_t> next = 0;
-        const int threads = options_.threads > 0 ? options_.threads : available_cores();
-        run_on_threads(threads, [&](int) {
+        run_on_threads(thread_count({options_.threads}, 1), [&](int) {
             for (;;) {
                 const std::size_t at = next.fetch_add(refine_run);
                 if (at >= pixels.size()) return;
@@ -225,7 +223,7 @@ RayTracer<T> make_threads_ray_tracer(const FlatScene<T>& scene, const ThreadsOpt
     choice.lanes = options.lanes;
     choice.isa = options.isa;
     const NativeKernels<T>& kernels = choose_native<T>(choice);
-    const int threads = options.threads > 0 ? options.threads : available_cores();
+    const int threads = thread_count({options.threads}, 1);
     return [&kernels, threads, view = native_view(scene)](auto queries, auto answers) {
         constexpr std::size_t run = 4096;
         for_each_run(answers.size(), run, threads, [&](std::size_t first, std::size_t last) {

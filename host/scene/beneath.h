@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "host/scene/file_descriptor.h"
+#include "host/file_descriptor.h"
 
 namespace rt {
 

@@ -85,31 +85,25 @@ class Pixels(CliTest):
 
 
 class Crop(CliTest):
-    def test_is_that_part_of_the_whole(self):
+    def check_parts(self, boxes, *options):
         for device in ["threads", "pocl"]:
-            options = ["--size", "31x23", "--device", device]
-            self.render("cornell-box", "-o", "whole.pfm", *options)
+            self.render("cornell-box", "-o", "whole.pfm", "--device", device, *options)
             width, _, whole = read_pfm(self.folder / "whole.pfm")
-            for box in [(0, 0, 31, 23), (5, 3, 17, 20), (30, 22, 31, 23), (0, 10, 31, 11)]:
+            for box in boxes:
                 with self.subTest(device=device, box=box):
-                    self.render("cornell-box", "-o", "part.pfm", *options,
+                    self.render("cornell-box", "-o", "part.pfm", "--device", device, *options,
                                 "--crop", ",".join(map(str, box)))
                     part = read_pfm(self.folder / "part.pfm")
                     self.assertEqual(part[:2], (box[2] - box[0], box[3] - box[1]))
                     self.assertEqual(part[2], cropped(width, whole, *box))
 
+    def test_is_that_part_of_the_whole(self):
+        self.check_parts([(0, 0, 31, 23), (5, 3, 17, 20), (30, 22, 31, 23), (0, 10, 31, 11)],
+                         "--size", "31x23")
+
     def test_of_an_adaptive_picture_has_the_pixels_of_the_whole(self):
-        for device in ["threads", "pocl"]:
-            options = ["--size", "61x47", "--device", device, "--aa", "adaptive:0.01"]
-            self.render("cornell-box", "-o", "whole.pfm", *options)
-            width, _, whole = read_pfm(self.folder / "whole.pfm")
-            for box in [(5, 3, 37, 20), (60, 22, 61, 23), (0, 30, 61, 33), (20, 20, 41, 47)]:
-                with self.subTest(device=device, box=box):
-                    self.render("cornell-box", "-o", "part.pfm", *options,
-                                "--crop", ",".join(map(str, box)))
-                    part = read_pfm(self.folder / "part.pfm")
-                    self.assertEqual(part[:2], (box[2] - box[0], box[3] - box[1]))
-                    self.assertEqual(part[2], cropped(width, whole, *box))
+        self.check_parts([(5, 3, 37, 20), (60, 22, 61, 23), (0, 30, 61, 33), (20, 20, 41, 47)],
+                         "--size", "61x47", "--aa", "adaptive:0.01")
 
     def test_of_the_buffers_schedule_and_odd_tiles(self):
         options = ["--size", "31x23", "--crop", "5,3,17,20"]
