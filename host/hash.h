@@ -9,7 +9,7 @@
 
 namespace rt {
 
-/// FNV-1a, 64 bits, over 8-byte words and then bytes: a fingerprint, not a defence.
+/// FNV-1a, 64 bits, over 8-byte words and then bytes: a fingerprint, not a defense.
 class Hasher {
    public:
     void add_bytes(std::span<const std::byte> bytes);

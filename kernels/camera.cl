@@ -14,13 +14,13 @@
 #include "kernels/scene_view.h"
 
 // The ray through sample k of pixel (x, y), x to the right and y up.
-Ray camera_ray(const Frame* frame, Indices x, Indices y, Indices k) {
-    Position offset = sample_position(frame, x, y, k);
-    Reals sx = (Reals)2 * (RT_TO_REALS(x) + offset.x) - (Real)frame->width;
-    Reals sy = (Reals)2 * (RT_TO_REALS(y) + offset.y) - (Real)frame->height;
-    real3 direction = load3(frame->direction);
-    real3 dx = load3(frame->direction_dx);
-    real3 dy = load3(frame->direction_dy);
+Ray camera_ray(const LaunchParams* params, Indices x, Indices y, Indices k) {
+    Position offset = sample_position(params, x, y, k);
+    Reals sx = (Reals)2 * (RT_TO_REALS(x) + offset.x) - (Real)params->width;
+    Reals sy = (Reals)2 * (RT_TO_REALS(y) + offset.y) - (Real)params->height;
+    real3 direction = load3(params->direction);
+    real3 dx = load3(params->direction_dx);
+    real3 dy = load3(params->direction_dy);
     real3 across = add_scaled(direction, sx, dx);
     real3 through = add_scaled(across, sy, dy);
     Reals inverse = (Reals)1 / length3(through);
@@ -29,16 +29,16 @@ Ray camera_ray(const Frame* frame, Indices x, Indices y, Indices k) {
     ray.dir_low = make3((Reals)0, (Reals)0, (Reals)0);
     ray.origin_low = ray.dir_low;
     if (RT_HAS_SPHERES) {
-        real3 low = add_scaled(load3(frame->direction_low), sx, load3(frame->direction_dx_low));
-        low = add_scaled(low, sy, load3(frame->direction_dy_low));
-        low = add3(low, lost3(direction, sx, dx, across));
-        low = add3(low, lost3(across, sy, dy, through));
+        real3 low = add_scaled(load3(params->direction_low), sx, load3(params->direction_dx_low));
+        low = add_scaled(low, sy, load3(params->direction_dy_low));
+        low = add3(low, fma_error3(direction, sx, dx, across));
+        low = add3(low, fma_error3(across, sy, dy, through));
         ray.dir_low = add_scaled(add_scaled(negate3(ray.dir), inverse, through), inverse, low);
     }
-    ray.origin = add_scaled(scale3(sx, load3(frame->origin_dx)), sy, load3(frame->origin_dy));
+    ray.origin = add_scaled(scale3(sx, load3(params->origin_dx)), sy, load3(params->origin_dy));
     ray.t_max = (Reals)INFINITY;
     ray.chord = (Reals)0;
-    ray.from = (Indices)(frame->eye_on_surface != 0 ? RT_EYE : RT_NONE);
+    ray.from = (Indices)(params->eye_on_surface != 0 ? RT_EYE : RT_NONE);
     return ray;
 }
 

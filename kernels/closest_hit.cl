@@ -11,7 +11,7 @@
 
 void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal, Search* search) {
     Index first, end;
-    enter_kind(traversal, scene->frame.sphere_root, scene->frame.sphere_count);
+    enter_kind(traversal, scene->params.sphere_root, scene->params.sphere_count);
     while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
         for (Index prim = first; prim < end; ++prim) {
             __global const Sphere* sphere = &scene->spheres[prim];
@@ -24,10 +24,10 @@ void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal
 
 void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, Search* search) {
     Index first, end;
-    enter_kind(traversal, scene->frame.cone_root, scene->frame.cone_count);
+    enter_kind(traversal, scene->params.cone_root, scene->params.cone_count);
     while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
         for (Index i = first; i < end; ++i) {
-            Index prim = scene->frame.sphere_count + i;
+            Index prim = scene->params.sphere_count + i;
             Reals t;
             Mask leaving = leaves_cone(ray, &scene->cones[i], prim);
             Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t);
@@ -39,7 +39,7 @@ void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, 
 void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* shear,
                       Traversal* traversal, Search* search) {
     Index first, end;
-    enter_kind(traversal, scene->frame.triangle_root, scene->frame.triangle_count);
+    enter_kind(traversal, scene->params.triangle_root, scene->params.triangle_count);
     while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
         for (Index axes = shear->axes; axes != 0; axes >>= 2) {
             Index axis = (axes & 3) - 1;
@@ -75,15 +75,15 @@ Hit closest_hit(const SceneView* scene, const Ray* ray, Mask live) {
     search.second = (Reals)INFINITY;
     search.number = (Indices)RT_MAX_INDEX;
     search.limit = search.hit.t;
-    search.is_listing = false;
+    search.finds_first = false;
     Mask tied = RT_NO_LANES;
     for (;;) {
         search_all(scene, ray, &shear, &search);
         Reals tie = search.hit.t * RT_TIE;
-        if (!search.is_listing) tied = (search.hit.prim != RT_NONE) & (search.second <= tie);
-        if (search.is_listing || !any_lane(tied)) break;
+        if (!search.finds_first) tied = (search.hit.prim != RT_NONE) & (search.second <= tie);
+        if (search.finds_first || !any_lane(tied)) break;
         search.limit = tied ? tie : (Reals)-1;
-        search.is_listing = true;
+        search.finds_first = true;
     }
     search.hit.tied = tied;
     return search.hit;
@@ -101,7 +101,7 @@ bool block(Reals* t_max, Mask blocked) {
 bool blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal,
                         Reals* t_max) {
     Index first, end;
-    enter_kind(traversal, scene->frame.sphere_root, scene->frame.sphere_count);
+    enter_kind(traversal, scene->params.sphere_root, scene->params.sphere_count);
     while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index prim = first; prim < end; ++prim) {
             __global const Sphere* sphere = &scene->spheres[prim];
@@ -118,11 +118,11 @@ bool blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* trave
 
 bool blocked_by_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals* t_max) {
     Index first, end;
-    enter_kind(traversal, scene->frame.cone_root, scene->frame.cone_count);
+    enter_kind(traversal, scene->params.cone_root, scene->params.cone_count);
     while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index i = first; i < end; ++i) {
             Reals t;
-            Mask leaving = ray->from == scene->frame.sphere_count + i;
+            Mask leaving = ray->from == scene->params.sphere_count + i;
             Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t);
             if (!any_lane(met)) continue;
             if (block(t_max, met & (t > (Reals)0) & (t <= *t_max))) return true;
@@ -135,17 +135,17 @@ bool blocked_by_cones(const SceneView* scene, const Ray* ray, Traversal* travers
 // it has one.
 bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* traversal,
                           Reals* t_max, Index first_caster, Index caster_count) {
-    bool is_brute = !RT_HAS_HIERARCHY || scene->frame.triangle_root == 0;
-    bool listed = is_brute && caster_count != scene->frame.triangle_count;
+    bool is_brute = !RT_HAS_HIERARCHY || scene->params.triangle_root == 0;
+    bool has_list = is_brute && caster_count != scene->params.triangle_count;
     if (is_brute && caster_count == 0) return false;
     RayShear shear = make_shear(ray, *t_max > (Reals)0);
     Index first, end;
-    enter_kind(traversal, scene->frame.triangle_root, caster_count);
+    enter_kind(traversal, scene->params.triangle_root, caster_count);
     while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index axes = shear.axes; axes != 0; axes >>= 2) {
             Index axis = (axes & 3) - 1;
             for (Index i = first; i < end; ++i) {
-                Index index = listed ? scene->casters[first_caster + i] : i;
+                Index index = has_list ? scene->casters[first_caster + i] : i;
                 Reals t, u, v;
                 Mask met = intersect_triangle(&shear, axis, &scene->triangles[index], &t, &u, &v);
                 if (!any_lane(met)) continue;

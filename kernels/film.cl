@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Between packets and memory: which pixels of a tile a packet holds, and its colours lane by lane.
+// Between packets and memory: which pixels of a tile a packet holds, and its colors lane by lane.
 #ifndef RT_FILM_CL
 #define RT_FILM_CL
 
@@ -42,12 +42,12 @@ TileLanes tile_lanes(const Tile* tile, const Packet* packet, Index item) {
 // The picture's row, counted from the bottom, of a tile's row. What is the same for all lanes comes
 // first: PoCL would read tile->y as part of a vector, wider than it was stored, and wait (3 % of
 // the paper's scene).
-Indices picture_y(const Frame* frame, const Tile* tile, Indices row) {
-    Index top = frame->height - 1 - tile->y;
+Indices picture_y(const LaunchParams* params, const Tile* tile, Indices row) {
+    Index top = params->height - 1 - tile->y;
     return top - row;
 }
 
-// Stores `count` lanes' colours at their places, where these are not negative.
+// Stores `count` lanes' colors at their places, where these are not negative.
 void store_lanes(__global Real* to, real3 color, Indices places, Index count) {
     RealLanes x, y, z;
     IndexLanes at;

@@ -5,7 +5,7 @@
 // A further ray starts as far off the surface as the point may lie off it, along the geometric
 // normal, and one ulp further (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8). Where the ray
 // met several surfaces at once, or a triangle within rounding of its edge, that
-// offset clears only one of them, and whether the neighbour is in the way would be decided by
+// offset clears only one of them, and whether the neighbor is in the way would be decided by
 // rounding. There the point moves eight offsets back along the ray, and as far as surfaces that
 // count as one may lie apart, to the viewer's side of all of them.
 #ifndef RT_HIT_SURFACE_CL
@@ -16,12 +16,12 @@
 
 // The surface of one primitive in the lanes that hit it.
 Surface primitive_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Index prim) {
-    if (RT_HAS_SPHERES && prim < scene->frame.sphere_count) {
+    if (RT_HAS_SPHERES && prim < scene->params.sphere_count) {
         return sphere_surface(ray, hit->t, &scene->spheres[prim]);
     }
     Index index = prim - first_triangle(scene);
     if (RT_HAS_CONES && index < 0) {
-        return cone_surface(ray, hit->t, &scene->cones[prim - scene->frame.sphere_count]);
+        return cone_surface(ray, hit->t, &scene->cones[prim - scene->params.sphere_count]);
     }
     return triangle_surface(ray, hit, &scene->triangles[index], scene->vertex_normals);
 }
@@ -51,7 +51,7 @@ Surface hit_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Mask
     return surface;
 }
 
-// Where a triangle was hit within rounding of its edge, where a neighbour may begin.
+// Where a triangle was hit within rounding of its edge, where a neighbor may begin.
 Mask is_on_edge(const SceneView* scene, const Hit* hit) {
     Reals rim = (Reals)((Real)64 * (Real)RT_ROUNDOFF);
     Mask at_rim = (hit->u < rim) | (hit->v < rim) | ((Reals)1 - hit->u - hit->v < rim);
@@ -81,7 +81,7 @@ real3 offset_origin(const Surface* surface, real3 side) {
 }
 
 // A ray that leaves the surface of primitive prim in the unit direction dir, from `origin`.
-Ray leave_surface(const Surface* surface, real3 origin, real3 dir, Indices prim) {
+Ray spawn_ray(const Surface* surface, real3 origin, real3 dir, Indices prim) {
     Ray ray;
     ray.origin = origin;
     ray.dir = dir;

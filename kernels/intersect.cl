@@ -9,8 +9,8 @@
 //
 // Triangles: sheared into the ray's frame (Woop, Benthin and Wald 2013), the three edge functions
 // by difference_of_products. They depend on two vertices and the ray alone and their signs are
-// right, so neighbours agree about a shared edge: nothing leaks, whatever the compiler contracts. A
-// ray through a shared edge hits both neighbours; closest_hit settles the tie. The distance is the
+// right, so neighbors agree about a shared edge: nothing leaks, whatever the compiler contracts. A
+// ray through a shared edge hits both neighbors; closest_hit settles the tie. The distance is the
 // edge functions' mean of the vertices'; on a triangle much larger than the distance that would be
 // a small difference of large numbers, so there it comes from the plane.
 #ifndef RT_INTERSECT_CL

@@ -26,12 +26,12 @@
 
 RayCounts pixels_item(__global Real* film, SceneView* scene, const Tile* tile, Index item) {
     RayCounts used = {0, 0, 0};
-    if (RT_SAMPLES != 0) scene->frame.samples = RT_SAMPLES;
-    Packet packet = make_packet(scene->frame.samples, RT_SAMPLES_TOGETHER);
+    if (RT_SAMPLES != 0) scene->params.samples = RT_SAMPLES;
+    Packet packet = make_packet(scene->params.samples, RT_SAMPLES_TOGETHER);
     TileLanes lanes = tile_lanes(tile, &packet, item);
     if (!any_lane(lanes.live)) return used;
     real3 color = trace_pixels(scene, &packet, tile->x + lanes.column,
-                               picture_y(&scene->frame, tile, lanes.row), lanes.live, &used);
+                               picture_y(&scene->params, tile, lanes.row), lanes.live, &used);
     Indices places = tile->first + lanes.row * tile->film_width + lanes.column;
     store_lanes(film, color, lanes.live ? places : (Indices)-1, packet.pixels);
     return used;
@@ -42,33 +42,33 @@ RayCounts pixels_item(__global Real* film, SceneView* scene, const Tile* tile, I
 RayCounts samples_item(__global Real* samples, const SceneView* scene, const Tile* tile, Index item,
                        Index most_samples) {
     RayCounts sums = {0, 0, 0};
-    Packet packet = make_packet(scene->frame.samples, most_samples);
+    Packet packet = make_packet(scene->params.samples, most_samples);
     Index packets =
         packets_across(tile, &packet) * ((tile->height + packet.height - 1) / packet.height);
     if (packets == 0) return sums;
     TileLanes lanes = tile_lanes(tile, &packet, item % packets);
     Indices k = item / packets * packet.samples + packet.sample;
-    lanes.live &= (Mask)(k < scene->frame.samples);
+    lanes.live &= (Mask)(k < scene->params.samples);
     if (!any_lane(lanes.live)) return sums;
     PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
     real3 color = trace_sample(scene, tile->x + lanes.column,
-                               picture_y(&scene->frame, tile, lanes.row), k, lanes.live, &used);
+                               picture_y(&scene->params, tile, lanes.row), k, lanes.live, &used);
     Indices places = (k * tile->height + lanes.row) * tile->width + lanes.column;
     store_lanes(samples, color, lanes.live ? places : (Indices)-1, RT_LANES);
     count_lanes(&sums, &used);
     return sums;
 }
 
-void resolve_item(__global Real* film, __global const Real* samples, const Frame* frame,
+void resolve_item(__global Real* film, __global const Real* samples, const LaunchParams* params,
                   const Tile* tile, Index item) {
     Packet packet = make_packet(1, 1);
     TileLanes lanes = tile_lanes(tile, &packet, item);
     if (!any_lane(lanes.live)) return;
-    Indices y = picture_y(frame, tile, lanes.row);
+    Indices y = picture_y(params, tile, lanes.row);
     real3 sum = make3((Reals)0, (Reals)0, (Reals)0);
     Reals total = (Reals)0;
-    for (Index k = 0; k < frame->samples; ++k) {
-        Reals weight = sample_weight(frame, tile->x + lanes.column, y, (Indices)k);
+    for (Index k = 0; k < params->samples; ++k) {
+        Reals weight = sample_weight(params, tile->x + lanes.column, y, (Indices)k);
         Indices places = (k * tile->height + lanes.row) * tile->width + lanes.column;
         real3 color = load_lanes(samples, lanes.live ? places : (Indices)0);
         sum = add_scaled(sum, weight, color);
@@ -83,7 +83,7 @@ void resolve_item(__global Real* film, __global const Real* samples, const Frame
 RayCounts list_item(__global Real* colors, __global const int* pixels, const SceneView* scene,
                     const Tile* tile, Index item) {
     RayCounts used = {0, 0, 0};
-    Packet packet = make_packet(scene->frame.samples, RT_LANES);
+    Packet packet = make_packet(scene->params.samples, RT_LANES);
     Index first = item * packet.pixels;
     if (first >= tile->width) return used;
     IndexLanes number, pixel;
@@ -96,7 +96,7 @@ RayCounts list_item(__global Real* colors, __global const int* pixels, const Sce
     Indices column = pixel.all - row * tile->film_width;
     Mask live = (Mask)(number.all < tile->width);
     real3 color = trace_pixels(scene, &packet, tile->x + column,
-                               picture_y(&scene->frame, tile, row), live, &used);
+                               picture_y(&scene->params, tile, row), live, &used);
     store_lanes(colors, color, live ? number.all : (Indices)-1, packet.pixels);
     return used;
 }

@@ -12,28 +12,28 @@ typedef struct {
     real3 ambient, diffuse, specular, mirror, transmission;
     Reals shininess, ior;
     Indices two_sided;
-} Finish;
+} Materials;
 
 Mask is_black(real3 color) {
     return (color.x == (Reals)0) & (color.y == (Reals)0) & (color.z == (Reals)0);
 }
 
 // The same material in every lane.
-Finish load_finish(__global const Material* material) {
-    Finish finish;
-    finish.ambient = load3(material->ambient);
-    finish.diffuse = load3(material->diffuse);
-    finish.specular = load3(material->specular);
-    finish.mirror = load3(material->mirror);
-    finish.transmission = load3(material->transmission);
-    finish.shininess = (Reals)material->shininess;
-    finish.ior = (Reals)material->ior;
-    finish.two_sided = (Indices)material->two_sided;
-    return finish;
+Materials load_material(__global const Material* from) {
+    Materials material;
+    material.ambient = load3(from->ambient);
+    material.diffuse = load3(from->diffuse);
+    material.specular = load3(from->specular);
+    material.mirror = load3(from->mirror);
+    material.transmission = load3(from->transmission);
+    material.shininess = (Reals)from->shininess;
+    material.ior = (Reals)from->ior;
+    material.two_sided = (Indices)from->two_sided;
+    return material;
 }
 
-Finish select_finish(Mask mask, Finish yes, Finish no) {
-    Finish chosen;
+Materials select_materials(Mask mask, Materials yes, Materials no) {
+    Materials chosen;
     chosen.ambient = select3(mask, yes.ambient, no.ambient);
     chosen.diffuse = select3(mask, yes.diffuse, no.diffuse);
     chosen.specular = select3(mask, yes.specular, no.specular);
@@ -45,18 +45,18 @@ Finish select_finish(Mask mask, Finish yes, Finish no) {
     return chosen;
 }
 
-// The finishes of the live lanes, of which there is one at least: the first material for all, then
+// The materials of the live lanes, of which there is one at least: the first material for all, then
 // the others one by one for the lanes that wear them. Compilers drop what a scene does not use.
-Finish finish_of(const SceneView* scene, Indices material, Mask live) {
-    Index one = least_lane(live, material);
-    Finish finish = load_finish(&scene->materials[one]);
-    for (Mask left = live & (material != one); any_lane(left);) {
-        one = least_lane(left, material);
-        Mask lanes = left & (material == one);
+Materials materials_of(const SceneView* scene, Indices number, Mask live) {
+    Index one = least_lane(live, number);
+    Materials material = load_material(&scene->materials[one]);
+    for (Mask left = live & (number != one); any_lane(left);) {
+        one = least_lane(left, number);
+        Mask lanes = left & (number == one);
         left &= !lanes;
-        finish = select_finish(lanes, load_finish(&scene->materials[one]), finish);
+        material = select_materials(lanes, load_material(&scene->materials[one]), material);
     }
-    return finish;
+    return material;
 }
 
 #endif

@@ -60,7 +60,7 @@ Reals lost(Reals a, Reals s, Reals b, Reals sum) {
 }
 
 // What add_scaled(a, s, b) has lost by rounding to `sum`.
-real3 lost3(real3 a, Reals s, real3 b, real3 sum) {
+real3 fma_error3(real3 a, Reals s, real3 b, real3 sum) {
     return make3(lost(a.x, s, b.x, sum.x), lost(a.y, s, b.y, sum.y), lost(a.z, s, b.z, sum.z));
 }
 

@@ -112,11 +112,11 @@ real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indi
                    RayCounts* counts) {
     real3 sum = make3((Reals)0, (Reals)0, (Reals)0);
     Reals total = (Reals)0;
-    for (Index first = 0; first < scene->frame.samples; first += packet->samples) {
+    for (Index first = 0; first < scene->params.samples; first += packet->samples) {
         Indices k = first + packet->sample;
         PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
         real3 color = trace_sample(scene, x, y, k, live, &used);
-        Reals weight = sample_weight(&scene->frame, x, y, k);
+        Reals weight = sample_weight(&scene->params, x, y, k);
         sum.x = add_samples(sum.x, weight, color.x, packet->samples);
         sum.y = add_samples(sum.y, weight, color.y, packet->samples);
         sum.z = add_samples(sum.z, weight, color.z, packet->samples);

@@ -38,7 +38,7 @@ Ray query_ray(const IndexLanes* fields) {
 
 // The nearest hit of the ray that leaves a surface in the direction dir.
 Hit next_hit(const SceneView* scene, const Surface* surface, real3 dir, Indices prim, Mask live) {
-    Ray ray = leave_surface(surface, offset_origin(surface, dir), dir, prim);
+    Ray ray = spawn_ray(surface, offset_origin(surface, dir), dir, prim);
     return closest_hit(scene, &ray, live);
 }
 
@@ -65,7 +65,7 @@ void rays_item(__global RayAnswer* answers, __global const RayQuery* queries,
     Mask asks = live & (ray.t_max < (Reals)INFINITY);
     ray.t_max = asks ? ray.t_max : (Reals)-1;
     if (any_lane(ray.t_max > (Reals)0)) {
-        Mask blocked = any_hit(scene, &ray, 0, scene->frame.triangle_count);
+        Mask blocked = any_hit(scene, &ray, 0, scene->params.triangle_count);
         out[7].all = blocked ? (Indices)1 : (Indices)0;
     }
     Mask met = live & (hit.prim != RT_NONE);

@@ -7,11 +7,11 @@
 #include "kernels/items.cl"
 
 #define RT_SCENE_ARGUMENT(type, name, what) __global const type *restrict name,
-#define RT_SCENE_ARGUMENTS RT_SCENE_ARRAYS(RT_SCENE_ARGUMENT) Frame frame
+#define RT_SCENE_ARGUMENTS RT_SCENE_ARRAYS(RT_SCENE_ARGUMENT) LaunchParams params
 
 #define RT_SCENE_NAME(type, name, what) name,
 #define RT_SCENE_VIEW \
-    { RT_SCENE_ARRAYS(RT_SCENE_NAME) frame }
+    { RT_SCENE_ARRAYS(RT_SCENE_NAME) params }
 
 #if RT_RENDERS_PIXELS
 __kernel void render_pixels(__global Real* restrict film, __global RayCounts* restrict counts,
@@ -32,8 +32,8 @@ __kernel void render_samples(__global Real* restrict samples, __global RayCounts
 }
 
 __kernel void resolve_samples(__global Real* restrict film, __global const Real* restrict samples,
-                              Frame frame, Tile tile) {
-    resolve_item(film, samples, &frame, &tile, (Index)get_global_id(0));
+                              LaunchParams params, Tile tile) {
+    resolve_item(film, samples, &params, &tile, (Index)get_global_id(0));
 }
 #endif
 

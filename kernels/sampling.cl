@@ -8,7 +8,7 @@
 // and double sample the same places in pictures up to 2048 pixels wide.
 //
 // A filter wider than the pixel spreads the samples over its square footprint and weighs them: a
-// pixel is sum(weight x colour) / sum(weight) over samples of its own (Mitchell and Netravali 1988
+// pixel is sum(weight x color) / sum(weight) over samples of its own (Mitchell and Netravali 1988
 // for the cubic, B = C = 1/3; the Gaussian is exp(-2 d^2), cut off at 1.5 pixels).
 #ifndef RT_SAMPLING_CL
 #define RT_SAMPLING_CL
@@ -94,10 +94,10 @@ Position grid_position(Index grid, Indices k) {
 }
 
 // Sample k of pixel (x, y) in the unit square.
-Position unit_position(const Frame* frame, Indices x, Indices y, Indices k) {
-    if (!RT_HAS_SOBOL || frame->grid != 0) return grid_position(frame->grid, k);
+Position unit_position(const LaunchParams* params, Indices x, Indices y, Indices k) {
+    if (!RT_HAS_SOBOL || params->grid != 0) return grid_position(params->grid, k);
     Uints pixel = RT_TO_UINTS(y) * 65536u + RT_TO_UINTS(x);
-    Uints seed = hash_bits((Uints)(uint)frame->seed);
+    Uints seed = hash_bits((Uints)(uint)params->seed);
     return sobol_position(hash_bits(pixel ^ seed), RT_TO_UINTS(k));
 }
 
@@ -119,7 +119,7 @@ Reals mitchell_weight(Reals d) {
     return d < (Reals)1 ? inner : outer;
 }
 
-// The filter's weight at distance d from the pixel's centre along one axis.
+// The filter's weight at distance d from the pixel's center along one axis.
 Reals filter_weight(Index filter, Reals d) {
     d = fabs(d);
     if (filter == RT_FILTER_TENT) return (Reals)1 - d;
@@ -130,21 +130,21 @@ Reals filter_weight(Index filter, Reals d) {
 }
 
 // Sample k of pixel (x, y), in pixels from the pixel's lower left corner.
-Position sample_position(const Frame* frame, Indices x, Indices y, Indices k) {
-    Position position = unit_position(frame, x, y, k);
-    if (!RT_HAS_FILTERS || frame->filter == RT_FILTER_BOX) return position;
-    Reals side = (Reals)((Real)2 * filter_radius(frame->filter));
+Position sample_position(const LaunchParams* params, Indices x, Indices y, Indices k) {
+    Position position = unit_position(params, x, y, k);
+    if (!RT_HAS_FILTERS || params->filter == RT_FILTER_BOX) return position;
+    Reals side = (Reals)((Real)2 * filter_radius(params->filter));
     position.x = fma(position.x - (Reals)0.5f, side, (Reals)0.5f);
     position.y = fma(position.y - (Reals)0.5f, side, (Reals)0.5f);
     return position;
 }
 
 // What sample k of pixel (x, y) counts; 1 under the box filter.
-Reals sample_weight(const Frame* frame, Indices x, Indices y, Indices k) {
-    if (!RT_HAS_FILTERS || frame->filter == RT_FILTER_BOX) return (Reals)1;
-    Position position = sample_position(frame, x, y, k);
-    return filter_weight(frame->filter, position.x - (Reals)0.5f) *
-           filter_weight(frame->filter, position.y - (Reals)0.5f);
+Reals sample_weight(const LaunchParams* params, Indices x, Indices y, Indices k) {
+    if (!RT_HAS_FILTERS || params->filter == RT_FILTER_BOX) return (Reals)1;
+    Position position = sample_position(params, x, y, k);
+    return filter_weight(params->filter, position.x - (Reals)0.5f) *
+           filter_weight(params->filter, position.y - (Reals)0.5f);
 }
 
 #endif

@@ -13,12 +13,12 @@
 #define RT_SCENE_FIELD(type, name, what) __global const type* name;
 typedef struct {
     RT_SCENE_ARRAYS(RT_SCENE_FIELD)
-    Frame frame;
+    LaunchParams params;
 } SceneView;
 
 // Primitives are numbered spheres first, then cones, then triangles.
 Index first_triangle(const SceneView* scene) {
-    return scene->frame.sphere_count + scene->frame.cone_count;
+    return scene->params.sphere_count + scene->params.cone_count;
 }
 
 typedef struct {

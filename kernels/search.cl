@@ -2,11 +2,11 @@
 //
 // What a pass over the primitives keeps of their hits.
 //
-// Ties: surfaces within 32 half-ulps of the nearest one are one surface, and the first listed among
-// them is hit. That set does not depend on the order of the tests, so neither does the picture: a
-// first pass finds the two smallest distances, and only where they lie that close a second pass
-// looks for the first listed. Rays through the shared edges of the paper's box do it (they project
-// onto the picture's diagonals); hardly any other ray does.
+// Ties: surfaces within 32 half-ulps of the nearest one are one surface, and the first in the scene
+// among them is hit. That set does not depend on the order of the tests, so neither does the
+// picture: a first pass finds the two smallest distances, and only where they lie that close a
+// second pass looks for the first in the scene. Rays through the shared edges of the paper's box do
+// it (they project onto the picture's diagonals); hardly any other ray does.
 #ifndef RT_SEARCH_CL
 #define RT_SEARCH_CL
 
@@ -18,17 +18,17 @@
 // What a pass over the primitives has found.
 typedef struct {
     Hit hit;
-    Reals second;     // nearest: the next distance after hit.t
-    Indices number;   // listing: what the hit was listed under
-    Reals limit;      // hits further away do not count; negative: the lane is off
-    bool is_listing;  // look for the first listed, not for the nearest
+    Reals second;      // nearest: the next distance after hit.t
+    Indices number;    // finding the first: of the hit's primitive in the scene
+    Reals limit;       // hits further away do not count; negative: the lane is off
+    bool finds_first;  // look for the first in the scene, not for the nearest
 } Search;
 
-// What a primitive was listed under: hierarchies reorder them.
-Index listed_number(const SceneView* scene, Index prim) {
+// A primitive's number in the scene: hierarchies reorder them.
+Index scene_number(const SceneView* scene, Index prim) {
     if (!RT_HAS_HIERARCHY) return prim;
     bool reordered =
-        (scene->frame.sphere_root | scene->frame.cone_root | scene->frame.triangle_root) != 0;
+        (scene->params.sphere_root | scene->params.cone_root | scene->params.triangle_root) != 0;
     return reordered ? scene->order[prim] : prim;
 }
 
@@ -39,8 +39,8 @@ void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Real
     Mask met = lanes & (t > (Reals)0) & (t <= search->limit);
     if (!any_lane(met)) return;
     Mask better = met & (t < search->hit.t);
-    if (search->is_listing) {
-        Index number = listed_number(scene, prim);
+    if (search->finds_first) {
+        Index number = scene_number(scene, prim);
         better = met & (number < search->number);
         search->number = better ? (Indices)number : search->number;
     } else {

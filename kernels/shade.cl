@@ -21,7 +21,7 @@ Reals specular_lobe(real3 normal, real3 to_light, real3 to_eye, Reals shininess)
 }
 
 // What one light adds at the surfaces of the live lanes; `origin` is where shadow rays start.
-real3 light_contribution(const SceneView* scene, const Surface* surface, const Finish* finish,
+real3 light_contribution(const SceneView* scene, const Surface* surface, const Materials* material,
                          __global const Light* light, real3 origin, real3 to_eye, Indices prim,
                          Mask live, PacketCounts* counts) {
     const real3 none = make3((Reals)0, (Reals)0, (Reals)0);
@@ -30,7 +30,7 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const F
     if (!any_lane(lit)) return none;
     Reals distance = length3(to_light);
     real3 dir = scale3((Reals)1 / distance, to_light);
-    Ray shadow = leave_surface(surface, origin, dir, prim);
+    Ray shadow = spawn_ray(surface, origin, dir, prim);
     Reals cosine = dot3(surface->normal, shadow.dir);
     lit &= cosine > (Reals)0;
     if (RT_HAS_VERTEX_NORMALS && !any_lane(lit)) return none;
@@ -39,21 +39,21 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const F
     counts->shadow += lit & 1;
     lit &= !any_hit(scene, &shadow, light->first_caster, light->caster_count);
     if (!any_lane(lit)) return none;
-    real3 reflected = scale3(cosine, finish->diffuse);
-    if (any_lane(lit & !is_black(finish->specular))) {  // elsewhere it adds 0
-        Reals lobe = specular_lobe(surface->normal, shadow.dir, to_eye, finish->shininess);
-        reflected = add_scaled(reflected, lobe, finish->specular);
+    real3 reflected = scale3(cosine, material->diffuse);
+    if (any_lane(lit & !is_black(material->specular))) {  // elsewhere it adds 0
+        Reals lobe = specular_lobe(surface->normal, shadow.dir, to_eye, material->shininess);
+        reflected = add_scaled(reflected, lobe, material->specular);
     }
     return select3(lit, mul3(load3(light->intensity), reflected), none);
 }
 
-real3 shade(const SceneView* scene, const Surface* surface, const Finish* finish, real3 to_eye,
+real3 shade(const SceneView* scene, const Surface* surface, const Materials* material, real3 to_eye,
             Indices prim, Mask live, PacketCounts* counts) {
-    real3 color = mul3(finish->ambient, load3(scene->frame.ambient_light));
+    real3 color = mul3(material->ambient, load3(scene->params.ambient_light));
     if (RT_HAS_LIGHTS) {
         real3 origin = offset_origin(surface, surface->geometric);
-        for (Index i = 0; i < scene->frame.light_count; ++i) {
-            color = add3(color, light_contribution(scene, surface, finish, &scene->lights[i],
+        for (Index i = 0; i < scene->params.light_count; ++i) {
+            color = add3(color, light_contribution(scene, surface, material, &scene->lights[i],
                                                    origin, to_eye, prim, live, counts));
         }
     }

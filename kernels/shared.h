@@ -24,7 +24,7 @@ typedef struct {
     Index is_huge;       // far larger than its distance: kernels/intersect.cl
     Real power;          // of the eye: |center|^2 - radius^2, made in double
     Index touches_eye;   // the eye lies on it
-    Packed3 center_low;  // what rounding took from the centre
+    Packed3 center_low;  // what rounding took from the center
     Index pad;
 } Sphere;
 
@@ -124,7 +124,7 @@ typedef struct {
     Index pad1;
     Packed3 direction_dy_low;
     Index pad2;
-} Frame;
+} LaunchParams;
 
 // The pixels of one launch: picture columns x.., rows y.. counted from the top; its first pixel
 // goes to film[first], its next row film_width pixels further on.
@@ -173,7 +173,7 @@ typedef struct {
 
 enum { RT_NONE = -1 };
 
-// What a ray leaves that starts at an eye on some surface (Frame::eye_on_surface).
+// What a ray leaves that starts at an eye on some surface (LaunchParams::eye_on_surface).
 enum { RT_EYE = -2 };
 
 // Nodes that a traversal has put aside, at most: what a stack must hold.
@@ -183,7 +183,7 @@ enum { RT_BVH_STACK = 64 };
 // reflected and transmitted (kernels/whitted.cl).
 enum { RT_TREE_STACK = 16 };
 
-// Samples of a pixel in a packet of neighbouring pixels, at most (kernels/packet.cl).
+// Samples of a pixel in a packet of neighboring pixels, at most (kernels/packet.cl).
 enum { RT_SAMPLES_TOGETHER = 4 };
 
 // Reconstruction filters (kernels/sampling.cl).
@@ -198,7 +198,7 @@ RT_STATIC_ASSERT(sizeof(VertexNormals) == 12 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Material) == 20 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Light) == 8 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(BvhNode) == 8 * sizeof(Real));
-RT_STATIC_ASSERT(sizeof(Frame) == 48 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(LaunchParams) == 48 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Tile) == 8 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(RayQuery) == 12 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(RayAnswer) == 16 * sizeof(Real));

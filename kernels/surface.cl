@@ -4,7 +4,7 @@
 //
 // A triangle's point is its barycentric combination, 10 to 10^5 times nearer to the plane than
 // origin + t dir; except on triangles much larger than the distance, where origin + t dir projected
-// onto the plane is nearer. A sphere's point is put back at distance r from the centre, a cone's at
+// onto the plane is nearer. A sphere's point is put back at distance r from the center, a cone's at
 // its radius from the axis. Each point carries a bound on how far it may lie off its surface.
 #ifndef RT_SURFACE_CL
 #define RT_SURFACE_CL
@@ -25,7 +25,7 @@ typedef struct {
 } Surface;
 
 // The normal where the ray meets the sphere at t, from the closest approach and the half chord.
-// What rounding took from the ray and from the centre is added where only lengths of the radius are
+// What rounding took from the ray and from the center is added where only lengths of the radius are
 // left, so that small, distant balls keep their normals, and mirror rays between them their ways.
 real3 sphere_normal(const Ray* ray, Reals t, __global const Sphere* sphere) {
     real3 f = sub3(ray->origin, load3(sphere->center));

@@ -4,7 +4,7 @@
 // of RT_LANES rays, one a lane: Real and Index are one number for all of them, Reals and Indices
 // one a lane, Mask says which lanes something holds for. With one lane (GPUs) they are scalars.
 // real3 lives in registers, memory holds Packed3. real3 is three numbers, not the built-in vector:
-// Intel's CPU compiler gets the built-in one wrong when it vectorises across work items
+// Intel's CPU compiler gets the built-in one wrong when it vectorizes across work items
 // (components land in the next pixel).
 // Contraction is off for the whole program: with + - * / sqrt and explicit fma alone, every device
 // and every lane rounds the same way and the picture has one set of bits (docs/design.md, "Strict

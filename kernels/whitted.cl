@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whitted's recursion, as a loop: the colour seen along a ray is the local light plus mirror x what
+// Whitted's recursion, as a loop: the color seen along a ray is the local light plus mirror x what
 // the mirror ray sees plus transmission x what the refracted ray sees. `throughput` is the product
 // of these weights so far; a path ends when it is black, when a ray misses, or after max_bounces
 // mirror and refracted rays together.
 //
 // Where a hit sends on both, the refracted ray is put on a stack and the mirror ray followed; when
 // no lane of the packet lives the last ray put aside is taken up. So each lane walks its tree, and
-// adds up its colours, in the same order whatever the packet. A branch at a transmitting surface
+// adds up its colors, in the same order whatever the packet. A branch at a transmitting surface
 // that is too faint to change a picture is left out.
 //
 // A ray enters where it meets the front of the geometric normal, whichever way two_sided turns it.
@@ -32,7 +32,7 @@ Ray mirror_ray(const Surface* surface, real3 dir, Indices prim) {
         mirrored = select3(leaves, mirrored, reflect3(dir, surface->geometric));
     }
     mirrored = normalize3(mirrored);
-    return leave_surface(surface, offset_origin(surface, mirrored), mirrored, prim);
+    return spawn_ray(surface, offset_origin(surface, mirrored), mirrored, prim);
 }
 
 // The refracted ray at a surface, where `eta` is the index of refraction on the side the ray comes
@@ -55,7 +55,7 @@ Ray refracted_ray(const Surface* surface, real3 dir, Reals eta, Indices prim, Ma
         if (!RT_HAS_VERTEX_NORMALS || attempt == 1 || !any_lane(!passes)) break;
         normal = select3(passes, normal, surface->geometric);
     }
-    return leave_surface(surface, offset_origin(surface, refracted), refracted, prim);
+    return spawn_ray(surface, offset_origin(surface, refracted), refracted, prim);
 }
 
 // A ray of each live lane, and how much of what it sees counts.
@@ -93,12 +93,12 @@ Mask is_faint(real3 weight) {
 
 // Sends the path on from a surface, of which geometric and normal face as the material has them;
 // `inside` where the ray came from behind it. Lanes where it ends are switched off.
-void scatter(const Surface* surface, const Finish* finish, Indices prim, Mask inside, Path* path,
-             Pending* pending, PacketCounts* counts) {
+void scatter(const Surface* surface, const Materials* material, Indices prim, Mask inside,
+             Path* path, Pending* pending, PacketCounts* counts) {
     real3 throughput = path->throughput;
-    real3 reflected = limit3(mul3(throughput, finish->mirror));
+    real3 reflected = limit3(mul3(throughput, material->mirror));
     Mask glassy = RT_NO_LANES;
-    if (RT_HAS_GLASS) glassy = path->live & !is_black(finish->transmission);
+    if (RT_HAS_GLASS) glassy = path->live & !is_black(material->transmission);
     if (!RT_HAS_GLASS || !any_lane(glassy)) {
         path->throughput = reflected;
         path->live &= !is_black(reflected);
@@ -108,9 +108,9 @@ void scatter(const Surface* surface, const Finish* finish, Indices prim, Mask in
         counts->mirror += path->live & 1;
         return;
     }
-    real3 transmitted = limit3(mul3(throughput, finish->transmission));
+    real3 transmitted = limit3(mul3(throughput, material->transmission));
     Mask total;
-    Reals eta = inside ? finish->ior : (Reals)1 / finish->ior;
+    Reals eta = inside ? material->ior : (Reals)1 / material->ior;
     Ray refracted = refracted_ray(surface, path->ray.dir, eta, prim, &total);
     total &= glassy;
     reflected = select3(total, limit3(add3(reflected, transmitted)), reflected);
@@ -129,24 +129,24 @@ void scatter(const Surface* surface, const Finish* finish, Indices prim, Mask in
     counts->transmitted += transmits & 1;
 }
 
-// What the hits of a path add to the colour, and the path from there on.
+// What the hits of a path add to the color, and the path from there on.
 real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* path,
                    Pending* pending, PacketCounts* counts) {
     Surface surface = surface_at(scene, &path->ray, hit, path->live);
-    Finish finish = finish_of(scene, surface.material, path->live);
+    Materials material = materials_of(scene, surface.material, path->live);
     Mask inside = dot3(surface.geometric, path->ray.dir) > (Reals)0;
-    Mask turned = (finish.two_sided != 0) & inside;
+    Mask turned = (material.two_sided != 0) & inside;
     surface.normal = select3(turned, negate3(surface.normal), surface.normal);
     surface.geometric = select3(turned, negate3(surface.geometric), surface.geometric);
     surface.diameter = turned ? -surface.diameter : surface.diameter;
     real3 to_eye = negate3(path->ray.dir);
-    real3 local_light = shade(scene, &surface, &finish, to_eye, hit->prim, path->live, counts);
+    real3 local_light = shade(scene, &surface, &material, to_eye, hit->prim, path->live, counts);
     color = select3(path->live, add3(color, mul3(path->throughput, local_light)), color);
-    bool ends = !(RT_HAS_MIRRORS || RT_HAS_GLASS) || path->bounce >= scene->frame.max_bounces;
+    bool ends = !(RT_HAS_MIRRORS || RT_HAS_GLASS) || path->bounce >= scene->params.max_bounces;
     if (ends) {
         path->live = RT_NO_LANES;
     } else {
-        scatter(&surface, &finish, hit->prim, inside, path, pending, counts);
+        scatter(&surface, &material, hit->prim, inside, path, pending, counts);
     }
     return color;
 }
@@ -159,7 +159,7 @@ bool resume(Path* path, Pending* pending) {
     return true;
 }
 
-// The colours seen along the rays of the live lanes.
+// The colors seen along the rays of the live lanes.
 RT_OUT_OF_LINE real3 trace_path(const SceneView* scene, Ray ray, Mask live, PacketCounts* counts) {
     real3 color = make3((Reals)0, (Reals)0, (Reals)0);
     Path path = {ray, make3((Reals)1, (Reals)1, (Reals)1), live, 0};
@@ -169,7 +169,7 @@ RT_OUT_OF_LINE real3 trace_path(const SceneView* scene, Ray ray, Mask live, Pack
         Hit hit = closest_hit(scene, &path.ray, path.live);
         Mask missed = path.live & (hit.prim == RT_NONE);
         if (any_lane(missed)) {
-            real3 background = mul3(path.throughput, load3(scene->frame.background));
+            real3 background = mul3(path.throughput, load3(scene->params.background));
             color = select3(missed, add3(color, background), color);
             path.live &= !missed;
         }
@@ -178,10 +178,10 @@ RT_OUT_OF_LINE real3 trace_path(const SceneView* scene, Ray ray, Mask live, Pack
     return color;
 }
 
-// The colours of samples k of the pixels (x, y) in the live lanes.
+// The colors of samples k of the pixels (x, y) in the live lanes.
 real3 trace_sample(const SceneView* scene, Indices x, Indices y, Indices k, Mask live,
                    PacketCounts* counts) {
-    return trace_path(scene, camera_ray(&scene->frame, x, y, k), live, counts);
+    return trace_path(scene, camera_ray(&scene->params, x, y, k), live, counts);
 }
 
 #endif

@@ -8,8 +8,8 @@
 
 namespace {
 
-// GCC 12 drops the rounding of two neighbouring doubles to float in its SLP vectoriser, unless told
-// not to vectorise so (CMakeLists.txt): a double renderer would be fed unrounded numbers.
+// GCC 12 drops the rounding of two neighboring doubles to float in its SLP vectorizer, unless told
+// not to vectorize so (CMakeLists.txt): a double renderer would be fed unrounded numbers.
 __attribute__((noinline)) void round_pair(const double* in, double* out) {
     const float x = static_cast<float>(in[0]), y = static_cast<float>(in[1]);
     out[0] = x;
@@ -23,7 +23,7 @@ T hidden(T number) {
     return copy;
 }
 
-TEST(Compiler, RoundsNeighbouringDoublesToFloat) {
+TEST(Compiler, RoundsNeighboringDoublesToFloat) {
     const double in[2] = {hidden(0.1), hidden(0.3)};
     double out[2] = {0, 0};
     round_pair(in, out);

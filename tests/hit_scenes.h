@@ -26,21 +26,21 @@ void add_triangle(Scene& scene, const glm::dvec3& a, const glm::dvec3& b, const 
 /// n x n squares of the plane z about the origin, two triangles each.
 void add_floor(Scene& scene, int n, double half, double z = 0);
 
-/// A flat scene and, for each of its primitives, the number in the author's order and back.
+/// A flat scene and, for each of its primitives, the number in the scene and back.
 template <typename T>
 struct Numbered {
     using Index = typename Flat<T>::Index;
 
     FlatScene<T> scene;
-    std::vector<Index> place;  ///< of the primitive listed under a number
+    std::vector<Index> place;  ///< of the primitive with a number
 
     explicit Numbered(FlatScene<T> flat)
         : scene(std::move(flat)),
           place(scene.spheres.size() + scene.cones.size() + scene.triangles.size()) {
         for (std::size_t i = 0; i < place.size(); ++i)
-            place[std::size_t(listed(Index(i)))] = Index(i);
+            place[std::size_t(scene_number(Index(i)))] = Index(i);
     }
-    Index listed(Index prim) const {
+    Index scene_number(Index prim) const {
         return prim < 0 || scene.order.empty() ? prim : scene.order[std::size_t(prim)];
     }
 };
@@ -91,14 +91,15 @@ ProbeRay<T> some_ray(const FlatScene<T>& scene, Random& random) {
     ProbeRay<T> ray{};
     const int count = int(scene.spheres.size() + scene.cones.size() + scene.triangles.size());
     ray.from = random.index(4) == 0 ? random.index(count) : Flat<T>::none;
-    if (ray.from >= 0 && ray.from < scene.frame.sphere_count) {  // a ray from a sphere starts on it
+    if (ray.from >= 0 &&
+        ray.from < scene.params.sphere_count) {  // a ray from a sphere starts on it
         const auto& sphere = scene.spheres[std::size_t(ray.from)];
         const glm::dvec3 normal = random.unit_vector();
         origin = in_double(sphere.center) + double(sphere.radius) * normal;
         ray.chord = static_cast<T>(-2 * double(sphere.radius) * glm::dot(normal, dir));
     }
-    const auto cone_index = ray.from - scene.frame.sphere_count;
-    if (cone_index >= 0 && cone_index < scene.frame.cone_count) {  // and so does one from a cone
+    const auto cone_index = ray.from - scene.params.sphere_count;
+    if (cone_index >= 0 && cone_index < scene.params.cone_count) {  // and so does one from a cone
         const auto& cone = scene.cones[std::size_t(cone_index)];
         const double height = random.uniform(0, double(cone.length));
         const glm::dvec3 axis = in_double(cone.axis);

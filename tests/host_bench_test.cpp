@@ -81,10 +81,10 @@ Picture test_picture(int width = 40, int height = 30) {
 TEST(JudgePicture, RoundingsAreRight) {
     Picture picture = test_picture();
     for (float& value : picture.pixels) value *= 1 + 2e-7F;
-    const Judgement judgement = judge_picture(picture, test_picture());
-    EXPECT_EQ(judgement.why_wrong, "");
-    EXPECT_GT(judgement.error.rmse, 0);
-    EXPECT_LT(judgement.error.rmse, 1e-6);
+    const Judgement judgment = judge_picture(picture, test_picture());
+    EXPECT_EQ(judgment.why_wrong, "");
+    EXPECT_GT(judgment.error.rmse, 0);
+    EXPECT_LT(judgment.error.rmse, 1e-6);
 }
 
 TEST(JudgePicture, OnePixelThatARoundingDecidedIsRight) {

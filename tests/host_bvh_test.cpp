@@ -125,10 +125,10 @@ void expect_sound(const Built<T>& bvh, const Boxes<T>& boxes) {
         }
         ASSERT_LE(node.count, bvh.settings.most_in_leaf);
         for (auto i = node.first; i < node.first + node.count; ++i) {
-            const auto listed =
+            const auto index =
                 static_cast<std::size_t>(bvh.boxes[static_cast<std::size_t>(i)].first);
-            seen[listed] += 1;
-            misplaced += contains(node, boxes[listed]) ? 0 : 1;
+            seen[index] += 1;
+            misplaced += contains(node, boxes[index]) ? 0 : 1;
         }
     }
     EXPECT_EQ(misplaced, 0u);

@@ -67,7 +67,7 @@ std::vector<std::vector<int>> casters(const Scene& scene) {
     for (const auto& light : flat.lights) {
         lists.emplace_back();
         for (int k = 0; k < light.caster_count; ++k) {
-            const bool all = light.caster_count == flat.frame.triangle_count;
+            const bool all = light.caster_count == flat.params.triangle_count;
             lists.back().push_back(all ? k : flat.casters[std::size_t(light.first_caster + k)]);
         }
     }
@@ -101,7 +101,7 @@ TEST(ShadowCasters, AreNotListedAmongManyTrianglesWithoutAHierarchyEither) {
     EXPECT_NE(flatten<float>(scene, options).lights[0].caster_count, 2);
     for (int i = 0; i < 100; ++i) add_floor(scene, 1, 1);
     const FlatScene<float> flat = flatten<float>(scene, options);
-    EXPECT_EQ(flat.lights[0].caster_count, flat.frame.triangle_count);
+    EXPECT_EQ(flat.lights[0].caster_count, flat.params.triangle_count);
     EXPECT_TRUE(flat.casters.empty());
 }
 

@@ -54,7 +54,7 @@ TEST(ImageError, CountsPixelsOverLevels) {
     EXPECT_EQ(error.over_8, 1u);
 }
 
-TEST(ImageError, NeighbouringLevelsOfAnEightBitPictureAreNotOverOne) {
+TEST(ImageError, NeighboringLevelsOfAnEightBitPictureAreNotOverOne) {
     for (int apart : {1, 2, 8}) {
         for (int level = 0; level + apart < 256; ++level) {
             const ImageError error =
@@ -87,28 +87,28 @@ TEST(ErrorJson, HasEveryFigure) {
     EXPECT_EQ(json.at("pixels_over_2_255"), 1);
 }
 
-double lightness(const std::array<float, 3>& colour) {
-    return 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+double lightness(const std::array<float, 3>& color) {
+    return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
 }
 
-TEST(HeatColour, RisesInLightness) {
+TEST(HeatColor, RisesInLightness) {
     for (int i = 0; i < 255; ++i) {
-        EXPECT_LT(lightness(heat_colour(i / 255.0)), lightness(heat_colour((i + 1) / 255.0))) << i;
+        EXPECT_LT(lightness(heat_color(i / 255.0)), lightness(heat_color((i + 1) / 255.0))) << i;
     }
 }
 
-TEST(HeatColour, EndsWhereMagmaEnds) {
-    using Colour = std::array<float, 3>;
-    EXPECT_EQ(heat_colour(0), (Colour{0, 0, 4 / 255.0f}));
-    EXPECT_EQ(heat_colour(1), (Colour{252 / 255.0f, 253 / 255.0f, 191 / 255.0f}));
-    EXPECT_EQ(heat_colour(7), heat_colour(1));
-    EXPECT_EQ(heat_colour(-1), heat_colour(0));
+TEST(HeatColor, EndsWhereMagmaEnds) {
+    using Color = std::array<float, 3>;
+    EXPECT_EQ(heat_color(0), (Color{0, 0, 4 / 255.0f}));
+    EXPECT_EQ(heat_color(1), (Color{252 / 255.0f, 253 / 255.0f, 191 / 255.0f}));
+    EXPECT_EQ(heat_color(7), heat_color(1));
+    EXPECT_EQ(heat_color(-1), heat_color(0));
 }
 
-Picture colours(const std::vector<std::array<float, 3>>& list) {
+Picture colors(const std::vector<std::array<float, 3>>& list) {
     Picture picture{static_cast<int>(list.size()), 1, 3, {}};
-    for (const auto& colour : list) {
-        picture.pixels.insert(picture.pixels.end(), colour.begin(), colour.end());
+    for (const auto& color : list) {
+        picture.pixels.insert(picture.pixels.end(), color.begin(), color.end());
     }
     return picture;
 }
@@ -117,14 +117,14 @@ TEST(HeatMap, ShowsTheLargestChannelAndWhatIsNotFinite) {
     const Picture a = row(3, {0, 0, 0, 0, 0.5f, 0.25f, 1, 0, 0, nan, 0, 0, 0, 0, -infinity});
     const Picture map = heat_map(a, row(3, std::vector<float>(15)), 0.5);
     EXPECT_EQ(map.width, 5);
-    EXPECT_EQ(map.pixels, colours({heat_colour(0), heat_colour(1), heat_colour(1),
-                                   non_finite_colour, non_finite_colour})
+    EXPECT_EQ(map.pixels, colors({heat_color(0), heat_color(1), heat_color(1), non_finite_color,
+                                  non_finite_color})
                               .pixels);
 }
 
 TEST(HeatMap, OfEqualPicturesIsBlack) {
-    const Picture grey = row(1, {0.5f, 0.25f});
-    EXPECT_EQ(heat_map(grey, grey, 0).pixels, colours({heat_colour(0), heat_colour(0)}).pixels);
+    const Picture gray = row(1, {0.5f, 0.25f});
+    EXPECT_EQ(heat_map(gray, gray, 0).pixels, colors({heat_color(0), heat_color(0)}).pixels);
 }
 
 /// A folder with a python3 of ours, and PATH set to it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// host/flatten/flat_frame.h: what an eye ray is made of.
+// host/flatten/flat_params.h: what an eye ray is made of.
 #include <gtest/gtest.h>
 
 #include "host/flatten/flat_scene.h"
@@ -18,10 +18,10 @@ TEST(FlattenFrame, HasPixelsThatAreSquareToTheLastBitWhicheverSideTheFieldOfView
         for (int i = 0; i < 1000; ++i) {
             scene.width = 100 + 7 * i;
             scene.height = 90 + 11 * i;
-            const auto frame = flatten<double>(scene).frame;
-            ASSERT_EQ(frame.direction_dx.x, frame.direction_dy.y) << scene.width;
-            ASSERT_EQ(frame.direction_dx.y, 0);
-            ASSERT_EQ(frame.direction_dy.x, 0);
+            const auto params = flatten<double>(scene).params;
+            ASSERT_EQ(params.direction_dx.x, params.direction_dy.y) << scene.width;
+            ASSERT_EQ(params.direction_dx.y, 0);
+            ASSERT_EQ(params.direction_dy.x, 0);
         }
     }
 }
@@ -31,9 +31,9 @@ TEST(FlattenFrame, HasTheAuthorsWindowWhateverItsShape) {
     scene.camera.field_of_view.fixed = Scene::FieldOfView::Fixed::window;
     scene.camera.window = {-2, 2, -1, 1};
     scene.width = scene.height = 8;
-    const auto frame = flatten<double>(scene).frame;
-    EXPECT_EQ(frame.direction_dx.x, 0.25);
-    EXPECT_EQ(frame.direction_dy.y, 0.125);
+    const auto params = flatten<double>(scene).params;
+    EXPECT_EQ(params.direction_dx.x, 0.25);
+    EXPECT_EQ(params.direction_dy.y, 0.125);
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ std::vector<Answer<T>> answers(const Numbered<T>& numbered, std::vector<Query<T>
     std::vector<Answer<T>> found(queries.size());
     make_threads_ray_tracer(numbered.scene, options)(queries, found);
     for (Answer<T>& answer : found) {
-        answer.prim = numbered.listed(answer.prim);
-        answer.next_prim = numbered.listed(answer.next_prim);
+        answer.prim = numbered.scene_number(answer.prim);
+        answer.next_prim = numbered.scene_number(answer.next_prim);
         if (answer.next_prim == Flat<T>::none) answer.next_t = 0;
         if (answer.prim != Flat<T>::none) continue;
         const auto is_blocked = answer.is_blocked;

@@ -49,7 +49,7 @@ const std::string ply_triangle =
 
 std::string scene_with(const std::string& meshes) {
     return R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40},
-               "materials": {"grey": {"diffuse": 0.5}, "red": {"diffuse": [1, 0, 0]}},
+               "materials": {"gray": {"diffuse": 0.5}, "red": {"diffuse": [1, 0, 0]}},
                "meshes": [)" +
            meshes + "]}";
 }
@@ -62,7 +62,7 @@ TEST_F(ModelFiles, MeshesStandInAJsonScene) {
         {"file": "models/a.obj", "transform": {"scale": 2, "translate": [1, 2, 3]}},
         {"file": "b.PLY", "material": "red",
          "transform": [0, -1, 0, 5,  1, 0, 0, 6,  0, 0, 1, 7,  0, 0, 0, 1]},
-        {"file": "models/a.obj", "material": "grey"})"));
+        {"file": "models/a.obj", "material": "gray"})"));
     const Scene scene = load_scene(path);
     ASSERT_EQ(scene.meshes.size(), 3u);
     EXPECT_EQ(scene.meshes[0].positions[2], glm::dvec3(3, 4, 3));

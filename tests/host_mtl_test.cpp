@@ -24,7 +24,7 @@ TEST(ParseMtl, BadFilesAreRefusedAsExpected) {
     }
 }
 
-TEST(ParseMtl, ColoursAndHighlights) {
+TEST(ParseMtl, ColorsAndHighlights) {
     const auto material = mtl("Ka 0.1 0.2 0.3\nKd .4 .5 .6\nKs 0.7\nNs 96.5\nillum 2\n");
     EXPECT_EQ(material.name, "m");
     EXPECT_EQ(material.ambient, glm::dvec3(0.1, 0.2, 0.3));

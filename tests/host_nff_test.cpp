@@ -49,7 +49,7 @@ TEST(ParseNffScene, HitherAndResolutionMayBeMissing) {
     EXPECT_EQ(scene.height, 512);
 }
 
-TEST(ParseNffScene, LightsWithoutColourShareTheLight) {
+TEST(ParseNffScene, LightsWithoutColorShareTheLight) {
     for (int n = 1; n <= 7; ++n) {
         std::string text;
         for (int i = 0; i < n; ++i) text += "l 1 2 3\n";
@@ -61,7 +61,7 @@ TEST(ParseNffScene, LightsWithoutColourShareTheLight) {
     }
 }
 
-TEST(ParseNffScene, LightColoursAreTakenAsGivenAndCount) {
+TEST(ParseNffScene, LightColorsAreTakenAsGivenAndCount) {
     const Scene scene = parse("l 1 2 3 0.1 0.2 0.3\nl 4 5 6\n");
     const double share = std::sqrt(2.0) / 4;
     EXPECT_EQ(scene.lights[0].intensity, glm::dvec3(0.1, 0.2, 0.3));

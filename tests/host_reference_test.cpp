@@ -25,14 +25,14 @@ Scene one_ball(glm::dvec3 light) {
     return scene;
 }
 
-std::array<double, 3> centre_colour(const Scene& scene, ReferenceKind kind) {
+std::array<double, 3> center_color(const Scene& scene, ReferenceKind kind) {
     return make_reference_tracer(scene, kind)
-        ->colour_at(scene.width / 2.0, scene.height / 2.0, 0, 0);
+        ->color_at(scene.width / 2.0, scene.height / 2.0, 0, 0);
 }
 
-void expect_colour(const std::array<double, 3>& colour, const glm::dvec3& expected) {
+void expect_color(const std::array<double, 3>& color, const glm::dvec3& expected) {
     for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(colour[static_cast<std::size_t>(c)], expected[c], 1e-15) << c;
+        EXPECT_NEAR(color[static_cast<std::size_t>(c)], expected[c], 1e-15) << c;
     }
 }
 
@@ -47,7 +47,7 @@ TEST(ReferenceTracer, ShadesTheMiddleOfABall) {
         glm::dvec3(0.5, 0.75, 0.25) * 0.25 +
         glm::dvec3(0.5, 0.25, 1) * (cosine * glm::dvec3(0.5, 0.75, 0.25) + lobe * glm::dvec3(0.5));
     for (const ReferenceKind kind : both_kinds) {
-        expect_colour(centre_colour(scene, kind), expected);
+        expect_color(center_color(scene, kind), expected);
     }
 }
 
@@ -55,14 +55,14 @@ TEST(ReferenceTracer, AShadowLeavesAmbientLight) {
     Scene scene = one_ball({0, 3, 5});
     add_sphere(scene, {0, 1.5, 3}, 0.25, 0);
     for (const ReferenceKind kind : both_kinds) {
-        expect_colour(centre_colour(scene, kind), glm::dvec3(0.125, 0.1875, 0.0625));
+        expect_color(center_color(scene, kind), glm::dvec3(0.125, 0.1875, 0.0625));
     }
 }
 
 TEST(ReferenceTracer, ALightBehindTheObstacleIsNotSeenButOneBeforeItIs) {
     Scene scene = one_ball({0, 3, 5});
     add_sphere(scene, {0, 6, 9}, 0.25, 0);  // on the same line, beyond the light
-    const auto lit = centre_colour(scene, ReferenceKind::quad);
+    const auto lit = center_color(scene, ReferenceKind::quad);
     EXPECT_GT(lit[0], 0.3);
 }
 
@@ -75,11 +75,11 @@ TEST(ReferenceTracer, APlaneMirrorsWhatIsBehindTheEye) {
     const int mirror = add_mirror(scene, 0.5, 0);
     add_quad(scene, {-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}, mirror);
     for (const ReferenceKind kind : both_kinds) {
-        expect_colour(centre_colour(scene, kind), 0.5 * scene.background);
+        expect_color(center_color(scene, kind), 0.5 * scene.background);
     }
     add_sphere(scene, {0, 0, 8}, 1, add_matt(scene, {0.5, 0.75, 0.25}));
     for (const ReferenceKind kind : both_kinds) {
-        expect_colour(centre_colour(scene, kind), 0.125 * glm::dvec3(0.5, 0.75, 0.25));
+        expect_color(center_color(scene, kind), 0.125 * glm::dvec3(0.5, 0.75, 0.25));
     }
 }
 
@@ -94,15 +94,15 @@ TEST(ReferenceTracer, FacingMirrorsCountTheirBounces) {
     const int mirror = add_mirror(scene, 0.5, 0.25);
     add_quad(scene, {-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}, mirror);
     add_quad(scene, {8, -8, 2}, {-8, -8, 2}, {-8, 8, 2}, {8, 8, 2}, mirror);
-    expect_colour(centre_colour(scene, ReferenceKind::quad),
-                  glm::dvec3(0.25 * (1 + 0.5 + 0.25 + 0.125)));
+    expect_color(center_color(scene, ReferenceKind::quad),
+                 glm::dvec3(0.25 * (1 + 0.5 + 0.25 + 0.125)));
 }
 
 TEST(ReferenceTracer, FirstListedOfTwoInOnePlaceIsSeen) {
     Scene scene = one_ball({0, 3, 5});
     scene.lights.clear();
     add_sphere(scene, {0, 0, 0}, 1, add_matt(scene, glm::dvec3(1)));
-    expect_colour(centre_colour(scene, ReferenceKind::quad), glm::dvec3(0.125, 0.1875, 0.0625));
+    expect_color(center_color(scene, ReferenceKind::quad), glm::dvec3(0.125, 0.1875, 0.0625));
 }
 
 TEST(ReferenceTracer, BothKindsAgree) {
@@ -112,8 +112,8 @@ TEST(ReferenceTracer, BothKindsAgree) {
     const auto extended = make_reference_tracer(scene, ReferenceKind::extended);
     for (int y = 0; y < 15; ++y) {
         for (int x = 0; x < 20; ++x) {
-            const auto a = quad->colour_at(x + 0.5, y + 0.5, 0, 0);
-            const auto b = extended->colour_at(x + 0.5, y + 0.5, 0, 0);
+            const auto a = quad->color_at(x + 0.5, y + 0.5, 0, 0);
+            const auto b = extended->color_at(x + 0.5, y + 0.5, 0, 0);
             for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-12);
         }
     }
@@ -128,21 +128,21 @@ TEST(ReferenceTracer, ShadesACylinderLikeABall) {
     cylinder.spheres.clear();
     add_cone(cylinder, {0, -1, 0}, 1, {0, 1, 0}, 1, 0);
     for (const ReferenceKind kind : both_kinds) {
-        const auto expected = centre_colour(ball, kind);
-        expect_colour(centre_colour(cylinder, kind), {expected[0], expected[1], expected[2]});
+        const auto expected = center_color(ball, kind);
+        expect_color(center_color(cylinder, kind), {expected[0], expected[1], expected[2]});
     }
 }
 
 /// Of a cone as wide as high, the normal rises by 45 degrees: a light straight along it gives the
-/// full diffuse colour.
+/// full diffuse color.
 TEST(ReferenceTracer, ShadesASlantedSide) {
     Scene scene = one_ball({0, 3, 3.5});
     scene.spheres.clear();
     scene.materials[0].specular = glm::dvec3(0);
     add_cone(scene, {0, -0.5, 0}, 1, {0, 0.5, 0}, 0, 0);
-    const glm::dvec3 colour(0.5, 0.75, 0.25);
-    expect_colour(centre_colour(scene, ReferenceKind::quad),
-                  0.25 * colour + glm::dvec3(0.5, 0.25, 1) * colour);
+    const glm::dvec3 color(0.5, 0.75, 0.25);
+    expect_color(center_color(scene, ReferenceKind::quad),
+                 0.25 * color + glm::dvec3(0.5, 0.25, 1) * color);
 }
 
 /// A frustum is open: rays along its axis pass, rays past its rims too, and its inside is seen
@@ -152,12 +152,12 @@ TEST(ReferenceTracer, AFrustumIsOpen) {
     scene.lights.clear();
     scene.spheres.clear();
     add_cone(scene, {0, 0, -1}, 0.5, {0, 0, 1}, 1, 0);
-    expect_colour(centre_colour(scene, ReferenceKind::quad), scene.background);
+    expect_color(center_color(scene, ReferenceKind::quad), scene.background);
     scene.cones.clear();
     add_cone(scene, {0, 0.01, 0}, 1, {0, 1, 0}, 1, 0);
-    expect_colour(centre_colour(scene, ReferenceKind::quad), scene.background);
+    expect_color(center_color(scene, ReferenceKind::quad), scene.background);
     set_view(scene, {0, 2, 4}, {0, 0.5, -1}, 30);
-    expect_colour(centre_colour(scene, ReferenceKind::quad), glm::dvec3(0.125, 0.1875, 0.0625));
+    expect_color(center_color(scene, ReferenceKind::quad), glm::dvec3(0.125, 0.1875, 0.0625));
 }
 
 /// Beyond its tip the other half of a double cone does not count.
@@ -166,7 +166,7 @@ TEST(ReferenceTracer, AConeHasOneHalf) {
     scene.lights.clear();
     scene.spheres.clear();
     add_cone(scene, {0, -2, 0}, 2, {0, -0.01, 0}, 0, 0);
-    expect_colour(centre_colour(scene, ReferenceKind::quad), scene.background);
+    expect_color(center_color(scene, ReferenceKind::quad), scene.background);
 }
 
 // Glass
@@ -186,7 +186,7 @@ Scene glass_ball(double height, double ior, double mirror = 0) {
 TEST(ReferenceTracer, GlassShowsTheBackgroundBehind) {
     for (const ReferenceKind kind : both_kinds) {
         const Scene scene = glass_ball(0.3, 1.5);
-        expect_colour(centre_colour(scene, kind), 0.25 * scene.background);
+        expect_color(center_color(scene, kind), 0.25 * scene.background);
     }
 }
 
@@ -204,7 +204,7 @@ TEST(ReferenceTracer, ABallRefractsAsSnellSays) {
             add_quad(scene, {-9, meets + off, wall}, {9, meets + off, wall}, {9, 9, wall},
                      {-9, 9, wall}, red);
             const glm::dvec3 seen = off < 0 ? glm::dvec3(1, 0, 0) : scene.background;
-            expect_colour(centre_colour(scene, ReferenceKind::quad), 0.25 * seen);
+            expect_color(center_color(scene, ReferenceKind::quad), 0.25 * seen);
         }
     }
 }
@@ -227,8 +227,7 @@ TEST(ReferenceTracer, APrismReflectsAll) {
         const bool total = ior > std::numbers::sqrt2;
         const glm::dvec3 red(0.5 * (total ? 0.625 : 0.125) * 0.5, 0, 0);
         const double background = total ? 0.125 : 0.125 + 0.25;
-        expect_colour(centre_colour(scene, ReferenceKind::quad),
-                      background * scene.background + red);
+        expect_color(center_color(scene, ReferenceKind::quad), background * scene.background + red);
     }
 }
 
@@ -237,7 +236,7 @@ TEST(ReferenceTracer, IndexOneIsTheBackground) {
     for (const ReferenceKind kind : both_kinds) {
         Scene scene = glass_ball(0.7, 1);
         scene.materials[0].transmission = glm::dvec3(1);
-        expect_colour(centre_colour(scene, kind), scene.background);
+        expect_color(center_color(scene, kind), scene.background);
     }
 }
 

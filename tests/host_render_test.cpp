@@ -259,7 +259,7 @@ TEST(PlanRefinement, RefinesBothSidesOfAnEdgeByItsContrast) {
     EXPECT_TRUE(plan_refinement(film, 0.1, levels).empty());
 }
 
-TEST(PlanRefinement, LeavesAgreeingNeighboursAloneAndFlagsNaN) {
+TEST(PlanRefinement, LeavesAgreeingNeighborsAloneAndFlagsNaN) {
     Film<double> film(3, 1);
     std::vector<std::uint8_t> levels(3, 1);
     EXPECT_TRUE(plan_refinement(film, 0.01, levels).empty());

@@ -141,7 +141,7 @@ TEST(ParseJsonScene, TinyNumbersAreKept) {
     EXPECT_EQ(scene.spheres[0].radius, 1e-30);
 }
 
-TEST(ParseJsonScene, VertexNormalsAreNormalisedAtAnyScale) {
+TEST(ParseJsonScene, VertexNormalsAreNormalizedAtAnyScale) {
     const Scene scene = parse_with(
         R"("materials": {"m": {}},
            "triangles": [{"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "material": "m",
@@ -430,21 +430,21 @@ TEST(SceneWarnings, NoLightAtAll) {
 TEST(SceneWarnings, NothingInView) {
     const std::string lamp = R"(, "ambient_light": 1, )";
     const std::string words = "nothing is in view";
-    const std::string grey = R"({"ambient": 1})";
+    const std::string gray = R"({"ambient": 1})";
     for (const std::string center : {"[0, 0, 7]", "[4, 0, 0]", "[0, -4, 0]", "[9, 9, -9]"}) {
-        EXPECT_TRUE(warns(warnings_for(ball_at(center, grey) + R"(, "ambient_light": 1)"), words))
+        EXPECT_TRUE(warns(warnings_for(ball_at(center, gray) + R"(, "ambient_light": 1)"), words))
             << center;
     }
     for (const std::string center :
          {"[0, 0, 5.5]", "[2.7, 0, 0]", "[0, 0, -1000]", "[30, 0, -100]"}) {
-        EXPECT_TRUE(warnings_for(ball_at(center, grey) + R"(, "ambient_light": 1)").empty())
+        EXPECT_TRUE(warnings_for(ball_at(center, gray) + R"(, "ambient_light": 1)").empty())
             << center;
     }
     const std::string ortho = R"("type": "orthographic", "window": [1, 3, -1, 1])";
     EXPECT_TRUE(
-        warnings_for(ball_at("[2, 0, 0]", grey) + R"(, "ambient_light": 1)", ortho).empty());
+        warnings_for(ball_at("[2, 0, 0]", gray) + R"(, "ambient_light": 1)", ortho).empty());
     EXPECT_TRUE(warns(
-        warnings_for(ball_at("[-0.5, 0, 0]", grey) + R"(, "ambient_light": 1)", ortho), words));
+        warnings_for(ball_at("[-0.5, 0, 0]", gray) + R"(, "ambient_light": 1)", ortho), words));
     const std::string skin = R"("materials": {"m": {"ambient": 1}})" + lamp;
     const auto triangle = [&](const std::string& vertices) {
         return skin + R"("triangles": [{"material": "m", "vertices": )" + vertices + "}]";

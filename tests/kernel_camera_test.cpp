@@ -12,28 +12,28 @@ namespace rt {
 namespace {
 
 template <typename T>
-using Frame = typename Flat<T>::Frame;
+using LaunchParams = typename Flat<T>::LaunchParams;
 
 /// A camera of any attitude; a pixel spans about 1e-2 of the view.
 template <typename T>
-Frame<T> any_frame(Random& random, bool orthographic, int grid) {
+LaunchParams<T> any_params(Random& random, bool orthographic, int grid) {
     const glm::dvec3 forward = random.unit_vector();
     const glm::dvec3 right = glm::normalize(glm::cross(forward, random.unit_vector()));
     const glm::dvec3 up = glm::cross(right, forward);
-    Frame<T> frame{};
-    frame.width = 200;
-    frame.height = 130;
-    frame.grid = grid;
-    frame.direction = round_to<T>(forward);
+    LaunchParams<T> params{};
+    params.width = 200;
+    params.height = 130;
+    params.grid = grid;
+    params.direction = round_to<T>(forward);
     const auto some_rounding = [&](double size) {
         return round_to<T>(0.3 * Flat<T>::roundoff * size * random.unit_vector());
     };
-    frame.direction_low = some_rounding(1);
-    if (!orthographic) frame.direction_dx_low = some_rounding(3e-3);
-    if (!orthographic) frame.direction_dy_low = some_rounding(4e-3);
-    (orthographic ? frame.origin_dx : frame.direction_dx) = round_to<T>(3e-3 * right);
-    (orthographic ? frame.origin_dy : frame.direction_dy) = round_to<T>(4e-3 * up);
-    return frame;
+    params.direction_low = some_rounding(1);
+    if (!orthographic) params.direction_dx_low = some_rounding(3e-3);
+    if (!orthographic) params.direction_dy_low = some_rounding(4e-3);
+    (orthographic ? params.origin_dx : params.direction_dx) = round_to<T>(3e-3 * right);
+    (orthographic ? params.origin_dy : params.direction_dy) = round_to<T>(4e-3 * up);
+    return params;
 }
 
 /// Every sample of every pixel.
@@ -41,10 +41,10 @@ template <typename T>
 struct Samples {
     std::vector<typename Flat<T>::Index> x, y, k;
 
-    explicit Samples(const Frame<T>& frame) {
-        for (int j = 0; j < frame.height; ++j) {
-            for (int i = 0; i < frame.width; ++i) {
-                for (int s = 0; s < frame.grid * frame.grid; ++s) {
+    explicit Samples(const LaunchParams<T>& params) {
+        for (int j = 0; j < params.height; ++j) {
+            for (int i = 0; i < params.width; ++i) {
+                for (int s = 0; s < params.grid * params.grid; ++s) {
                     x.push_back(i);
                     y.push_back(j);
                     k.push_back(s);
@@ -52,14 +52,14 @@ struct Samples {
             }
         }
     }
-    std::vector<ProbeRay<T>> device(const Frame<T>& frame) const {
-        return run<T, ProbeRay<T>>("camera_ray", x.size(), std::vector{frame}, x, y, k);
+    std::vector<ProbeRay<T>> device(const LaunchParams<T>& params) const {
+        return run<T, ProbeRay<T>>("camera_ray", x.size(), std::vector{params}, x, y, k);
     }
     /// 2 (position) - size, with the position of a sample k as the header of the kernel says.
-    Quad sx(std::size_t i, const Frame<T>& f) const {
+    Quad sx(std::size_t i, const LaunchParams<T>& f) const {
         return 2 * (Quad(x[i]) + (Quad(k[i] % f.grid) + 0.5) / f.grid) - f.width;
     }
-    Quad sy(std::size_t i, const Frame<T>& f) const {
+    Quad sy(std::size_t i, const LaunchParams<T>& f) const {
         return 2 * (Quad(y[i]) + (Quad(k[i] / f.grid) + 0.5) / f.grid) - f.height;
     }
 };
@@ -67,7 +67,7 @@ struct Samples {
 template <typename T>
 void expect_closed_form(bool orthographic, int grid) {
     Random random(static_cast<std::uint64_t>(grid));
-    const Frame<T> f = any_frame<T>(random, orthographic, grid);
+    const LaunchParams<T> f = any_params<T>(random, orthographic, grid);
     const Samples<T> samples(f);
     const auto rays = samples.device(f);
     WorstError dir, low, origin;
@@ -99,15 +99,15 @@ TYPED_TEST(CameraRay, OrthographicRaysAreParallel) {
     for (const int grid : {1, 2, 3}) expect_closed_form<TypeParam>(true, grid);
 }
 TYPED_TEST(CameraRay, OnASquarePicturesDiagonalHasEqualComponents) {
-    Frame<TypeParam> frame{};
-    frame.width = frame.height = 101;
-    frame.direction = {0, 0, -1};
-    frame.direction_dx = {TypeParam(0.00517), 0, 0};
-    frame.direction_dy = {0, TypeParam(0.00517), 0};
+    LaunchParams<TypeParam> params{};
+    params.width = params.height = 101;
+    params.direction = {0, 0, -1};
+    params.direction_dx = {TypeParam(0.00517), 0, 0};
+    params.direction_dy = {0, TypeParam(0.00517), 0};
     for (const int grid : {1, 2, 3, 4}) {
-        frame.grid = grid;
-        const Samples<TypeParam> samples(frame);
-        const auto rays = samples.device(frame);
+        params.grid = grid;
+        const Samples<TypeParam> samples(params);
+        const auto rays = samples.device(params);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             if (samples.x[i] != samples.y[i]) continue;
             if (samples.k[i] % grid != samples.k[i] / grid) continue;
@@ -116,14 +116,14 @@ TYPED_TEST(CameraRay, OnASquarePicturesDiagonalHasEqualComponents) {
     }
 }
 TYPED_TEST(CameraRay, OppositePixelsMirrorEachOther) {
-    Frame<TypeParam> frame{};
-    frame.width = 64;
-    frame.height = 37;
-    frame.grid = 1;
-    frame.direction = {0, 0, -1};
-    frame.direction_dx = {TypeParam(0.013), 0, 0};
-    frame.direction_dy = {0, TypeParam(0.017), 0};
-    const auto rays = Samples<TypeParam>(frame).device(frame);
+    LaunchParams<TypeParam> params{};
+    params.width = 64;
+    params.height = 37;
+    params.grid = 1;
+    params.direction = {0, 0, -1};
+    params.direction_dx = {TypeParam(0.013), 0, 0};
+    params.direction_dy = {0, TypeParam(0.017), 0};
+    const auto rays = Samples<TypeParam>(params).device(params);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const auto &a = rays[i].dir, &b = rays[rays.size() - 1 - i].dir;
         ASSERT_TRUE(a.x == -b.x && a.y == -b.y && a.z == b.z) << i;

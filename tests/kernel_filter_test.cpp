@@ -83,11 +83,11 @@ struct Samples {
 template <typename T>
 Samples<T> random_samples(int filter, Word seed) {
     using Index = typename Flat<T>::Index;
-    typename Flat<T>::Frame frame{};
-    frame.width = frame.height = 65536;
-    frame.samples = 16;
-    frame.filter = filter;
-    frame.seed = static_cast<decltype(frame.seed)>(seed);
+    typename Flat<T>::LaunchParams params{};
+    params.width = params.height = 65536;
+    params.samples = 16;
+    params.filter = filter;
+    params.seed = static_cast<decltype(params.seed)>(seed);
     Samples<T> samples;
     Random random(11);
     for (int i = 0; i < 3000; ++i) {
@@ -96,7 +96,7 @@ Samples<T> random_samples(int filter, Word seed) {
         samples.k.push_back(static_cast<Index>(random.uniform(0, 16)));
     }
     std::tie(samples.unit_x, samples.unit_y, samples.at_x, samples.at_y, samples.weight) =
-        run<T, T, T, T, T, T>("sample", samples.x.size(), std::vector{frame}, samples.x, samples.y,
+        run<T, T, T, T, T, T>("sample", samples.x.size(), std::vector{params}, samples.x, samples.y,
                               samples.k);
     return samples;
 }
@@ -117,9 +117,9 @@ TYPED_TEST(SobolSample, IsWherePixelAndSeedPutIt) {
 
 TYPED_TEST(SobolSample, DiffersFromPixelToPixel) {
     using Index = typename Flat<TypeParam>::Index;
-    typename Flat<TypeParam>::Frame frame{};
-    frame.width = frame.height = 32;
-    frame.samples = 1;
+    typename Flat<TypeParam>::LaunchParams params{};
+    params.width = params.height = 32;
+    params.samples = 1;
     std::vector<Index> x, y, k(1024, 0);
     for (Index i = 0; i < 1024; ++i) {
         x.push_back(i % 32);
@@ -127,7 +127,7 @@ TYPED_TEST(SobolSample, DiffersFromPixelToPixel) {
     }
     const auto [unit_x, unit_y, at_x, at_y, weight] =
         run<TypeParam, TypeParam, TypeParam, TypeParam, TypeParam, TypeParam>(
-            "sample", x.size(), std::vector{frame}, x, y, k);
+            "sample", x.size(), std::vector{params}, x, y, k);
     std::set<std::pair<TypeParam, TypeParam>> places;
     for (std::size_t i = 0; i < x.size(); ++i) places.insert({unit_x[i], unit_y[i]});
     EXPECT_GT(places.size(), 1000u);

@@ -127,8 +127,8 @@ FlatScene<T> unlit(double mirror, double transmission, double ior, double backgr
     material.transmission = {t, t, t};
     material.ior = T(ior);
     scene.materials = {material};
-    scene.frame.background = {b, b, b};
-    scene.frame.max_bounces = 8;
+    scene.params.background = {b, b, b};
+    scene.params.max_bounces = 8;
     return scene;
 }
 
@@ -158,7 +158,7 @@ TYPED_TEST(TraceTree, AddsUpAPaneByHand) {
                           {3, 0.25 + 0.25 + 0.0625, 3, 3},
                           {4, 0.25 + 0.25 + 0.0625 + 0.015625, 4, 4}};
     for (const auto& [max_bounces, color, mirror, transmitted] : cases) {
-        scene.frame.max_bounces = max_bounces;
+        scene.params.max_bounces = max_bounces;
         const auto [colors, counts] = trace_paths(scene, ray);
         EXPECT_EQ(colors[0].x, T(color)) << max_bounces;
         EXPECT_EQ(counts[0].mirror, mirror) << max_bounces;
@@ -190,7 +190,7 @@ TYPED_TEST(TraceTree, NeverGainsEnergyInAWhiteFurnace) {
                     make_sphere<T>(random.in_cube(1.5), random.uniform(0.2, 0.9)));
             }
             count_primitives(scene);
-            scene.frame.max_bounces = 12;
+            scene.params.max_bounces = 12;
             const auto rays = many(std::size_t(2000), [&] {
                 return make_ray<T>(random.in_cube(2), random.unit_vector());
             });
@@ -256,9 +256,9 @@ FlatScene<T> glass_crowd() {
     for (auto& cone : scene.cones) cone.material = random.index(6);
     for (auto& triangle : scene.triangles) triangle.material = random.index(6);
     scene.lights = {{{5, 6, 7}, 0, {1, 1, 1}, 0}, {{-3, 5, 0}, 0, {T(0.5), 1, T(0.25)}, 0}};
-    scene.frame.max_bounces = 6;
-    scene.frame.background = {T(0.1), T(0.2), T(0.3)};
-    scene.frame.ambient_light = {T(0.5), T(0.5), T(0.5)};
+    scene.params.max_bounces = 6;
+    scene.params.background = {T(0.1), T(0.2), T(0.3)};
+    scene.params.ambient_light = {T(0.5), T(0.5), T(0.5)};
     count_primitives(scene);
     return scene;
 }

@@ -30,7 +30,7 @@ Rays<T> renumbered(Rays<T> rays, const Numbered<T>& bvh) {
 template <typename T>
 std::vector<ProbeHit<T>> closest_hits(const Numbered<T>& numbered, const Rays<T>& rays) {
     auto hits = run<T, ProbeHit<T>>("closest_hit", rays.size(), numbered.scene, rays);
-    for (auto& hit : hits) hit.prim = numbered.listed(hit.prim);
+    for (auto& hit : hits) hit.prim = numbered.scene_number(hit.prim);
     return hits;
 }
 

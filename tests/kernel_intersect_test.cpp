@@ -147,7 +147,7 @@ TYPED_TEST(IntersectSphere, AnEyeOnItSeesTheFarSideOrNothing) {
 }
 TYPED_TEST(IntersectSphere, OfAHugeOneIsWhereTheExactGroundLies) {
     // The eye stands 1 to 10 above a ball of radius 1e3 to 1e7 and looks down at more than 3
-    // degrees. The power is of the exact ball; the centre is rounded, which moves the ground by
+    // degrees. The power is of the exact ball; the center is rounded, which moves the ground by
     // less than the bar.
     Random random(7);
     SphereCases<TypeParam> cases;

@@ -85,7 +85,7 @@ void add_inputs(std::vector<ProbeInput>& inputs, const FlatScene<T>& scene) {
     add_inputs(inputs, scene.nodes);
     add_inputs(inputs, scene.order);
     add_inputs(inputs, scene.casters);
-    inputs.push_back({&scene.frame, sizeof(scene.frame)});
+    inputs.push_back({&scene.params, sizeof(scene.params)});
 }
 
 /// Runs probe_FUNCTION in the precision of T over `count` items. Inputs are vectors and scenes; the

@@ -65,15 +65,15 @@ long double exact_weight(std::int64_t filter, long double distance) {
 }
 
 template <typename T>
-typename Flat<T>::Frame frame_with(int grid, int samples, int filter) {
-    typename Flat<T>::Frame frame{};
-    frame.width = 640;
-    frame.height = 480;
-    frame.grid = grid;
-    frame.samples = samples;
-    frame.filter = filter;
-    frame.seed = 3;
-    return frame;
+typename Flat<T>::LaunchParams frame_with(int grid, int samples, int filter) {
+    typename Flat<T>::LaunchParams params{};
+    params.width = 640;
+    params.height = 480;
+    params.grid = grid;
+    params.samples = samples;
+    params.filter = filter;
+    params.seed = 3;
+    return params;
 }
 
 KERNEL_SUITE(ReverseBits);
@@ -88,7 +88,7 @@ TYPED_TEST(ReverseBits, AreTheWordBackwards) {
 }
 
 KERNEL_SUITE(SwapBits);
-TYPED_TEST(SwapBits, ExchangesNeighbouringBytes) {
+TYPED_TEST(SwapBits, ExchangesNeighboringBytes) {
     const auto words = random_words(1000);
     const std::vector<Word> masks(words.size(), 0x00ff00ffu), shifts(words.size(), 8);
     const auto device = run<TypeParam, Word>("swap_bits", words.size(), words, masks, shifts);
@@ -195,7 +195,7 @@ TYPED_TEST(SamplePosition, StaysInTheFootprintAndWeighsByTheFilter) {
     Random random(5);
     for (const auto& [grid, samples] : {std::pair{3, 9}, std::pair{0, 16}}) {
         for (const int filter : {0, 1, 2, 3}) {
-            const auto frame = frame_with<T>(grid, samples, filter);
+            const auto params = frame_with<T>(grid, samples, filter);
             std::vector<Index> x, y, k;
             for (int i = 0; i < 5000; ++i) {
                 x.push_back(static_cast<Index>(random.uniform(0, 65536)));
@@ -203,7 +203,7 @@ TYPED_TEST(SamplePosition, StaysInTheFootprintAndWeighsByTheFilter) {
                 k.push_back(static_cast<Index>(random.uniform(0, samples)));
             }
             const auto [unit_x, unit_y, sample_x, sample_y, weight] =
-                run<T, T, T, T, T, T>("sample", x.size(), std::vector{frame}, x, y, k);
+                run<T, T, T, T, T, T>("sample", x.size(), std::vector{params}, x, y, k);
             const T radius = T(radius_of(filter));
             for (std::size_t i = 0; i < x.size(); ++i) {
                 ASSERT_TRUE(unit_x[i] > 0 && unit_x[i] < 1 && unit_y[i] > 0 && unit_y[i] < 1);

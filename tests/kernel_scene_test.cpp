@@ -109,8 +109,8 @@ std::vector<typename Flat<T>::Triangle> stack(const std::vector<T>& distances) {
 }
 
 TYPED_TEST(ClosestHit, DoesNotDependOnTheOrderOfATie) {
-    // Each within 32 half-ulps of its neighbours, the last two not of the first: a rule that went
-    // by neighbours would depend on the order.
+    // Each within 32 half-ulps of its neighbors, the last two not of the first: a rule that went
+    // by neighbors would depend on the order.
     const TypeParam ulp = std::numeric_limits<TypeParam>::epsilon();
     std::vector<TypeParam> distances;
     for (const int ulps : {0, 6, 12, 20, 28}) distances.push_back(1 + TypeParam(ulps) * ulp);
@@ -208,7 +208,7 @@ TYPED_TEST(ClosestHit, IsTheSameThroughAHierarchySeenFromFarAway) {
     FlattenOptions all;
     all.hierarchies = false;
     const auto plain = flatten<TypeParam>(floor.scene, all), bvh = flatten<TypeParam>(floor.scene);
-    ASSERT_NE(bvh.frame.triangle_root, 0);
+    ASSERT_NE(bvh.params.triangle_root, 0);
     Random random(12);
     const auto rays = FarFloor::rays_at(plain, random);
     const auto expected = run<TypeParam, Hit<TypeParam>>("closest_hit", rays.size(), plain, rays);

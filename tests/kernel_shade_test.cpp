@@ -65,7 +65,7 @@ FlatScene<T> lights_alone(Random& random, const std::vector<glm::dvec3>& positio
     for (const glm::dvec3& p : positions) {
         scene.lights.push_back({round_to<T>(p), 0, round_to<T>({0.9, 0.5, 0.3}), 0});
     }
-    scene.frame.ambient_light = {T(0.25), T(0.5), 1};
+    scene.params.ambient_light = {T(0.25), T(0.5), 1};
     count_primitives(scene);
     return scene;
 }
@@ -208,7 +208,7 @@ TYPED_TEST(Shade, AddsAmbientAndEveryLight) {
         auto s = given.surfaces[i];
         s.point = origins[i];
         const auto& material = scene.materials[static_cast<std::size_t>(s.material)];
-        const Quad3 a = exact(material.ambient), i_a = exact(scene.frame.ambient_light);
+        const Quad3 a = exact(material.ambient), i_a = exact(scene.params.ambient_light);
         Quad3 right{a.x * i_a.x, a.y * i_a.y, a.z * i_a.z};
         bool graze = false;
         Quad scale = 1;
@@ -230,7 +230,7 @@ TYPED_TEST(Shade, HasTheSameBitsEverywhereAmongShadows) {
     const auto lights = lights_alone<TypeParam>(random, {given.light, {-4, 3, 4}});
     scene.lights = lights.lights;
     scene.materials = lights.materials;
-    scene.frame.ambient_light = lights.frame.ambient_light;
+    scene.params.ambient_light = lights.params.ambient_light;
     count_primitives(scene);
     const auto [color, counts] = run<TypeParam, Packed3<TypeParam>, Counts<TypeParam>>(
         "shade", count, scene, given.surfaces, given.to_eye, given.prims);

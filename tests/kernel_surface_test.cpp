@@ -70,7 +70,7 @@ struct BallHits {
             offer(random, origin, target, center, r);
         }
     }
-    /// Takes the ray if it hits the ball. Directions and centres get low parts.
+    /// Takes the ray if it hits the ball. Directions and centers get low parts.
     void offer(Random& random, const glm::dvec3& origin, const glm::dvec3& target,
                const glm::dvec3& center, double r) {
         constexpr double low = 0.4 * Flat<T>::roundoff;
@@ -95,7 +95,7 @@ struct BallHits {
 template <typename T>
 struct TrueHit {
     Quad r, half_chord;  ///< the latter 0 where the line misses
-    Quad3 to_origin;     ///< from the centre
+    Quad3 to_origin;     ///< from the center
     Quad3 normal;
 
     TrueHit(const ProbeRay<T>& ray, const Sphere<T>& sphere, T t) : r(sphere.radius) {
@@ -328,7 +328,7 @@ TYPED_TEST(IsOnEdge, IsWithin64RoundoffsOfATrianglesEdge) {
     using T = TypeParam;
     Random random(8);
     const auto scene = crowd<T>(random);
-    const Index<T> triangle = scene.frame.sphere_count;
+    const Index<T> triangle = scene.params.sphere_count;
     const T in = T(65) * Flat<T>::roundoff, on = T(63) * Flat<T>::roundoff;
     const T third = T(1) / T(3);
     const std::vector<Hit<T>> hits{{1, third, third, triangle, 0},     {1, in, third, triangle, 0},
@@ -363,14 +363,14 @@ TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceBackedOffATieOrAnEdge) {
     }
 }
 
-KERNEL_SUITE(LeaveSurface);
-TYPED_TEST(LeaveSurface, CarriesTheChordOfItsSphere) {
+KERNEL_SUITE(SpawnRay);
+TYPED_TEST(SpawnRay, CarriesTheChordOfItsSphere) {
     Random random(21);
     const BallHits<TypeParam> hits(random);
     const auto surfaces = hits.surfaces();
     const std::vector<Index<TypeParam>> prims(surfaces.size(), 3);
-    const auto rays = run<TypeParam, ProbeRay<TypeParam>>("leave_surface", surfaces.size(),
-                                                          surfaces, hits.sides, hits.sides, prims);
+    const auto rays = run<TypeParam, ProbeRay<TypeParam>>("spawn_ray", surfaces.size(), surfaces,
+                                                          hits.sides, hits.sides, prims);
     WorstError worst;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Quad radius = hits.spheres[i].radius;
@@ -380,14 +380,14 @@ TYPED_TEST(LeaveSurface, CarriesTheChordOfItsSphere) {
     }
     worst.expect_at_most(5);
 }
-TYPED_TEST(LeaveSurface, CarriesWhatItsStartIsOffThePointLeft) {
+TYPED_TEST(SpawnRay, CarriesWhatItsStartIsOffThePointLeft) {
     Random random(22);
     const BallHits<TypeParam> hits(random);
     const auto surfaces = hits.surfaces();
     const auto origins = offset_origins<TypeParam>(surfaces, hits.sides);
     const std::vector<Index<TypeParam>> prims(surfaces.size(), 3);
-    const auto rays = run<TypeParam, ProbeRay<TypeParam>>("leave_surface", surfaces.size(),
-                                                          surfaces, origins, hits.sides, prims);
+    const auto rays = run<TypeParam, ProbeRay<TypeParam>>("spawn_ray", surfaces.size(), surfaces,
+                                                          origins, hits.sides, prims);
     WorstError worst;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Quad3 left = exact(surfaces[i].point) + exact(surfaces[i].point_low);

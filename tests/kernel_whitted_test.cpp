@@ -64,7 +64,7 @@ TYPED_TEST(MirrorRay, LeavesOnTheSideItCameFromAndNeverUnderTheFace) {
 }
 
 /// Two mirrors that send a ray from the origin along -z to +x, and then up to the background. All
-/// numbers are dyadic, so that the colours are exact.
+/// numbers are dyadic, so that the colors are exact.
 template <typename T>
 FlatScene<T> two_mirrors(int max_bounces) {
     FlatScene<T> scene{};
@@ -76,9 +76,9 @@ FlatScene<T> two_mirrors(int max_bounces) {
     second.ambient = {0, T(0.25), T(0.5)};
     second.mirror = {T(0.25), T(0.5), T(0.5)};
     scene.materials = {first, second};
-    scene.frame.ambient_light = {1, 1, T(0.5)};
-    scene.frame.background = {2, 1, 4};
-    scene.frame.max_bounces = max_bounces;
+    scene.params.ambient_light = {1, 1, T(0.5)};
+    scene.params.background = {2, 1, 4};
+    scene.params.max_bounces = max_bounces;
     count_primitives(scene);
     return scene;
 }
@@ -111,7 +111,7 @@ TYPED_TEST(TracePath, SeesTheBackgroundWhereItMisses) {
     const std::vector<ProbeRay<TypeParam>> ray{make_ray<TypeParam>({0, 0, 0}, {0, 1, 0})};
     const auto [colors, counts] =
         run<TypeParam, Packed3<TypeParam>, Counts<TypeParam>>("trace_path", 1, scene, ray);
-    EXPECT_TRUE(same_bits<TypeParam>(colors, std::vector{scene.frame.background}));
+    EXPECT_TRUE(same_bits<TypeParam>(colors, std::vector{scene.params.background}));
     EXPECT_EQ(counts[0].mirror, 0u);
 }
 TYPED_TEST(TracePath, LightsTheBackOfATwoSidedSurfaceAlone) {
@@ -149,16 +149,16 @@ FlatScene<T> mirror_crowd() {
     for (auto& sphere : scene.spheres) sphere.material = random.index(5);
     for (auto& triangle : scene.triangles) triangle.material = random.index(5);
     scene.lights = {{{5, 6, 7}, 0, {1, 1, 1}, 0}, {{-3, 5, 0}, 0, {T(0.5), 1, T(0.25)}, 0}};
-    scene.frame.direction = {0, 0, -1};
-    scene.frame.direction_dx = {T(0.02), 0, 0};
-    scene.frame.direction_dy = {0, T(0.02), 0};
-    scene.frame.width = 80;
-    scene.frame.height = 60;
-    scene.frame.grid = 2;
-    scene.frame.samples = 4;
-    scene.frame.max_bounces = 6;
-    scene.frame.background = {T(0.1), T(0.2), T(0.3)};
-    scene.frame.ambient_light = {T(0.5), T(0.5), T(0.5)};
+    scene.params.direction = {0, 0, -1};
+    scene.params.direction_dx = {T(0.02), 0, 0};
+    scene.params.direction_dy = {0, T(0.02), 0};
+    scene.params.width = 80;
+    scene.params.height = 60;
+    scene.params.grid = 2;
+    scene.params.samples = 4;
+    scene.params.max_bounces = 6;
+    scene.params.background = {T(0.1), T(0.2), T(0.3)};
+    scene.params.ambient_light = {T(0.5), T(0.5), T(0.5)};
     count_primitives(scene);
     return scene;
 }
@@ -166,7 +166,7 @@ FlatScene<T> mirror_crowd() {
 KERNEL_SUITE(TraceSample);
 TYPED_TEST(TraceSample, HasTheSameBitsEverywhereInAMirrorCrowd) {
     const auto scene = mirror_crowd<TypeParam>();
-    const auto& f = scene.frame;
+    const auto& f = scene.params;
     std::vector<Index<TypeParam>> x, y, k;
     for (Index<TypeParam> i = 0; i < f.width * f.height * 4; ++i) {
         x.push_back(i % f.width);
@@ -190,12 +190,12 @@ std::vector<Quad3> means_of_samples(const FlatScene<T>& scene, const std::vector
                                     const std::vector<Index<T>>& y) {
     std::vector<Quad3> sums(x.size(), {0, 0, 0});
     std::vector<Quad> totals(x.size(), 0);
-    for (Index<T> k = 0; k < scene.frame.samples; ++k) {
+    for (Index<T> k = 0; k < scene.params.samples; ++k) {
         const std::vector<Index<T>> same_k(x.size(), k);
         const auto colors = std::get<0>(
             run<T, Packed3<T>, Counts<T>>("trace_sample", x.size(), scene, x, y, same_k));
         const auto weights = std::get<4>(
-            run<T, T, T, T, T, T>("sample", x.size(), std::vector{scene.frame}, x, y, same_k));
+            run<T, T, T, T, T, T>("sample", x.size(), std::vector{scene.params}, x, y, same_k));
         for (std::size_t i = 0; i < x.size(); ++i) {
             sums[i] = sums[i] + Quad(weights[i]) * exact(colors[i]);
             totals[i] += weights[i];
@@ -210,13 +210,13 @@ TYPED_TEST(TracePixel, IsTheWeighedMeanOfItsSamples) {
     using T = TypeParam;
     auto scene = mirror_crowd<T>();
     for (const int filter : {0, 1, 2, 3}) {
-        scene.frame.filter = filter;
-        scene.frame.grid = filter % 2 == 0 ? 0 : 4;
-        scene.frame.samples = 16;
+        scene.params.filter = filter;
+        scene.params.grid = filter % 2 == 0 ? 0 : 4;
+        scene.params.samples = 16;
         std::vector<Index<T>> x, y;
         for (Index<T> i = 0; i < 400; ++i) {
-            x.push_back(i * 7 % scene.frame.width);
-            y.push_back(i * 3 % scene.frame.height);
+            x.push_back(i * 7 % scene.params.width);
+            y.push_back(i * 3 % scene.params.height);
         }
         const auto colors = run<T, Packed3<T>>("trace_pixel", x.size(), scene, x, y);
         const auto means = means_of_samples(scene, x, y);

@@ -15,13 +15,13 @@
         __global const Triangle *triangles, __global const VertexNormals *vertex_normals,          \
         __global const Material *materials, __global const Light *lights,                          \
         __global const BvhNode *nodes, __global const Index *order, __global const Index *casters, \
-        __global const Frame *frame
+        __global const LaunchParams *params
 #define PROBE_SCENE_VIEW \
-    { spheres, cones, triangles, vertex_normals, materials, lights, nodes, order, casters, *frame }
+    { spheres, cones, triangles, vertex_normals, materials, lights, nodes, order, casters, *params }
 
-// The finishes of the surfaces of a probe's scene.
-Finish probe_finish(const SceneView* scene, const Surface* surface) {
-    return finish_of(scene, surface->material, RT_ALL_LANES);
+// The materials of the surfaces of a probe's scene.
+Materials probe_materials(const SceneView* scene, const Surface* surface) {
+    return materials_of(scene, surface->material, RT_ALL_LANES);
 }
 
 // shared.h: offset and size of entry i of tests/layout_fields.h
@@ -159,11 +159,11 @@ __kernel void probe_difference_of_products(PROBE_ITEMS, __global const Real* a,
 
 // camera.cl, intersect.cl, cone.cl
 
-__kernel void probe_camera_ray(PROBE_ITEMS, __global const Frame* frame, __global const Index* x,
-                               __global const Index* y, __global const Index* k,
-                               __global ProbeRay* out) {
+__kernel void probe_camera_ray(PROBE_ITEMS, __global const LaunchParams* params,
+                               __global const Index* x, __global const Index* y,
+                               __global const Index* k, __global ProbeRay* out) {
     PROBE_PACKET;
-    Frame copy = *frame;
+    LaunchParams copy = *params;
     PUT_RAY(out, camera_ray(&copy, INDICES(x), INDICES(y), INDICES(k)));
 }
 
@@ -275,8 +275,8 @@ __kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const
     hit.prim = INDICES(prims);
     PROBE_EACH_LANE {
         Index prim = prims[THIS_ITEM];
-        Index cone = prim - frame->sphere_count;
-        Index triangle = cone - frame->cone_count;
+        Index cone = prim - params->sphere_count;
+        Index triangle = cone - params->cone_count;
         Reals t = (Reals)0, u, v;
         Mask met = THIS_LANE;
         if (cone < 0) {
@@ -306,7 +306,7 @@ __kernel void probe_any_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* r
     PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
     Ray ray = RAYS(rays);
-    PUT_MASK(out, any_hit(&scene, &ray, 0, frame->triangle_count));
+    PUT_MASK(out, any_hit(&scene, &ray, 0, params->triangle_count));
 }
 
 // surface.cl, hit_surface.cl
@@ -402,12 +402,12 @@ __kernel void probe_offset_origin(PROBE_ITEMS, __global const ProbeSurface* surf
     PUT_REAL3(out, offset_origin(&surface, REAL3(sides)));
 }
 
-__kernel void probe_leave_surface(PROBE_ITEMS, __global const ProbeSurface* surfaces,
+__kernel void probe_spawn_ray(PROBE_ITEMS, __global const ProbeSurface* surfaces,
                                   __global const Packed3* origins, __global const Packed3* dirs,
                                   __global const Index* prims, __global ProbeRay* out) {
     PROBE_PACKET;
     Surface surface = SURFACES(surfaces);
-    PUT_RAY(out, leave_surface(&surface, REAL3(origins), REAL3(dirs), INDICES(prims)));
+    PUT_RAY(out, spawn_ray(&surface, REAL3(origins), REAL3(dirs), INDICES(prims)));
 }
 
 // material.cl, shade.cl
@@ -433,9 +433,9 @@ __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
     PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
     Surface surface = SURFACES(surfaces);
-    Finish finish = probe_finish(&scene, &surface);
+    Materials material = probe_materials(&scene, &surface);
     PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
-    PUT_REAL3(out, light_contribution(&scene, &surface, &finish, &lights[0], REAL3(origins),
+    PUT_REAL3(out, light_contribution(&scene, &surface, &material, &lights[0], REAL3(origins),
                                       REAL3(to_eye), INDICES(prims), RT_ALL_LANES, &used));
     PUT_COUNTS(counts, used);
 }
@@ -446,10 +446,10 @@ __kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface*
     PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
     Surface surface = SURFACES(surfaces);
-    Finish finish = probe_finish(&scene, &surface);
+    Materials material = probe_materials(&scene, &surface);
     PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
-    PUT_REAL3(out,
-              shade(&scene, &surface, &finish, REAL3(to_eye), INDICES(prims), RT_ALL_LANES, &used));
+    PUT_REAL3(out, shade(&scene, &surface, &material, REAL3(to_eye), INDICES(prims), RT_ALL_LANES,
+                         &used));
     PUT_COUNTS(counts, used);
 }
 
@@ -500,7 +500,7 @@ __kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* 
                                 __global const Index* y, __global Packed3* out) {
     PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
-    Packet packet = make_packet(frame->samples, RT_SAMPLES_TOGETHER);
+    Packet packet = make_packet(params->samples, RT_SAMPLES_TOGETHER);
     for (Index done = 0; done < RT_LANES; done += packet.pixels) {
         IndexLanes pixel, column, row;
         pixel.all = packet.pixel + done;
@@ -607,12 +607,13 @@ __kernel void probe_filter_weight(PROBE_ITEMS, __global const Index* filter, __g
 }
 
 // unit_position, sample_position and sample_weight of one sample.
-__kernel void probe_sample(PROBE_ITEMS, __global const Frame* frame, __global const Index* x,
-                           __global const Index* y, __global const Index* k, __global Real* unit_x,
-                           __global Real* unit_y, __global Real* sample_x, __global Real* sample_y,
+__kernel void probe_sample(PROBE_ITEMS, __global const LaunchParams* params,
+                           __global const Index* x, __global const Index* y,
+                           __global const Index* k, __global Real* unit_x, __global Real* unit_y,
+                           __global Real* sample_x, __global Real* sample_y,
                            __global Real* weight) {
     PROBE_PACKET;
-    Frame f = *frame;
+    LaunchParams f = *params;
     Position unit = unit_position(&f, INDICES(x), INDICES(y), INDICES(k));
     Position sample = sample_position(&f, INDICES(x), INDICES(y), INDICES(k));
     PUT_REALS(unit_x, unit.x);

@@ -141,7 +141,7 @@ class Report(unittest.TestCase):
             if tag == "img":
                 self.assertTrue(attrs.get("alt"), attrs.get("src", "")[:40])
             if tag == "svg":
-                self.assertTrue(attrs.get("aria-labelledby") or attrs.get("aria-hidden"))
+                self.assertTrue(attrs.get("aria-labeledby") or attrs.get("aria-hidden"))
 
     def test_names_are_text(self):
         self.assertNotIn(EVIL, TEXT)

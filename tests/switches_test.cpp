@@ -36,9 +36,9 @@ void set_switches(const Features& features) {
 }
 
 std::uint64_t hash_by(RenderPixels render, int lanes, const FlatScene<float>& flat) {
-    const Rect whole{0, 0, flat.frame.width, flat.frame.height};
+    const Rect whole{0, 0, flat.params.width, flat.params.height};
     const auto tile = flat_tile<float>(whole, whole);
-    const PacketShape shape = packet_shape(lanes, flat.frame.samples);
+    const PacketShape shape = packet_shape(lanes, flat.params.samples);
     const int across = (whole.width + shape.width - 1) / shape.width;
     const int down = (whole.height + shape.height - 1) / shape.height;
     Film<float> film(whole.width, whole.height);

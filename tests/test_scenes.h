@@ -13,11 +13,11 @@ namespace rt {
 /// Sets the frame's counts; all triangles cast shadows.
 template <typename T>
 void count_primitives(FlatScene<T>& scene) {
-    scene.frame.sphere_count = static_cast<Index<T>>(scene.spheres.size());
-    scene.frame.cone_count = static_cast<Index<T>>(scene.cones.size());
-    scene.frame.triangle_count = static_cast<Index<T>>(scene.triangles.size());
-    scene.frame.light_count = static_cast<Index<T>>(scene.lights.size());
-    for (auto& light : scene.lights) light.caster_count = scene.frame.triangle_count;
+    scene.params.sphere_count = static_cast<Index<T>>(scene.spheres.size());
+    scene.params.cone_count = static_cast<Index<T>>(scene.cones.size());
+    scene.params.triangle_count = static_cast<Index<T>>(scene.triangles.size());
+    scene.params.light_count = static_cast<Index<T>>(scene.lights.size());
+    for (auto& light : scene.lights) light.caster_count = scene.params.triangle_count;
 }
 
 /// Balls and triangles about the origin, some of them twice.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Binned surface-area heuristic (Wald 2007): the boxes' centres fall into bins along each axis, and
+// Binned surface-area heuristic (Wald 2007): the boxes' centers fall into bins along each axis, and
 // the plane between two bins with the lowest expected cost splits the node. Large nodes are split
 // level by level, all threads on one node or a node each; below a size that depends on the number
 // of boxes alone, each subtree is one thread's work. Minima, maxima and counts are exact in any
 // order, so the outcome does not depend on the number of threads.
 //
-// Where the heuristic sees nothing to gain (coincident centres), or would dig too deep, a node is
+// Where the heuristic sees nothing to gain (coincident centers), or would dig too deep, a node is
 // halved by number instead: that bounds the depth.
 //
 // Here is who works on which node; how one is split stands in bvh_split, at which plane in

@@ -14,7 +14,7 @@ namespace rt::bvh {
 inline constexpr int bin_count = 16;
 inline constexpr std::size_t binning_run = 1 << 16;  ///< boxes that a thread goes through at once
 
-/// Which bin a centre (times two) falls into, on each axis.
+/// Which bin a center (times two) falls into, on each axis.
 template <typename T>
 struct Binning {
     Vector<T> low, scale;

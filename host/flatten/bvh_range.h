@@ -52,7 +52,7 @@ struct Bounds {
     }
 };
 
-/// Boxes first .. last with their bounds and those of their centres (times two).
+/// Boxes first .. last with their bounds and those of their centers (times two).
 template <typename T>
 struct Range {
     std::size_t first = 0, last = 0;

@@ -30,7 +30,7 @@ std::size_t move_left(std::span<BvhBox<T>> boxes, const Binning<T>& binning, con
     }
 }
 
-/// Puts the lower half along the axis on which the centres spread most to the front.
+/// Puts the lower half along the axis on which the centers spread most to the front.
 template <typename T>
 void halve_by_center(std::span<BvhBox<T>> boxes, const Range<T>& range, std::size_t middle) {
     const Vector<T> spread = range.centers.high - range.centers.low;

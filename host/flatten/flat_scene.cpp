@@ -10,8 +10,8 @@
 #include "host/error.h"
 #include "host/flatten/boxes.h"
 #include "host/flatten/casters.h"
-#include "host/flatten/flat_frame.h"
 #include "host/flatten/flat_materials.h"
+#include "host/flatten/flat_params.h"
 #include "host/flatten/flat_shapes.h"
 #include "host/flatten/view_frame.h"
 #include "host/memory_limit.h"
@@ -40,29 +40,29 @@ class Flattener {
     }
 
     FlatScene<T> run() {
-        flat_.frame = flatten_frame<T>(view_, scene_);
-        listed_spheres_ = flatten_kind(scene_.spheres, sphere_crossover, flatten_sphere<T>,
-                                       flat_.spheres, flat_.frame.sphere_root, flat_.stats.spheres);
-        listed_cones_ = flatten_kind(scene_.cones, cone_crossover, flatten_cone<T>, flat_.cones,
-                                     flat_.frame.cone_root, flat_.stats.cones);
+        flat_.params = flatten_params<T>(view_, scene_);
+        spheres_order_ = flatten_kind(scene_.spheres, sphere_crossover, flatten_sphere<T>,
+                                      flat_.spheres, flat_.params.sphere_root, flat_.stats.spheres);
+        cones_order_ = flatten_kind(scene_.cones, cone_crossover, flatten_cone<T>, flat_.cones,
+                                    flat_.params.cone_root, flat_.stats.cones);
         flatten_triangles();
         for (const auto& material : scene_.materials) {
             flat_.materials.push_back(flatten_material<T>(material));
         }
         flatten_lights();
-        flat_.frame.sphere_count = static_cast<Index>(flat_.spheres.size());
-        flat_.frame.cone_count = static_cast<Index>(flat_.cones.size());
-        flat_.frame.triangle_count = static_cast<Index>(flat_.triangles.size());
-        flat_.frame.light_count = static_cast<Index>(flat_.lights.size());
-        flat_.frame.eye_on_surface = eye_is_on_surface() ? 1 : 0;
+        flat_.params.sphere_count = static_cast<Index>(flat_.spheres.size());
+        flat_.params.cone_count = static_cast<Index>(flat_.cones.size());
+        flat_.params.triangle_count = static_cast<Index>(flat_.triangles.size());
+        flat_.params.light_count = static_cast<Index>(flat_.lights.size());
+        flat_.params.eye_on_surface = eye_is_on_surface() ? 1 : 0;
         number_primitives();
         set_features();
         return std::move(flat_);
     }
 
    private:
-    /// For one kind, the number each primitive was listed under; empty when the order was kept.
-    using Listed = std::vector<Index>;
+    /// For one kind, the number of each primitive in the scene; empty when the order was kept.
+    using Order = std::vector<Index>;
 
     /// Primitives and nodes (fewer than two a primitive) are numbered in a 32-bit Index.
     void check_limits() const {
@@ -103,8 +103,8 @@ class Flattener {
     /// Builds the hierarchy over `count` primitives with the boxes box(i) if there are enough;
     /// sets its root and says how it came out.
     template <typename Box>
-    Listed build_hierarchy(std::size_t count, std::size_t crossover, const Box& box, Index& root,
-                           BvhShape& shape) {
+    Order build_hierarchy(std::size_t count, std::size_t crossover, const Box& box, Index& root,
+                          BvhShape& shape) {
         if (options_.hierarchies.has_value()) crossover = *options_.hierarchies ? 2 : count + 1;
         if (count < crossover) return {};
         const auto start = std::chrono::steady_clock::now();
@@ -117,19 +117,19 @@ class Flattener {
         settings.threads = options_.threads;
         root = build_bvh<T>(boxes, settings, flat_.nodes);
         shape = shape_of<T>(flat_.nodes, root, settings);
-        Listed listed(count);
-        for_each(count, [&](std::size_t i) { listed[i] = boxes[i].first; });
+        Order order(count);
+        for_each(count, [&](std::size_t i) { order[i] = boxes[i].first; });
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
         flat_.stats.bvh_seconds += taken.count();
-        return listed;
+        return order;
     }
 
     template <typename Primitive>
-    void reorder(std::vector<Primitive>& primitives, const Listed& listed) const {
-        if (listed.empty()) return;
+    void reorder(std::vector<Primitive>& primitives, const Order& order) const {
+        if (order.empty()) return;
         std::vector<Primitive> ordered(primitives.size());
         for_each(primitives.size(), [&](std::size_t i) {
-            ordered[i] = primitives[static_cast<std::size_t>(listed[i])];
+            ordered[i] = primitives[static_cast<std::size_t>(order[i])];
         });
         primitives = std::move(ordered);
     }
@@ -146,24 +146,24 @@ class Flattener {
 
     /// Flattens one kind of primitive, then puts it into the order of its hierarchy's leaves.
     template <typename Listing, typename Primitive>
-    Listed flatten_kind(const std::vector<Listing>& listing, std::size_t crossover,
-                        Primitive (*flatten_one)(const ViewFrame&, const Listing&),
-                        std::vector<Primitive>& primitives, Index& root, BvhShape& shape) {
+    Order flatten_kind(const std::vector<Listing>& listing, std::size_t crossover,
+                       Primitive (*flatten_one)(const ViewFrame&, const Listing&),
+                       std::vector<Primitive>& primitives, Index& root, BvhShape& shape) {
         primitives.resize(listing.size());
         for_each(primitives.size(),
                  [&](std::size_t i) { primitives[i] = flatten_one(view_, listing[i]); });
-        const Listed listed = build_hierarchy(
+        const Order order = build_hierarchy(
             primitives.size(), crossover, [&](std::size_t i) { return box_of<T>(primitives[i]); },
             root, shape);
-        reorder(primitives, listed);
-        return listed;
+        reorder(primitives, order);
+        return order;
     }
 
     /// The boxes come first, from vertices rounded for them alone, so that the triangles can be
     /// made in the order of the leaves: memory never holds them twice, nor beside the boxes.
     void flatten_triangles() {
         const auto count = static_cast<std::size_t>(triangles_.size());
-        listed_triangles_ = build_hierarchy(
+        triangles_order_ = build_hierarchy(
             count, triangle_crossover,
             [&](std::size_t i) {
                 const TriangleList::Corners corners = triangles_.corners(i);
@@ -171,17 +171,17 @@ class Flattener {
                                  pack_position<T>(view_, corners[1]),
                                  pack_position<T>(view_, corners[2]));
             },
-            flat_.frame.triangle_root, flat_.stats.triangles);
+            flat_.params.triangle_root, flat_.stats.triangles);
         flat_.triangles.resize(count);
         const std::vector<std::size_t> smooth = smooth_before_runs(count);
         flat_.vertex_normals.resize(smooth.back());
         for_each_run(count, run_length, options_.threads, [&](std::size_t first, std::size_t last) {
             std::size_t next_smooth = smooth[first / run_length];
             for (std::size_t i = first; i < last; ++i) {
-                const std::size_t listed = listed_triangle(i);
-                flat_.triangles[i] = flatten_triangle<T>(view_, triangles_.corners(listed),
-                                                         triangles_.material(listed));
-                const auto normals = triangles_.normals(listed);
+                const std::size_t number = triangle_number(i);
+                flat_.triangles[i] = flatten_triangle<T>(view_, triangles_.corners(number),
+                                                         triangles_.material(number));
+                const auto normals = triangles_.normals(number);
                 if (!normals) continue;
                 flat_.triangles[i].smooth = static_cast<Index>(next_smooth);
                 flat_.vertex_normals[next_smooth++] = flatten_normals<T>(*normals);
@@ -189,8 +189,8 @@ class Flattener {
         });
     }
 
-    std::size_t listed_triangle(std::size_t i) const {
-        return listed_triangles_.empty() ? i : static_cast<std::size_t>(listed_triangles_[i]);
+    std::size_t triangle_number(std::size_t i) const {
+        return triangles_order_.empty() ? i : static_cast<std::size_t>(triangles_order_[i]);
     }
 
     /// How many triangles with vertex normals come before each run, and in all.
@@ -198,7 +198,7 @@ class Flattener {
         std::vector<std::size_t> before((count + run_length - 1) / run_length + 1, 0);
         for_each_run(count, run_length, options_.threads, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
-                before[first / run_length + 1] += triangles_.is_smooth(listed_triangle(i)) ? 1 : 0;
+                before[first / run_length + 1] += triangles_.is_smooth(triangle_number(i)) ? 1 : 0;
             }
         });
         for (std::size_t i = 1; i < before.size(); ++i) before[i] += before[i - 1];
@@ -213,7 +213,7 @@ class Flattener {
             flat.position = pack_position<T>(view_, light.position);
             flat.intensity = pack<T>(light.intensity);
             flat.caster_count = static_cast<Index>(flat_.triangles.size());
-            if (options_.caster_lists && flat_.frame.triangle_root == 0 &&
+            if (options_.caster_lists && flat_.params.triangle_root == 0 &&
                 flat_.triangles.size() < triangle_crossover) {
                 list_casters(light.position, flat);
             }
@@ -235,17 +235,17 @@ class Flattener {
     }
 
     void number_primitives() {
-        if (listed_spheres_.empty() && listed_cones_.empty() && listed_triangles_.empty()) return;
+        if (spheres_order_.empty() && cones_order_.empty() && triangles_order_.empty()) return;
         flat_.order.reserve(flat_.spheres.size() + flat_.cones.size() + flat_.triangles.size());
-        append_order(listed_spheres_, flat_.spheres.size());
-        append_order(listed_cones_, flat_.cones.size());
-        append_order(listed_triangles_, flat_.triangles.size());
+        append_order(spheres_order_, flat_.spheres.size());
+        append_order(cones_order_, flat_.cones.size());
+        append_order(triangles_order_, flat_.triangles.size());
     }
 
-    void append_order(const Listed& listed, std::size_t count) {
+    void append_order(const Order& order, std::size_t count) {
         const auto start = static_cast<Index>(flat_.order.size());
         for (std::size_t i = 0; i < count; ++i) {
-            flat_.order.push_back(start + (listed.empty() ? static_cast<Index>(i) : listed[i]));
+            flat_.order.push_back(start + (order.empty() ? static_cast<Index>(i) : order[i]));
         }
     }
 
@@ -254,7 +254,7 @@ class Flattener {
         features.spheres = !flat_.spheres.empty();
         features.huge_spheres = std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
                                             [](const auto& sphere) { return sphere.is_huge != 0; });
-        features.eye_on_surface = flat_.frame.eye_on_surface != 0;
+        features.eye_on_surface = flat_.params.eye_on_surface != 0;
         features.cones = !flat_.cones.empty();
         features.triangles = !flat_.triangles.empty();
         features.vertex_normals = !flat_.vertex_normals.empty();
@@ -262,8 +262,8 @@ class Flattener {
         features.lights = !flat_.lights.empty();
         features.mirrors = scene_.max_bounces > 0 && material_use_.mirrors;
         features.glass = scene_.max_bounces > 0 && material_use_.transmits;
-        features.sobol = flat_.frame.grid == 0;
-        features.filters = flat_.frame.filter != f32::RT_FILTER_BOX;
+        features.sobol = flat_.params.grid == 0;
+        features.filters = flat_.params.filter != f32::RT_FILTER_BOX;
     }
 
     const Scene& scene_;
@@ -271,7 +271,7 @@ class Flattener {
     const TriangleList triangles_;
     ViewFrame view_;
     MaterialUse material_use_;
-    Listed listed_spheres_, listed_cones_, listed_triangles_;
+    Order spheres_order_, cones_order_, triangles_order_;
     FlatScene<T> flat_{};
 };
 

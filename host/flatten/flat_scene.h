@@ -37,8 +37,8 @@ struct FlatScene {
     std::vector<typename Flat<T>::VertexNormals> vertex_normals;
     std::vector<typename Flat<T>::Material> materials;
     std::vector<typename Flat<T>::Light> lights;
-    /// Hierarchies over those kinds of primitive that have one (Frame::..._root). Leaves count a
-    /// kind's primitives from 0.
+    /// Hierarchies over those kinds of primitive that have one (LaunchParams::..._root). Leaves
+    /// count a kind's primitives from 0.
     std::vector<typename Flat<T>::BvhNode> nodes;
     /// The number each primitive would have if the arrays kept the author's order: ties go to the
     /// lowest. Empty where they do, for want of a hierarchy.
@@ -46,7 +46,7 @@ struct FlatScene {
     /// Each light's triangles that may cast a shadow (Light::first_caster, caster_count), as
     /// indices into `triangles`, ascending. A light with as many as there are has no list: all do.
     std::vector<typename Flat<T>::Index> casters;
-    typename Flat<T>::Frame frame;
+    typename Flat<T>::LaunchParams params;
     Features features;
     FlattenStats stats;
 

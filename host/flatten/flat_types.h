@@ -23,7 +23,7 @@ static_assert(offsetof(VertexNormals, n2) == 32);
 static_assert(offsetof(Material, transmission) == 64);
 static_assert(offsetof(Light, caster_count) == 28);
 static_assert(offsetof(BvhNode, count) == 28);
-static_assert(offsetof(Frame, pad2) == 188);
+static_assert(offsetof(LaunchParams, pad2) == 188);
 static_assert(offsetof(Tile, film_width) == 20);
 static_assert(offsetof(RayQuery, chord) == 44);
 static_assert(offsetof(RayAnswer, next_t) == 48);
@@ -57,7 +57,7 @@ struct Flat<float> {
     using Material = f32::Material;
     using Light = f32::Light;
     using BvhNode = f32::BvhNode;
-    using Frame = f32::Frame;
+    using LaunchParams = f32::LaunchParams;
     using Tile = f32::Tile;
     using RayCounts = f32::RayCounts;
     using RayQuery = f32::RayQuery;
@@ -78,7 +78,7 @@ struct Flat<double> {
     using Material = f64::Material;
     using Light = f64::Light;
     using BvhNode = f64::BvhNode;
-    using Frame = f64::Frame;
+    using LaunchParams = f64::LaunchParams;
     using Tile = f64::Tile;
     using RayCounts = f64::RayCounts;
     using RayQuery = f64::RayQuery;

@@ -12,7 +12,7 @@
 
 namespace rt {
 
-/// All triangles of a scene by the number they are listed under: Scene::triangles first, then the
+/// All triangles of a scene by number: Scene::triangles first, then the
 /// faces of each mesh in turn. The scene must outlive it.
 class TriangleList {
    public:

@@ -14,7 +14,7 @@ namespace rt {
 /// are done in double before anything is rounded to float. A scene that is moved, or scaled by a
 /// power of two, with its camera then gives the same bits (docs/numerics.md).
 struct ViewFrame {
-    glm::dvec3 eye{0};           ///< in scene units; an orthographic window's centre
+    glm::dvec3 eye{0};           ///< in scene units; an orthographic window's center
     double scale = 1;            ///< a power of two
     bool is_perspective = true;  ///< eye rays start at the eye, all of them
     glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  ///< orthonormal

@@ -21,7 +21,7 @@ std::vector<std::byte> encode_png_file(
     std::span<const std::pair<std::string, std::string>> metadata);
 
 /// Reads a PNG file of `size` bytes: palettes and fewer than 8 bits become 8 bits, a transparent
-/// colour becomes alpha. Throws Error(ExitCode::input).
+/// color becomes alpha. Throws Error(ExitCode::input).
 PictureFile read_png(const std::string& path, std::istream& stream, std::uintmax_t size);
 
 }  // namespace rt

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view prefix = ".mirrorball-";
 constexpr std::string_view suffix = ".tmp";
 
-/// Names of the temporary files that are open; more than there are slots are not listed.
+/// Names of the temporary files that are open; more than there are slots are left out.
 std::array<std::atomic<const char*>, 16> open_names;
 static_assert(std::atomic<const char*>::is_always_lock_free);
 

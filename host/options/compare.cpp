@@ -45,7 +45,7 @@ void add_thresholds(const CommandLine& verb, CompareOptions& compare) {
 }
 
 void add_heatmap(const CommandLine& verb, CompareOptions& compare) {
-    verb.option("--heatmap", "FILE.png", "write the differences as colours, black to yellow",
+    verb.option("--heatmap", "FILE.png", "write the differences as colors, black to yellow",
                 [&](const std::string& text) {
                     if (picture_format_of_name(text) != PictureFormat::png) {
                         refuse("--heatmap", text, "name a .png file");
@@ -53,7 +53,7 @@ void add_heatmap(const CommandLine& verb, CompareOptions& compare) {
                     compare.heatmap = text;
                 });
     verb.option("--heatmap-scale", "X",
-                "the difference at the top of its colours (default: the largest)",
+                "the difference at the top of its colors (default: the largest)",
                 [&](const std::string& text) {
                     compare.heatmap_scale = parse_limit("--heatmap-scale", text);
                     if (compare.heatmap_scale == 0)

@@ -23,7 +23,7 @@ double difference(const T* a, const T* b) {
     return largest;
 }
 
-/// The largest difference between a pixel and its neighbours in the film.
+/// The largest difference between a pixel and its neighbors in the film.
 template <typename T>
 double contrast(const Film<T>& film, int x, int y) {
     const auto at = [&](int column, int row) {

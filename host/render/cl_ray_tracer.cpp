@@ -32,9 +32,9 @@ class ClRayTracer {
         lanes_ = static_cast<std::size_t>(program.lanes);
         kernel_ =
             cl::Kernel(build_program(context_, device, render_kernels, program), "trace_rays");
-        const cl_uint frame = scene_.set_arguments(kernel_, 2);
-        kernel_.setArg(frame, scene.frame);
-        count_argument_ = frame + 1;
+        const cl_uint params = scene_.set_arguments(kernel_, 2);
+        kernel_.setArg(params, scene.params);
+        count_argument_ = params + 1;
         queries_ = make_cl_buffer(context_, device_, rays_of_a_launch * sizeof(Query), "the rays",
                                   CL_MEM_READ_ONLY);
         answers_ = make_cl_buffer(context_, device_, rays_of_a_launch * sizeof(Answer),

@@ -25,7 +25,7 @@ namespace rt {
 namespace {
 
 /// Work items of a group: of single rays, and of packets, which are wide enough by themselves
-/// (Intel's compiler would vectorise them once more, and slow them down).
+/// (Intel's compiler would vectorize them once more, and slow them down).
 constexpr std::size_t single_group = 64;
 constexpr std::size_t packet_group = 1;
 
@@ -59,7 +59,7 @@ class ClRenderer : public Renderer<T> {
    public:
     ClRenderer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
         : device_(device),
-          frame_(scene.frame),
+          params_(scene.params),
           pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
                  device.is_cpu ? cpu_most_samples : gpu_most_samples) {
         launch_samples_ = launches_samples(options.launch, device);
@@ -130,7 +130,7 @@ class ClRenderer : public Renderer<T> {
         std::vector<cl::Event> events;
     };
 
-    std::size_t samples() const { return static_cast<std::size_t>(frame_.samples); }
+    std::size_t samples() const { return static_cast<std::size_t>(params_.samples); }
 
     PacketShape shape(std::size_t samples) const {
         return packet_shape(lanes_, static_cast<int>(samples));
@@ -200,7 +200,7 @@ class ClRenderer : public Renderer<T> {
             program_options.entries = {!launch_samples_, launch_samples_, options.will_refine,
                                        false};
             const int held = shape(samples()).samples;
-            const bool is_one_packet = !launch_samples_ && held == frame_.samples;
+            const bool is_one_packet = !launch_samples_ && held == params_.samples;
             if (is_one_packet && !options.any_samples) program_options.samples = held;
         }
         const bool is_pocl = device_.platform == pocl_platform;
@@ -209,18 +209,18 @@ class ClRenderer : public Renderer<T> {
         const cl::Program program =
             build_program(context_, device_, render_kernels, program_options);
         render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
-        set_scene_arguments(render_, frame_);
+        set_scene_arguments(render_, params_);
         if (launch_samples_) {
             resolve_ = cl::Kernel(program, "resolve_samples");
             resolve_.setArg(1, samples_);
-            resolve_.setArg(2, frame_);
+            resolve_.setArg(2, params_);
         }
         FlatTile nothing{};
         nothing.width = 1;  // kernels divide by the width
         launch(nothing, cl::Buffer());
         if (options.will_refine) {
             list_ = cl::Kernel(program, "render_list");
-            launch_list({}, frame_, cl::Buffer(), cl::Buffer());
+            launch_list({}, params_, cl::Buffer(), cl::Buffer());
         }
         queue_.finish();
         times_.build = watch.seconds();
@@ -228,11 +228,11 @@ class ClRenderer : public Renderer<T> {
     }
 
     /// All arguments that stay for a picture; the tile's comes next.
-    void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::Frame& frame) {
+    void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::LaunchParams& params) {
         kernel.setArg(1, counts_);
-        const cl_uint frame_argument = scene_->set_arguments(kernel, 2);
-        kernel.setArg(frame_argument, frame);
-        tile_argument_ = frame_argument + 1;
+        const cl_uint params_argument = scene_->set_arguments(kernel, 2);
+        kernel.setArg(params_argument, params);
+        tile_argument_ = params_argument + 1;
     }
 
     /// Enqueues the kernels of one tile.
@@ -253,13 +253,13 @@ class ClRenderer : public Renderer<T> {
         return events;
     }
 
-    cl::Event launch_list(const FlatTile& tile, const typename Flat<T>::Frame& frame,
+    cl::Event launch_list(const FlatTile& tile, const typename Flat<T>::LaunchParams& params,
                           const cl::Buffer& colors, const cl::Buffer& list) {
-        set_scene_arguments(list_, frame);
+        set_scene_arguments(list_, params);
         list_.setArg(0, colors);
         list_.setArg(tile_argument_, tile);
         list_.setArg(tile_argument_ + 1, list);
-        const PacketShape packet = packet_shape(lanes_, static_cast<int>(frame.samples), lanes_);
+        const PacketShape packet = packet_shape(lanes_, static_cast<int>(params.samples), lanes_);
         cl::Event event;
         enqueue(list_,
                 divided_up(static_cast<std::size_t>(tile.width),
@@ -275,12 +275,12 @@ class ClRenderer : public Renderer<T> {
         cl::Buffer colors = make_buffer(bytes, "the refined pixels");
         cl::Buffer list = make_buffer(pixels.size_bytes(), "the pixel list", CL_MEM_READ_ONLY);
         queue_.enqueueWriteBuffer(list, CL_TRUE, 0, pixels.size_bytes(), pixels.data());
-        typename Flat<T>::Frame frame = frame_;
-        frame.grid = grid;
-        frame.samples = grid * grid;
+        typename Flat<T>::LaunchParams params = params_;
+        params.grid = grid;
+        params.samples = grid * grid;
         FlatTile tile = flat_tile<T>(region, region);
         tile.width = static_cast<typename Flat<T>::Index>(pixels.size());
-        const cl::Event event = launch_list(tile, frame, colors, list);
+        const cl::Event event = launch_list(tile, params, colors, list);
         std::vector<T> result(pixels.size() * 3);
         queue_.enqueueReadBuffer(colors, CL_TRUE, 0, bytes, result.data());
         times_.kernel += device_seconds(event);
@@ -333,7 +333,7 @@ class ClRenderer : public Renderer<T> {
     }
 
     const ClDevice device_;
-    typename Flat<T>::Frame frame_;
+    typename Flat<T>::LaunchParams params_;
     bool launch_samples_ = false;
     int lanes_ = 1;
     std::size_t group_ = 1;  ///< work items of a group

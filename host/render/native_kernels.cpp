@@ -12,21 +12,21 @@
 #include "native_table.h"
 
 // The entry points of every variant, as native.cl declares them.
-#define RT_DECLARE_NATIVE(T, name)                                                         \
-    extern "C" {                                                                           \
-    extern const int name##_traits[3];                                                     \
-    void name##_pixels(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,              \
-                       const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index);  \
-    void name##_samples(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,             \
-                        const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index); \
-    void name##_resolve(T*, const T*, const rt::Flat<T>::Frame*, const rt::Flat<T>::Tile*, \
-                        rt::Flat<T>::Index, rt::Flat<T>::Index);                           \
-    void name##_list(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                \
-                     const rt::Flat<T>::Tile*, const std::int32_t*, rt::Flat<T>::Index,    \
-                     rt::Flat<T>::Index);                                                  \
-    void name##_rays(rt::Flat<T>::RayAnswer*, const rt::Flat<T>::RayQuery*,                \
-                     const rt::NativeView<T>*, rt::Flat<T>::Index, rt::Flat<T>::Index,     \
-                     rt::Flat<T>::Index) __attribute__((weak)); /* not in the lean ones */ \
+#define RT_DECLARE_NATIVE(T, name)                                                                \
+    extern "C" {                                                                                  \
+    extern const int name##_traits[3];                                                            \
+    void name##_pixels(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                     \
+                       const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index);         \
+    void name##_samples(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                    \
+                        const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index);        \
+    void name##_resolve(T*, const T*, const rt::Flat<T>::LaunchParams*, const rt::Flat<T>::Tile*, \
+                        rt::Flat<T>::Index, rt::Flat<T>::Index);                                  \
+    void name##_list(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                       \
+                     const rt::Flat<T>::Tile*, const std::int32_t*, rt::Flat<T>::Index,           \
+                     rt::Flat<T>::Index);                                                         \
+    void name##_rays(rt::Flat<T>::RayAnswer*, const rt::Flat<T>::RayQuery*,                       \
+                     const rt::NativeView<T>*, rt::Flat<T>::Index, rt::Flat<T>::Index,            \
+                     rt::Flat<T>::Index) __attribute__((weak)); /* not in the lean ones */        \
     }
 #define RT_DECLARE_FLOAT(name, isa, lanes) RT_DECLARE_NATIVE(float, name)
 #define RT_DECLARE_DOUBLE(name, isa, lanes) RT_DECLARE_NATIVE(double, name)
@@ -95,7 +95,7 @@ bool serves(const NativeKernels<T>& kernels, const NativeChoice& choice) {
 template <typename T>
 NativeView<T> native_view(const FlatScene<T>& scene) {
 #define RT_NATIVE_DATA(type, name, what) scene.name.data(),
-    return {RT_SCENE_ARRAYS(RT_NATIVE_DATA) scene.frame};
+    return {RT_SCENE_ARRAYS(RT_NATIVE_DATA) scene.params};
 #undef RT_NATIVE_DATA
 }
 

@@ -19,7 +19,7 @@ struct NativeView {
 #define RT_NATIVE_FIELD(type, name, what) const typename Flat<T>::type* name;
     RT_SCENE_ARRAYS(RT_NATIVE_FIELD)
 #undef RT_NATIVE_FIELD
-    typename Flat<T>::Frame frame;
+    typename Flat<T>::LaunchParams params;
 };
 
 template <typename T>
@@ -42,8 +42,8 @@ struct NativeKernels {
 
     void (*render_pixels)(T* film, Counts*, const View*, const Tile*, Index first, Index end);
     void (*render_samples)(T* samples, Counts*, const View*, const Tile*, Index first, Index end);
-    void (*resolve_samples)(T* film, const T* samples, const typename Flat<T>::Frame*, const Tile*,
-                            Index first, Index end);
+    void (*resolve_samples)(T* film, const T* samples, const typename Flat<T>::LaunchParams*,
+                            const Tile*, Index first, Index end);
     void (*render_list)(T* colors, Counts*, const View*, const Tile*, const std::int32_t* pixels,
                         Index first, Index end);
     /// Null but where all features are.

@@ -46,8 +46,8 @@ class ThreadsRenderer : public Renderer<T> {
                 const Rect& region, Film<T>& film) override {
         const Stopwatch watch;
         NativeView<T> view = view_;
-        view.frame.grid = grid;
-        view.frame.samples = grid * grid;
+        view.params.grid = grid;
+        view.params.samples = grid * grid;
         std::atomic<std::size_t> next = 0;
         run_on_threads(thread_count({options_.threads}, 1), [&](int) {
             for (;;) {
@@ -78,7 +78,7 @@ class ThreadsRenderer : public Renderer<T> {
               rows(shape.height) {}
     };
 
-    int samples() const { return static_cast<int>(view_.frame.samples); }
+    int samples() const { return static_cast<int>(view_.params.samples); }
 
     /// Calls work(first, end) for the packets of each row until the queue is stopped. Pixels whose
     /// rows were worked on.
@@ -118,7 +118,7 @@ class ThreadsRenderer : public Renderer<T> {
         tile.width = static_cast<Index>(pixels.size());
         FlatCounts counts{};
         const int held =
-            packet_shape(kernels_.lanes, static_cast<int>(view.frame.samples), kernels_.lanes)
+            packet_shape(kernels_.lanes, static_cast<int>(view.params.samples), kernels_.lanes)
                 .pixels();
         kernels_.render_list(colors.data(), &counts, &view, &tile, pixels.data(), 0,
                              (tile.width + held - 1) / held);
@@ -127,7 +127,7 @@ class ThreadsRenderer : public Renderer<T> {
                         film.rgb.begin() + std::ptrdiff_t{3} * pixels[i]);
         }
         queue.add_rays(
-            rays_of(counts, pixels.size() * static_cast<std::uint64_t>(view.frame.samples)));
+            rays_of(counts, pixels.size() * static_cast<std::uint64_t>(view.params.samples)));
     }
 
     /// The paper's schedule: a thread renders whole sample buffers, which are averaged at the end.
@@ -179,7 +179,7 @@ class ThreadsRenderer : public Renderer<T> {
     void average(const Rect& rect, const T* buffers, const Rect& region, Film<T>& film) const {
         const FlatTile tile = flat_tile<T>(rect, region);
         const PacketGrid grid(tile, packet_shape(kernels_.lanes, 1));
-        kernels_.resolve_samples(film.rgb.data(), buffers, &view_.frame, &tile, 0,
+        kernels_.resolve_samples(film.rgb.data(), buffers, &view_.params, &tile, 0,
                                  grid.across * grid.down);
     }
 
@@ -206,7 +206,7 @@ const NativeKernels<T>& native_kernels_for(const FlatScene<T>& scene,
     choice.isa = options.isa;
     if (!options.all_features) {
         choice.features = either_of(scene.features, options.also);
-        if (!options.any_samples) choice.samples = static_cast<int>(scene.frame.samples);
+        if (!options.any_samples) choice.samples = static_cast<int>(scene.params.samples);
     }
     return choose_native<T>(choice);
 }

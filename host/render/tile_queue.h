@@ -16,7 +16,7 @@ namespace rt {
 /// Cuts a region into tiles of at most the given size, row by row from the top left.
 std::vector<Rect> make_tiles(const Rect& region, int tile_width, int tile_height);
 
-/// Neighbouring tiles that make up one rectangle.
+/// Neighboring tiles that make up one rectangle.
 struct TileRun {
     Rect whole;
     std::size_t tiles = 1;

@@ -43,7 +43,7 @@ std::optional<AblationFigures> ablation_figures(const BenchResult& result, const
 /// Finds pictures of an ablation that differ from the usual one: their rows become wrong.
 void judge_ablation(BenchResult& result);
 
-/// What a row is recognised by in another result: scene hash, size, AA, precision, device,
+/// What a row is recognized by in another result: scene hash, size, AA, precision, device,
 /// schedule.
 std::string key_of(const BenchCase& asked);
 

@@ -59,12 +59,12 @@ TemporaryFile temporary_file() {
 
 void write_pixels(std::FILE* file, const Picture& picture) {
     const auto channels = static_cast<std::size_t>(picture.channels);
-    const bool grey = channels < 3;
+    const bool gray = channels < 3;
     std::vector<float> rgb;
     rgb.reserve(picture.pixels.size() / channels * 3);
     for (std::size_t i = 0; i < picture.pixels.size(); i += channels) {
         for (std::size_t c = 0; c < 3; ++c) {
-            rgb.push_back(std::clamp(picture.pixels[grey ? i : i + c], 0.0f, 1.0f));
+            rgb.push_back(std::clamp(picture.pixels[gray ? i : i + c], 0.0f, 1.0f));
         }
     }
     if (std::fwrite(rgb.data(), sizeof(float), rgb.size(), file) != rgb.size()) {

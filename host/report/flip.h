@@ -18,7 +18,7 @@ struct FlipResult {
 /// per degree, measured by the PyPI package flip-evaluator in the python3 of PATH. The program is a
 /// few embedded lines and the pixels go through an unnamed temporary file, so nothing is searched
 /// for and nothing is left behind. Values are taken as a display would show them (as
-/// Encoding::display stores them) and clamped; one channel is grey, and alpha is left out.
+/// Encoding::display stores them) and clamped; one channel is gray, and alpha is left out.
 /// For pictures of one shape, without non-finite pixels.
 FlipResult measure_flip(const Picture& picture, const Picture& reference);
 

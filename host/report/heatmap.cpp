@@ -24,16 +24,16 @@ constexpr std::array<std::array<int, 3>, 10> magma{{{0, 0, 4},
 
 }  // namespace
 
-std::array<float, 3> heat_colour(double share) {
+std::array<float, 3> heat_color(double share) {
     const double at = std::clamp(share, 0.0, 1.0) * (magma.size() - 1);
     const std::size_t low = std::min(static_cast<std::size_t>(at), magma.size() - 2);
     const double rest = at - static_cast<double>(low);
-    std::array<float, 3> colour{};
+    std::array<float, 3> color{};
     for (std::size_t c = 0; c < 3; ++c) {
         const double value = magma[low][c] + rest * (magma[low + 1][c] - magma[low][c]);
-        colour[c] = static_cast<float>(value / 255);
+        color[c] = static_cast<float>(value / 255);
     }
-    return colour;
+    return color;
 }
 
 Picture heat_map(const Picture& picture, const Picture& reference, double scale) {
@@ -43,10 +43,9 @@ Picture heat_map(const Picture& picture, const Picture& reference, double scale)
     for (std::size_t i = 0; i < picture.pixels.size(); i += channels) {
         const double difference =
             pixel_difference(&picture.pixels[i], &reference.pixels[i], picture.channels);
-        const auto colour = std::isnan(difference)
-                                ? non_finite_colour
-                                : heat_colour(scale > 0 ? difference / scale : 0);
-        map.pixels.insert(map.pixels.end(), colour.begin(), colour.end());
+        const auto color = std::isnan(difference) ? non_finite_color
+                                                  : heat_color(scale > 0 ? difference / scale : 0);
+        map.pixels.insert(map.pixels.end(), color.begin(), color.end());
     }
     return map;
 }

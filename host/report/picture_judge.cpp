@@ -122,24 +122,24 @@ Picture clamped(Picture picture) {
 }
 
 Judgement judge_estimate(const Picture& picture, const Picture& converged) {
-    Judgement judgement;
-    judgement.why_wrong = shape_mistake(picture, converged);
-    if (!judgement.why_wrong.empty()) return judgement;
-    judgement.error = image_error(clamped(picture), clamped(converged));
-    if (judgement.error.non_finite > 0) {
-        judgement.why_wrong = fmt::format("{} pixels are not finite", judgement.error.non_finite);
+    Judgement judgment;
+    judgment.why_wrong = shape_mistake(picture, converged);
+    if (!judgment.why_wrong.empty()) return judgment;
+    judgment.error = image_error(clamped(picture), clamped(converged));
+    if (judgment.error.non_finite > 0) {
+        judgment.why_wrong = fmt::format("{} pixels are not finite", judgment.error.non_finite);
     }
-    return judgement;
+    return judgment;
 }
 
 Judgement judge_picture(const Picture& picture, const Picture& reference) {
-    Judgement judgement;
-    judgement.why_wrong = shape_mistake(picture, reference);
-    if (!judgement.why_wrong.empty()) return judgement;
+    Judgement judgment;
+    judgment.why_wrong = shape_mistake(picture, reference);
+    if (!judgment.why_wrong.empty()) return judgment;
     const Picture shown = clamped(picture), right = clamped(reference);
-    judgement.error = image_error(shown, right);
-    judgement.why_wrong = what_is_wrong(shown, right, judgement.error);
-    return judgement;
+    judgment.error = image_error(shown, right);
+    judgment.why_wrong = what_is_wrong(shown, right, judgment.error);
+    return judgment;
 }
 
 }  // namespace rt

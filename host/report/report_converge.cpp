@@ -50,7 +50,7 @@ PlotPoint plot_point(const ConvergeResult& result, std::size_t i, std::size_t in
     return point;
 }
 
-/// A curve's place among the devices and families met so far: colour and shape.
+/// A curve's place among the devices and families met so far: color and shape.
 int place_of(std::vector<std::string>& known, const std::string& name) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at != known.end()) return static_cast<int>(at - known.begin());

@@ -14,7 +14,7 @@ std::string device_label(const BenchRow& row);
 /// The device of a run in a few words: "threads", "PoCL".
 std::string device_label(const RenderStats& run);
 
-/// "plain" for one sample at the pixel's centre, else the mode itself.
+/// "plain" for one sample at the pixel's center, else the mode itself.
 std::string aa_label(const AaMode& aa);
 
 /// "12.3 ms ± 2 %": median and noise.

@@ -95,7 +95,7 @@ std::string scene_html(const Report& report, std::size_t index) {
     const RenderStats& run = some_run(scene);
     const SceneStats& stats = run.scene;
     std::string html = fmt::format(
-        "<section id=\"scene-{}\" aria-labelledby=\"scene-{}-head\">\n"
+        "<section id=\"scene-{}\" aria-labeledby=\"scene-{}-head\">\n"
         "<h2 id=\"scene-{}-head\">{}</h2>\n"
         "<p class=\"note\">{}: {}; {} x {} pixels, up to {} bounces; scene hash "
         "<code>{}</code></p>\n",

@@ -17,7 +17,7 @@ namespace rt {
 
 namespace {
 
-constexpr double error_map_scale = 0.25;  ///< the difference at the top of the colour map
+constexpr double error_map_scale = 0.25;  ///< the difference at the top of the color map
 
 struct Image {
     std::string alt, caption;
@@ -90,14 +90,14 @@ std::string made_text(const RenderStats& stats, const BenchResult& bench) {
                        device_label(stats), stats.double_precision ? "double" : "float");
 }
 
-std::string colour_scale() {
+std::string color_scale() {
     Picture bar{128, 1, 3, {}};
     for (int i = 0; i < bar.width; ++i) {
-        const auto colour = heat_colour(i / 127.0);
-        bar.pixels.insert(bar.pixels.end(), colour.begin(), colour.end());
+        const auto color = heat_color(i / 127.0);
+        bar.pixels.insert(bar.pixels.end(), color.begin(), color.end());
     }
     return fmt::format(
-        "<p class=\"scale\">0 <img src=\"{}\" alt=\"Colour scale of the error maps: black for no "
+        "<p class=\"scale\">0 <img src=\"{}\" alt=\"Color scale of the error maps: black for no "
         "difference over purple and orange to pale yellow for {} and more\"> {} and more "
         "(white is 1)</p>\n",
         png_data_uri(encode_png(bar, Encoding::display)), error_map_scale, error_map_scale);
@@ -144,7 +144,7 @@ std::string error_maps(const ReportScene& scene, const std::string& source) {
                "converged picture: the mean of {} and {} in double precision.</p>\n",
                html_text(scene.converge.reference.aa_a), html_text(scene.converge.reference.aa_b)) +
            "<div class=\"pictures\">\n" + figure(scene.plain, "Plain", "/plain/error") +
-           figure(scene.smooth, "Anti-aliased", "/smooth/error") + "</div>\n" + colour_scale();
+           figure(scene.smooth, "Anti-aliased", "/smooth/error") + "</div>\n" + color_scale();
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ Plot family_plot(const StressFamilyResult& family, std::size_t index) {
 
 std::string stress_section(const StressResult& result) {
     std::string html =
-        "<section aria-labelledby=\"stress\">\n<h2 id=\"stress\">Numerical stability</h2>\n"
+        "<section aria-labeledby=\"stress\">\n<h2 id=\"stress\">Numerical stability</h2>\n"
         "<p>Stiff and extreme scenes against a reference in 113-bit arithmetic. A pixel is wrong "
         "when a channel is off by over 1/255 where the reference itself does not change within "
         "0.02 pixel; the error is the largest there.</p>\n";

@@ -13,7 +13,7 @@ namespace rt {
 
 namespace {
 
-constexpr double map_scale = 1.0 / 255;  ///< the difference at the top of the colour map
+constexpr double map_scale = 1.0 / 255;  ///< the difference at the top of the color map
 constexpr int most_pixels = 160 * 120;   ///< of a picture on the page
 
 /// Clamped to [0, 1]; NaN as white.
@@ -40,7 +40,7 @@ std::string shot_figures(const StressFamilyResult& family) {
            figure(reference, name + ", reference", "Reference.") +
            figure(worst, name + ", worst of mirrorball's pictures", "Worst of ours.") +
            figure(heat_map(worst, reference, map_scale), name + ", error map",
-                  "Difference, 1/255 and more at the top of the colour map.") +
+                  "Difference, 1/255 and more at the top of the color map.") +
            "</div>\n";
 }
 

@@ -27,7 +27,7 @@ struct BarChart {
 
 std::string svg_bars(const BarChart& chart);
 
-/// The kinds of parts that are there, with their colours, as an HTML list.
+/// The kinds of parts that are there, with their colors, as an HTML list.
 std::string bars_legend(const BarChart& chart);
 
 }  // namespace rt

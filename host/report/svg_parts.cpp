@@ -49,7 +49,7 @@ std::string svg_open(const std::string& id, double width, double height, const s
                      const std::string& description) {
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" "
-        "aria-labelledby=\"{}-title {}-desc\"{}>\n<title id=\"{}-title\">{}</title>\n"
+        "aria-labeledby=\"{}-title {}-desc\"{}>\n<title id=\"{}-title\">{}</title>\n"
         "<desc id=\"{}-desc\">{}</desc>\n",
         width, height, html_text(id), html_text(id), html_attribute("id", id), html_text(id),
         html_text(title), html_text(id), html_text(description));

@@ -25,7 +25,7 @@ struct PlotPoint {
 struct PlotCurve {
     std::string label;
     int color = 0;  ///< of plot_styles; so that curves of one kind may share it
-    int shape = 0;  ///< of plot_styles: dashes and marker, for eyes that see no colour
+    int shape = 0;  ///< of plot_styles: dashes and marker, for eyes that see no color
     std::vector<PlotPoint> points;
     bool is_prediction = false;  ///< a thin line without markers
 };
@@ -44,7 +44,7 @@ struct Plot {
 
 inline constexpr int plot_styles = 8;
 
-/// The plot as inline SVG. Colours and dashes are the page's: classes s0 to s7 and
+/// The plot as inline SVG. Colors and dashes are the page's: classes s0 to s7 and
 /// d0 to d7.
 std::string svg_plot(const Plot& plot);
 

@@ -12,7 +12,7 @@ struct AaMode {
     enum class Pattern {
         grid,      ///< count x count regular positions, (i + 0.5) / count from the pixel's corner
         sobol,     ///< count Owen-scrambled Sobol samples
-        adaptive,  ///< one sample, then finer grids where neighbours differ by more than threshold
+        adaptive,  ///< one sample, then finer grids where neighbors differ by more than threshold
     };
 
     static constexpr int max_grid = 64;
@@ -34,7 +34,7 @@ struct AaMode {
 
 AaMode grid_aa(int n);
 
-/// "none" (the pixel centre), "grid:N" with N in 1..64, "sobol:S" with S in 1..4096, or
+/// "none" (the pixel center), "grid:N" with N in 1..64, "sobol:S" with S in 1..4096, or
 /// "adaptive:T" with T in 0.0001..1; empty when the text is none of these.
 std::optional<AaMode> parse_aa_mode(std::string_view text);
 

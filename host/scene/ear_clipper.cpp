@@ -78,7 +78,7 @@ void EarClipper::tidy_all() {
     }
 }
 
-/// The same near one corner, after its neighbour has gone. Returns a corner that is left.
+/// The same near one corner, after its neighbor has gone. Returns a corner that is left.
 EarClipper::Index EarClipper::tidy(Index corner) {
     while (count_ > 2) {
         const Index last = previous_[corner];
@@ -138,7 +138,7 @@ bool EarClipper::edges_cross() {
     return work_ < 0;
 }
 
-/// If any corner lies in a triangle of three neighbours, then one does whose turn is not to the
+/// If any corner lies in a triangle of three neighbors, then one does whose turn is not to the
 /// left. Corners at the same place are looked at as well: the polygon pinches there. All stay in
 /// the order of x.
 void EarClipper::find_obstacles() {
@@ -158,7 +158,7 @@ void EarClipper::find_obstacles() {
 
 /// Corners on an ear's rim stand in its way, so that they become corners of triangles; only where
 /// that leaves no ear, they do not. What is then left is flat, or folded. The first round cuts no
-/// two neighbours in a row, which would make fans of slivers.
+/// two neighbors in a row, which would make fans of slivers.
 void EarClipper::clip() {
     clip_round(true, true);
     while (count_ > 2 && work_ >= 0) {

@@ -10,7 +10,7 @@
 
 namespace rt {
 
-/// Cuts ears (triangles of three neighbouring corners that hold no other corner) off a polygon in
+/// Cuts ears (triangles of three neighboring corners that hold no other corner) off a polygon in
 /// the plane until nothing is left (Meisters 1975). Every decision is exact; each ear has a
 /// positive area, so that the triangles add up to the polygon and none lies outside it.
 class EarClipper {

@@ -12,8 +12,8 @@
 namespace rt {
 namespace {
 
-/// A ball, or a point where the radius is 0.
-struct Ball {
+/// A sphere, or a point where the radius is 0.
+struct BoundingSphere {
     glm::dvec3 center{0};
     double radius = 0;
 };
@@ -23,8 +23,8 @@ struct Side {
     glm::dvec3 normal{0};
     double limit = 0;
 
-    bool hides(const Ball& ball) const {
-        return glm::dot(normal, ball.center) - ball.radius > limit;
+    bool hides(const BoundingSphere& sphere) const {
+        return glm::dot(normal, sphere.center) - sphere.radius > limit;
     }
 };
 
@@ -55,17 +55,18 @@ class View {
    public:
     explicit View(const Scene::Camera& camera) : from_(camera.from), sides_(sides_of(camera)) {}
 
-    /// Whether the convex hull of balls may be seen.
+    /// Whether the convex hull of spheres may be seen.
     template <std::size_t N>
-    bool may_show(std::array<Ball, N> balls) const {
-        for (Ball& ball : balls) ball.center -= from_;
+    bool may_show(std::array<BoundingSphere, N> spheres) const {
+        for (BoundingSphere& sphere : spheres) sphere.center -= from_;
         return std::ranges::none_of(sides_, [&](const Side& side) {
-            return std::ranges::all_of(balls, [&](const Ball& ball) { return side.hides(ball); });
+            return std::ranges::all_of(
+                spheres, [&](const BoundingSphere& sphere) { return side.hides(sphere); });
         });
     }
 
     bool may_show(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const {
-        return may_show(std::array{Ball{a}, Ball{b}, Ball{c}});
+        return may_show(std::array{BoundingSphere{a}, BoundingSphere{b}, BoundingSphere{c}});
     }
 
    private:
@@ -85,10 +86,11 @@ bool shows_mesh(const View& view, const Scene::Mesh& mesh) {
 bool is_anything_in_view(const Scene& scene) {
     const View view(scene.camera);
     const auto shows_sphere = [&](const Scene::Sphere& s) {
-        return view.may_show(std::array{Ball{s.center, s.radius}});
+        return view.may_show(std::array{BoundingSphere{s.center, s.radius}});
     };
     const auto shows_cone = [&](const Scene::Cone& c) {
-        return view.may_show(std::array{Ball{c.base, c.base_radius}, Ball{c.apex, c.apex_radius}});
+        return view.may_show(std::array{BoundingSphere{c.base, c.base_radius},
+                                        BoundingSphere{c.apex, c.apex_radius}});
     };
     const auto shows_triangle = [&](const Scene::Triangle& t) {
         return view.may_show(t.vertices[0], t.vertices[1], t.vertices[2]);

@@ -117,8 +117,8 @@ SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes&
     }
     if (const JsonValue* image = reader.find("image")) read_image(*image, scene, mistakes);
     reader.optional("max_bounces", scene.max_bounces, read_bounces);
-    reader.optional("background", scene.background, read_colour);
-    reader.optional("ambient_light", scene.ambient_light, read_colour);
+    reader.optional("background", scene.background, read_color);
+    reader.optional("ambient_light", scene.ambient_light, read_color);
     read_objects(reader, folder, text, mistakes);
     return text;
 }

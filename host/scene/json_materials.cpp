@@ -32,7 +32,7 @@ std::string advice(std::string_view name, std::span<const std::string_view> know
     if (known.empty()) return "the scene has no materials, define it under \"materials\"";
     const std::string_view near = nearest_word(name, known);
     if (!near.empty()) return fmt::format("did you mean {}?", in_quotes(near));
-    return "known materials are " + listed(known);
+    return "known materials are " + word_list(known);
 }
 
 }  // namespace

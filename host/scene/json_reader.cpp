@@ -22,7 +22,7 @@ void note_number(const JsonValue& value, std::string_view name, double number,
     mistakes.add(value.offset, fmt::format("{} is {}; write {}", name, number, wanted));
 }
 
-/// The three items of a vector or colour; notes anything else.
+/// The three items of a vector or color; notes anything else.
 const JsonValue::Array* read_triple(const JsonValue& value, std::string_view name,
                                     std::string_view wanted, Mistakes& mistakes) {
     const auto* items = value.as<JsonValue::Array>();
@@ -36,7 +36,7 @@ const JsonValue::Array* read_triple(const JsonValue& value, std::string_view nam
     return items;
 }
 
-glm::dvec3 grey(double level) { return glm::dvec3(level, level, level); }
+glm::dvec3 gray(double level) { return glm::dvec3(level, level, level); }
 
 }  // namespace
 
@@ -110,13 +110,13 @@ std::optional<glm::dvec3> read_vec3(const JsonValue& value, std::string_view nam
     return result;
 }
 
-std::optional<glm::dvec3> read_colour(const JsonValue& value, std::string_view name,
-                                      Mistakes& mistakes) {
+std::optional<glm::dvec3> read_color(const JsonValue& value, std::string_view name,
+                                     Mistakes& mistakes) {
     if (value.as<double>()) {
         const auto level = read_not_negative(value, name, mistakes);
-        return level ? std::optional(grey(*level)) : std::nullopt;
+        return level ? std::optional(gray(*level)) : std::nullopt;
     }
-    constexpr std::string_view wanted = "one number for a grey, or three, [r, g, b]";
+    constexpr std::string_view wanted = "one number for a gray, or three, [r, g, b]";
     const auto* items = read_triple(value, name, wanted, mistakes);
     if (!items) return std::nullopt;
     glm::dvec3 result{0};
@@ -132,7 +132,7 @@ std::optional<glm::dvec3> read_colour(const JsonValue& value, std::string_view n
 
 std::optional<glm::dvec3> read_reflectance(const JsonValue& value, std::string_view name,
                                            Mistakes& mistakes) {
-    const auto color = read_colour(value, name, mistakes);
+    const auto color = read_color(value, name, mistakes);
     if (!color) return std::nullopt;
     const double largest = std::max({color->r, color->g, color->b});
     if (largest <= max_reflectance) return color;
@@ -166,7 +166,7 @@ ObjectReader::ObjectReader(const JsonValue& value, std::string_view what,
     for (const JsonMember& member : *members_) {
         if (std::ranges::find(known_keys, member.key) != known_keys.end()) continue;
         const std::string_view near = nearest_word(member.key, known_keys);
-        const std::string advice = near.empty() ? "known keys are " + listed(known_keys)
+        const std::string advice = near.empty() ? "known keys are " + word_list(known_keys)
                                                 : fmt::format("did you mean {}?", in_quotes(near));
         mistakes.add(member.key_offset,
                      fmt::format("unknown key {} in {}; {}", in_quotes(member.key), what, advice));

@@ -27,9 +27,9 @@ std::optional<bool> read_bool(const JsonValue& value, std::string_view name, Mis
 const std::string* read_string(const JsonValue& value, std::string_view name, Mistakes& mistakes);
 std::optional<glm::dvec3> read_vec3(const JsonValue& value, std::string_view name,
                                     Mistakes& mistakes);
-/// [r, g, b] or one number for a grey, not negative.
-std::optional<glm::dvec3> read_colour(const JsonValue& value, std::string_view name,
-                                      Mistakes& mistakes);
+/// [r, g, b] or one number for a gray, not negative.
+std::optional<glm::dvec3> read_color(const JsonValue& value, std::string_view name,
+                                     Mistakes& mistakes);
 /// The same up to max_reflectance.
 std::optional<glm::dvec3> read_reflectance(const JsonValue& value, std::string_view name,
                                            Mistakes& mistakes);

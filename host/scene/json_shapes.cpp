@@ -69,7 +69,7 @@ Scene::Light read_light(const JsonValue& value, Mistakes& mistakes) {
     Scene::Light light;
     const ObjectReader reader(value, "a light", light_keys, mistakes);
     reader.required("position", "\"position\": [x, y, z]", light.position, read_vec3);
-    reader.optional("intensity", light.intensity, read_colour);
+    reader.optional("intensity", light.intensity, read_color);
     light.has_own_intensity = reader.find("intensity") != nullptr;
     return light;
 }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double fov_degrees = 40;
 
-struct BoundingBall {
+struct BoundingSphere {
     glm::dvec3 center{0};
     double radius = 0;
 };
@@ -47,47 +47,47 @@ std::vector<Value> over_corners(const Scene::Mesh& mesh, const Value& start, Wor
 }
 
 /// Around the middle of the box that holds all faces. Vertices without a face do not count.
-BoundingBall bounding_ball(const Scene::Mesh& mesh) {
+BoundingSphere bounding_sphere(const Scene::Mesh& mesh) {
     const glm::dvec3 first = mesh.positions[mesh.faces[0][0]];
     Box all{first, first};
     const auto boxes = over_corners(mesh, all, [](Box& box, const glm::dvec3& p) {
         box = {glm::min(box.low, p), glm::max(box.high, p)};
     });
     for (const Box& box : boxes) all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
-    BoundingBall ball{0.5 * all.low + 0.5 * all.high, 0};
+    BoundingSphere sphere{0.5 * all.low + 0.5 * all.high, 0};
     const auto radii = over_corners(mesh, 0.0, [&](double& radius, const glm::dvec3& p) {
-        radius = std::max(radius, glm::length(p - ball.center));
+        radius = std::max(radius, glm::length(p - sphere.center));
     });
-    ball.radius = std::ranges::max(radii);
-    return ball;
+    sphere.radius = std::ranges::max(radii);
+    return sphere;
 }
 
-/// The ball touches all sides of a square picture.
-Scene::Camera framing_camera(const BoundingBall& ball) {
+/// The sphere touches all sides of a square picture.
+Scene::Camera framing_camera(const BoundingSphere& sphere) {
     constexpr double half_angle = fov_degrees * (std::numbers::pi / 360.0);
     const glm::dvec3 towards = glm::normalize(glm::dvec3(0.6, 0.45, 1));
     Scene::Camera camera;
-    camera.at = ball.center;
-    camera.from = ball.center + ball.radius / std::sin(half_angle) * towards;
+    camera.at = sphere.center;
+    camera.from = sphere.center + sphere.radius / std::sin(half_angle) * towards;
     camera.field_of_view = {Scene::FieldOfView::Fixed::vertical, fov_degrees};
     return camera;
 }
 
-/// The key lamp is left of the camera and high, the other one right and weak.
-std::vector<Scene::Light> lamps(const BoundingBall& ball) {
-    const glm::dvec3 key = 4.0 * ball.radius * glm::dvec3(-0.5, 1, 1);
-    const glm::dvec3 fill = 4.0 * ball.radius * glm::dvec3(1, 0.4, 0.5);
-    return {{ball.center + key, glm::dvec3(0.75), false},
-            {ball.center + fill, glm::dvec3(0.25), false}};
+/// The key light is left of the camera and high, the other one right and weak.
+std::vector<Scene::Light> default_lights(const BoundingSphere& sphere) {
+    const glm::dvec3 key = 4.0 * sphere.radius * glm::dvec3(-0.5, 1, 1);
+    const glm::dvec3 fill = 4.0 * sphere.radius * glm::dvec3(1, 0.4, 0.5);
+    return {{sphere.center + key, glm::dvec3(0.75), false},
+            {sphere.center + fill, glm::dvec3(0.25), false}};
 }
 
 }  // namespace
 
 Scene make_model_scene(Model model, const std::string& path) {
-    const BoundingBall ball = bounding_ball(model.mesh);
+    const BoundingSphere sphere = bounding_sphere(model.mesh);
     Scene scene;
     scene.name = name_of_file(path);
-    scene.camera = framing_camera(ball);
+    scene.camera = framing_camera(sphere);
     if (nearly_same_point(scene.camera.from, scene.camera.at)) {
         throw Error(ExitCode::input, printable(path) +
                                          ": the model is too small for how far it lies from "
@@ -95,7 +95,7 @@ Scene make_model_scene(Model model, const std::string& path) {
     }
     scene.background = glm::dvec3(0.85, 0.9, 0.95);
     scene.ambient_light = glm::dvec3(0.25);
-    scene.lights = lamps(ball);
+    scene.lights = default_lights(sphere);
     scene.materials = std::move(model.materials);
     if (scene.materials.empty()) {
         scene.materials.push_back(default_material());

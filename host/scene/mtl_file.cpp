@@ -97,10 +97,10 @@ class MtlReader {
     }
 
     void read_value(std::string_view word, Mtl& mtl) {
-        if (word == "Ka") return read_colour(word, mtl.ambient);
-        if (word == "Kd") return read_colour(word, mtl.diffuse);
-        if (word == "Ks") return read_colour(word, mtl.specular);
-        if (word == "Tf") return read_colour(word, mtl.filter);
+        if (word == "Ka") return read_color(word, mtl.ambient);
+        if (word == "Kd") return read_color(word, mtl.diffuse);
+        if (word == "Ks") return read_color(word, mtl.specular);
+        if (word == "Tf") return read_color(word, mtl.filter);
         if (word == "Ns") return read_amount(word, 0, max_scene_number, mtl.shininess);
         if (word == "Ni") return read_ior(mtl);
         if (word == "illum") return read_illum(mtl);
@@ -122,14 +122,14 @@ class MtlReader {
         found_.emplace_back().name = name;
     }
 
-    /// One number for a grey, or three.
-    void read_colour(std::string_view word, glm::dvec3& colour) {
+    /// One number for a gray, or three.
+    void read_color(std::string_view word, glm::dvec3& color) {
         const bool there = scanner_.word_follows();
         const std::size_t offset = scanner_.offset();
         LineScanner ahead = scanner_;
         const std::string_view kind = ahead.word();
         if (there && (kind == "spectral" || kind == "xyz")) {
-            mistakes_.add(offset, fmt::format("{} colours are not known; write {} r g b",
+            mistakes_.add(offset, fmt::format("{} colors are not known; write {} r g b",
                                               in_quotes(kind), word));
             return;
         }
@@ -142,10 +142,10 @@ class MtlReader {
         }
         if (count == 2) {
             mistakes_.add(offset,
-                          fmt::format("{} has two numbers; write one for a grey, or three", word));
+                          fmt::format("{} has two numbers; write one for a gray, or three", word));
             return;
         }
-        colour = count == 1 ? glm::dvec3(rgb[0]) : glm::dvec3(rgb[0], rgb[1], rgb[2]);
+        color = count == 1 ? glm::dvec3(rgb[0]) : glm::dvec3(rgb[0], rgb[1], rgb[2]);
         require_end(word);
     }
 

@@ -106,9 +106,9 @@ class NffReader {
     bool read_background(const NffToken& word) {
         note_repeated(word, background_);
         tokens_.expect("b red green blue");
-        const auto colour = tokens_.read_colour("background");
-        if (colour) scene_.background = *colour;
-        return colour.has_value();
+        const auto color = tokens_.read_color("background");
+        if (color) scene_.background = *color;
+        return color.has_value();
     }
 
     bool read_light() {
@@ -119,9 +119,9 @@ class NffReader {
         light.position = *position;
         light.has_own_intensity = tokens_.peek().is_number();
         if (light.has_own_intensity) {
-            const auto colour = tokens_.read_colour("light colour");
-            if (!colour) return false;
-            light.intensity = *colour;
+            const auto color = tokens_.read_color("light color");
+            if (!color) return false;
+            light.intensity = *color;
         }
         scene_.lights.push_back(light);
         return true;
@@ -133,7 +133,7 @@ class NffReader {
 
     bool read_sphere() {
         tokens_.expect("s x y z radius");
-        const auto center = tokens_.read_vec3("centre");
+        const auto center = tokens_.read_vec3("center");
         if (!center) return false;
         const std::size_t offset = tokens_.peek().offset;
         const auto radius = tokens_.read_number("radius");

@@ -126,7 +126,7 @@ std::optional<glm::dvec3> NffTokens::read_vec3(std::string_view name) {
     return z ? std::optional(glm::dvec3(*x, *y, *z)) : std::nullopt;
 }
 
-std::optional<glm::dvec3> NffTokens::read_colour(std::string_view name) {
+std::optional<glm::dvec3> NffTokens::read_color(std::string_view name) {
     const auto r = read_not_negative(name);
     const auto g = r ? read_not_negative(name) : std::nullopt;
     const auto b = g ? read_not_negative(name) : std::nullopt;

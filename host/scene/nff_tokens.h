@@ -37,7 +37,7 @@ class NffTokens {
     std::optional<double> read_not_negative(std::string_view name);
     std::optional<int> read_integer(std::string_view name, int low, int high);
     std::optional<glm::dvec3> read_vec3(std::string_view name);
-    std::optional<glm::dvec3> read_colour(std::string_view name);
+    std::optional<glm::dvec3> read_color(std::string_view name);
 
    private:
     void scan();

@@ -108,7 +108,7 @@ class FaceReader {
     }
 
     void refuse_statement(std::size_t offset, std::string_view word) {
-        std::string advice = "known statements are " + listed(known_words);
+        std::string advice = "known statements are " + word_list(known_words);
         if (is_one_of(word, free_form_words)) {
             advice = "curves and surfaces cannot be drawn, export polygons";
         } else if (word == "call" || word == "csh") {

@@ -94,7 +94,7 @@ void ObjMaterials::resolve(Model& model, Mistakes& mistakes) const {
         const std::string_view near = nearest_word(use.name, names);
         mistakes.add(use.offset,
                      fmt::format("unknown material {}; {}", in_quotes(use.name),
-                                 near.empty() ? "the libraries hold " + listed(names)
+                                 near.empty() ? "the libraries hold " + word_list(names)
                                               : fmt::format("did you mean {}?", in_quotes(near))));
     }
     const auto index_of = [&](int number) {

@@ -27,7 +27,7 @@ class ObjMaterials {
     bool lacks_library() const { return lacks_library_; }
 
     /// Turns the numbers in face_materials into indices of model.materials. Faces without a name
-    /// get a grey that is added there. So do names in no library if one lacks; else they are
+    /// get a gray that is added there. So do names in no library if one lacks; else they are
     /// mistakes.
     void resolve(Model& model, Mistakes& mistakes) const;
 
@@ -38,7 +38,7 @@ class ObjMaterials {
     bool lacks_library_ = false;
 };
 
-/// What faces wear whose file says nothing: a matt grey, seen from both sides.
+/// What faces wear whose file says nothing: a matt gray, seen from both sides.
 Scene::Material default_material();
 
 }  // namespace rt

@@ -87,7 +87,7 @@ class HeaderReader {
         constexpr std::string_view known[] = {"format",  "comment",  "obj_info",
                                               "element", "property", "end_header"};
         mistakes_.add(offset_, fmt::format("unknown word {} in the header; known are {}",
-                                           in_quotes(word), listed(known)));
+                                           in_quotes(word), word_list(known)));
     }
 
     void read_format() {
@@ -98,7 +98,7 @@ class HeaderReader {
         const auto found = std::ranges::find(names, name);
         if (found == std::end(names)) {
             mistakes_.add(offset, fmt::format("unknown format {}; known are {}", in_quotes(name),
-                                              listed(names)));
+                                              word_list(names)));
         } else if (version != "1.0") {
             mistakes_.add(offset, fmt::format("version {} of the format is not known; write 1.0",
                                               in_quotes(version)));

@@ -10,7 +10,7 @@ namespace {
 /// Half the extent at distance 1 from the eye that a full angle spans.
 double half_extent(double degrees) { return std::tan(degrees * (std::numbers::pi / 360.0)); }
 
-Scene::Window centred(double half_width, double half_height) {
+Scene::Window centered(double half_width, double half_height) {
     return {-half_width, half_width, -half_height, half_height};
 }
 
@@ -19,8 +19,8 @@ Scene::Window centred(double half_width, double half_height) {
 Scene::Window camera_window(const Scene::Camera& camera, int width, int height) {
     using Fixed = Scene::FieldOfView::Fixed;
     const double amount = camera.field_of_view.amount;
-    const auto from_width = [&](double half) { return centred(half, half * height / width); };
-    const auto from_height = [&](double half) { return centred(half * width / height, half); };
+    const auto from_width = [&](double half) { return centered(half, half * height / width); };
+    const auto from_height = [&](double half) { return centered(half * width / height, half); };
     switch (camera.field_of_view.fixed) {
         case Fixed::window:
             break;

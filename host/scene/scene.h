@@ -75,7 +75,7 @@ struct Scene {
     };
 
     /// Counterclockwise seen from the front. Vertex normals, where given, are unit length
-    /// (the reader normalises them) and interpolated over the face.
+    /// (the reader normalizes them) and interpolated over the face.
     struct Triangle {
         std::array<glm::dvec3, 3> vertices{};
         std::optional<std::array<glm::dvec3, 3>> normals;
@@ -84,7 +84,7 @@ struct Scene {
 
     /// The side of a cone's frustum, open at both ends; a cylinder where the radii are equal.
     struct Cone {
-        glm::dvec3 base{0}, apex{0, 1, 0};        ///< centres of the two rims, apart
+        glm::dvec3 base{0}, apex{0, 1, 0};        ///< centers of the two rims, apart
         double base_radius = 1, apex_radius = 0;  ///< >= 0, one of them > 0
         int material = 0;                         ///< index into Scene::materials
     };

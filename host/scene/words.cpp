@@ -14,11 +14,11 @@ namespace rt {
 namespace {
 
 constexpr std::size_t max_quoted_bytes = 60;
-constexpr std::size_t max_listed = 16;
+constexpr std::size_t max_words = 16;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Edits (insert, delete, replace, swap neighbours) between two words, letter case aside: the
+/// Edits (insert, delete, replace, swap neighbors) between two words, letter case aside: the
 /// restricted distance of Damerau 1964.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     const auto same = [&](std::size_t i, std::size_t j) {
@@ -62,9 +62,9 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
     return best;
 }
 
-std::string listed(std::span<const std::string_view> words) {
+std::string word_list(std::span<const std::string_view> words) {
     std::string result;
-    const std::size_t shown = std::min(words.size(), max_listed);
+    const std::size_t shown = std::min(words.size(), max_words);
     for (std::size_t i = 0; i < shown; ++i) {
         if (i > 0) result += i + 1 == words.size() ? " and " : ", ";
         result += in_quotes(words[i]);

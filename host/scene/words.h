@@ -14,6 +14,6 @@ std::string in_quotes(std::string_view text);
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
 
 /// 'a', 'b' and 'c', cut after the first few.
-std::string listed(std::span<const std::string_view> words);
+std::string word_list(std::span<const std::string_view> words);
 
 }  // namespace rt

@@ -62,7 +62,7 @@ RayFigures count_cone_leaving_failures(const Scene& scene, double shallowest, st
                                        const RayCaster& caster) {
     const FlatScene<T> flat = flatten<T>(scene);
     const stress::WideFrustum<Quad> cone = exact_frustum<T>(flat.cones[0]);
-    const auto prim = flat.frame.sphere_count;
+    const auto prim = flat.params.sphere_count;
     const auto make = [&](Dice& dice) {
         return ray_query<T>(glm::dvec3(0), way_to<T>(flat.cones[0], dice));
     };
@@ -93,7 +93,7 @@ RayFigures count_cone_failures(const Scene& scene, std::uint64_t rays, const Ray
         [&](const auto& query, const auto& answer, RayFigures& figures) {
             const Quad exact =
                 stress::hit_frustum<Quad>({in_quad(query.origin), in_quad(query.dir)}, cone, false);
-            note_hit(figures, answer.prim == flat.frame.sphere_count, double(answer.t), exact);
+            note_hit(figures, answer.prim == flat.params.sphere_count, double(answer.t), exact);
         });
 }
 

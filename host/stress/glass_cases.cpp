@@ -11,14 +11,14 @@ namespace rt {
 
 namespace {
 
-/// A wall of 4 x 4 squares in two colours, 4 behind the origin.
+/// A wall of 4 x 4 squares in two colors, 4 behind the origin.
 void add_chequered_wall(Scene& scene) {
-    const std::array<int, 2> colours{add_matt(scene, {0.875, 0.75, 0.25}),
-                                     add_matt(scene, {0.125, 0.25, 0.625})};
+    const std::array<int, 2> colors{add_matt(scene, {0.875, 0.75, 0.25}),
+                                    add_matt(scene, {0.125, 0.25, 0.625})};
     for (int i = 0; i < 16; ++i) {
         const double x = 2 * (i % 4) - 4, y = 2 * (i / 4) - 4;
         add_quad(scene, {x, y, -4}, {x + 2, y, -4}, {x + 2, y + 2, -4}, {x, y + 2, -4},
-                 colours[static_cast<std::size_t>((i % 4 + i / 4) % 2)]);
+                 colors[static_cast<std::size_t>((i % 4 + i / 4) % 2)]);
     }
 }
 

@@ -43,7 +43,7 @@ PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& re
     std::vector<std::size_t> doubtful;
     std::vector<double> errors;
     for (std::size_t i = 0; i < picture.pixels.size() / 3; ++i) {
-        const double error = pixel_error(&picture.pixels[3 * i], reference.colour(i));
+        const double error = pixel_error(&picture.pixels[3 * i], reference.color(i));
         if (error > edge_matters) {
             doubtful.push_back(i);
             errors.push_back(error);

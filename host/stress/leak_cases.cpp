@@ -13,8 +13,8 @@ namespace rt {
 
 namespace {
 
-/// Everything is the same grey; what is behind glares blue. A leak is a wrong pixel.
-Scene grey_scene(int width, int height, int grid) {
+/// Everything is the same gray; what is behind glares blue. A leak is a wrong pixel.
+Scene gray_scene(int width, int height, int grid) {
     Scene scene = bare_scene();
     scene.aa.count = grid;
     scene.lights.clear();
@@ -26,14 +26,14 @@ Scene grey_scene(int width, int height, int grid) {
 }
 
 /// What such a picture should be: the inside of one big ball.
-Scene all_grey(int width, int height, int grid) {
-    Scene scene = grey_scene(width, height, grid);
+Scene all_gray(int width, int height, int grid) {
+    Scene scene = gray_scene(width, height, grid);
     add_sphere(scene, scene.camera.from, 100, 0);
     return scene;
 }
 
 Scene inside_mesh(const StressMesh& mesh, glm::dvec3 eye, glm::dvec3 at, int grid) {
-    Scene scene = grey_scene(160, 120, grid);
+    Scene scene = gray_scene(160, 120, grid);
     add_mesh(scene, mesh, 0);
     set_view(scene, eye, at, 100);
     return scene;
@@ -44,7 +44,7 @@ void add_leak_case(StressFamily& family, const char* label, InQuick quick,
     StressCase one = picture_case(label, static_cast<double>(family.cases.size()), quick, scene);
     std::get<PictureTrial>(one.trial).reference_scene = [scene] {
         const Scene of = scene();
-        return all_grey(of.width, of.height, 1);
+        return all_gray(of.width, of.height, 1);
     };
     one.bar.most_wrong_at_edges = 0;
     family.cases.push_back(std::move(one));
@@ -78,12 +78,12 @@ StressFamily inside_meshes() {
 
 /// A bumpy sheet over a lattice whose vertices and diagonals lie exactly on pixel rays.
 Scene lattice_scene(int cells, bool perspective, double height, unsigned seed) {
-    Scene scene = grey_scene(2 * cells, 2 * cells, 1);
+    Scene scene = gray_scene(2 * cells, 2 * cells, 1);
     std::mt19937 engine(seed);
     std::uniform_int_distribution<int> level(-8, 8);
     const int n = cells + 3;
     std::vector<glm::dvec3> points;
-    // Pixel centres of a picture `2 cells` high over 2 cells units lie at odd halves.
+    // Pixel centers of a picture `2 cells` high over 2 cells units lie at odd halves.
     for (int j = 0; j < n; ++j) {
         for (int i = 0; i < n; ++i) {
             const double x = 2 * i - n + 0.5, y = 2 * j - n + 0.5;
@@ -130,7 +130,7 @@ StressFamily lattices() {
 
 /// A wall of boxes seen along an axis, rays exactly in the planes of their sides.
 Scene box_wall(int axis, bool rounded) {
-    Scene scene = grey_scene(64, 64, 1);
+    Scene scene = gray_scene(64, 64, 1);
     const double step = rounded ? 1.0 / 3 : 1;
     const int n = 10;
     const auto turned = [&](glm::dvec3 p) {
@@ -152,7 +152,7 @@ Scene box_wall(int axis, bool rounded) {
     return scene;
 }
 
-/// The pixel centres lie on multiples of an eighth of a box off the boxes' sides: every fourth
+/// The pixel centers lie on multiples of an eighth of a box off the boxes' sides: every fourth
 /// exactly on one.
 StressFamily axis_parallel() {
     StressFamily family{"axis-parallel",

@@ -16,7 +16,7 @@ template <typename T>
 using Vec = glm::vec<3, T, glm::defaultp>;
 
 template <typename T>
-struct Ball {
+struct Sphere {
     Vec<T> center;
     T radius;
     int material;
@@ -45,7 +45,7 @@ struct Surface {
 };
 
 template <typename T>
-Ball<T> make_ball(const Scene::Sphere& sphere) {
+Sphere<T> make_sphere(const Scene::Sphere& sphere) {
     return {Vec<T>(sphere.center), T(sphere.radius), sphere.material};
 }
 
@@ -74,11 +74,11 @@ Face<T> make_face(const Scene::Triangle& triangle) {
 
 /// The nearer root beyond `least`, by the quadratic formula; negative for none.
 template <typename T>
-T hit_ball(const Vec<T>& origin, const Vec<T>& dir, const Ball<T>& ball, T least) {
-    const Vec<T> f = origin - ball.center;
+T hit_sphere(const Vec<T>& origin, const Vec<T>& dir, const Sphere<T>& sphere, T least) {
+    const Vec<T> f = origin - sphere.center;
     const T a = glm::dot(dir, dir);
     const T b = T(2) * glm::dot(f, dir);
-    const T c = glm::dot(f, f) - ball.radius * ball.radius;
+    const T c = glm::dot(f, f) - sphere.radius * sphere.radius;
     const T discriminant = b * b - T(4) * a * c;
     if (discriminant < T(0)) return T(-1);
     const T root = std::sqrt(discriminant);

@@ -31,7 +31,7 @@ struct NaiveMaterial {
 };
 
 template <typename T>
-struct NaiveLamp {
+struct NaiveLight {
     Vec<T> position, intensity;
 };
 
@@ -39,7 +39,7 @@ template <typename T>
 struct NaiveHit {
     T t = std::numeric_limits<T>::infinity();
     T u = 0, v = 0;
-    const naive::Ball<T>* ball = nullptr;
+    const naive::Sphere<T>* sphere = nullptr;
     const naive::Cone<T>* cone = nullptr;
     const naive::Face<T>* face = nullptr;
 };
@@ -75,7 +75,7 @@ class NaiveTracer {
           width_(scene.width),
           height_(scene.height),
           grid_(scene.aa.count) {
-        for (const auto& sphere : scene.spheres) balls_.push_back(naive::make_ball<T>(sphere));
+        for (const auto& sphere : scene.spheres) spheres_.push_back(naive::make_sphere<T>(sphere));
         for (const auto& cone : scene.cones) cones_.push_back(naive::make_cone<T>(cone));
         const TriangleList triangles(scene);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -84,7 +84,7 @@ class NaiveTracer {
         }
         if (faces_.size() >= few_faces) build_hierarchy();
         for (const auto& light : scene.lights) {
-            lamps_.push_back({Vec<T>(light.position), Vec<T>(light.intensity)});
+            lights_.push_back({Vec<T>(light.position), Vec<T>(light.intensity)});
         }
         for (const auto& m : scene.materials) {
             materials_.push_back({Vec<T>(m.ambient), Vec<T>(m.diffuse), Vec<T>(m.specular),
@@ -157,9 +157,9 @@ class NaiveTracer {
 
     NaiveHit<T> nearest(const Vec<T>& origin, const Vec<T>& dir) const {
         NaiveHit<T> best;
-        for (const auto& ball : balls_) {
-            const T t = naive::hit_ball(origin, dir, ball, least());
-            if (t > least() && t < best.t) best = {t, 0, 0, &ball, nullptr, nullptr};
+        for (const auto& sphere : spheres_) {
+            const T t = naive::hit_sphere(origin, dir, sphere, least());
+            if (t > least() && t < best.t) best = {t, 0, 0, &sphere, nullptr, nullptr};
         }
         for (const auto& cone : cones_) {
             const T t = naive::hit_cone(origin, dir, cone, least());
@@ -176,8 +176,8 @@ class NaiveTracer {
 
     bool blocked(const Vec<T>& origin, const Vec<T>& dir, T distance) const {
         const auto stops = [&](T t) { return t > least() && t < distance; };
-        for (const auto& ball : balls_) {
-            if (stops(naive::hit_ball(origin, dir, ball, least()))) return true;
+        for (const auto& sphere : spheres_) {
+            if (stops(naive::hit_sphere(origin, dir, sphere, least()))) return true;
         }
         for (const auto& cone : cones_) {
             if (stops(naive::hit_cone(origin, dir, cone, least()))) return true;
@@ -191,15 +191,15 @@ class NaiveTracer {
     naive::Surface<T> surface_of(const NaiveHit<T>& hit, const Vec<T>& point) const {
         if (hit.cone) return naive::cone_surface(point, *hit.cone);
         if (hit.face) return naive::face_surface(*hit.face, hit.u, hit.v);
-        const Vec<T> normal = glm::normalize(point - hit.ball->center);
-        return {normal, normal, hit.ball->material};
+        const Vec<T> normal = glm::normalize(point - hit.sphere->center);
+        return {normal, normal, hit.sphere->material};
     }
 
     Vec<T> lit(const Vec<T>& point, const Vec<T>& normal, const Vec<T>& geometric,
                const Vec<T>& dir, const NaiveMaterial<T>& material) const {
-        Vec<T> colour = material.ambient * ambient_light_;
-        for (const auto& lamp : lamps_) {
-            const Vec<T> way = lamp.position - point;
+        Vec<T> color = material.ambient * ambient_light_;
+        for (const auto& light : lights_) {
+            const Vec<T> way = light.position - point;
             const T distance = glm::length(way);
             const Vec<T> to_light = way / distance;
             const T cosine = glm::dot(normal, to_light);
@@ -207,9 +207,9 @@ class NaiveTracer {
             if (blocked(started(point, geometric, to_light), to_light, distance)) continue;
             const T lobe = glm::dot(normal, glm::normalize(to_light - dir));
             const T shine = lobe > T(0) ? std::pow(lobe, material.shininess) : T(0);
-            colour += lamp.intensity * (cosine * material.diffuse + shine * material.specular);
+            color += light.intensity * (cosine * material.diffuse + shine * material.specular);
         }
-        return colour;
+        return color;
     }
 
     /// Snell's law; false where all light is reflected.
@@ -244,7 +244,7 @@ class NaiveTracer {
 
     Vec<T> follow(const NaiveBranch<T>& from, NaiveStack<T>& branches) const {
         const NaiveHit<T> hit = nearest(from.origin, from.dir);
-        if (!hit.ball && !hit.cone && !hit.face) return background_;
+        if (!hit.sphere && !hit.cone && !hit.face) return background_;
         const Vec<T> point = from.origin + hit.t * from.dir;
         naive::Surface<T> surface = surface_of(hit, point);
         const auto& material = materials_[static_cast<std::size_t>(surface.material)];
@@ -258,25 +258,25 @@ class NaiveTracer {
     }
 
     Vec<T> trace(const Vec<T>& origin, const Vec<T>& dir) const {
-        Vec<T> colour(0);
+        Vec<T> color(0);
         NaiveStack<T> branches;
         branches.push({origin, dir, Vec<T>(1), 0});
         while (branches.size > 0) {
             const NaiveBranch<T> next = branches.branches[--branches.size];
-            colour += next.share * follow(next, branches);
+            color += next.share * follow(next, branches);
         }
-        return colour;
+        return color;
     }
 
     const NaiveStart start_;
     const Vec<T> background_, ambient_light_;
     const int max_bounces_, width_, height_, grid_;
-    std::vector<naive::Ball<T>> balls_;
+    std::vector<naive::Sphere<T>> spheres_;
     std::vector<naive::Cone<T>> cones_;
     std::vector<naive::Face<T>> faces_;
     std::optional<NaiveHierarchy<T>> hierarchy_;  ///< where there are many faces
     std::vector<NaiveMaterial<T>> materials_;
-    std::vector<NaiveLamp<T>> lamps_;
+    std::vector<NaiveLight<T>> lights_;
     Vec<T> from_, forward_, right_, up_;
     T left_ = 0, bottom_ = 0, window_width_ = 0, window_height_ = 0;
     bool orthographic_ = false;
@@ -296,11 +296,11 @@ NaivePicture naive_picture(const Scene& scene, NaiveStart start, int threads) {
     run_on_threads(threads > 0 ? threads : available_cores(), [&](int) {
         for (int y = next_row++; y < scene.height; y = next_row++) {
             for (int x = 0; x < scene.width; ++x) {
-                const Vec<T> colour = tracer.pixel(x, y);
+                const Vec<T> color = tracer.pixel(x, y);
                 const std::size_t at =
                     3 * (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x));
                 for (std::size_t c = 0; c < 3; ++c) {
-                    result.picture.pixels[at + c] = static_cast<float>(colour[static_cast<int>(c)]);
+                    result.picture.pixels[at + c] = static_cast<float>(color[static_cast<int>(c)]);
                 }
             }
         }

@@ -55,7 +55,7 @@ Scene leaning_mirror() {
     return scene;
 }
 
-/// One triangle whose normals the text gives, read as a file is: normalised there.
+/// One triangle whose normals the text gives, read as a file is: normalized there.
 Scene triangle_with_normals(const std::string& normals) {
     const std::string text = fmt::format(
         R"({{"camera": {{"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}},

@@ -18,7 +18,7 @@ Scene fine_still_life() {
     return scene;
 }
 
-/// Balls and triangles of many sizes about the origin, in random colours.
+/// Balls and triangles of many sizes about the origin, in random colors.
 Scene random_scene(unsigned seed) {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<double> unit(0, 1);

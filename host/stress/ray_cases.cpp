@@ -30,7 +30,7 @@ StressFamily leak_rays(RayAim aim) {
     StressFamily family;
     family.name = aim == RayAim::edges ? "rays-at-edges" : "rays-at-vertices";
     family.parameter = "closed mesh";
-    family.why = aim == RayAim::edges ? "edge functions of neighbours round apart"
+    family.why = aim == RayAim::edges ? "edge functions of neighbors round apart"
                                       : "three roundings meet at a vertex";
     const auto add = [&](const char* label, const StressMesh& mesh, glm::dvec3 eye) {
         family.cases.push_back(ray_case(label, static_cast<double>(family.cases.size()),

@@ -40,28 +40,27 @@ ReferencePicture::ReferencePicture(const Scene& scene, ReferenceKind kind)
       height_(scene.height),
       grid_(scene.aa.count),
       tracer_(make_reference_tracer(scene, kind)),
-      colours_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)),
-      edges_(colours_.size(), -1) {
-    parallel_for(colours_.size(), pixel_run,
-                 [&](std::size_t pixel) { colours_[pixel] = pixel_colour(pixel, 0, 0); });
+      colors_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)),
+      edges_(colors_.size(), -1) {
+    parallel_for(colors_.size(), pixel_run,
+                 [&](std::size_t pixel) { colors_[pixel] = pixel_color(pixel, 0, 0); });
 }
 
-std::array<double, 3> ReferencePicture::pixel_colour(std::size_t pixel, double dx,
-                                                     double dy) const {
+std::array<double, 3> ReferencePicture::pixel_color(std::size_t pixel, double dx, double dy) const {
     const auto width = static_cast<std::size_t>(width_);
     std::array<double, 3> sum{};
     for (int i = 0; i < grid_ * grid_; ++i) {
         const double x = static_cast<double>(pixel % width) + (i % grid_ + 0.5) / grid_;
         const double y = static_cast<double>(pixel / width) + (i / grid_ + 0.5) / grid_;
-        const std::array<double, 3> colour = tracer_->colour_at(x, y, dx, dy);
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c] / (grid_ * grid_);
+        const std::array<double, 3> color = tracer_->color_at(x, y, dx, dy);
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c] / (grid_ * grid_);
     }
     return sum;
 }
 
 bool ReferencePicture::changes_nearby(std::size_t pixel) const {
     return std::any_of(moves.begin(), moves.end(), [&](const std::array<double, 2>& move) {
-        return differ(colours_[pixel], pixel_colour(pixel, move[0], move[1]));
+        return differ(colors_[pixel], pixel_color(pixel, move[0], move[1]));
     });
 }
 
@@ -77,8 +76,8 @@ std::vector<bool> ReferencePicture::at_edges(std::span<const std::size_t> pixels
 
 Picture ReferencePicture::as_picture() const {
     Picture picture{width_, height_, 3, {}};
-    for (const auto& colour : colours_) {
-        for (const double value : colour) picture.pixels.push_back(static_cast<float>(value));
+    for (const auto& color : colors_) {
+        for (const double value : color) picture.pixels.push_back(static_cast<float>(value));
     }
     return picture;
 }

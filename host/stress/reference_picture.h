@@ -22,7 +22,7 @@ class ReferencePicture {
     int height() const { return height_; }
 
     /// Of a pixel counted from the top left, row by row; linear, not clamped.
-    const std::array<double, 3>& colour(std::size_t pixel) const { return colours_[pixel]; }
+    const std::array<double, 3>& color(std::size_t pixel) const { return colors_[pixel]; }
 
     /// Which of these pixels lie at an edge: a channel, clamped to [0, 1], changes by more than
     /// 0.5/255 as the samples move by 0.02 pixel. Traced when first asked for, on all cores.
@@ -31,13 +31,13 @@ class ReferencePicture {
     Picture as_picture() const;
 
    private:
-    std::array<double, 3> pixel_colour(std::size_t pixel, double dx, double dy) const;
+    std::array<double, 3> pixel_color(std::size_t pixel, double dx, double dy) const;
     bool changes_nearby(std::size_t pixel) const;
 
     int width_, height_;
     int grid_;
     std::unique_ptr<ReferenceTracer> tracer_;
-    std::vector<std::array<double, 3>> colours_;
+    std::vector<std::array<double, 3>> colors_;
     std::vector<std::int8_t> edges_;  ///< 1 yes, 0 no, -1 not asked yet
 };
 

@@ -29,7 +29,7 @@ template <typename R>
 constexpr R least_share = R(0x1p-53);
 
 template <typename R>
-struct Lamp {
+struct WideLight {
     Wide3<R> position, intensity;
 };
 
@@ -45,47 +45,47 @@ template <typename R>
 class Tracer final : public ReferenceTracer {
    public:
     explicit Tracer(const Scene& scene) : scene_(scene), camera_(scene) {
-        for (const auto& sphere : scene.spheres) balls_.push_back(stress::wide_ball<R>(sphere));
+        for (const auto& sphere : scene.spheres) spheres_.push_back(stress::wide_sphere<R>(sphere));
         for (const auto& cone : scene.cones) frusta_.push_back(stress::wide_frustum<R>(cone));
         for (const auto& triangle : scene.triangles) {
             faces_.push_back(stress::wide_face<R>(triangle));
         }
         for (const auto& light : scene.lights) {
-            lamps_.push_back({widened<R>(light.position), widened<R>(light.intensity)});
+            lights_.push_back({widened<R>(light.position), widened<R>(light.intensity)});
         }
         if (camera_.has_one_eye()) eye_surface_ = surface_at_eye();
     }
 
-    std::array<double, 3> colour_at(double x, double y, double dx, double dy) const override {
+    std::array<double, 3> color_at(double x, double y, double dx, double dy) const override {
         WideRay<R> ray = camera_.eye_ray(R(x) + R(dx), R(y) + R(dy));
         ray.from = eye_surface_;
-        const Wide3<R> colour = trace(ray);
-        return {static_cast<double>(colour.x), static_cast<double>(colour.y),
-                static_cast<double>(colour.z)};
+        const Wide3<R> color = trace(ray);
+        return {static_cast<double>(color.x), static_cast<double>(color.y),
+                static_cast<double>(color.z)};
     }
 
    private:
-    /// The ball or cone whose surface the eye lies on, to a double's last bits, or -1. Its rays
+    /// The sphere or cone whose surface the eye lies on, to a double's last bits, or -1. Its rays
     /// leave it.
     int surface_at_eye() const {
         const Wide3<R> eye = widened<R>(scene_.camera.from);
         for (std::size_t prim = 0; prim < first_face(); ++prim) {
-            const bool is_ball = prim < balls_.size();
-            const bool touches = is_ball ? stress::lies_on(eye, balls_[prim])
-                                         : stress::lies_on(eye, frusta_[prim - balls_.size()]);
+            const bool is_ball = prim < spheres_.size();
+            const bool touches = is_ball ? stress::lies_on(eye, spheres_[prim])
+                                         : stress::lies_on(eye, frusta_[prim - spheres_.size()]);
             if (touches) return static_cast<int>(prim);
         }
         return -1;
     }
 
-    /// Balls come first, then cones, then triangles.
+    /// Spheres come first, then cones, then triangles.
     WideHit<R> hit_primitive(const WideRay<R>& ray, std::size_t prim) const {
         WideHit<R> hit;
         const bool leaving = static_cast<int>(prim) == ray.from;
-        if (prim < balls_.size()) {
-            hit.t = stress::hit_ball(ray, balls_[prim], leaving);
+        if (prim < spheres_.size()) {
+            hit.t = stress::hit_sphere(ray, spheres_[prim], leaving);
         } else if (prim < first_face()) {
-            hit.t = stress::hit_frustum(ray, frusta_[prim - balls_.size()], leaving);
+            hit.t = stress::hit_frustum(ray, frusta_[prim - spheres_.size()], leaving);
         } else if (!leaving) {
             hit.t = stress::hit_face(ray, faces_[prim - first_face()], hit.u, hit.v);
         }
@@ -93,7 +93,7 @@ class Tracer final : public ReferenceTracer {
         return hit;
     }
 
-    std::size_t first_face() const { return balls_.size() + frusta_.size(); }
+    std::size_t first_face() const { return spheres_.size() + frusta_.size(); }
     std::size_t primitives() const { return first_face() + faces_.size(); }
 
     WideHit<R> nearest(const WideRay<R>& ray) const {
@@ -116,9 +116,9 @@ class Tracer final : public ReferenceTracer {
 
     WideSurface<R> surface_of(const WideRay<R>& ray, const WideHit<R>& hit) const {
         const auto prim = static_cast<std::size_t>(hit.prim);
-        if (prim < balls_.size()) return stress::ball_surface(ray, hit.t, balls_[prim]);
+        if (prim < spheres_.size()) return stress::sphere_surface(ray, hit.t, spheres_[prim]);
         if (prim < first_face()) {
-            return stress::frustum_surface(ray, hit.t, frusta_[prim - balls_.size()]);
+            return stress::frustum_surface(ray, hit.t, frusta_[prim - spheres_.size()]);
         }
         return stress::face_surface(hit, faces_[prim - first_face()]);
     }
@@ -132,10 +132,10 @@ class Tracer final : public ReferenceTracer {
         return std::exp(exponent * log_cosine);
     }
 
-    Wide3<R> lit_by(const Lamp<R>& lamp, const WideSurface<R>& surface,
+    Wide3<R> lit_by(const WideLight<R>& light, const WideSurface<R>& surface,
                     const Scene::Material& material, const Wide3<R>& to_eye,
                     const WideRay<R>& shadow_start) const {
-        const Wide3<R> way = lamp.position - surface.point;
+        const Wide3<R> way = light.position - surface.point;
         if (!(dot(surface.geometric, way) > 0)) return {};
         const R distance = length(way);
         WideRay<R> shadow = shadow_start;
@@ -148,7 +148,7 @@ class Tracer final : public ReferenceTracer {
             reflected = reflected + lobe(surface.normal, unit(sum), material.shininess) *
                                         widened<R>(material.specular);
         }
-        return lamp.intensity * reflected;
+        return light.intensity * reflected;
     }
 
     static Wide3<R> mirrored(const Wide3<R>& dir, const WideSurface<R>& surface) {
@@ -226,8 +226,8 @@ class Tracer final : public ReferenceTracer {
         }
         const WideRay<R> start{surface.point, {}, hit.prim, same_distance<R> / 16 * hit.t};
         Wide3<R> here = widened<R>(material.ambient) * widened<R>(scene_.ambient_light);
-        for (const Lamp<R>& lamp : lamps_) {
-            here = here + lit_by(lamp, surface, material, -ray.dir, start);
+        for (const WideLight<R>& light : lights_) {
+            here = here + lit_by(light, surface, material, -ray.dir, start);
         }
         if (arriving.bounce < scene_.max_bounces) {
             branch(arriving, start, surface, material, inside, branches);
@@ -236,22 +236,22 @@ class Tracer final : public ReferenceTracer {
     }
 
     Wide3<R> trace(const WideRay<R>& eye_ray) const {
-        Wide3<R> colour;
+        Wide3<R> color;
         std::vector<Branch<R>> branches{{eye_ray}};
         while (!branches.empty()) {
             const Branch<R> next = branches.back();
             branches.pop_back();
-            colour = colour + next.share * follow(next, branches);
+            color = color + next.share * follow(next, branches);
         }
-        return colour;
+        return color;
     }
 
     const Scene scene_;
     const stress::WideCamera<R> camera_;
-    std::vector<stress::WideBall<R>> balls_;
+    std::vector<stress::WideSphere<R>> spheres_;
     std::vector<stress::WideFrustum<R>> frusta_;
     std::vector<stress::WideFace<R>> faces_;
-    std::vector<Lamp<R>> lamps_;
+    std::vector<WideLight<R>> lights_;
     int eye_surface_ = -1;
 };
 

@@ -41,10 +41,10 @@ void set_orthographic(Scene& scene, glm::dvec3 from, glm::dvec3 at, double heigh
     set_image_size(scene, scene.width, scene.height);
 }
 
-int add_matt(Scene& scene, glm::dvec3 colour, double specular, double shininess) {
+int add_matt(Scene& scene, glm::dvec3 color, double specular, double shininess) {
     Scene::Material material;
-    material.ambient = colour;
-    material.diffuse = colour;
+    material.ambient = color;
+    material.diffuse = color;
     material.specular = glm::dvec3(specular);
     material.shininess = shininess;
     scene.materials.push_back(material);
@@ -143,16 +143,16 @@ Scene still_life() {
     Scene scene = bare_scene();
     const int red = add_matt(scene, {0.875, 0.25, 0.125});
     const int green = add_matt(scene, {0.125, 0.625, 0.25}, 0.25, 200);
-    const int grey = add_matt(scene, glm::dvec3(0.5), 0.125, 10);
+    const int gray = add_matt(scene, glm::dvec3(0.5), 0.125, 10);
     const int glossy = add_matt(scene, {0.25, 0.25, 0.75});
     scene.materials[static_cast<std::size_t>(glossy)].mirror = glm::dvec3(0.25);
-    scene.materials[static_cast<std::size_t>(grey)].mirror = glm::dvec3(0.125);
+    scene.materials[static_cast<std::size_t>(gray)].mirror = glm::dvec3(0.125);
     const int mirror = add_mirror(scene, 0.75);
     add_sphere(scene, {-1.5, 1, 0}, 1, red);
     add_sphere(scene, {0.75, 0.75, 1}, 0.75, mirror);
     add_sphere(scene, {2.25, 0.5, 2}, 0.5, glossy);
     add_sphere(scene, {-0.25, 0.375, 2.5}, 0.375, green);
-    add_floor(scene, {0, 0, 0}, 12, grey);
+    add_floor(scene, {0, 0, 0}, 12, gray);
     const glm::dvec3 tip(2, 2.25, -1.5);
     const std::array<glm::dvec3, 4> base{{{1, 0, -0.5}, {3, 0, -0.5}, {3, 0, -2.5}, {1, 0, -2.5}}};
     for (std::size_t i = 0; i < 4; ++i) {

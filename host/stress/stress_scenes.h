@@ -28,7 +28,7 @@ Scene bare_scene();
 Scene shape_scene(double fov_degrees);
 
 /// What add_shape(scene, middle) adds, in material 0, this far from the eye; and three specks that
-/// keep the scale of the scene at 1. The shape is listed first.
+/// keep the scale of the scene at 1. The shape comes first.
 Scene scene_to_aim_at(double distance,
                       const std::function<void(Scene&, const glm::dvec3& middle)>& add_shape);
 
@@ -39,8 +39,8 @@ void set_view(Scene& scene, glm::dvec3 from, glm::dvec3 at, double fov_degrees);
 /// An orthographic view, `height` scene units high.
 void set_orthographic(Scene& scene, glm::dvec3 from, glm::dvec3 at, double height);
 
-/// Index of a new material: ambient and diffuse of a colour, specular 0.5 with shininess 50.
-int add_matt(Scene& scene, glm::dvec3 colour, double specular = 0.5, double shininess = 50);
+/// Index of a new material: ambient and diffuse of a color, specular 0.5 with shininess 50.
+int add_matt(Scene& scene, glm::dvec3 color, double specular = 0.5, double shininess = 50);
 
 /// Index of a new material that mirrors, with a little light of its own.
 int add_mirror(Scene& scene, double mirror, double ambient = 0.05);

@@ -14,7 +14,7 @@ namespace {
 
 enum class Copy { same, other_diagonal, turned, reversed_order };
 
-/// A slanted square, and the same square again in another colour: the first listed is seen.
+/// A slanted square, and the same square again in another color: the first in the scene is seen.
 Scene duplicate_square(Copy copy) {
     Scene scene = bare_scene();
     const int first = add_matt(scene, {0.875, 0.25, 0.125});
@@ -89,8 +89,8 @@ Scene duplicate_ball(double moved) {
     return scene;
 }
 
-/// Two squares alike, so near each other that they count as one: the lower one, listed first, is
-/// seen, and must not lie in the other's shadow.
+/// Two squares alike, so near each other that they count as one: the lower one, first in the scene,
+/// is seen, and must not lie in the other's shadow.
 Scene two_sheets() {
     Scene scene = bare_scene();
     const int matt = add_matt(scene, {0.875, 0.5, 0.125});
@@ -105,7 +105,7 @@ StressFamily ties() {
     StressFamily family{"ties",
                         "what lies twice",
                         "where two surfaces are one, rounding or the "
-                        "order of tests picks a colour",
+                        "order of tests picks a color",
                         {}};
     const auto add = [&](const char* label, InQuick quick, std::function<Scene()> scene,
                          std::function<Scene()> seen) {
@@ -189,7 +189,7 @@ Scene crossing_scene() {
     return scene;
 }
 
-/// A fan of triangles as thin as 1 over `aspect`, a wall of another colour behind.
+/// A fan of triangles as thin as 1 over `aspect`, a wall of another color behind.
 Scene needle_fan(double aspect) {
     Scene scene = bare_scene();
     const int red = add_matt(scene, {0.875, 0.25, 0.125});
@@ -209,7 +209,7 @@ StressFamily needles() {
     StressFamily family{"needles",
                         "length over width",
                         "thin triangles lose their distance, and "
-                        "their neighbours",
+                        "their neighbors",
                         {}};
     for (const double aspect : {1e2, 1e3, 1e4, 1e6, 1e8}) {
         family.cases.push_back(picture_case(fmt::format("{:g}", aspect), aspect,
@@ -245,7 +245,7 @@ void add_triangle_families(StressFamilies& families) {
     families.push_back(coincident());
     families.push_back({"crossing",
                         "scene",
-                        "faces through faces and balls: points within rounding of a neighbour",
+                        "faces through faces and balls: points within rounding of a neighbor",
                         {picture_case("crossing", 1, InQuick::yes, crossing_scene)}});
     families.push_back(needles());
     families.push_back(huge_triangles());

@@ -15,7 +15,7 @@ namespace {
 StressFamily fields_of_view() {
     StressFamily family{"field-of-view",
                         "degrees",
-                        "neighbouring rays differ in their last bits, "
+                        "neighboring rays differ in their last bits, "
                         "or the view plane runs off to infinity",
                         {}};
     for (const double degrees : {1e-4, 1e-3, 1e-2, 1e-1, 1.0, 90.0, 170.0, 179.0, 179.99}) {

@@ -33,7 +33,7 @@ struct WideSurface {
 };
 
 template <typename R>
-struct WideBall {
+struct WideSphere {
     Wide3<R> center;
     R radius;
     int material;
@@ -56,7 +56,7 @@ struct WideFace {
 };
 
 template <typename R>
-WideBall<R> wide_ball(const Scene::Sphere& sphere) {
+WideSphere<R> wide_sphere(const Scene::Sphere& sphere) {
     return {widened<R>(sphere.center), R(sphere.radius), sphere.material};
 }
 
@@ -88,15 +88,15 @@ WideFace<R> wide_face(const Scene::Triangle& triangle) {
     return face;
 }
 
-/// How far beyond its edges a triangle reaches, so that rounding opens no gap between neighbours.
+/// How far beyond its edges a triangle reaches, so that rounding opens no gap between neighbors.
 template <typename R>
 constexpr R rim = std::is_same_v<R, Quad> ? R(1e-28) : R(1e-16);
 
 /// Whether a point lies on the surface, to a double's last bits.
 template <typename R>
-bool lies_on(const Wide3<R>& point, const WideBall<R>& ball) {
-    const Wide3<R> f = point - ball.center;
-    const R squared = ball.radius * ball.radius;
+bool lies_on(const Wide3<R>& point, const WideSphere<R>& sphere) {
+    const Wide3<R> f = point - sphere.center;
+    const R squared = sphere.radius * sphere.radius;
     return magnitude(dot(f, f) - squared) <= R(1e-14) * squared;
 }
 
@@ -109,13 +109,13 @@ bool lies_on(const Wide3<R>& point, const WideFrustum<R>& frustum) {
     return magnitude(squared - radius * radius) <= R(1e-14) * squared;
 }
 
-/// Distance to the ball, negative for a miss. A ray that leaves it knows one root: 0.
+/// Distance to the sphere, negative for a miss. A ray that leaves it knows one root: 0.
 template <typename R>
-R hit_ball(const WideRay<R>& ray, const WideBall<R>& ball, bool leaving) {
-    const Wide3<R> f = ray.origin - ball.center;
+R hit_sphere(const WideRay<R>& ray, const WideSphere<R>& sphere, bool leaving) {
+    const Wide3<R> f = ray.origin - sphere.center;
     const R b = dot(f, ray.dir);
     if (leaving) return -2 * b;
-    const R discriminant = b * b - (dot(f, f) - ball.radius * ball.radius);
+    const R discriminant = b * b - (dot(f, f) - sphere.radius * sphere.radius);
     if (!(discriminant >= 0)) return -1;
     const R root = square_root(discriminant);
     return -b - root > ray.least ? -b - root : -b + root;
@@ -162,9 +162,9 @@ R hit_face(const WideRay<R>& ray, const WideFace<R>& face, R& u, R& v) {
 }
 
 template <typename R>
-WideSurface<R> ball_surface(const WideRay<R>& ray, R t, const WideBall<R>& ball) {
-    const Wide3<R> normal = unit(ray.origin - ball.center + t * ray.dir);
-    return {ball.center + ball.radius * normal, normal, normal, ball.material};
+WideSurface<R> sphere_surface(const WideRay<R>& ray, R t, const WideSphere<R>& sphere) {
+    const Wide3<R> normal = unit(ray.origin - sphere.center + t * ray.dir);
+    return {sphere.center + sphere.radius * normal, normal, normal, sphere.material};
 }
 
 template <typename R>

@@ -26,9 +26,9 @@ void add_features(const Features& needed, Changes& changes) {
 
 /// Whether some kind has primitives to build a hierarchy over, and none.
 bool lacks_hierarchy(const FlatScene<float>& flat) {
-    return (flat.spheres.size() > 1 && flat.frame.sphere_root == 0) ||
-           (flat.cones.size() > 1 && flat.frame.cone_root == 0) ||
-           (flat.triangles.size() > 1 && flat.frame.triangle_root == 0);
+    return (flat.spheres.size() > 1 && flat.params.sphere_root == 0) ||
+           (flat.cones.size() > 1 && flat.params.cone_root == 0) ||
+           (flat.triangles.size() > 1 && flat.params.triangle_root == 0);
 }
 
 void add_hierarchies(const FlatScene<float>& flat, Changes& changes) {

@@ -12,7 +12,7 @@ namespace rt {
 
 namespace {
 
-ListedDevice listed(const ClDevice& device) {
+ListedDevice list_entry(const ClDevice& device) {
     return {std::to_string(device.index),
             device.name,
             false,
@@ -52,7 +52,7 @@ void add_all(std::vector<ListedDevice>& list, ClDevices& devices) {
     add_once(list, {"threads", "threads", true, 0, true});
     for (const ClDevice& device : devices.list()) {
         if (device.unusable.empty()) {
-            add_once(list, listed(device));
+            add_once(list, list_entry(device));
         } else {
             print_message("mirrorball: " + device.name + " is left out: " + device.unusable + "\n");
         }
@@ -75,7 +75,7 @@ std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs) 
             add_once(list, {spec, "threads", true, choice.threads, true});
         } else {
             const auto& all = devices.list();
-            add_once(list, listed(choose_device(spec, all, devices.problems()).device));
+            add_once(list, list_entry(choose_device(spec, all, devices.problems()).device));
         }
     }
     return list;

@@ -44,9 +44,9 @@ void render_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     run.scene.path = timed.options.scene;
     run.phases.load = timed.load_seconds;
     run.phases.total = timed_total(run);
-    const Judgement judgement = timed.judge(rendered.picture, *timed.reference);
-    run.error = judgement.error;
-    timed.why = judgement.why_wrong.empty() ? what_changed(timed, run) : judgement.why_wrong;
+    const Judgement judgment = timed.judge(rendered.picture, *timed.reference);
+    run.error = judgment.error;
+    timed.why = judgment.why_wrong.empty() ? what_changed(timed, run) : judgment.why_wrong;
     (warm_up ? timed.warm_up : timed.repeats).push_back(run);
     if (!timed.why.empty()) {
         timed.verdict = Verdict::wrong;

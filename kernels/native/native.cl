@@ -28,9 +28,9 @@ void RT_NATIVE(_samples)(__global Real* samples, __global RayCounts* counts, con
     }
 }
 
-void RT_NATIVE(_resolve)(__global Real* film, __global const Real* samples, const Frame* frame,
-                         const Tile* tile, Index first, Index end) {
-    for (Index item = first; item < end; ++item) resolve_item(film, samples, frame, tile, item);
+void RT_NATIVE(_resolve)(__global Real* film, __global const Real* samples,
+                         const LaunchParams* params, const Tile* tile, Index first, Index end) {
+    for (Index item = first; item < end; ++item) resolve_item(film, samples, params, tile, item);
 }
 
 void RT_NATIVE(_list)(__global Real* colors, __global RayCounts* counts, const SceneView* view,

@@ -119,12 +119,12 @@ struct CountedPicture {
 CountedPicture render(const rt::FlatScene<float>& flat, int threads) {
     features = flat.features;
     const std::size_t pixels =
-        static_cast<std::size_t>(flat.frame.width) * static_cast<std::size_t>(flat.frame.height);
+        static_cast<std::size_t>(flat.params.width) * static_cast<std::size_t>(flat.params.height);
     CountedPicture picture;
     picture.rgb.resize(3 * pixels);
     std::vector<kernels::RayCounts> rays(pixels);
-    const auto frame = std::bit_cast<kernels::Frame>(flat.frame);
-    const kernels::Tile tile{0, 0, frame.width, frame.height, 0, frame.width, {}};
+    const auto params = std::bit_cast<kernels::LaunchParams>(flat.params);
+    const kernels::Tile tile{0, 0, params.width, params.height, 0, params.width, {}};
     std::atomic<std::int64_t> all_flops = 0;
     const auto run = [&](std::size_t first) {
         flops = 0;
@@ -135,8 +135,8 @@ CountedPicture render(const rt::FlatScene<float>& flat, int threads) {
                 buffer<kernels::Cone>(flat.cones), buffer<kernels::Triangle>(flat.triangles),
                 buffer<kernels::VertexNormals>(flat.vertex_normals),
                 buffer<kernels::Material>(flat.materials), buffer<kernels::Light>(flat.lights),
-                buffer<kernels::BvhNode>(flat.nodes), flat.order.data(), flat.casters.data(), frame,
-                tile);
+                buffer<kernels::BvhNode>(flat.nodes), flat.order.data(), flat.casters.data(),
+                params, tile);
         }
         all_flops += flops;
     };
@@ -149,7 +149,7 @@ CountedPicture render(const rt::FlatScene<float>& flat, int threads) {
 
 std::vector<float> rendered_by_threads(const rt::FlatScene<float>& flat, int threads) {
     const rt::StopFlag never_stop = 0;
-    const rt::Rect whole{0, 0, flat.frame.width, flat.frame.height};
+    const rt::Rect whole{0, 0, flat.params.width, flat.params.height};
     rt::ThreadsOptions options;
     options.threads = threads;
     const auto renderer = rt::make_threads_renderer(flat, options);

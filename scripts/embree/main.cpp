@@ -62,8 +62,8 @@ double peak_flops(int threads) {
 void write_pfm(const std::string& path, const rt::FlatScene<float>& flat,
                const std::vector<float>& rgb) {
     std::ofstream file(path, std::ios::binary);
-    file << "PF\n" << flat.frame.width << ' ' << flat.frame.height << "\n-1.0\n";
-    const std::size_t row = 3 * static_cast<std::size_t>(flat.frame.width);
+    file << "PF\n" << flat.params.width << ' ' << flat.params.height << "\n-1.0\n";
+    const std::size_t row = 3 * static_cast<std::size_t>(flat.params.width);
     for (std::size_t y = rgb.size() / row; y-- > 0;) {
         file.write(reinterpret_cast<const char*>(&rgb[y * row]),
                    static_cast<std::streamsize>(row * sizeof(float)));
@@ -85,7 +85,7 @@ rt::Scene scene_of(const std::string& path, const std::string& size, const std::
 }
 
 void check(const rt::FlatScene<float>& flat) {
-    if (flat.frame.grid == 0) throw std::runtime_error("only none and grid:N are traced here");
+    if (flat.params.grid == 0) throw std::runtime_error("only none and grid:N are traced here");
     if (!flat.cones.empty() || !flat.vertex_normals.empty()) {
         throw std::runtime_error("scenes with cones or vertex normals are not traced here");
     }

@@ -149,7 +149,7 @@ class Asker {
 };
 
 /// The materials of a packet's surfaces.
-struct Finish {
+struct Materials {
     Vec3 ambient{}, diffuse{}, specular{}, mirror{};
     Reals shininess{};
     Ints two_sided{};
@@ -158,7 +158,7 @@ struct Finish {
 struct Surface {
     Vec3 point, normal;
     Reals offset;
-    Finish finish;
+    Materials material;
 };
 
 template <Mode mode>
@@ -172,13 +172,13 @@ class PacketTracer {
     RayCounts rays;
 
     Rays eye_rays(Reals x, Reals y) const {
-        const auto& frame = flat_.frame;
-        const Reals sx = 2.0f * x - static_cast<float>(frame.width);
-        const Reals sy = 2.0f * y - static_cast<float>(frame.height);
+        const auto& params = flat_.params;
+        const Reals sx = 2.0f * x - static_cast<float>(params.width);
+        const Reals sy = 2.0f * y - static_cast<float>(params.height);
         Rays eye;
-        eye.origin = sx * all(frame.origin_dx) + sy * all(frame.origin_dy);
-        eye.dir = normalized(all(frame.direction) + sx * all(frame.direction_dx) +
-                             sy * all(frame.direction_dy));
+        eye.origin = sx * all(params.origin_dx) + sy * all(params.origin_dy);
+        eye.dir = normalized(all(params.direction) + sx * all(params.direction_dx) +
+                             sy * all(params.direction_dy));
         eye.t_max = reals(infinity);
         return eye;
     }
@@ -190,15 +190,15 @@ class PacketTracer {
             const Hits hits = asker_.nearest(live, packet, bounce > 0);
             const Ints missed = live & ~hits.found;
             if (any(missed)) {
-                color = select(missed, color + throughput * all(flat_.frame.background), color);
+                color = select(missed, color + throughput * all(flat_.params.background), color);
                 live = hits.found;
                 if (!any(live)) return color;
             }
             const Surface surface = surface_at(packet, hits, live);
             const Vec3 light = shade(surface, -packet.dir, live, bounce > 0);
             color = select(live, color + throughput * light, color);
-            if (!flat_.features.mirrors || bounce >= flat_.frame.max_bounces) return color;
-            throughput = throughput * surface.finish.mirror;
+            if (!flat_.features.mirrors || bounce >= flat_.params.max_bounces) return color;
+            throughput = throughput * surface.material.mirror;
             live &= ~is_black(throughput);
             if (!any(live)) return color;
             packet = mirror_rays(surface, packet.dir);
@@ -208,32 +208,32 @@ class PacketTracer {
 
    private:
     /// The materials of the live lanes, one after the other for all lanes that wear it.
-    Finish finish_of(const Hits& hits, Ints live) const {
+    Materials materials_of(const Hits& hits, Ints live) const {
         const Ints is_triangle = hits.geometry == EmbreeScene::triangles;
         const Ints place = hits.primitive + (is_triangle ? ints(first_triangle_) : Ints{});
         const Ints material = gathered(materials_, live ? place : Ints{});
-        Finish finish;
+        Materials material;
         for (Ints left = live; any(left);) {
             const std::int32_t one = material[__builtin_ctz(lane_bits(left))];
             const Ints worn = left & (material == one);
             left &= ~worn;
             const auto& flat = flat_.materials[static_cast<std::size_t>(one)];
-            finish.ambient = select(worn, all(flat.ambient), finish.ambient);
-            finish.diffuse = select(worn, all(flat.diffuse), finish.diffuse);
-            finish.specular = select(worn, all(flat.specular), finish.specular);
-            finish.mirror = select(worn, all(flat.mirror), finish.mirror);
-            finish.shininess = worn ? reals(flat.shininess) : finish.shininess;
-            finish.two_sided = worn ? ints(flat.two_sided) : finish.two_sided;
+            material.ambient = select(worn, all(flat.ambient), material.ambient);
+            material.diffuse = select(worn, all(flat.diffuse), material.diffuse);
+            material.specular = select(worn, all(flat.specular), material.specular);
+            material.mirror = select(worn, all(flat.mirror), material.mirror);
+            material.shininess = worn ? reals(flat.shininess) : material.shininess;
+            material.two_sided = worn ? ints(flat.two_sided) : material.two_sided;
         }
-        return finish;
+        return material;
     }
 
     Surface surface_at(const Rays& packet, const Hits& hits, Ints live) const {
         Surface surface;
-        surface.finish = finish_of(hits, live);
+        surface.material = materials_of(hits, live);
         surface.normal = normalized(hits.normal);
         const Ints turned =
-            (surface.finish.two_sided != 0) & (dot(surface.normal, packet.dir) > 0.0f);
+            (surface.material.two_sided != 0) & (dot(surface.normal, packet.dir) > 0.0f);
         surface.normal = select(turned, -surface.normal, surface.normal);
         const Vec3& o = packet.origin;
         const Reals size = larger(magnitude(o.x), larger(magnitude(o.y), magnitude(o.z)));
@@ -253,7 +253,7 @@ class PacketTracer {
     }
 
     Vec3 shade(const Surface& surface, const Vec3& to_eye, Ints live, bool after_mirror) {
-        Vec3 color = surface.finish.ambient * all(flat_.frame.ambient_light);
+        Vec3 color = surface.material.ambient * all(flat_.params.ambient_light);
         const Vec3 origin = surface.point + surface.offset * surface.normal;
         for (const auto& light : flat_.lights) {
             color = color + light_contribution(surface, light, origin, to_eye, live, after_mirror);
@@ -277,11 +277,11 @@ class PacketTracer {
         rays.shadow += bits(lit);
         lit &= ~asker_.blocked(lit, shadow, after_mirror);
         if (!any(lit)) return Vec3{reals(0), reals(0), reals(0)};
-        Vec3 reflected = cosine * surface.finish.diffuse;
-        const Ints shiny = lit & ~is_black(surface.finish.specular);
+        Vec3 reflected = cosine * surface.material.diffuse;
+        const Ints shiny = lit & ~is_black(surface.material.specular);
         if (any(shiny)) {
             const Reals lobe = specular_lobe(surface, shadow.dir, to_eye);
-            reflected = select(shiny, reflected + lobe * surface.finish.specular, reflected);
+            reflected = select(shiny, reflected + lobe * surface.material.specular, reflected);
         }
         return select(lit, all(light.intensity) * reflected, Vec3{});
     }
@@ -290,7 +290,7 @@ class PacketTracer {
         const Vec3 sum = to_light + to_eye;
         const Reals along = dot(surface.normal, sum);
         const Vec3 across = sum - along * surface.normal;
-        return blinn_lobe(along, dot(across, across), dot(sum, sum), surface.finish.shininess);
+        return blinn_lobe(along, dot(across, across), dot(sum, sum), surface.material.shininess);
     }
 
     static std::uint64_t bits(Ints mask) { return static_cast<std::uint64_t>(count(mask)); }
@@ -306,10 +306,10 @@ template <typename Tracer>
 class TileRenderer {
    public:
     TileRenderer(const FlatScene& flat, Tracer& tracer, std::vector<float>& rgb)
-        : frame_(flat.frame),
+        : params_(flat.params),
           tracer_(tracer),
           rgb_(rgb),
-          shape_(rt::packet_shape(lanes, static_cast<int>(flat.frame.samples))) {
+          shape_(rt::packet_shape(lanes, static_cast<int>(flat.params.samples))) {
         for (int i = 0; i < lanes; ++i) {
             const int pixel = i % shape_.pixels();
             column_[i] = pixel % shape_.width;
@@ -319,8 +319,8 @@ class TileRenderer {
     }
 
     void render(int left, int top) {
-        for (int row = top; row < std::min(top + tile_side, frame_.height); row += shape_.height) {
-            for (int column = left; column < std::min(left + tile_side, frame_.width);
+        for (int row = top; row < std::min(top + tile_side, params_.height); row += shape_.height) {
+            for (int column = left; column < std::min(left + tile_side, params_.width);
                  column += shape_.width) {
                 render_packet(column, row);
             }
@@ -330,14 +330,14 @@ class TileRenderer {
    private:
     void render_packet(int left, int top) {
         const Ints column = column_ + left, row = row_ + top;
-        const Ints live = (column < frame_.width) & (row < frame_.height);
-        const Reals x = to_reals(column), y = to_reals(frame_.height - 1 - row);
-        const float side = static_cast<float>(frame_.grid);
+        const Ints live = (column < params_.width) & (row < params_.height);
+        const Reals x = to_reals(column), y = to_reals(params_.height - 1 - row);
+        const float side = static_cast<float>(params_.grid);
         float sum[3][lanes] = {};
-        for (int first = 0; first < frame_.samples; first += shape_.samples) {
+        for (int first = 0; first < params_.samples; first += shape_.samples) {
             const Ints k = sample_ + first;
-            const Reals dx = (to_reals(k % frame_.grid) + 0.5f) / side;
-            const Reals dy = (to_reals(k / frame_.grid) + 0.5f) / side;
+            const Reals dx = (to_reals(k % params_.grid) + 0.5f) / side;
+            const Reals dy = (to_reals(k / params_.grid) + 0.5f) / side;
             const Vec3 color = tracer_.color_of(tracer_.eye_rays(x + dx, y + dy), live);
             tracer_.rays.primary += static_cast<std::uint64_t>(count(live));
             add(color.x, sum[0]);
@@ -346,11 +346,11 @@ class TileRenderer {
         }
         for (int pixel = 0; pixel < shape_.pixels(); ++pixel) {
             if (live[pixel] == 0) continue;
-            const std::size_t at =
-                3 * (static_cast<std::size_t>(row[pixel]) * static_cast<std::size_t>(frame_.width) +
-                     static_cast<std::size_t>(column[pixel]));
+            const std::size_t at = 3 * (static_cast<std::size_t>(row[pixel]) *
+                                            static_cast<std::size_t>(params_.width) +
+                                        static_cast<std::size_t>(column[pixel]));
             for (std::size_t c = 0; c < 3; ++c) {
-                rgb_[at + c] = sum[c][pixel] / static_cast<float>(frame_.samples);
+                rgb_[at + c] = sum[c][pixel] / static_cast<float>(params_.samples);
             }
         }
     }
@@ -366,7 +366,7 @@ class TileRenderer {
         }
     }
 
-    const rt::Flat<float>::Frame frame_;
+    const rt::Flat<float>::LaunchParams params_;
     Tracer& tracer_;
     std::vector<float>& rgb_;
     const rt::PacketShape shape_;
@@ -376,10 +376,10 @@ class TileRenderer {
 template <Mode mode>
 TracedPicture trace_with(const FlatScene& flat, const EmbreeScene& embree, int threads) {
     TracedPicture picture;
-    const int across = (flat.frame.width + tile_side - 1) / tile_side;
-    const int down = (flat.frame.height + tile_side - 1) / tile_side;
-    picture.rgb.assign(3 * static_cast<std::size_t>(flat.frame.width) *
-                           static_cast<std::size_t>(flat.frame.height),
+    const int across = (flat.params.width + tile_side - 1) / tile_side;
+    const int down = (flat.params.height + tile_side - 1) / tile_side;
+    picture.rgb.assign(3 * static_cast<std::size_t>(flat.params.width) *
+                           static_cast<std::size_t>(flat.params.height),
                        0.0f);
     std::vector<RayCounts> rays(static_cast<std::size_t>(threads));
     std::atomic<int> next = 0;

@@ -41,7 +41,7 @@ GUARDS = [
          "return make3(one_ulp_towards(p.x, step.x), one_ulp_towards(p.y, step.y),\n"
          "                 one_ulp_towards(p.z, step.z));", "return p;"),
     ], [("kernel_surface_test", "OffsetOrigin.*:TriangleSurface.LiesWithin*")]),
-    Guard("points near an edge move clear of the neighbour", [
+    Guard("points near an edge move clear of the neighbor", [
         (K + "hit_surface.cl", "live & (hit->tied | is_on_edge(scene, hit))", "live & hit->tied"),
     ], [("kernel_surface_test", "SurfaceAt.*")]),
     Guard("points on several surfaces move clear of them", [
@@ -53,8 +53,8 @@ GUARDS = [
          "(Reals)0 : (Reals)0"),
     ], [("kernel_surface_test", "SurfaceAt.*")]),
     Guard("pixels are square to the last bit", [
-        (F + "flat_frame.cpp", "return {x, x};", "return {x, y};"),
-        (F + "flat_frame.cpp", "return {y, y};", "return {x, y};"),
+        (F + "flat_params.cpp", "return {x, x};", "return {x, y};"),
+        (F + "flat_params.cpp", "return {y, y};", "return {x, y};"),
     ], [("host_frame_test", "FlattenFrame.HasPixels*")]),
     Guard("sphere: D from the closest approach", [
         (K + "intersect.cl",
@@ -66,7 +66,7 @@ GUARDS = [
         (K + "surface.cl", "return normalize3(add_scaled(l, t < b ? -s : s, ray->dir));",
          "return normalize3(add_scaled(f, t, ray->dir));"),
     ], [("kernel_surface_test", "SphereSurface.*")]),
-    Guard("sphere: what rounding took from its centre", [
+    Guard("sphere: what rounding took from its center", [
         (K + "surface.cl", "l = sub3(l, load3(sphere->center_low));", ""),
     ], [("kernel_surface_test", "SphereSurface.*")]),
     Guard("sphere: what rounding took from the eye ray", [
@@ -77,7 +77,7 @@ GUARDS = [
         (K + "hit_surface.cl",
          "ray.origin_low = add3(sub3(surface->point, origin), surface->point_low);",
          "ray.origin_low = ray.dir_low;"),
-    ], [("kernel_surface_test", "LeaveSurface.*")]),
+    ], [("kernel_surface_test", "SpawnRay.*")]),
     Guard("a huge sphere by its power", [
         (F + "flat_shapes.cpp",
          "flat.is_huge = radius > huge_radius && std::abs(distance - radius) < radius ? 1 : 0;",
@@ -152,8 +152,8 @@ GUARDS = [
         (K + "power.cl", "Mask near = (binades >= (Indices)0) & !low;",
          "Mask near = (binades > (Indices)0) & !low;"),
     ], [("kernel_power_test", "Log2Cosine.*:BlinnLobe.IsThePower*"), ("stress", "highlight")]),
-    Guard("ties go to the first listed", [
-        (K + "closest_hit.cl", "if (search.is_listing || !any_lane(tied)) break;", "break;"),
+    Guard("ties go to the first in the scene", [
+        (K + "closest_hit.cl", "if (search.finds_first || !any_lane(tied)) break;", "break;"),
     ], [("kernel_scene_test", "ClosestHit.*"), ("stress", "ties")]),
     Guard("surfaces within 32 u are one", [
         (K + "search.cl", "#define RT_TIE ((Real)1 + (Real)32 * (Real)RT_ROUNDOFF)",

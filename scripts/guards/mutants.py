@@ -34,23 +34,23 @@ MUTANTS = [
          "return !(largest >= (Reals)0);"),
     ], counts("Scenes/RaysOfScene.*glass")),
     Mutant("one bounce too many", [
-        (K + "whitted.cl", "path->bounce >= scene->frame.max_bounces;",
-         "path->bounce > scene->frame.max_bounces;"),
+        (K + "whitted.cl", "path->bounce >= scene->params.max_bounces;",
+         "path->bounce > scene->params.max_bounces;"),
     ], counts()),
     Mutant("shadow rays of lights behind the surface", [
         (K + "shade.cl", "lit &= cosine > (Reals)0;", "lit &= cosine > (Reals)-2;"),
     ], counts()),
     Mutant("index of refraction inverted", [
-        (K + "whitted.cl", "Reals eta = inside ? finish->ior : (Reals)1 / finish->ior;",
-         "Reals eta = inside ? (Reals)1 / finish->ior : finish->ior;"),
+        (K + "whitted.cl", "Reals eta = inside ? material->ior : (Reals)1 / material->ior;",
+         "Reals eta = inside ? (Reals)1 / material->ior : material->ior;"),
     ], [("kernel_glass_test", "TraceTree.*"), *counts("Scenes/RaysOfScene.*glass")]),
     Mutant("total reflection loses the transmitted weight", [
         (K + "whitted.cl", "select3(total, limit3(add3(reflected, transmitted)), reflected);",
          "select3(total, limit3(reflected), reflected);"),
     ], [("kernel_glass_test", "TraceTree.*")]),
     Mutant("two-sided surfaces are not turned", [
-        (K + "whitted.cl", "Mask turned = (finish.two_sided != 0) & inside;",
-         "Mask turned = (finish.two_sided != 0) & inside & RT_NO_LANES;"),
+        (K + "whitted.cl", "Mask turned = (material.two_sided != 0) & inside;",
+         "Mask turned = (material.two_sided != 0) & inside & RT_NO_LANES;"),
     ], counts("Scenes/RaysOfScene.*two_sided")),
     Mutant("vertex normals exchanged", [
         (K + "surface.cl", "blend = add_scaled(blend, v, load3(normals->n2));",
@@ -62,16 +62,16 @@ MUTANTS = [
     ], [("kernel_shade_test", "SpecularLobe.*")]),
     # Samples
     Mutant("a filter's weight without y", [
-        (K + "sampling.cl", "filter_weight(frame->filter, position.y - (Reals)0.5f);",
-         "filter_weight(frame->filter, (Reals)0);"),
+        (K + "sampling.cl", "filter_weight(params->filter, position.y - (Reals)0.5f);",
+         "filter_weight(params->filter, (Reals)0);"),
     ], [("kernel_filter_test", "SampleWeight*")]),
     Mutant("Sobol samples alike in all pixels", [
         (K + "sampling.cl", "sobol_position(hash_bits(pixel ^ seed), RT_TO_UINTS(k))",
          "sobol_position(hash_bits((pixel & 0u) ^ seed), RT_TO_UINTS(k))"),
     ], [("kernel_filter_test", "SobolSample*")]),
     Mutant("Sobol samples alike for all seeds", [
-        (K + "sampling.cl", "Uints seed = hash_bits((Uints)(uint)frame->seed);",
-         "Uints seed = hash_bits((Uints)(uint)(frame->seed & 0));"),
+        (K + "sampling.cl", "Uints seed = hash_bits((Uints)(uint)params->seed);",
+         "Uints seed = hash_bits((Uints)(uint)(params->seed & 0));"),
     ], [("kernel_filter_test", "SobolSample*")]),
     Mutant("samples in x where y is meant", [
         (K + "sampling.cl", "position.y = fma(position.y - (Reals)0.5f, side, (Reals)0.5f);",
@@ -91,7 +91,7 @@ MUTANTS = [
     ], [("bench_test.py", "Bench.test_rounds_go_over_all_rows")]),
     Mutant("bench ignores its judge", [
         (V + "timing_loop.cpp",
-         "judgement.why_wrong.empty() ? what_changed(timed, run) : judgement.why_wrong;",
+         "judgment.why_wrong.empty() ? what_changed(timed, run) : judgment.why_wrong;",
          "what_changed(timed, run);"),
     ], driver("Bench.test_a_picture_far_from_the_reference_is_wrong")),
     Mutant("bench overlooks pictures that change", [

@@ -40,7 +40,7 @@ def gear(out, center, turn, outer, inner, thickness):
     out.polygon(below[2:] + below[:2])
 
 
-def colour(ix, iy, iz):
+def color(ix, iy, iz):
     def fraction(x):
         return x - math.floor(x)
 
@@ -63,9 +63,9 @@ def write(out, size):
         for iy in range(size):
             for ix in range(size):
                 if (ix * 4 + iy * 2 + iz) % 5 == 0:
-                    out.fill(colour(ix, iy, iz), 0.2, t=0.8, ior=1.1)
+                    out.fill(color(ix, iy, iz), 0.2, t=0.8, ior=1.1)
                 else:
-                    out.fill(colour(ix, iy, iz), 1)
+                    out.fill(color(ix, iy, iz), 1)
                 center = (-1 + radius + ix * radius * (2 - RIM),
                           -1 + radius + iy * radius * (2 - RIM), 1 - iz / size)
                 turn = math.pi / TEETH * ((ix + iy + iz) % 2)

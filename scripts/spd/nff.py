@@ -11,7 +11,7 @@ def numbers(*values):
 
 class Writer:
     """The resolution and angle are those of the databases, unless `corners` asks for the rays of
-    their Readme's table: one through each corner of the 512 x 512 pixels, the centres of 513 x 513.
+    their Readme's table: one through each corner of the 512 x 512 pixels, the centers of 513 x 513.
     """
 
     def __init__(self, stream, corners=False):
@@ -35,18 +35,18 @@ class Writer:
         self._line("hither", numbers(hither))
         self._line("resolution", str(side), str(side))
 
-    def background(self, colour=SKY):
-        self._line("b", numbers(*colour))
+    def background(self, color=SKY):
+        self._line("b", numbers(*color))
 
     def light(self, position):
         self._line("l", numbers(*position))
 
-    def fill(self, colour, kd, ks=0.0, half_angle=0.0, t=0.0, ior=0.0):
+    def fill(self, color, kd, ks=0.0, half_angle=0.0, t=0.0, ior=0.0):
         """half_angle: degrees from a highlight's middle to where it has half its strength."""
         shine = 100000.0
         if half_angle > 0:
             shine = math.log(0.5) / math.log(math.cos(math.radians(half_angle)))
-        self._line("f", numbers(*colour, kd, ks, shine, t, ior))
+        self._line("f", numbers(*color, kd, ks, shine, t, ior))
 
     def sphere(self, center, radius):
         self.counts["s"] += 1

@@ -47,8 +47,8 @@ def write(out, size):
 
 
 def write_knot(out, rings, offset):
-    for ring, colour in zip(rings, COLOURS):
-        out.fill(colour, 0.5, 0.2, 37)
+    for ring, color in zip(rings, COLOURS):
+        out.fill(color, 0.5, 0.2, 37)
         points = [add(v, offset) for v in ring]
         for i, point in enumerate(points):
             out.cone(point, RADIUS, points[i - 1], RADIUS)

@@ -115,8 +115,8 @@ def write_board(out, size):
     def place(i):
         return 4 * (2 * i / size - 1)
 
-    for colour, odd in [((1, 1, 1), 1), ((0.5, 0.5, 0.5), 0)]:
-        out.fill(colour, 0.5, 0.5, 30)
+    for color, odd in [((1, 1, 1), 1), ((0.5, 0.5, 0.5), 0)]:
+        out.fill(color, 0.5, 0.5, 30)
         for i in range(size):
             for j in range(size):
                 if (i + j) % 2 == odd:

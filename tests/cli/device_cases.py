@@ -153,7 +153,7 @@ class EnvironmentDefault(CliTest):
     def device_name(self, *arguments, **env):
         return self.stats_of("empty", "--size", "4", *arguments, env=env)["device"]["name"]
 
-    def test_is_honoured(self):
+    def test_is_honored(self):
         self.assertEqual(self.device_name(MIRRORBALL_DEVICE="threads:2"), "threads")
 
     def test_is_overridden(self):

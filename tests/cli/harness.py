@@ -16,7 +16,7 @@ POCL_DRIVER = "/etc/OpenCL/vendors/pocl.icd"
 SETTINGS = {}
 
 CAMERA = {"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}
-GREY = {"ambient": 1, "diffuse": 1}
+GRAY = {"ambient": 1, "diffuse": 1}
 
 
 @contextlib.contextmanager

@@ -3,7 +3,7 @@
 import math
 import re
 
-from harness import GREY, CliTest
+from harness import GRAY, CliTest
 from pictures import cropped, png_chunks, png_texts, read_pfm, read_png
 
 SMALL = ["--size", "24x18", "--device", "threads"]
@@ -77,8 +77,8 @@ class Pixels(CliTest):
 
     def test_first_column_is_the_left(self):
         scene = self.write_scene(
-            ambient_light=1, materials={"grey": GREY},
-            spheres=[{"center": [-1, 0, 0], "radius": 0.4, "material": "grey"}])
+            ambient_light=1, materials={"gray": GRAY},
+            spheres=[{"center": [-1, 0, 0], "radius": 0.4, "material": "gray"}])
         width, _, values = read_png(self.picture(scene, "out.png"))
         columns = {i // 3 % width for i, value in enumerate(values) if value}
         self.assertLess(max(columns), width // 2)

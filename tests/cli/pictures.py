@@ -54,9 +54,9 @@ def _unfilter(kind, line, above, step):
 def read_png(path):
     """(width, height, bytes of RGB) of an 8-bit RGB picture."""
     chunks = png_chunks(path.read_bytes())
-    width, height, depth, colour, _, _, interlace = struct.unpack(">IIBBBBB", chunks[0][1])
-    if (depth, colour, interlace) != (8, 2, 0):
-        raise ValueError(f"not plain 8-bit RGB: {depth} {colour} {interlace}")
+    width, height, depth, color, _, _, interlace = struct.unpack(">IIBBBBB", chunks[0][1])
+    if (depth, color, interlace) != (8, 2, 0):
+        raise ValueError(f"not plain 8-bit RGB: {depth} {color} {interlace}")
     raw = zlib.decompress(b"".join(content for kind, content in chunks if kind == b"IDAT"))
     stride = 3 * width
     above, rows = bytearray(stride), []

@@ -4,7 +4,7 @@ import json
 import os
 import shutil
 
-from harness import CAMERA, GREY, CliTest, all_scenes, malformed_files, scene_path
+from harness import CAMERA, GRAY, CliTest, all_scenes, malformed_files, scene_path
 
 
 class Unreadable(CliTest):
@@ -194,7 +194,7 @@ class NeutralFileFormat(CliTest):
 
     def test_light_scale_leaves_given_intensities_alone(self):
         light = {"position": [1, 2, 3], "intensity": 0.7}
-        scene = {"materials": {"m": GREY}, "spheres": [{"center": [0, 0, 0], "radius": 1,
+        scene = {"materials": {"m": GRAY}, "spheres": [{"center": [0, 0, 0], "radius": 1,
                                                         "material": "m"}]}
         given = self.write_scene("given.json", lights=[light], **scene)
         left_open = self.write_scene("open.json", lights=[{"position": [1, 2, 3]}], **scene)
@@ -305,7 +305,7 @@ class Info(CliTest):
         self.assertEqual(self.info("empty")["features_used"], [])
 
     def test_hash_does_not_depend_on_layout_or_name_of_the_file(self):
-        keys = {"materials": {"grey": GREY}, "name": "same"}
+        keys = {"materials": {"gray": GRAY}, "name": "same"}
         first = self.write_scene("first.json", **keys)
         second = self.write_text("second.json", json.dumps({**keys, "camera": CAMERA}, indent=3))
         hashes = [json.loads(self.run_cli("scene", "info", path, "--json").stdout)["hash"]

@@ -196,9 +196,9 @@ class Interrupted(CliTest):
 class LargeSceneTest(CliTest):
     def write_large_scene(self, spheres):
         """One that takes a while to read."""
-        sphere = {"center": [0, 0, 0], "radius": 1, "material": "grey"}
+        sphere = {"center": [0, 0, 0], "radius": 1, "material": "gray"}
         return self.write_text("large.json", json.dumps(
-            {"camera": CAMERA, "materials": {"grey": {}}, "spheres": [sphere] * spheres}))
+            {"camera": CAMERA, "materials": {"gray": {}}, "spheres": [sphere] * spheres}))
 
 
 class SettingUp(LargeSceneTest):

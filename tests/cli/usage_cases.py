@@ -61,7 +61,7 @@ class WrongOption(CliTest):
         self.assertEqual(self.files(), [])
 
     def test_unknown_option(self):
-        self.assert_option_refused("--colour")
+        self.assert_option_refused("--color")
 
     def test_size_garbage(self):
         for size in ["8x", "x8", "8x8x8", "eight", "8 x 8", "", "1e3", "8,8", "+8"]:
@@ -87,7 +87,7 @@ class WrongOption(CliTest):
                 self.assert_option_refused(f"--light-scale={scale}", says=["0.5"])
 
     def test_ambient_garbage(self):
-        for ambient in ["grey", "-1", "1,1", "1,1,1,1", "1,1,-1", "inf", "1,,1"]:
+        for ambient in ["gray", "-1", "1,1", "1,1,1,1", "1,1,-1", "inf", "1,,1"]:
             with self.subTest(ambient=ambient):
                 self.assert_option_refused(f"--ambient={ambient}", says=["R,G,B"])
 

@@ -10,6 +10,6 @@ namespace rt {
 /// Camera, sampling, bounces, background and ambient light; the counts of primitives and the roots
 /// of hierarchies are left 0.
 template <typename T>
-typename Flat<T>::Frame flatten_frame(const ViewFrame& view, const Scene& scene);
+typename Flat<T>::LaunchParams flatten_params(const ViewFrame& view, const Scene& scene);
 
 }  // namespace rt

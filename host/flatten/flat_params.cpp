@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/flatten/flat_frame.h"
+#include "host/flatten/flat_params.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -30,23 +30,23 @@ glm::dvec2 half_pixel(const Scene& scene, const Scene::Window& window) {
 }
 
 /// An adaptive mode begins with one sample a pixel.
-template <typename Frame>
-void set_sampling(const Scene& scene, Frame& frame) {
-    frame.grid = scene.aa.pattern == AaMode::Pattern::sobol ? 0 : scene.aa.count;
-    frame.samples = scene.aa.samples();
-    frame.seed = scene.sampling_seed;
+template <typename LaunchParams>
+void set_sampling(const Scene& scene, LaunchParams& params) {
+    params.grid = scene.aa.pattern == AaMode::Pattern::sobol ? 0 : scene.aa.count;
+    params.samples = scene.aa.samples();
+    params.seed = scene.sampling_seed;
     switch (scene.filter) {
         case Filter::box:
-            frame.filter = f32::RT_FILTER_BOX;
+            params.filter = f32::RT_FILTER_BOX;
             break;
         case Filter::tent:
-            frame.filter = f32::RT_FILTER_TENT;
+            params.filter = f32::RT_FILTER_TENT;
             break;
         case Filter::gaussian:
-            frame.filter = f32::RT_FILTER_GAUSSIAN;
+            params.filter = f32::RT_FILTER_GAUSSIAN;
             break;
         case Filter::mitchell:
-            frame.filter = f32::RT_FILTER_MITCHELL;
+            params.filter = f32::RT_FILTER_MITCHELL;
             break;
     }
 }
@@ -54,37 +54,37 @@ void set_sampling(const Scene& scene, Frame& frame) {
 }  // namespace
 
 template <typename T>
-typename Flat<T>::Frame flatten_frame(const ViewFrame& view, const Scene& scene) {
+typename Flat<T>::LaunchParams flatten_params(const ViewFrame& view, const Scene& scene) {
     const Scene::Window window = camera_window(scene.camera, scene.width, scene.height);
     const glm::dvec2 step = half_pixel(scene, window);
     const glm::dvec3 dx = view.right * step.x;
     const glm::dvec3 dy = view.up * step.y;
-    typename Flat<T>::Frame frame{};
+    typename Flat<T>::LaunchParams params{};
     if (scene.camera.projection == Scene::Projection::perspective) {
         const glm::dvec3 middle = view.forward + view.right * (0.5 * (window.left + window.right)) +
                                   view.up * (0.5 * (window.bottom + window.top));
-        frame.direction = pack<T>(middle);
-        frame.direction_low = pack_low<T>(middle);
-        frame.direction_dx = pack<T>(dx);
-        frame.direction_dx_low = pack_low<T>(dx);
-        frame.direction_dy = pack<T>(dy);
-        frame.direction_dy_low = pack_low<T>(dy);
+        params.direction = pack<T>(middle);
+        params.direction_low = pack_low<T>(middle);
+        params.direction_dx = pack<T>(dx);
+        params.direction_dx_low = pack_low<T>(dx);
+        params.direction_dy = pack<T>(dy);
+        params.direction_dy_low = pack_low<T>(dy);
     } else {
-        frame.direction = pack<T>(view.forward);
-        frame.direction_low = pack_low<T>(view.forward);
-        frame.origin_dx = pack<T>(dx * view.scale);
-        frame.origin_dy = pack<T>(dy * view.scale);
+        params.direction = pack<T>(view.forward);
+        params.direction_low = pack_low<T>(view.forward);
+        params.origin_dx = pack<T>(dx * view.scale);
+        params.origin_dy = pack<T>(dy * view.scale);
     }
-    frame.width = scene.width;
-    frame.height = scene.height;
-    set_sampling(scene, frame);
-    frame.max_bounces = scene.max_bounces;
-    frame.background = pack<T>(scene.background);
-    frame.ambient_light = pack<T>(scene.ambient_light);
-    return frame;
+    params.width = scene.width;
+    params.height = scene.height;
+    set_sampling(scene, params);
+    params.max_bounces = scene.max_bounces;
+    params.background = pack<T>(scene.background);
+    params.ambient_light = pack<T>(scene.ambient_light);
+    return params;
 }
 
-template f32::Frame flatten_frame<float>(const ViewFrame&, const Scene&);
-template f64::Frame flatten_frame<double>(const ViewFrame&, const Scene&);
+template f32::LaunchParams flatten_params<float>(const ViewFrame&, const Scene&);
+template f64::LaunchParams flatten_params<double>(const ViewFrame&, const Scene&);
 
 }  // namespace rt
