@@ -9,8 +9,8 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/measure/render_stats.h"
 #include "host/options/options.h"
-#include "host/report/render_stats.h"
 #include "host/stop_signal.h"
 #include "host/verbs/verbs.h"
 

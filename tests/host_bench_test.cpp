@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "host/report/amdahl.h"
-#include "host/report/baseline.h"
-#include "host/report/bench.h"
-#include "host/report/converge.h"
-#include "host/report/pareto.h"
-#include "host/report/picture_judge.h"
-#include "host/report/statistics.h"
+#include "host/measure/amdahl.h"
+#include "host/measure/baseline.h"
+#include "host/measure/bench.h"
+#include "host/measure/converge.h"
+#include "host/measure/pareto.h"
+#include "host/measure/picture_judge.h"
+#include "host/measure/statistics.h"
 
 namespace rt {
 namespace {

@@ -8,11 +8,11 @@
 #include <limits>
 #include <string>
 
-#include "host/report/error_json.h"
-#include "host/report/error_text.h"
-#include "host/report/flip.h"
-#include "host/report/heatmap.h"
-#include "host/report/image_error.h"
+#include "host/measure/flip.h"
+#include "host/measure/heatmap.h"
+#include "host/measure/image_error.h"
+#include "host/print/error_json.h"
+#include "host/print/error_text.h"
 
 namespace {
 

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "host/error.h"
+#include "host/measure/image_error.h"
 #include "host/parallel.h"
 #include "host/render/adaptive.h"
 #include "host/render/device_spec.h"
@@ -21,8 +22,6 @@
 #include "host/render/launch_pacer.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
-#include "host/report/image_error.h"
-#include "host/report/progress.h"
 #include "host/scene/aa_mode.h"
 
 namespace rt {
@@ -314,11 +313,6 @@ TEST(ImageErrorOf, CountsNonFinitePixelsInsteadOfPassingThem) {
     const Picture nan = picture({std::nanf(""), 0, 0});
     EXPECT_EQ(image_error(nan, nan).non_finite, 1u);
     EXPECT_THROW(image_error(nan, picture({0, 0, 0, 0, 0, 0})), Error);
-}
-
-TEST(ProgressLine, TellsShareRateAndTimeLeft) {
-    EXPECT_EQ(progress_line(0.25, 30, {1000000, 2000000, 0}), " 25 %  0.1 Mrays/s  ETA 1:30");
-    EXPECT_EQ(progress_line(0, 0, {}), "  0 %  0.0 Mrays/s  ETA -:--");
 }
 
 }  // namespace

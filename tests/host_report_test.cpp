@@ -5,13 +5,12 @@
 #include <thread>
 
 #include "host/image/picture_io.h"
+#include "host/measure/render_stats.h"
+#include "host/print/stats_text.h"
 #include "host/processor_time.h"
 #include "host/report/html.h"
 #include "host/report/plot_axis.h"
-#include "host/report/progress.h"
-#include "host/report/render_stats.h"
 #include "host/report/report_page.h"
-#include "host/report/stats_text.h"
 #include "host/report/svg_bars.h"
 #include "host/report/svg_plot.h"
 
@@ -196,22 +195,6 @@ rt::ReportPicture tiny_picture(const std::string& name) {
     shot.stats.region = {0, 0, 16, 16};
     shot.stats.error = rt::image_error(shot.picture, shot.picture);
     return shot;
-}
-
-TEST(ProgressBar, FitsTheTerminal) {
-    const std::string line = " 42 %  12.3 Mrays/s  ETA 0:07";
-    EXPECT_EQ(rt::progress_bar(0.5, line, 80),
-              "[###############...............] " + line + std::string(17, ' '));
-    EXPECT_EQ(rt::progress_bar(0.5, line, 40), "[###....] " + line);
-    EXPECT_EQ(rt::progress_bar(0.5, line, 32), line + "  ");
-    EXPECT_EQ(rt::progress_bar(0.5, line, 20), line.substr(0, 19));
-    EXPECT_EQ(rt::progress_bar(0.5, line, 0), "");
-}
-
-TEST(ProgressLine, HasNoTimeLeftOnlyWhenAllIsDone) {
-    EXPECT_TRUE(holds(rt::progress_line(0.999, 1, {}), " 99 %  0.0 Mrays/s  ETA 0:01"));
-    EXPECT_EQ(rt::progress_line(1, 1, {}), "100 %  0.0 Mrays/s");
-    EXPECT_TRUE(holds(rt::progress_line(0, 1, {}), "ETA -:--"));
 }
 
 TEST(RenderStats, TellOfADriverThatCompiledWhileTracing) {

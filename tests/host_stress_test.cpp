@@ -6,9 +6,9 @@
 #include <set>
 
 #include "host/error.h"
-#include "host/report/report_sections.h"
-#include "host/report/stress_json.h"
-#include "host/report/stress_text.h"
+#include "host/print/stress_json.h"
+#include "host/print/stress_text.h"
+#include "host/report/sections.h"
 #include "host/stress/judge.h"
 #include "host/stress/meshes.h"
 #include "host/stress/naive_tracer.h"

@@ -8,7 +8,7 @@
 #include "host/render/cl_renderer.h"
 #include "host/render/film.h"
 #include "host/render/threads_renderer.h"
-#include "host/report/image_error.h"
+#include "host/measure/image_error.h"
 #include "host/scene/scene.h"
 
 namespace rt::test {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "host/image/picture.h"
-#include "host/report/bench_result.h"
-#include "host/report/converge_result.h"
-#include "host/report/render_stats.h"
+#include "host/measure/bench_result.h"
+#include "host/measure/converge_result.h"
+#include "host/measure/render_stats.h"
 #include "host/stress/stress_result.h"
 
 namespace rt {

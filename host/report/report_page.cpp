@@ -5,18 +5,18 @@
 
 #include <algorithm>
 
-#include "host/report/converge.h"
+#include "host/measure/converge.h"
+#include "host/measure/machine_load.h"
+#include "host/print/run_json.h"
+#include "host/print/stats_json.h"
+#include "host/print/stats_text.h"
+#include "host/print/stress_json.h"
 #include "host/report/html.h"
-#include "host/report/machine_load.h"
+#include "host/report/labels.h"
 #include "host/report/plot_axis.h"
-#include "host/report/report_labels.h"
-#include "host/report/report_rows.h"
-#include "host/report/report_sections.h"
-#include "host/report/report_style.h"
-#include "host/report/run_json.h"
-#include "host/report/stats_json.h"
-#include "host/report/stats_text.h"
-#include "host/report/stress_json.h"
+#include "host/report/rows.h"
+#include "host/report/sections.h"
+#include "host/report/style.h"
 
 namespace rt {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/report/bench.h"
+#include "host/measure/bench.h"
 
 #include <fmt/format.h>
 
@@ -9,16 +9,16 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/image/output_path.h"
+#include "host/measure/baseline.h"
 #include "host/parallel.h"
+#include "host/print/bench_csv.h"
+#include "host/print/bench_json.h"
+#include "host/print/bench_text.h"
+#include "host/print/result_file.h"
+#include "host/print/run_csv.h"
+#include "host/print/run_json.h"
+#include "host/print/stats_json.h"
 #include "host/render/stopwatch.h"
-#include "host/report/baseline.h"
-#include "host/report/bench_csv.h"
-#include "host/report/bench_json.h"
-#include "host/report/bench_text.h"
-#include "host/report/result_file.h"
-#include "host/report/run_csv.h"
-#include "host/report/run_json.h"
-#include "host/report/stats_json.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"

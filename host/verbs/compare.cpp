@@ -12,11 +12,11 @@
 #include "host/image/atomic_file.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
-#include "host/report/error_json.h"
-#include "host/report/error_text.h"
-#include "host/report/flip.h"
-#include "host/report/heatmap.h"
-#include "host/report/stats_json.h"
+#include "host/measure/flip.h"
+#include "host/measure/heatmap.h"
+#include "host/print/error_json.h"
+#include "host/print/error_text.h"
+#include "host/print/stats_json.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/report/converge.h"
+#include "host/measure/converge.h"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,15 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/measure/bench.h"
+#include "host/print/converge_csv.h"
+#include "host/print/converge_json.h"
+#include "host/print/converge_text.h"
+#include "host/print/result_file.h"
+#include "host/print/run_csv.h"
+#include "host/print/run_json.h"
+#include "host/print/stats_json.h"
 #include "host/render/stopwatch.h"
-#include "host/report/bench.h"
-#include "host/report/converge_csv.h"
-#include "host/report/converge_json.h"
-#include "host/report/converge_text.h"
-#include "host/report/result_file.h"
-#include "host/report/run_csv.h"
-#include "host/report/run_json.h"
-#include "host/report/stats_json.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/image/picture.h"
+#include "host/measure/converge_result.h"
 #include "host/options/converge_options.h"
-#include "host/report/converge_result.h"
 #include "host/scene/scene.h"
 
 namespace rt {

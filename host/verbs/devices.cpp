@@ -6,12 +6,12 @@
 
 #include "host/console.h"
 #include "host/counted.h"
+#include "host/measure/machine_load.h"
 #include "host/parallel.h"
+#include "host/print/stats_json.h"
 #include "host/render/cl_device.h"
 #include "host/render/icd_files.h"
 #include "host/render/native_kernels.h"
-#include "host/report/machine_load.h"
-#include "host/report/stats_json.h"
 #include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/measure/bench_result.h"
+#include "host/measure/converge_result.h"
 #include "host/options/options.h"
-#include "host/report/bench_result.h"
-#include "host/report/converge_result.h"
 #include "host/stress/stress_result.h"
 
 namespace rt {

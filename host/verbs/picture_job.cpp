@@ -16,9 +16,9 @@
 #include "host/render/picture_loop.h"
 #include "host/render/pocl_threads.h"
 #include "host/render/threads_renderer.h"
-#include "host/report/progress.h"
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"
+#include "host/verbs/progress.h"
 
 namespace rt {
 

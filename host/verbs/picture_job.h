@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "host/image/picture.h"
+#include "host/measure/render_stats.h"
 #include "host/options/options.h"
 #include "host/render/device_spec.h"
-#include "host/report/render_stats.h"
 #include "host/scene/scene.h"
 
 namespace rt {

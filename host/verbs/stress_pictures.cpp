@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "host/image/picture_io.h"
-#include "host/report/heatmap.h"
-#include "host/report/picture_judge.h"
+#include "host/measure/heatmap.h"
+#include "host/measure/picture_judge.h"
 
 namespace rt {
 

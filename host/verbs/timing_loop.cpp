@@ -11,9 +11,9 @@
 #include "host/console.h"
 #include "host/counted.h"
 #include "host/error.h"
+#include "host/measure/machine_load.h"
+#include "host/measure/statistics.h"
 #include "host/render/stopwatch.h"
-#include "host/report/machine_load.h"
-#include "host/report/statistics.h"
 #include "host/stop_signal.h"
 #include "host/verbs/picture_job.h"
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "host/image/picture.h"
+#include "host/measure/bench_result.h"
+#include "host/measure/picture_judge.h"
 #include "host/options/options.h"
-#include "host/report/bench_result.h"
-#include "host/report/picture_judge.h"
 #include "host/scene/scene.h"
 
 namespace rt {

@@ -185,7 +185,7 @@ GUARDS = [
         (K + "types.h", "#pragma OPENCL FP_CONTRACT OFF", "#pragma OPENCL FP_CONTRACT ON"),
     ], [("kernel_math_test", "Contraction.*")]),
     Guard("pictures are searched for NaN: benchmarks", [
-        ("host/report/picture_judge.cpp", "if (const std::size_t count = count_non_finite(picture); "
+        ("host/measure/picture_judge.cpp", "if (const std::size_t count = count_non_finite(picture); "
          "count > 0) {", "if (const std::size_t count = 0; count > 0) {"),
     ], [("host_bench_test", "*")]),
     Guard("pictures are searched for NaN: stress", [

@@ -3,7 +3,7 @@
 Where the fault is a guard of the arithmetic taken out it is in guards.py instead."""
 import dataclasses
 
-K, F, R, S, V = "kernels/", "host/flatten/", "host/report/", "host/scene/", "host/verbs/"
+K, F, M, S, V = "kernels/", "host/flatten/", "host/measure/", "host/scene/", "host/verbs/"
 
 
 @dataclasses.dataclass
@@ -116,29 +116,29 @@ MUTANTS = [
         ("host/render/cl_program.cpp", '" -DRT_FAST_MATH=1 -cl-mad-enable"', '""'),
     ], driver("Math.test_fast_lets_the_compiler_contract")),
     Mutant("medians of an even number by the upper one", [
-        (R + "statistics.cpp", "(values[middle - 1] + values[middle]) / 2", "values[middle]"),
+        (M + "statistics.cpp", "(values[middle - 1] + values[middle]) / 2", "values[middle]"),
     ], [("host_bench_test", "Statistics.*")]),
     Mutant("Amdahl's law without the serial part", [
-        (R + "amdahl.cpp", "1 / ((1 - parallel_fraction) + parallel_fraction / threads)",
+        (M + "amdahl.cpp", "1 / ((1 - parallel_fraction) + parallel_fraction / threads)",
          "1 / (parallel_fraction / threads)"),
     ], [("host_bench_test", "Amdahl.*")]),
     Mutant("regressions without regard to noise", [
-        (R + "baseline.cpp", "now.median - before.median > 3 * (before.mad + now.mad)",
+        (M + "baseline.cpp", "now.median - before.median > 3 * (before.mad + now.mad)",
          "now.median > before.median"),
     ], [("host_bench_test", "Baseline.*")]),
     Mutant("Pareto front with points beaten in both", [
-        (R + "pareto.cpp", "if (!(costs[i].rmse < best)) continue;",
+        (M + "pareto.cpp", "if (!(costs[i].rmse < best)) continue;",
          "if (!(costs[i].rmse < 2 * best)) continue;"),
     ], [("host_bench_test", "Pareto.*")]),
     Mutant("RMSE over pixels instead of values", [
-        (R + "image_error.cpp", "(pixels - error.non_finite) * channels);",
+        (M + "image_error.cpp", "(pixels - error.non_finite) * channels);",
          "(pixels - error.non_finite));"),
     ], [("host_compare_test", "ImageError.*")]),
     Mutant("shifted pictures pass", [
-        (R + "picture_judge.cpp", "if (mse < best) {", "if (mse < 0) {"),
+        (M + "picture_judge.cpp", "if (mse < best) {", "if (mse < 0) {"),
     ], [("host_bench_test", "JudgePicture.*")]),
     Mutant("the report's trace column shows the slowest", [
-        (R + "report_timing.cpp", 'cells.push_back({milliseconds(figures.trace.median), ""});',
+        ("host/report/timing_section.cpp", 'cells.push_back({milliseconds(figures.trace.median), ""});',
          'cells.push_back({milliseconds(figures.trace.max), ""});'),
     ], [("report_test.py", "Report.test_the_table_of_every_row_shows_what_its_repeats_give")]),
     # Files

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/baseline.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/error.h"
+#include "host/measure/bench.h"
+#include "host/scene/text_file.h"
+
+namespace rt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t max_baseline_bytes = std::size_t{1} << 28;
+
+Spread spread_of_json(const Json& json) {
+    return {json.at("median"), json.at("mad"), json.at("min"), json.at("max")};
+}
+
+Baseline read_rows(const Json& json) {
+    if (json.at("format") != "mirrorball-bench" || json.at("version") != 1) {
+        throw Error(ExitCode::input, "not mirrorball-bench, version 1");
+    }
+    Baseline baseline;
+    for (const Json& row : json.at("rows")) {
+        const Json& figures = row.at("figures");
+        if (figures.is_null()) continue;
+        baseline[row.at("key").get<std::string>()] = {spread_of_json(figures.at("trace")),
+                                                      spread_of_json(figures.at("total"))};
+    }
+    return baseline;
+}
+
+}  // namespace
+
+Baseline load_baseline(const std::string& path) {
+    const FileText text = read_text_file(path, max_baseline_bytes);
+    try {
+        return read_rows(Json::parse(text.view()));
+    } catch (const std::exception& error) {
+        throw Error(ExitCode::input,
+                    fmt::format("{}: not the JSON of a mirrorball bench ({}); make one with 'bench "
+                                "--json FILE'",
+                                path, error.what()));
+    }
+}
+
+bool is_slower(const Spread& before, const Spread& now, double max_regress) {
+    return now.median > before.median * (1 + max_regress) &&
+           now.median - before.median > 3 * (before.mad + now.mad);
+}
+
+std::string to_string(const Regression& regression) {
+    const Spread &before = regression.before, &now = regression.now;
+    return fmt::format("{}: {} {:.6f} s +- {:.1f}% was {:.6f} s +- {:.1f}% ({:+.1f}%)",
+                       regression.key, regression.what, now.median, now.noise_percent(),
+                       before.median, before.noise_percent(),
+                       before.median > 0 ? 100 * (now.median / before.median - 1) : 0);
+}
+
+std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,
+                                    double max_regress) {
+    std::vector<Regression> slower;
+    bool any_in_common = false;
+    for (const BenchRow& row : result.rows) {
+        const std::string key = key_of(row.asked);
+        const auto before = baseline.find(key);
+        const auto now = figures_of(result, row);
+        if (before == baseline.end() || !now) continue;
+        any_in_common = true;
+        const BaselineRow& old = before->second;
+        if (is_slower(old.total, now->total, max_regress)) {
+            slower.push_back({key, "total", old.total, now->total});
+        } else if (is_slower(old.trace, now->trace, max_regress)) {
+            slower.push_back({key, "trace", old.trace, now->trace});
+        }
+    }
+    if (!any_in_common) {
+        throw Error(ExitCode::input,
+                    "the baseline has no right row in common with this bench; "
+                    "give the same scenes, sizes, AA modes and devices");
+    }
+    return slower;
+}
+
+}  // namespace rt

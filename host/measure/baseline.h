@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/measure/bench_result.h"
+#include "host/measure/statistics.h"
+
+namespace rt {
+
+/// What an earlier bench measured of a right row.
+struct BaselineRow {
+    Spread trace, total;  ///< seconds
+};
+
+/// By key_of.
+using Baseline = std::map<std::string, BaselineRow>;
+
+/// Reads the JSON of an earlier bench. Throws Error (ExitCode::input).
+Baseline load_baseline(const std::string& path);
+
+/// Whether a row has become slower: its median exceeds the old one by more than the share
+/// `max_regress`, and by more than 3 times both MADs together, so that noise alone does not say so.
+bool is_slower(const Spread& before, const Spread& now, double max_regress);
+
+/// A row that has become slower.
+struct Regression {
+    std::string key;
+    std::string what;  ///< "trace" or "total"
+    Spread before, now;
+};
+
+/// One line: what, from, to, and the noise.
+std::string to_string(const Regression& regression);
+
+/// The rows of the result that are in the baseline and slower now, in total or, when that is not,
+/// in trace. Throws Error (ExitCode::input) when they have no row in common.
+std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,
+                                    double max_regress);
+
+}  // namespace rt

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/picture_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rt {
+
+namespace {
+
+constexpr double off = 1.0 / 255;
+constexpr double most_off_share = 0.001;
+constexpr double most_off_anyway = 2;  // pixels, however small the picture
+constexpr double largest_rounding_rmse = 2e-4;
+
+std::string shape_mistake(const Picture& picture, const Picture& reference) {
+    if (picture.width == reference.width && picture.height == reference.height &&
+        picture.channels == reference.channels) {
+        return "";
+    }
+    return fmt::format("{}x{} pixels where {}x{} were asked for", picture.width, picture.height,
+                       reference.width, reference.height);
+}
+
+bool is_black(const Picture& picture) {
+    return std::all_of(picture.pixels.begin(), picture.pixels.end(),
+                       [](float value) { return value == 0; });
+}
+
+float value_at(const Picture& picture, int x, int y, int c) {
+    const auto index = (static_cast<std::ptrdiff_t>(y) * picture.width + x) * picture.channels + c;
+    return picture.pixels[static_cast<std::size_t>(index)];
+}
+
+/// Mean squared distance of picture(x, y) from reference(x - dx, y - dy), over the pixels one away
+/// from every edge, so that all shifts are measured on the same pixels.
+double shifted_mse(const Picture& picture, const Picture& reference, int dx, int dy) {
+    double squares = 0;
+    for (int y = 1; y < picture.height - 1; ++y) {
+        for (int x = 1; x < picture.width - 1; ++x) {
+            for (int c = 0; c < picture.channels; ++c) {
+                const double distance =
+                    double{value_at(picture, x, y, c)} - value_at(reference, x - dx, y - dy, c);
+                squares += distance * distance;
+            }
+        }
+    }
+    const auto values =
+        static_cast<double>(picture.width - 2) * (picture.height - 2) * picture.channels;
+    return squares / values;
+}
+
+/// "1 right, 0 down" when the picture is more like the reference shifted so than like the
+/// reference itself; empty otherwise.
+std::string shift_of(const Picture& picture, const Picture& reference) {
+    if (picture.width < 4 || picture.height < 4) return "";
+    double best = shifted_mse(picture, reference, 0, 0) / 4;  // half the RMSE
+    std::string shift;
+    for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            const double mse = dx == 0 && dy == 0 ? best : shifted_mse(picture, reference, dx, dy);
+            if (mse < best) {
+                best = mse;
+                shift = fmt::format("{} right, {} down", dx, dy);
+            }
+        }
+    }
+    return shift;
+}
+
+/// RMSE over the values that are off by no more than 1/255.
+double rounding_rmse(const Picture& picture, const Picture& reference) {
+    double squares = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const double distance = double{picture.pixels[i]} - double{reference.pixels[i]};
+        if (std::fabs(distance) > off) continue;
+        squares += distance * distance;
+        ++count;
+    }
+    return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
+}
+
+/// Pixels that roundings may decide: they lie along the edges of what is seen, so a small picture
+/// has a larger share of them.
+double most_pixels_off(const Picture& picture) {
+    const double pixels = static_cast<double>(picture.width) * picture.height;
+    return std::max(most_off_share * pixels, most_off_anyway);
+}
+
+std::string what_is_wrong(const Picture& picture, const Picture& reference,
+                          const ImageError& error) {
+    if (const std::size_t count = count_non_finite(picture); count > 0) {
+        return fmt::format("{} pixels are not finite", count);
+    }
+    if (error.non_finite > 0) {
+        return fmt::format("{} pixels of the reference are not finite", error.non_finite);
+    }
+    if (is_black(picture) && !is_black(reference)) return "the picture is all black";
+    if (const std::string shift = shift_of(picture, reference); !shift.empty()) {
+        return "the picture is shifted by a pixel: " + shift;
+    }
+    if (static_cast<double>(error.over_1) > most_pixels_off(picture)) {
+        return fmt::format("{} pixels are off by more than 1/255, RMSE {:.2g}", error.over_1,
+                           error.rmse);
+    }
+    if (const double rmse = rounding_rmse(picture, reference); rmse > largest_rounding_rmse) {
+        return fmt::format("values are off by RMSE {:.2g}, more than roundings", rmse);
+    }
+    return "";
+}
+
+}  // namespace
+
+Picture clamped(Picture picture) {
+    for (float& value : picture.pixels) {
+        if (std::isfinite(value)) value = std::clamp(value, 0.0F, 1.0F);
+    }
+    return picture;
+}
+
+Judgement judge_estimate(const Picture& picture, const Picture& converged) {
+    Judgement judgment;
+    judgment.why_wrong = shape_mistake(picture, converged);
+    if (!judgment.why_wrong.empty()) return judgment;
+    judgment.error = image_error(clamped(picture), clamped(converged));
+    if (judgment.error.non_finite > 0) {
+        judgment.why_wrong = fmt::format("{} pixels are not finite", judgment.error.non_finite);
+    }
+    return judgment;
+}
+
+Judgement judge_picture(const Picture& picture, const Picture& reference) {
+    Judgement judgment;
+    judgment.why_wrong = shape_mistake(picture, reference);
+    if (!judgment.why_wrong.empty()) return judgment;
+    const Picture shown = clamped(picture), right = clamped(reference);
+    judgment.error = image_error(shown, right);
+    judgment.why_wrong = what_is_wrong(shown, right, judgment.error);
+    return judgment;
+}
+
+}  // namespace rt

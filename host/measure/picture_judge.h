@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/image/picture.h"
+#include "host/measure/image_error.h"
+
+namespace rt {
+
+/// The picture with its finite values clamped to [0,1], what a screen can show. NaN and infinity
+/// stay, to be counted.
+Picture clamped(Picture picture);
+
+/// Whether a picture is what it should be.
+struct Judgement {
+    std::string why_wrong;  ///< empty when it is right
+    ImageError error;       ///< of the clamped values
+};
+
+/// Measures a picture against a converged one, both clamped to [0,1]: sampled otherwise, it may be
+/// far off. Wrong are only another size and pixels that are not finite.
+Judgement judge_estimate(const Picture& picture, const Picture& converged);
+
+/// Judges a picture against the double reference of the same samples, both clamped to [0,1]. The
+/// same scene in other arithmetic differs by roundings everywhere, and by more only where a
+/// rounding decides what a sample hits. Wrong are therefore: another size; a pixel that is not
+/// finite; all black where the reference is not; the reference shifted by a pixel; more pixels off
+/// by over 1/255 than both 0.1 % and two; the rest off by more than RMSE 2e-4.
+Judgement judge_picture(const Picture& picture, const Picture& reference);
+
+}  // namespace rt

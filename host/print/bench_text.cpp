@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/print/bench_text.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "host/measure/bench.h"
+#include "host/measure/machine_load.h"
+
+namespace rt {
+
+namespace {
+
+constexpr std::size_t device_columns = 22;
+
+/// Everything that heads a group of rows.
+std::string group_of(const BenchCase& asked) {
+    return fmt::format("{} {}x{}, {}, {}", asked.scene_path, asked.width, asked.height,
+                       to_string(asked.aa), asked.double_precision ? "double" : "float");
+}
+
+std::string device_text(const BenchCase& asked) {
+    std::string text = asked.device;
+    if (!asked.uses_threads) text += " " + asked.device_name;
+    return text.substr(0, device_columns);
+}
+
+std::string number_or_dash(const std::optional<double>& number, const char* format) {
+    return number ? fmt::format(fmt::runtime(format), *number) : "-";
+}
+
+std::string row_text(const BenchResult& result, const BenchRow& row) {
+    const std::string head =
+        fmt::format("  {:<22} {:<7}", device_text(row.asked), row.asked.schedule);
+    const auto figures = figures_of(result, row);
+    if (!figures) {
+        const bool timed = row.verdict == Verdict::right || row.verdict == Verdict::unfinished;
+        return head +
+               (timed ? " not finished"
+                      : fmt::format(" {}, not timed: {}", to_string(row.verdict), row.why)) +
+               "\n";
+    }
+    const auto& error = row.repeats.back().error;
+    return head +
+           fmt::format(" {:>9.5f} {:>4.1f} {:>9.5f} {:>4.1f} {:>6.2f} {:>7} {:>7} {:>6} {:>7.1e}\n",
+                       figures->trace.median, figures->trace.noise_percent(), figures->total.median,
+                       figures->total.noise_percent(), figures->rays_per_second / 1e6,
+                       number_or_dash(figures->speed_up, "{:.2f}"),
+                       number_or_dash(figures->amdahl, "{:.2f}"),
+                       number_or_dash(figures->over_amdahl, "{:+.2f}"), error ? error->rmse : 0);
+}
+
+/// Which rows gave which picture: in strict arithmetic all the same.
+std::string images_text(const std::map<std::string, std::vector<std::string>>& images) {
+    std::string text;
+    for (const auto& [hash, devices] : images) {
+        std::string names;
+        if (images.size() > 1) {
+            for (const std::string& device : devices) names += (names.empty() ? "" : ", ") + device;
+        }
+        text += fmt::format("  image {} {}\n", hash, images.size() > 1 ? names : "from all");
+    }
+    return text;
+}
+
+std::string header_text() {
+    return fmt::format("  {:<22} {:<7} {:>9} {:>4} {:>9} {:>4} {:>6} {:>7} {:>7} {:>6} {:>7}\n",
+                       "device", "sched.", "trace s", "+-%", "total s", "+-%", "Mray/s", "speedup",
+                       "Amdahl", "diff", "RMSE");
+}
+
+std::string ablation_row_text(const BenchResult& result, const BenchRow& row) {
+    const bool usual = row.asked.change.empty();
+    const std::string head = fmt::format("  {:<34}", usual ? "as usual" : row.asked.change);
+    const auto figures = ablation_figures(result, row);
+    if (figures) {
+        return head + fmt::format(" {:>9.5f} {:>8.5f} {:>6.2f} {:>8.3f}  {}\n",
+                                  figures->trace.median, figures->trace.mad, figures->ratio,
+                                  figures->first_build, hash_text(row.repeats.back().image_hash));
+    }
+    if (row.verdict == Verdict::right) return head + " the usual picture is missing\n";
+    if (row.verdict == Verdict::unfinished) return head + " not finished\n";
+    return head + fmt::format(" {}, not timed: {}\n", to_string(row.verdict), row.why);
+}
+
+constexpr const char* ablation_legend =
+    "Trace seconds: medians, median absolute deviations. ratio: over the median as usual; above "
+    "1,\n"
+    "slower. build: seconds before the first picture.\n";
+
+std::string ablation_text(const BenchResult& result) {
+    std::string text;
+    for (const BenchRow& row : result.ablation) {
+        if (row.asked.change.empty()) {
+            text += fmt::format("{}{}, {}\n  {:<34} {:>9} {:>8} {:>6} {:>8}  {}\n",
+                                text.empty() ? "" : "\n", group_of(row.asked),
+                                row.asked.uses_threads ? row.asked.device : row.asked.device_name,
+                                "", "trace s", "+-", "ratio", "build", "image");
+        }
+        text += ablation_row_text(result, row);
+    }
+    return text;
+}
+
+constexpr const char* legend =
+    "Medians; +-% is the median absolute deviation. total: flatten, open, build, upload, trace,\n"
+    "resolve, read back. speedup: of total, over one thread. Amdahl: 1/((1-f)+f/n), f = "
+    "trace/total\n"
+    "of one thread. RMSE: from the same samples in double, clamped to [0,1].\n";
+
+}  // namespace
+
+std::string bench_text(const BenchResult& result) {
+    std::string text = busy_text(load_of(result.load_before)), group;
+    if (!text.empty()) text += "\n\n";
+    std::map<std::string, std::vector<std::string>> images;
+    for (const BenchRow& row : result.rows) {
+        if (const std::string next = group_of(row.asked); next != group) {
+            text += images_text(images) + (group.empty() ? "" : "\n") + next + "\n" + header_text();
+            images.clear();
+            group = next;
+        }
+        text += row_text(result, row);
+        if (row.repeats.empty()) continue;
+        const std::string schedule = row.asked.schedule.empty() ? "" : "/" + row.asked.schedule;
+        images[hash_text(row.repeats.back().image_hash)].push_back(row.asked.device + schedule);
+    }
+    text += images_text(images) + ablation_text(result);
+    text += fmt::format("\n{} rounds after a warm-up{}; load before {:.2f}\n{}",
+                        result.repeats_asked, result.interrupted ? ", interrupted" : "",
+                        result.load_before, result.ablation.empty() ? legend : ablation_legend);
+    return text;
+}
+
+}  // namespace rt

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/measure/image_error.h"
+
+namespace rt {
+
+/// The table of `compare`: a line for each figure of an image error between pictures of that many
+/// pixels. Where no pixel was finite in both, it says so instead.
+std::string error_table(const ImageError& error, std::size_t pixels);
+
+}  // namespace rt

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/print/run_csv.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace rt {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+std::vector<std::string> what_cells(const RenderStats& run, const RunPlace& place) {
+    return {quoted(run.scene.path),
+            hash_text(run.scene.hash),
+            std::to_string(run.width),
+            std::to_string(run.height),
+            to_string(run.aa),
+            std::to_string(run.max_bounces),
+            run.double_precision ? "double" : "float",
+            run.fast_math ? "fast" : "strict",
+            quoted(place.device),
+            quoted(run.device.name),
+            std::to_string(run.device.threads),
+            run.device.schedule,
+            run.device.launch,
+            place.verdict,
+            std::to_string(place.round)};
+}
+
+std::vector<std::string> figure_cells(const RenderStats& run) {
+    const RendererTimes& times = run.phases.renderer;
+    std::vector<std::string> cells{to_string(times.build_cache)};
+    for (const double seconds :
+         {run.phases.load, run.phases.flatten, times.open, times.build, times.upload, times.trace,
+          times.kernel, times.resolve, times.read_back, run.phases.total}) {
+        cells.push_back(fmt::format("{}", seconds));
+    }
+    for (const auto rays :
+         {run.rays.primary, run.rays.shadow, run.rays.mirror, run.rays.transmitted}) {
+        cells.push_back(fmt::format("{}", rays));
+    }
+    cells.push_back(fmt::format("{}", run.rays_per_second()));
+    cells.push_back(hash_text(run.image_hash));
+    cells.push_back(run.error ? fmt::format("{}", run.error->rmse) : "");
+    cells.push_back(run.error ? fmt::format("{}", run.error->max) : "");
+    cells.push_back(std::to_string(run.non_finite));
+    return cells;
+}
+
+}  // namespace
+
+std::string run_csv_header() {
+    return "scene,scene_hash,width,height,aa,max_bounces,precision,math,device,device_name,threads,"
+           "schedule,launch,verdict,round,build_cache,load,flatten,open,build,upload,trace,kernel,"
+           "resolve,read_back,total,primary_rays,shadow_rays,mirror_rays,transmitted_rays,rays_per_"
+           "second,"
+           "image_hash,rmse,max_error,non_finite";
+}
+
+std::string run_csv_line(const RenderStats& run, const RunPlace& place) {
+    std::string line;
+    for (const std::string& cell : what_cells(run, place)) line += cell + ",";
+    for (const std::string& cell : figure_cells(run)) line += cell + ",";
+    line.back() = '\n';
+    return line;
+}
+
+}  // namespace rt

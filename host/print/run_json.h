@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "host/measure/render_stats.h"
+#include "host/measure/statistics.h"
+
+namespace rt {
+
+/// The first bytes of every result of this format.
+std::string json_start(const std::string& format);
+
+/// A run of a benchmark: settings, device, seconds, rays, rays per second, image and error, as in
+/// stats_json.
+nlohmann::ordered_json run_json(const RenderStats& run);
+
+nlohmann::ordered_json runs_json(std::span<const RenderStats> runs);
+
+/// {"median", "mad", "min", "max"}
+nlohmann::ordered_json spread_json(const Spread& spread);
+
+/// environment_json with the load before the measurements too, and whether it makes the machine
+/// busy; the load next to it is after them.
+nlohmann::ordered_json bench_environment_json(double load_before);
+
+}  // namespace rt

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/print/stats_json.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "host/parallel.h"
+#include "host/print/error_json.h"
+#include "host/print/flatten_text.h"
+#include "host/version.h"
+
+namespace rt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cpu_name() {
+    std::ifstream file("/proc/cpuinfo");
+    std::string line;
+    while (std::getline(file, line)) {
+        const auto colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown";
+}
+
+/// The one-minute load average; null where the system does not tell.
+Json load_json() {
+    double load = 0;
+    return getloadavg(&load, 1) == 1 ? Json(load) : Json(nullptr);
+}
+
+Json scene_json(const RenderStats& stats) {
+    return {{"path", stats.scene.path},
+            {"name", stats.scene.name},
+            {"hash", hash_text(stats.scene.hash)},
+            {"spheres", stats.scene.spheres},
+            {"cones", stats.scene.cones},
+            {"triangles", stats.scene.triangles},
+            {"smooth_triangles", stats.scene.smooth_triangles},
+            {"lights", stats.scene.lights},
+            {"materials", stats.scene.materials},
+            {"flat_bytes", stats.scene.bytes},
+            {"hierarchies", hierarchies_json(stats.scene.flatten)},
+            {"hierarchy_seconds", stats.scene.flatten.bvh_seconds},
+            {"shadow_casters", stats.scene.flatten.casters},
+            {"lit_triangles", stats.scene.flatten.lit_triangles},
+            {"features_used", names_of(stats.features, true)},
+            {"features_left_out", names_of(stats.features, false)}};
+}
+
+Json settings_json(const RenderStats& stats) {
+    return {{"width", stats.width},
+            {"height", stats.height},
+            {"region", {stats.region.x, stats.region.y, stats.region.width, stats.region.height}},
+            {"aa", to_string(stats.aa)},
+            {"samples", stats.aa.samples()},
+            {"filter", to_string(stats.filter)},
+            {"max_bounces", stats.max_bounces},
+            {"precision", stats.double_precision ? "double" : "float"},
+            {"math", stats.fast_math ? "fast" : "strict"},
+            {"features", stats.all_features ? "all" : "auto"},
+            {"features_added", names_of(stats.also_features, true)},
+            {"hierarchies", !stats.hierarchies   ? "auto"
+                            : *stats.hierarchies ? "on"
+                                                 : "off"},
+            {"caster_lists", stats.caster_lists ? "on" : "off"}};
+}
+
+Json device_json(const DeviceStats& device) {
+    Json json{{"name", device.name}};
+    if (!device.platform.empty()) {
+        json["platform"] = device.platform;
+        json["driver"] = device.driver;
+        json["launch"] = device.launch;
+    } else {
+        json["threads"] = device.threads;
+        json["schedule"] = device.schedule;
+    }
+    json["lanes"] = device.lanes;
+    if (!device.isa.empty()) json["isa"] = device.isa;
+    if (!device.fallback_from.empty()) json["fallback_from"] = device.fallback_from;
+    return json;
+}
+
+Json phases_json(const PhaseStats& phases) {
+    const RendererTimes& renderer = phases.renderer;
+    return {{"start", phases.start},
+            {"load", phases.load},
+            {"flatten", phases.flatten},
+            {"open", renderer.open},
+            {"build", renderer.build},
+            {"build_cache", to_string(renderer.build_cache)},
+            {"upload", renderer.upload},
+            {"trace", renderer.trace},
+            {"kernel", renderer.kernel},
+            {"resolve", renderer.resolve},
+            {"read_back", renderer.read_back},
+            {"write", phases.write},
+            {"total", phases.total},
+            {"set_up", phases.set_up()},
+            {"resolve_and_write", phases.resolve_and_write()}};
+}
+
+}  // namespace
+
+std::string json_text(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json environment_json() {
+    return {{"program", std::string("mirrorball ") + version},
+            {"git_revision", git_revision},
+            {"cpu", cpu_name()},
+            {"cores", available_cores()},
+            {"load", load_json()}};
+}
+
+Json stats_json(const RenderStats& stats) {
+    Json json{{"format", "mirrorball-render"},
+              {"version", 1},
+              {"environment", environment_json()},
+              {"scene", scene_json(stats)},
+              {"settings", settings_json(stats)},
+              {"device", device_json(stats.device)},
+              {"seconds", phases_json(stats.phases)},
+              {"rays",
+               {{"primary", stats.rays.primary},
+                {"shadow", stats.rays.shadow},
+                {"mirror", stats.rays.mirror},
+                {"transmitted", stats.rays.transmitted},
+                {"total", stats.rays.total()}}},
+              {"rays_per_second", stats.rays_per_second()},
+              {"image", {{"hash", hash_text(stats.image_hash)}, {"non_finite", stats.non_finite}}},
+              {"complete", stats.complete()}};
+    if (stats.error) json["error"] = error_json(*stats.error);
+    return json;
+}
+
+}  // namespace rt

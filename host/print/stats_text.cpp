@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/print/stats_text.h"
+
+#include <fmt/format.h>
+
+#include "host/counted.h"
+#include "host/print/flatten_text.h"
+
+namespace rt {
+
+namespace {
+
+std::string device_text(const DeviceStats& device) {
+    if (!device.schedule.empty()) {
+        return fmt::format("{} thread{}, {}, {} lane{} ({})", device.threads,
+                           device.threads == 1 ? "" : "s", device.schedule, device.lanes,
+                           device.lanes == 1 ? "" : "s", device.isa);
+    }
+    return fmt::format("{}, per {}, {} lane{}", device.name, device.launch, device.lanes,
+                       device.lanes == 1 ? "" : "s");
+}
+
+void add_phase(std::string& text, const char* name, double seconds, const std::string& note = "") {
+    text += fmt::format("  {:<20}{:>10.4f} s{}\n", name, seconds, note.empty() ? "" : "   " + note);
+}
+
+std::string phases_text(const PhaseStats& phases) {
+    const RendererTimes& renderer = phases.renderer;
+    std::string text = "time\n";
+    add_phase(text, "set-up", phases.set_up());
+    add_phase(text, "  start", phases.start, "before main");
+    add_phase(text, "  load", phases.load);
+    add_phase(text, "  flatten", phases.flatten);
+    if (renderer.build_cache != BuildCache::none) {
+        add_phase(text, "  open device", renderer.open);
+        add_phase(text, "  build kernels", renderer.build, to_string(renderer.build_cache));
+        add_phase(text, "  upload", renderer.upload);
+    }
+    add_phase(text, "ray trace", renderer.trace,
+              renderer.kernel > 0 ? fmt::format("kernels {:.4f} s", renderer.kernel) : "");
+    add_phase(text, "resolve and write", phases.resolve_and_write());
+    if (renderer.resolve > 0) add_phase(text, "  resolve", renderer.resolve);
+    if (renderer.read_back > 0) add_phase(text, "  read back", renderer.read_back);
+    add_phase(text, "  write", phases.write);
+    add_phase(text, "total", phases.total);
+    return text;
+}
+
+std::string rays_text(const RenderStats& stats) {
+    return fmt::format(
+        "rays\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}\n  {:<20}{:>12}   "
+        "{:.2f} "
+        "Mrays/s\n",
+        "primary", stats.rays.primary, "shadow", stats.rays.shadow, "mirror", stats.rays.mirror,
+        "transmitted", stats.rays.transmitted, "total", stats.rays.total(),
+        stats.rays_per_second() * 1e-6);
+}
+
+}  // namespace
+
+std::string names_text(const Features& features, bool used) {
+    std::string text;
+    for (const std::string& name : names_of(features, used)) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text.empty() ? "nothing" : text;
+}
+
+std::string holdings_text(const RenderStats& stats) {
+    return fmt::format(
+        "{}, {}, {}, {}{}{}", counted(stats.scene.spheres, "sphere"),
+        counted(stats.scene.cones, "cone"), counted(stats.scene.triangles, "triangle"),
+        counted(stats.scene.lights, "light"), stats.features.mirrors ? ", mirrors" : "",
+        stats.features.glass ? ", glass" : "");
+}
+
+std::string summary_line(const RenderStats& stats) {
+    return fmt::format(
+        "{}: {}x{} {} {} on {}: {:.2f} Mrays in {:.3f} s ({:.1f} Mrays/s), total "
+        "{:.3f} s, image {}",
+        stats.scene.name, stats.region.width, stats.region.height, to_string(stats.aa),
+        stats.double_precision ? "double" : "float", device_text(stats.device),
+        static_cast<double>(stats.rays.total()) * 1e-6, stats.phases.renderer.trace,
+        stats.rays_per_second() * 1e-6, stats.phases.total, hash_text(stats.image_hash));
+}
+
+std::string error_line(const ImageError& error) {
+    return fmt::format(
+        "RMSE {:.3e}, mean {:.3e}, max {:.3e} at {},{}, PSNR {:.1f} dB, {} "
+        "over 1/255, {} over 8/255, {} not finite",
+        error.rmse, error.mean, error.max, error.max_x, error.max_y, error.psnr,
+        counted(error.over_1, "pixel"), error.over_8, error.non_finite);
+}
+
+std::string driver_time_text(const RenderStats& stats) {
+    return fmt::format(
+        "kernels ran for {:.3f} s of the {:.3f} s of tracing; the driver seems to have compiled "
+        "meanwhile: a second run shows the speed of tracing",
+        stats.phases.renderer.kernel, stats.phases.renderer.trace);
+}
+
+std::string stats_text(const RenderStats& stats) {
+    std::string text = fmt::format(
+        "scene   {} ({}; hash {})\n"
+        "picture {}x{}, {}, {} bounces, {}, {} math, image hash {}\n"
+        "device  {}\n",
+        stats.scene.name, holdings_text(stats), hash_text(stats.scene.hash), stats.region.width,
+        stats.region.height, to_string(stats.aa), stats.max_bounces,
+        stats.double_precision ? "double" : "float", stats.fast_math ? "fast" : "strict",
+        hash_text(stats.image_hash), device_text(stats.device));
+    if (!stats.device.fallback_from.empty()) {
+        text += fmt::format("        instead of {}, which failed\n", stats.device.fallback_from);
+    }
+    text += fmt::format("needs   {}\nleaves out {}{}\n", names_text(stats.features, true),
+                        names_text(stats.features, false),
+                        stats.all_features ? " (compiled in all the same: --features all)" : "");
+    text += fmt::format("builds  {}\ncasters {}\n", hierarchies_text(stats.scene.flatten),
+                        casters_text(stats.scene.flatten));
+    text += phases_text(stats.phases) + rays_text(stats);
+    if (stats.driver_took_its_time()) text += "note    " + driver_time_text(stats) + "\n";
+    if (stats.error) text += "error   " + error_line(*stats.error) + "\n";
+    return text;
+}
+
+}  // namespace rt

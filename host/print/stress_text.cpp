@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/print/stress_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace rt {
+
+namespace {
+
+constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
+std::string count_text(std::size_t count) {
+    return count == no_limit ? "any" : std::to_string(count);
+}
+
+bool has_rays(const StressFamilyResult& family) {
+    return std::any_of(family.cases.begin(), family.cases.end(), [](const StressCaseResult& one) {
+        return !one.rows.empty() && one.rows.front().rays.has_value();
+    });
+}
+
+bool has_texts(const StressFamilyResult& family) {
+    return std::any_of(family.cases.begin(), family.cases.end(), [](const StressCaseResult& one) {
+        return !one.rows.empty() && one.rows.front().refused + one.rows.front().rendered > 0;
+    });
+}
+
+std::string worst_text(const PictureFigures& worst) {
+    std::string text = fmt::format("{} wrong ({} at edges), {:.1e}", worst.wrong,
+                                   worst.wrong_at_edges, worst.max_error);
+    if (worst.nans > 0) text += fmt::format(", {} NaN", worst.nans);
+    if (worst.infinities > 0) text += fmt::format(", {} inf", worst.infinities);
+    return text;
+}
+
+std::string family_worst(const StressFamilyResult& family) {
+    const PictureFigures worst = worst_figures(family, false);
+    if (has_texts(family)) return fmt::format("{} NaN, {} inf", worst.nans, worst.infinities);
+    if (has_rays(family)) return fmt::format("{} fail, {:.1e}", worst.wrong, worst.max_error);
+    return worst_text(worst);
+}
+
+std::string family_bar(const StressFamilyResult& family) {
+    if (has_texts(family)) return "refused, or no NaN";
+    return bar_text(loosest_bar(family));
+}
+
+std::string row_name(const StressRow& row) {
+    return fmt::format("{} {}", row.renderer, row.double_precision ? "double" : "float");
+}
+
+std::string row_figures(const StressRow& row) {
+    if (row.rays) {
+        return fmt::format("{} of {} rays fail, {:.1e}", row.rays->failures, row.rays->rays,
+                           row.rays->max_error);
+    }
+    if (row.refused + row.rendered > 0) {
+        return fmt::format("{} refused, {} rendered, {} NaN, {} inf", row.refused, row.rendered,
+                           row.figures.nans, row.figures.infinities);
+    }
+    return worst_text(row.figures);
+}
+
+std::string row_verdict(const StressRow& row) {
+    if (row.naive) return "";
+    if (!row.judged) return "not judged";
+    return row.why.empty() ? "pass" : "FAIL: " + row.why;
+}
+
+std::string case_lines(const StressCaseResult& one) {
+    std::string text;
+    for (const StressRow& row : one.rows) {
+        text += fmt::format("  {:<24} {:<44} {:<40} {:>8.4f} s  {}\n", one.label, row_name(row),
+                            row_figures(row), row.seconds, row_verdict(row));
+    }
+    if (!one.disagreement.empty()) {
+        text += fmt::format("  {:<24} FAIL: {}\n", one.label, one.disagreement);
+    }
+    return text;
+}
+
+std::string broken_lines(const StressFamilyResult& family) {
+    std::string text;
+    for (const StressCaseResult& one : family.cases) {
+        for (const StressRow& row : one.rows) {
+            if (row.passed()) continue;
+            text += fmt::format("    FAIL {}/{}, {}: {}\n", family.name, one.label, row_name(row),
+                                row.why);
+        }
+        if (one.disagreement.empty()) continue;
+        text += fmt::format("    FAIL {}/{}: {}\n", family.name, one.label, one.disagreement);
+    }
+    return text;
+}
+
+std::string family_lines(const StressFamilyResult& family, bool naive, bool verbose) {
+    std::string naive_text;
+    if (naive) {
+        const PictureFigures worst = worst_figures(family, true);
+        naive_text = fmt::format(" {:>8} {:>8}", worst.wrong, worst.nans);
+    }
+    std::string text = fmt::format("{:<20} {:>3}  {:<36} {:<20}{} {:<4}  {}\n", family.name,
+                                   family.cases.size(), family_worst(family), family_bar(family),
+                                   naive_text, family.passed() ? "pass" : "FAIL", family.why);
+    if (verbose) {
+        for (const StressCaseResult& one : family.cases) text += case_lines(one);
+        return text;
+    }
+    return text + broken_lines(family);
+}
+
+}  // namespace
+
+std::string bar_text(const StressBar& bar) {
+    std::string text = fmt::format("{} wrong, {:.0e}", count_text(bar.most_wrong), bar.max_error);
+    if (bar.most_wrong_at_edges != no_limit) {
+        text += fmt::format(", {} at edges", bar.most_wrong_at_edges);
+    }
+    return text;
+}
+
+StressBar loosest_bar(const StressFamilyResult& family) {
+    StressBar loosest{0, 0, 0, false, true};
+    for (const StressCaseResult& one : family.cases) {
+        loosest.most_wrong = std::max(loosest.most_wrong, one.bar.most_wrong);
+        loosest.most_wrong_at_edges =
+            std::max(loosest.most_wrong_at_edges, one.bar.most_wrong_at_edges);
+        loosest.max_error = std::max(loosest.max_error, one.bar.max_error);
+    }
+    return loosest;
+}
+
+std::string stress_text(const StressResult& result, bool verbose) {
+    const bool naive = std::any_of(result.families.begin(), result.families.end(),
+                                   [](const StressFamilyResult& family) {
+                                       const auto& rows = family.cases.front().rows;
+                                       return !rows.empty() && rows.back().naive;
+                                   });
+    std::string text =
+        fmt::format("{:<20} {:>3}  {:<36} {:<20}{} {:<4}  {}\n", "family", "n", "worst", "bar",
+                    naive ? fmt::format(" {:>8} {:>8}", "naive", "its NaN") : "", "", "why");
+    for (const StressFamilyResult& family : result.families) {
+        text += family_lines(family, naive, verbose);
+    }
+    const auto passed =
+        std::count_if(result.families.begin(), result.families.end(),
+                      [](const StressFamilyResult& family) { return family.passed(); });
+    return text + fmt::format("{}: {} of {} families, {:.0f} s{}\n",
+                              result.passed() ? "PASS" : "FAIL", passed, result.families.size(),
+                              result.seconds, result.interrupted ? ", interrupted" : "");
+}
+
+std::string stress_list(const std::vector<StressFamily>& families) {
+    std::string text;
+    for (const StressFamily& family : families) {
+        text += fmt::format("{}: {}\n", family.name, family.why);
+        for (const StressCase& one : family.cases) {
+            text += fmt::format("  {}/{}{}\n", family.name, one.label, one.quick ? "  quick" : "");
+        }
+    }
+    return text;
+}
+
+}  // namespace rt

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/measure/converge.h"
+#include "host/report/html.h"
+#include "host/report/labels.h"
+#include "host/report/plots.h"
+#include "host/report/sections.h"
+
+namespace rt {
+
+namespace {
+
+std::string point_source(std::size_t index, std::size_t point) {
+    return fmt::format("converge-{}#/points/{}", index, point);
+}
+
+std::string device_text(const ConvergePoint& point) {
+    std::string text =
+        point.repeats.empty() ? point.asked.device_name : device_label(point.repeats.front());
+    text += point.asked.double_precision ? ", double" : ", float";
+    return text + (point.asked.fast_math ? ", fast math" : "");
+}
+
+/// Seconds to open the device and build the kernels of a point anew; 0 where there are none.
+double build_seconds(const ConvergeResult& result, const ConvergeCase& asked) {
+    for (const BuildOffset& offset : build_offsets(result)) {
+        if (offset.of.device == asked.device && offset.of.fast_math == asked.fast_math &&
+            offset.of.double_precision == asked.double_precision) {
+            return offset.open + offset.first_build;
+        }
+    }
+    return 0;
+}
+
+PlotPoint plot_point(const ConvergeResult& result, std::size_t i, std::size_t index) {
+    const ConvergePoint& measured = result.points[i];
+    const PointFigures figures = *figures_of(result, measured);
+    PlotPoint point;
+    point.x = figures.seconds.median;
+    point.x_low = std::max(point.x - figures.seconds.mad, point.x / 10);
+    point.x_high = point.x + figures.seconds.mad;
+    point.y = point.y_low = point.y_high = figures.rmse;
+    point.title =
+        fmt::format("{} on {}: {}, RMSE {}", to_string(measured.asked.aa), device_text(measured),
+                    spread_text(figures.seconds), scientific_text(figures.rmse));
+    point.source = point_source(index, i);
+    return point;
+}
+
+/// A curve's place among the devices and families met so far: color and shape.
+int place_of(std::vector<std::string>& known, const std::string& name) {
+    const auto at = std::find(known.begin(), known.end(), name);
+    if (at != known.end()) return static_cast<int>(at - known.begin());
+    known.push_back(name);
+    return static_cast<int>(known.size()) - 1;
+}
+
+std::vector<PlotCurve> plot_curves(const ConvergeResult& result, std::size_t index) {
+    std::vector<PlotCurve> curves;
+    std::vector<std::string> devices, families;
+    const std::vector<std::size_t> front = front_of(result);
+    for (const Curve& measured : curves_of(result)) {
+        const std::string device = device_text(result.points[measured.points.front()]);
+        PlotCurve curve;
+        curve.label = device + ", " + measured.family;
+        if (measured.slope) curve.label += ", slope " + significant(*measured.slope, 2);
+        curve.color = place_of(devices, device);
+        curve.shape = place_of(families, measured.family);
+        for (const std::size_t i : measured.points) {
+            curve.points.push_back(plot_point(result, i, index));
+            const bool is_best = std::find(front.begin(), front.end(), i) != front.end();
+            if (is_best) curve.points.back().label = to_string(result.points[i].asked.aa);
+        }
+        std::sort(curve.points.begin(), curve.points.end(),
+                  [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+        const double build = build_seconds(result, measured.of);
+        if (build > 0) curve.points.front().x_with_build = curve.points.front().x + build;
+        curves.push_back(curve);
+    }
+    return curves;
+}
+
+Plot error_time_plot(const ConvergeResult& result, std::size_t index) {
+    Plot plot;
+    plot.id = fmt::format("error-time-{}", index);
+    plot.title = "Error against run time";
+    plot.curves = plot_curves(result, index);
+    for (const std::size_t i : front_of(result)) {
+        plot.front.push_back(plot_point(result, i, index));
+    }
+    std::vector<double> x, y{result.reference.floor()};
+    for (const PlotCurve& curve : plot.curves) {
+        for (const PlotPoint& point : curve.points) {
+            x.insert(x.end(), {point.x_low, point.x_high, point.x_with_build.value_or(point.x)});
+            y.push_back(point.y);
+        }
+    }
+    plot.x = axis_around("run time of a picture", x, true, AxisUnit::seconds);
+    plot.y = axis_around("RMSE against the converged picture", y, true, AxisUnit::power);
+    plot.floor = result.reference.floor();
+    plot.floor_label = "the reference itself is no better known";
+    plot.description = fmt::format(
+        "Both axes logarithmic: {} curves, each a device and precision with one kind of sampling, "
+        "falling to the right. The numbers are in the tables below.",
+        plot.curves.size());
+    return plot;
+}
+
+std::string front_table(const ConvergeResult& result, std::size_t index) {
+    HtmlTable table{"Pareto front: no other setting is both faster and more exact",
+                    {"sampling", "on", "run time", "noise, %", "RMSE"},
+                    {}};
+    for (const std::size_t i : front_of(result)) {
+        const ConvergePoint& point = result.points[i];
+        const PointFigures figures = *figures_of(result, point);
+        table.rows.push_back({{to_string(point.asked.aa), point_source(index, i)},
+                              {device_text(point), ""},
+                              {duration_text(figures.seconds.median), ""},
+                              {significant(figures.seconds.noise_percent(), 2), ""},
+                              {scientific_text(figures.rmse, 3), ""}});
+    }
+    return html_table(table);
+}
+
+std::string targets_table(const ConvergeResult& result, std::size_t index) {
+    HtmlTable table{
+        "Time to reach an error, with the fastest setting measured that does", {"on"}, {}};
+    for (const double target : rmse_targets) {
+        table.heads.push_back("RMSE " + significant(target, 1));
+    }
+    std::string device;
+    for (const TargetTime& time : target_times(result)) {
+        if (table.rows.empty() || time.device != device) {
+            table.rows.push_back({{time.device_name, ""}});
+            device = time.device;
+        }
+        HtmlCell cell{time.below_floor ? "below the floor" : "not reached", ""};
+        if (time.point) {
+            const ConvergePoint& point = result.points[*time.point];
+            cell = {fmt::format("{} ({})", duration_text(time.seconds), to_string(point.asked.aa)),
+                    point_source(index, *time.point)};
+            table.rows.back()[0].text = device_label(point.repeats.front());
+        }
+        table.rows.back().push_back(cell);
+    }
+    return html_table(table);
+}
+
+std::string reference_text(const ConvergeReference& reference) {
+    return fmt::format(
+        "Two independent pictures in double precision ({} and {}) lie RMSE {} apart; their mean, "
+        "the reference, is known to about {}: the shaded zone.",
+        reference.aa_a, reference.aa_b, scientific_text(reference.halves_rmse),
+        scientific_text(reference.floor()));
+}
+
+}  // namespace
+
+std::string error_time_section(const ReportScene& scene, std::size_t index) {
+    const ConvergeResult& result = scene.converge;
+    if (curves_of(result).empty()) return "";
+    const std::string source = fmt::format("converge-{}#/reference", index);
+    return fmt::format("<h3>Error against run time</h3>\n<p{}>{}</p>\n",
+                       html_attribute("data-source", source),
+                       html_text(reference_text(result.reference))) +
+           plot_figure(
+               error_time_plot(result, index),
+               html_text(fmt::format(
+                   "{} x {} pixels, medians of {} repeats; bands: median absolute deviation. The "
+                   "dotted whisker at a curve's first point is the time to open the device "
+                   "and build its kernels, paid once. Run time: flatten, upload, trace, "
+                   "resolve, read back. Values clamped to 0 to 1.",
+                   result.width, result.height, result.repeats_asked))) +
+           front_table(result, index) + targets_table(result, index);
+}
+
+}  // namespace rt

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/report/labels.h"
+
+#include <fmt/format.h>
+
+#include "host/report/plot_axis.h"
+
+namespace rt {
+
+namespace {
+
+std::string opencl_label(const std::string& platform, const std::string& name) {
+    return platform == "Portable Computing Language" ? "PoCL" : name;
+}
+
+}  // namespace
+
+std::string device_label(const BenchRow& row) {
+    const BenchCase& asked = row.asked;
+    if (asked.uses_threads) {
+        return fmt::format("{} thread{}{}", asked.threads, asked.threads == 1 ? "" : "s",
+                           asked.schedule == "buffers" ? ", a buffer each" : "");
+    }
+    return row.repeats.empty() ? asked.device_name : device_label(row.repeats.front());
+}
+
+std::string device_label(const RenderStats& run) {
+    return run.device.schedule.empty() ? opencl_label(run.device.platform, run.device.name)
+                                       : run.device.name;
+}
+
+std::string aa_label(const AaMode& aa) {
+    const std::string text = to_string(aa);
+    return text == "none" ? "plain" : text;
+}
+
+std::string spread_text(const Spread& spread) {
+    return fmt::format("{} ± {} %", duration_text(spread.median),
+                       significant(spread.noise_percent(), 2));
+}
+
+std::string milliseconds(double seconds) { return significant(seconds * 1e3, 3); }
+
+}  // namespace rt

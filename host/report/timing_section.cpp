@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "host/report/html.h"
+#include "host/report/labels.h"
+#include "host/report/plot_axis.h"
+#include "host/report/plots.h"
+#include "host/report/rows.h"
+#include "host/report/sections.h"
+
+namespace rt {
+
+namespace {
+
+std::string size_text(const BenchCase& asked) {
+    return fmt::format("{} x {}", asked.width, asked.height);
+}
+
+std::string precision_text(const BenchCase& asked) {
+    return asked.double_precision ? "double" : "float";
+}
+
+/// What a cell says of a row without figures.
+std::string verdict_text(const BenchRow& row) { return to_string(row.verdict); }
+
+/// Rows with one sampling and precision, as the paper's table: sizes down, devices across.
+HtmlTable paper_table(const std::vector<PlacedRow>& rows) {
+    HtmlTable table;
+    const BenchCase& first = rows.front().row->asked;
+    table.caption = fmt::format("{}, {}: ray trace, milliseconds, medians; fastest in bold",
+                                aa_label(first.aa), precision_text(first));
+    table.caption[0] = static_cast<char>(std::toupper(table.caption[0]));
+    table.heads = {"pixels"};
+    for (const PlacedRow& placed : rows) {
+        const std::string label = device_label(*placed.row);
+        const bool known =
+            std::find(table.heads.begin(), table.heads.end(), label) != table.heads.end();
+        if (!known) table.heads.push_back(label);
+    }
+    std::map<std::int64_t, std::vector<HtmlCell>> lines;
+    std::map<std::int64_t, double> fastest;
+    for (const PlacedRow& placed : rows) {
+        if (!placed.figures) continue;
+        double& best = fastest.emplace(pixels_of(placed.row->asked), 1e300).first->second;
+        best = std::min(best, placed.figures->trace.median);
+    }
+    for (const PlacedRow& placed : rows) {
+        const std::int64_t pixels = pixels_of(placed.row->asked);
+        auto& cells = lines[pixels];
+        cells.resize(table.heads.size());
+        cells[0].text = size_text(placed.row->asked);
+        const auto column =
+            std::find(table.heads.begin(), table.heads.end(), device_label(*placed.row)) -
+            table.heads.begin();
+        HtmlCell& cell = cells[static_cast<std::size_t>(column)];
+        cell.source = placed.source;
+        cell.text =
+            placed.figures ? milliseconds(placed.figures->trace.median) : verdict_text(*placed.row);
+        cell.strong = placed.figures && placed.figures->trace.median == fastest[pixels];
+    }
+    for (auto& [pixels, cells] : lines) table.rows.push_back(std::move(cells));
+    return table;
+}
+
+std::string paper_tables(const std::vector<PlacedRow>& rows) {
+    std::vector<std::vector<PlacedRow>> groups;
+    for (const PlacedRow& placed : rows) {
+        const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& others) {
+            const BenchCase& other = others.front().row->asked;
+            return other.aa == placed.row->asked.aa &&
+                   other.double_precision == placed.row->asked.double_precision;
+        });
+        if (group == groups.end()) {
+            groups.push_back({placed});
+        } else {
+            group->push_back(placed);
+        }
+    }
+    std::string html;
+    for (const auto& group : groups) html += html_table(paper_table(group));
+    return html;
+}
+
+std::vector<HtmlCell> full_row(const PlacedRow& placed) {
+    const BenchCase& asked = placed.row->asked;
+    std::vector<HtmlCell> cells{{size_text(asked), placed.source},
+                                {aa_label(asked.aa), ""},
+                                {precision_text(asked), ""},
+                                {device_label(*placed.row), ""}};
+    if (!placed.figures) {
+        cells.push_back({fmt::format("{}: {}", verdict_text(*placed.row), placed.row->why), ""});
+        cells.resize(10);
+        return cells;
+    }
+    const BenchFigures& figures = *placed.figures;
+    const auto optional = [](const std::optional<double>& value) {
+        return HtmlCell{value ? significant(*value, 3) : "–", ""};
+    };
+    const auto& error = placed.row->repeats.front().error;
+    cells.push_back({milliseconds(figures.trace.median), ""});
+    cells.push_back({significant(figures.trace.noise_percent(), 2), ""});
+    cells.push_back({milliseconds(figures.total.median), ""});
+    cells.push_back({significant(figures.rays_per_second * 1e-6, 3), ""});
+    cells.push_back(optional(figures.speed_up));
+    cells.push_back({error ? scientific_text(error->rmse) : "–", ""});
+    return cells;
+}
+
+std::string full_table(const std::vector<PlacedRow>& rows) {
+    HtmlTable table{
+        "Every row; total leaves out starting the program, reading the scene and "
+        "writing the picture; RMSE is against double precision at the same samples",
+        {"pixels", "sampling", "precision", "on", "trace, ms", "noise, %", "total, ms", "Mrays/s",
+         "times one thread", "RMSE"},
+        {}};
+    for (const PlacedRow& placed : rows) table.rows.push_back(full_row(placed));
+    return fmt::format(
+               "<details><summary>All {} rows with noise, rays per second, speed-up and "
+               "error</summary>\n",
+               rows.size()) +
+           html_table(table) + "</details>\n";
+}
+
+}  // namespace
+
+std::string timing_section(const ReportScene& scene, std::size_t index) {
+    const std::vector<PlacedRow> rows = rows_of(scene.bench, index);
+    if (rows.empty()) return "";
+    return fmt::format(
+               "<h3>Time</h3>\n<p>Medians of {} repeats, interleaved so that a slow moment "
+               "of the machine hits every row alike; the first round is not counted. A picture "
+               "that is not right gets no time.</p>\n",
+               scene.bench.repeats_asked) +
+           paper_tables(rows) + full_table(rows) + phases_figure(rows, index) +
+           size_figure(rows, index) + threads_figure(rows, index);
+}
+
+}  // namespace rt
