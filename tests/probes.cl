@@ -403,8 +403,8 @@ __kernel void probe_offset_origin(PROBE_ITEMS, __global const ProbeSurface* surf
 }
 
 __kernel void probe_spawn_ray(PROBE_ITEMS, __global const ProbeSurface* surfaces,
-                                  __global const Packed3* origins, __global const Packed3* dirs,
-                                  __global const Index* prims, __global ProbeRay* out) {
+                              __global const Packed3* origins, __global const Packed3* dirs,
+                              __global const Index* prims, __global ProbeRay* out) {
     PROBE_PACKET;
     Surface surface = SURFACES(surfaces);
     PUT_RAY(out, spawn_ray(&surface, REAL3(origins), REAL3(dirs), INDICES(prims)));

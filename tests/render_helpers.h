@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "host/measure/image_error.h"
 #include "host/render/cl_renderer.h"
 #include "host/render/film.h"
 #include "host/render/threads_renderer.h"
-#include "host/measure/image_error.h"
 #include "host/scene/scene.h"
 
 namespace rt::test {
