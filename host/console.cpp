@@ -69,6 +69,10 @@ void print_message(const std::string& text) {
     std::fflush(stderr);
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) print_message("mirrorball: " + note + "\n");
+}
+
 void print_bar(const std::string& text, bool last) {
     bar_shown = !last;
     print_message("\r" + text + (last ? "\n" : ""));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace rt {
 
@@ -12,6 +13,9 @@ void open_missing_streams();
 /// Text for people, to stderr: but for line ends, tabs, and a carriage return in front, what may
 /// not be shown is escaped (printable). Never throws: a lost message must not lose a picture.
 void print_message(const std::string& text);
+
+/// Each as a message of its own: what a scene's reader left out.
+void print_notes(const std::vector<std::string>& notes);
 
 /// Instead of the line that the cursor is on, without an end: a progress bar. `last` ends the line.
 void print_bar(const std::string& text, bool last);

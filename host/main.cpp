@@ -9,8 +9,8 @@
 
 #include "host/console.h"
 #include "host/error.h"
-#include "host/measure/render_stats.h"
 #include "host/options/options.h"
+#include "host/picture/render_stats.h"
 #include "host/stop_signal.h"
 #include "host/verbs/verbs.h"
 
@@ -55,12 +55,7 @@ int failed(rt::ExitCode code, const char* message) {
     _exit(static_cast<int>(rt::ExitCode::limit));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    const double seconds_before_main = rt::seconds_since_process_start();
-    rt::open_missing_streams();
-    rt::prepare_signals();
+int run_and_catch(int argc, char** argv, double seconds_before_main) {
     try {
         const int status = run(argc, argv, seconds_before_main);
         rt::flush_results();
@@ -74,4 +69,15 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         return failed(rt::ExitCode::bug, error.what());
     }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const double seconds_before_main = rt::seconds_since_process_start();
+    rt::open_missing_streams();
+    rt::prepare_signals();
+    const int status = run_and_catch(argc, argv, seconds_before_main);
+    // Without destructors: a driver may still be compiling for a picture that is finished.
+    _exit(status);
 }

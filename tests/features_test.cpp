@@ -9,7 +9,7 @@
 
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
-#include "host/render/cl_program.h"
+#include "host/opencl/cl_program.h"
 #include "tests/feature_scenes.h"
 #include "tests/render_helpers.h"
 
@@ -66,7 +66,7 @@ TEST(BuildOptions, HaveTheNumberOfSamplesOnlyWhereItIsGiven) {
 }
 
 std::string entry_points_of(const ProgramOptions& options) {
-    const cl::Context context(test_device().handle);
+    const cl::Context context(handle_of(test_device()));
     const cl::Program program = build_program(context, test_device(), render_kernels, options);
     return program.getInfo<CL_PROGRAM_KERNEL_NAMES>();
 }
@@ -85,9 +85,9 @@ TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
 TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
     if (test_device().platform != pocl_platform) GTEST_SKIP();
     const auto expect_own_declarations = [](const char* source, const ProgramOptions& options) {
-        const cl::Context context(test_device().handle);
+        const cl::Context context(handle_of(test_device()));
         const cl::Program program = build_program(context, test_device(), source, options);
-        const auto used = program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(test_device().handle);
+        const auto used = program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(handle_of(test_device()));
         EXPECT_NE(used.find("RT_DECLARES_BUILTINS"), std::string::npos) << used;
     };
     ProgramOptions options;
@@ -105,7 +105,7 @@ TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
 }
 
 TEST(BuildProgram, LeavesTheDeclarationsToTheCompilerWhereKernelsCallOtherFunctions) {
-    const cl::Context context(test_device().handle);
+    const cl::Context context(handle_of(test_device()));
     const char* source = "__kernel void sines(__global float *x) { *x = sin(*x); }";
     const cl::Program program = build_program(context, test_device(), source, {});
     EXPECT_EQ(program.getInfo<CL_PROGRAM_KERNEL_NAMES>(), "sines");

@@ -8,9 +8,9 @@
 #include <limits>
 #include <string>
 
+#include "host/image/image_error.h"
 #include "host/measure/flip.h"
 #include "host/measure/heatmap.h"
-#include "host/measure/image_error.h"
 #include "host/print/error_json.h"
 #include "host/print/error_text.h"
 

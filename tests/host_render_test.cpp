@@ -13,12 +13,12 @@
 #include <set>
 
 #include "host/error.h"
-#include "host/measure/image_error.h"
+#include "host/image/image_error.h"
+#include "host/opencl/device_spec.h"
+#include "host/opencl/gpu_nodes.h"
 #include "host/parallel.h"
 #include "host/render/adaptive.h"
-#include "host/render/device_spec.h"
 #include "host/render/film.h"
-#include "host/render/gpu_nodes.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"

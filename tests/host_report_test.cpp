@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "host/image/picture_io.h"
-#include "host/measure/render_stats.h"
+#include "host/picture/render_stats.h"
 #include "host/print/stats_text.h"
 #include "host/processor_time.h"
 #include "host/report/html.h"

@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "host/error.h"
-#include "host/render/cl_program.h"
-#include "host/render/device_spec.h"
+#include "host/opencl/cl_program.h"
+#include "host/opencl/device_spec.h"
 #include "tests/native_bits.h"
 
 namespace rt {
@@ -70,7 +70,7 @@ ClDevice test_device() {
 /// first asked for.
 class ProbeDevice {
    public:
-    ProbeDevice() : device_(test_device()), context_(device_.handle), queue_(context_) {}
+    ProbeDevice() : device_(test_device()), context_(handle_of(device_)), queue_(context_) {}
 
     const ClDevice& device() const { return device_; }
 

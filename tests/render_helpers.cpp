@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "host/flatten/flat_scene.h"
-#include "host/render/device_spec.h"
+#include "host/opencl/device_spec.h"
 #include "host/render/picture_loop.h"
 #include "host/scene/json_file.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/measure/image_error.h"
-#include "host/render/cl_renderer.h"
+#include "host/image/image_error.h"
+#include "host/opencl/cl_renderer.h"
 #include "host/render/film.h"
 #include "host/render/threads_renderer.h"
 #include "host/scene/scene.h"

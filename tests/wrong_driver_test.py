@@ -63,6 +63,11 @@ class Bench(WrongDriver):
         self.assertEqual((threads, verdict), ({"right"}, "wrong"))
         self.assertIn(why, said)
 
+    def test_a_picture_that_is_off_in_a_bit_is_wrong(self):
+        threads, [(verdict, why)], _ = self.verdicts(brighter("1.000001"), 1)
+        self.assertEqual((threads, verdict), ({"right"}, "wrong"))
+        self.assertIn("where threads compute", why)
+
     def test_a_picture_that_changes_between_repeats_is_wrong(self):
         shim = dict(brighter("1.000001"), CL_SHIM_FROM="3")
         threads, [(verdict, why)], _ = self.verdicts(shim, 1)
@@ -87,6 +92,98 @@ class Stress(WrongDriver):
         self.stress({}, 0, *case)
         shim = dict(brighter("1.000001"), CL_SHIM_FROM="3")  # the first case has two precisions
         self.assertIn("not the bits of", self.stress(shim, 1, *case))
+
+
+class Fails(WrongDriver):
+    """A device that fails in the middle leaves what it finished, and threads do the rest."""
+    ARGUMENTS = ["render", SCENE, "--stats=json", "-q", "--size", "300", "--device"]
+    TILES = ["--tile", "100x10", "--aa", "grid:4"]  # several launches
+
+    def figures(self, shim, device, *arguments):
+        result = self.run_with(shim, *self.ARGUMENTS, device, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def check_fails_at(self, launch, *arguments, **shim):
+        """The pixels that the device had finished."""
+        right = self.figures({}, "threads", *arguments)
+        got = self.figures(dict({"CL_SHIM_FAIL_LAUNCH": str(launch)}, **shim), "pocl", *arguments)
+        self.assertEqual(got["image"]["hash"], right["image"]["hash"])
+        self.assertEqual(got["rays"], right["rays"])
+        self.assertEqual(got["device"]["name"], "threads")
+        device, threads = got["devices"]
+        self.assertEqual(got["device"]["fallback_from"], device["name"])
+        self.assertIn("CL_OUT_OF_RESOURCES", device["failure"])
+        self.assertEqual(device["pixels"] + threads["pixels"], 300 * 300)
+        return device["pixels"]
+
+    def test_at_any_launch(self):
+        # The first is of nothing, the second the self-test's.
+        finished = [self.check_fails_at(launch, *self.TILES) for launch in range(1, 6)]
+        self.assertEqual(finished[:3], [0, 0, 0])
+        self.assertGreater(finished[3], 0)
+        self.assertGreater(finished[4], finished[3])
+
+    def test_samples_as_work_items(self):
+        for launch in [4, 5, 6, 7, 8]:
+            self.check_fails_at(launch, "--launch", "sample", *self.TILES)
+
+    def test_when_what_was_finished_cannot_be_read(self):
+        self.assertEqual(self.check_fails_at(5, *self.TILES, CL_SHIM_FAIL_READ="1"), 0)
+
+    def test_while_refining(self):
+        for launch in [4, 5]:
+            self.check_fails_at(launch, "--aa", "adaptive:0.01")
+
+    def test_beside_others(self):
+        right = self.figures({}, "threads", *self.TILES)
+        got = self.figures({"CL_SHIM_FAIL_LAUNCH": "4"}, "pocl,threads", *self.TILES)
+        self.assertEqual(got["image"]["hash"], right["image"]["hash"])
+        self.assertEqual(got["rays"], right["rays"])
+
+    def test_is_an_error_without_fallback(self):
+        result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "4"}, *self.ARGUMENTS, "pocl", "--no-fallback")
+        self.assertEqual(result.returncode, 5, result.stderr)
+
+
+class Wrong(WrongDriver):
+    """A device that computes other bits is found out."""
+
+    def render(self, shim, code, *arguments):
+        result = self.run_with(shim, "render", SCENE, "--size", "100", "--device", "pocl",
+                               "--stats=json", *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result
+
+    def right_hash(self):
+        return json.loads(self.render({}, 0).stdout)["image"]["hash"]
+
+    def test_by_its_self_test(self):
+        result = self.render(brighter("1.000001"), 0)
+        self.assertIn("fails its self-test", result.stderr)
+        figures = json.loads(result.stdout)
+        self.assertEqual(figures["image"]["hash"], self.right_hash())
+        self.assertIn("fallback_from", figures["device"])
+
+    def test_its_self_test_is_an_error_without_fallback(self):
+        self.render(brighter("1.000001"), 5, "--no-fallback")
+
+    def test_a_right_one_is_not(self):
+        figures = json.loads(self.render({}, 0, "--check", "100%").stdout)
+        self.assertNotIn("fallback_from", figures["device"])
+        self.assertGreater(figures["tiles_checked"], 1)
+        self.assertGreater(figures["seconds"]["self_test"], 0)
+
+    # A fault at the left edge alone, where the self-test does not look.
+    LEFT_EDGE = {"CL_SHIM_OLD": "RT_TO_REALS(x) + offset.x",
+                 "CL_SHIM_NEW": "RT_TO_REALS(x) + (x < 3 ? (Reals)0.25f : offset.x)"}
+
+    def test_by_tracing_tiles_again(self):
+        arguments = ["--check", "50%", "--tile", "20"]
+        result = self.render(self.LEFT_EDGE, 0, *arguments)
+        self.assertIn("tiles that threads traced again are different", result.stderr)
+        self.assertEqual(json.loads(result.stdout)["image"]["hash"], self.right_hash())
+        self.render(self.LEFT_EDGE, 5, "--no-fallback", *arguments)
 
 
 class Math(WrongDriver):

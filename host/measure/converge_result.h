@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/measure/bench_result.h"
-#include "host/measure/render_stats.h"
+#include "host/picture/render_stats.h"
 
 namespace rt {
 

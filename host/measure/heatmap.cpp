@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "host/measure/image_error.h"
+#include "host/image/image_error.h"
 
 namespace rt {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "host/image/image_error.h"
 #include "host/image/picture.h"
-#include "host/measure/image_error.h"
 
 namespace rt {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "host/measure/render_stats.h"
+#include "host/picture/render_stats.h"
 
 namespace rt {
 

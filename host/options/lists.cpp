@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "host/render/device_spec.h"
+#include "host/opencl/device_spec.h"
 
 namespace rt {
 
@@ -62,7 +62,7 @@ void add_device_list(const CommandLine& verb, std::vector<std::string>& devices)
                 [&](const std::string& text) {
                     devices = split_list("--devices", text);
                     for (const std::string& spec : devices) {
-                        if (spec != "all") check_device_spec(spec);
+                        check_device_list(spec);
                     }
                 });
 }

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "host/error.h"
+#include "host/opencl/device_spec.h"
 #include "host/options/lists.h"
 #include "host/options/parse.h"
 #include "host/options/verb_options.h"
-#include "host/render/device_spec.h"
 #include "host/render/native_kernels.h"
 
 namespace rt {
@@ -43,10 +43,22 @@ std::string parse_isa(const std::string& text) {
     return text;
 }
 
+/// "5%": 0.05.
+double parse_percent(const std::string& text) {
+    double percent = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, percent);
+    const bool has_sign = end - rest == 1 && *rest == '%';
+    if (error != std::errc() || !has_sign || !(percent >= 0 && percent <= 100)) {
+        refuse("--check", text, "give a share from 0% to 100%");
+    }
+    return percent / 100;
+}
+
 std::string device_from_environment() {
     const std::string spec = environment("MIRRORBALL_DEVICE");
     try {
-        check_device_spec(spec);
+        check_device_list(spec);
     } catch (const Error& error) {
         throw Error(error.exit_code(), std::string("in $MIRRORBALL_DEVICE: ") + error.what());
     }
@@ -101,13 +113,14 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
 }
 
 void add_device_options(const CommandLine& verb, RenderOptions& render) {
-    verb.option("--device", "SPEC",
-                "index, platform:device, pocl, name:TEXT, cpu, gpu or threads[:N] (default: "
-                "$MIRRORBALL_DEVICE, else the best available)",
-                [&](const std::string& text) {
-                    check_device_spec(text);
-                    render.device = text;
-                });
+    verb.option(
+        "--device", "SPEC",
+        "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N] or all; several with "
+        "commas share the picture (default: $MIRRORBALL_DEVICE, else the best available)",
+        [&](const std::string& text) {
+            check_device_list(text);
+            render.device = text;
+        });
     add_choice<Precision>(verb, "--precision", render.precision,
                           {{"float", Precision::float32}, {"double", Precision::float64}},
                           "arithmetic (default float)");
@@ -141,6 +154,8 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
                      "list the triangles that cast shadows, where there are few (default on)");
     verb.flag("--no-fallback", render.no_fallback,
               "fail when the device fails, instead of finishing on threads");
+    verb.option("--check", "P%", "trace a share of a device's tiles again on threads and compare",
+                [&](const std::string& text) { render.check = parse_percent(text); });
 }
 
 void add_report_options(const CommandLine& verb, RenderOptions& render) {

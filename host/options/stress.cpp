@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "host/opencl/device_spec.h"
 #include "host/options/lists.h"
 #include "host/options/verb_options.h"
-#include "host/render/device_spec.h"
 
 namespace rt {
 
@@ -29,7 +29,7 @@ void add_stress(const CommandLine& program, Options& options) {
                 [&](const std::string& text) {
                     stress.devices = split_list("--device", text);
                     for (const std::string& spec : stress.devices) {
-                        if (spec != "all") check_device_spec(spec);
+                        check_device_list(spec);
                     }
                 });
     verb.flag("--quick", stress.quick, "the cases that take under a minute in all");

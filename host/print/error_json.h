@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/measure/image_error.h"
+#include "host/image/image_error.h"
 
 namespace rt {
 

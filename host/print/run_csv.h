@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/measure/render_stats.h"
+#include "host/picture/render_stats.h"
 
 namespace rt {
 

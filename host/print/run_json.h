@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "host/measure/render_stats.h"
 #include "host/measure/statistics.h"
+#include "host/picture/render_stats.h"
 
 namespace rt {
 

@@ -87,23 +87,27 @@ Json device_json(const DeviceStats& device) {
     return json;
 }
 
+Json shares_json(const std::vector<DeviceShare>& shares) {
+    Json json = Json::array();
+    for (const DeviceShare& share : shares) {
+        Json one{{"name", share.name}, {"pixels", share.pixels}};
+        one["ready"] = share.ready > 0 ? Json(share.ready) : Json(nullptr);
+        if (!share.failure.empty()) one["failure"] = share.failure;
+        json.push_back(std::move(one));
+    }
+    return json;
+}
+
 Json phases_json(const PhaseStats& phases) {
     const RendererTimes& renderer = phases.renderer;
-    return {{"start", phases.start},
-            {"load", phases.load},
-            {"flatten", phases.flatten},
-            {"open", renderer.open},
-            {"build", renderer.build},
-            {"build_cache", to_string(renderer.build_cache)},
-            {"upload", renderer.upload},
-            {"trace", renderer.trace},
-            {"kernel", renderer.kernel},
-            {"resolve", renderer.resolve},
-            {"read_back", renderer.read_back},
-            {"write", phases.write},
-            {"total", phases.total},
-            {"set_up", phases.set_up()},
-            {"resolve_and_write", phases.resolve_and_write()}};
+    return {{"start", phases.start},       {"load", phases.load},
+            {"flatten", phases.flatten},   {"open", renderer.open},
+            {"build", renderer.build},     {"build_cache", to_string(renderer.build_cache)},
+            {"upload", renderer.upload},   {"self_test", renderer.check},
+            {"trace", renderer.trace},     {"kernel", renderer.kernel},
+            {"resolve", renderer.resolve}, {"read_back", renderer.read_back},
+            {"write", phases.write},       {"total", phases.total},
+            {"set_up", phases.set_up()},   {"resolve_and_write", phases.resolve_and_write()}};
 }
 
 }  // namespace
@@ -137,6 +141,8 @@ Json stats_json(const RenderStats& stats) {
               {"rays_per_second", stats.rays_per_second()},
               {"image", {{"hash", hash_text(stats.image_hash)}, {"non_finite", stats.non_finite}}},
               {"complete", stats.complete()}};
+    if (!stats.shares.empty()) json["devices"] = shares_json(stats.shares);
+    if (stats.tiles_checked > 0) json["tiles_checked"] = stats.tiles_checked;
     if (stats.error) json["error"] = error_json(*stats.error);
     return json;
 }

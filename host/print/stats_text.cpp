@@ -11,6 +11,7 @@ namespace rt {
 namespace {
 
 std::string device_text(const DeviceStats& device) {
+    if (device.lanes == 0) return device.name;  // several
     if (!device.schedule.empty()) {
         return fmt::format("{} thread{}, {}, {} lane{} ({})", device.threads,
                            device.threads == 1 ? "" : "s", device.schedule, device.lanes,
@@ -18,6 +19,13 @@ std::string device_text(const DeviceStats& device) {
     }
     return fmt::format("{}, per {}, {} lane{}", device.name, device.launch, device.lanes,
                        device.lanes == 1 ? "" : "s");
+}
+
+std::string share_text(const DeviceShare& share) {
+    const std::string pixels = counted(static_cast<std::size_t>(share.pixels), "pixel");
+    if (!share.failure.empty()) return share.name + ": " + pixels + " before it failed";
+    if (share.ready == 0) return share.name + ": was not ready in time";
+    return fmt::format("{}: {}, ready after {:.3f} s", share.name, pixels, share.ready);
 }
 
 void add_phase(std::string& text, const char* name, double seconds, const std::string& note = "") {
@@ -35,6 +43,7 @@ std::string phases_text(const PhaseStats& phases) {
         add_phase(text, "  open device", renderer.open);
         add_phase(text, "  build kernels", renderer.build, to_string(renderer.build_cache));
         add_phase(text, "  upload", renderer.upload);
+        if (renderer.check > 0) add_phase(text, "  self-test", renderer.check);
     }
     add_phase(text, "ray trace", renderer.trace,
               renderer.kernel > 0 ? fmt::format("kernels {:.4f} s", renderer.kernel) : "");
@@ -110,6 +119,11 @@ std::string stats_text(const RenderStats& stats) {
         hash_text(stats.image_hash), device_text(stats.device));
     if (!stats.device.fallback_from.empty()) {
         text += fmt::format("        instead of {}, which failed\n", stats.device.fallback_from);
+    }
+    for (const DeviceShare& share : stats.shares) text += "        " + share_text(share) + "\n";
+    if (stats.tiles_checked > 0) {
+        text += fmt::format("        {} traced again on threads: the same\n",
+                            counted(stats.tiles_checked, "tile"));
     }
     text += fmt::format("needs   {}\nleaves out {}{}\n", names_text(stats.features, true),
                         names_text(stats.features, false),

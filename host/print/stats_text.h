@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host/flatten/features.h"
-#include "host/measure/render_stats.h"
+#include "host/picture/render_stats.h"
 
 namespace rt {
 

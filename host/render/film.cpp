@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 
 #include "host/hash.h"
 
 namespace rt {
 
 template <typename T>
-Film<T> part_of(Film<T>& film, const Rect& shown, const Rect& part) {
-    if (part == shown) return std::move(film);
+Film<T> part_of(const Film<T>& film, const Rect& shown, const Rect& part) {
     Film<T> cut(part.width, part.height);
     const auto row_length = 3 * static_cast<std::ptrdiff_t>(part.width);
     for (int row = 0; row < part.height; ++row) {
@@ -22,8 +20,8 @@ Film<T> part_of(Film<T>& film, const Rect& shown, const Rect& part) {
     return cut;
 }
 
-template Film<float> part_of(Film<float>&, const Rect&, const Rect&);
-template Film<double> part_of(Film<double>&, const Rect&, const Rect&);
+template Film<float> part_of(const Film<float>&, const Rect&, const Rect&);
+template Film<double> part_of(const Film<double>&, const Rect&, const Rect&);
 
 template <typename T>
 std::uint64_t hash_of(const Film<T>& film) {

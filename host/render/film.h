@@ -23,7 +23,7 @@ struct Film {
 
 /// The part of a film of `shown` that shows `part`, which lies in it.
 template <typename T>
-Film<T> part_of(Film<T>& film, const Rect& shown, const Rect& part);
+Film<T> part_of(const Film<T>& film, const Rect& shown, const Rect& part);
 
 /// 64 bits over size and every bit of the film (FNV-1a): equal hashes, equal pictures.
 template <typename T>

@@ -17,13 +17,15 @@ enum class BuildCache { none, cold, warm, unknown };
 
 /// Where a renderer's time went, in seconds of wall clock; 0 for what it does not do.
 struct RendererTimes {
-    double open = 0;       ///< find the device, make context and queue
-    double build = 0;      ///< compile or load the kernels
-    double upload = 0;     ///< scene to device
-    double trace = 0;      ///< first ray to last
-    double kernel = 0;     ///< of that, kernels running, by the device's own clock
-    double resolve = 0;    ///< average sample buffers, where that is a pass of its own
-    double read_back = 0;  ///< film to host
+    double open = 0;          ///< find the device, make context and queue
+    double build = 0;         ///< compile or load the kernels
+    double upload = 0;        ///< scene to device
+    double check = 0;         ///< its self-test
+    double trace = 0;         ///< first ray to last
+    double kernel = 0;        ///< of that, kernels running, by the device's own clock
+    double resolve = 0;       ///< average sample buffers, where that is a pass of its own
+    double read_back = 0;     ///< film to host
+    std::int64_t pixels = 0;  ///< rendered, refined ones not among them
     BuildCache build_cache = BuildCache::none;
 };
 
@@ -42,11 +44,13 @@ class Renderer {
 
     /// Renders the queue's tiles into the film, black so far, which shows `region` of the picture;
     /// returns when the queue is empty or stopped, with every tile it took finished. Throws Error
-    /// (ExitCode::device) when the device fails.
+    /// (ExitCode::device) when the device fails; the queue then counts no tile as finished whose
+    /// pixels are not in the film.
     virtual void render(TileQueue& queue, const Rect& region, Film<T>& film) = 0;
 
     /// Renders these pixels of the film anew, with a regular grid x grid of samples each; at most
-    /// most_tile_pixels of them. Adds their rays to the queue's. Throws like render.
+    /// most_tile_pixels of them. Adds their rays to the queue's. Throws like render; all of them
+    /// must be refined again then.
     virtual void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
                         const Rect& region, Film<T>& film) = 0;
 

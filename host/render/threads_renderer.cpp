@@ -95,6 +95,7 @@ class ThreadsRenderer : public Renderer<T> {
     void render_tiles(TileQueue& queue, const Rect& region, Film<T>& film) {
         const Stopwatch watch;
         const PacketShape shape = packet_shape(kernels_.lanes, samples());
+        std::atomic<std::int64_t> finished = 0;
         run_on_threads(thread_count(options_, samples()), [&](int) {
             while (const auto rect = queue.next()) {
                 const FlatTile tile = flat_tile<T>(*rect, region);
@@ -104,10 +105,13 @@ class ThreadsRenderer : public Renderer<T> {
                         kernels_.render_pixels(film.rgb.data(), &counts, &view_, &tile, first, end);
                     });
                 queue.add_rays(rays_of(counts, pixels * static_cast<std::uint64_t>(samples())));
-                if (pixels == static_cast<std::uint64_t>(rect->pixels())) queue.finish(*rect);
+                if (pixels != static_cast<std::uint64_t>(rect->pixels())) continue;
+                queue.finish(*rect);
+                finished += rect->pixels();
             }
         });
-        times_.trace = watch.seconds();
+        times_.pixels += finished;
+        times_.trace += watch.seconds();
     }
 
     /// Renders the pixels with the view's grid of samples.

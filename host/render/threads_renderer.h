@@ -8,13 +8,9 @@
 #include "host/render/native_kernels.h"
 #include "host/render/ray_tracer.h"
 #include "host/render/renderer.h"
+#include "host/render/schedule.h"
 
 namespace rt {
-
-enum class Schedule {
-    tiles,    ///< threads take tiles from a shared counter
-    buffers,  ///< the paper's: a thread renders whole sample buffers, averaged at the end
-};
 
 struct ThreadsOptions {
     int threads = 0;  ///< 0: all cores, or one a sample buffer with Schedule::buffers

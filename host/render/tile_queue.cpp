@@ -22,13 +22,13 @@ namespace {
 /// Tile `first` and those to its right, as far as they fit.
 TileRun side_by_side(const std::vector<Rect>& tiles, std::size_t first,
                      const std::function<bool(const Rect&)>& fits) {
-    TileRun run{tiles[first]};
+    TileRun run{tiles[first], 1, first};
     for (std::size_t i = first + 1; i < tiles.size(); ++i) {
         Rect wider = run.whole;
         wider.width += tiles[i].width;
         const Rect right{run.whole.x + run.whole.width, wider.y, tiles[i].width, wider.height};
         if (tiles[i] != right || !fits(wider)) break;
-        run = {wider, run.tiles + 1};
+        run = {wider, run.tiles + 1, first};
     }
     return run;
 }
@@ -43,8 +43,9 @@ TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop)
 std::optional<Rect> TileQueue::next() {
     if (stopped()) return std::nullopt;
     const std::size_t index = next_.fetch_add(1);
-    if (index >= tiles_.size()) return std::nullopt;
-    return tiles_[index];
+    if (index < tiles_.size()) return tiles_[index];
+    if (const auto returned = next_returned()) return tiles_[*returned];
+    return std::nullopt;
 }
 
 std::optional<TileRun> TileQueue::next_run(const std::function<bool(const Rect&)>& fits) {
@@ -54,7 +55,18 @@ std::optional<TileRun> TileQueue::next_run(const std::function<bool(const Rect&)
         const TileRun run = longest_run(first, fits);
         if (next_.compare_exchange_weak(first, first + run.tiles)) return run;
     }
+    if (const auto returned = next_returned()) return TileRun{tiles_[*returned], 1, *returned};
     return std::nullopt;
+}
+
+std::optional<std::size_t> TileQueue::next_returned() {
+    if (!any_returned_) return std::nullopt;
+    const std::scoped_lock lock(returned_mutex_);
+    if (returned_.empty()) return std::nullopt;
+    const std::size_t index = returned_.back();
+    returned_.pop_back();
+    any_returned_ = !returned_.empty();
+    return index;
 }
 
 TileRun TileQueue::longest_run(std::size_t first,
@@ -68,7 +80,7 @@ TileRun TileQueue::longest_run(std::size_t first,
         taller.height += below.whole.height;
         const Rect bottom{taller.x, taller.y + run.whole.height, taller.width, below.whole.height};
         if (below.whole != bottom || !fits(taller)) break;
-        run = {taller, run.tiles + below.tiles};
+        run = {taller, run.tiles + below.tiles, first};
     }
     return run;
 }
@@ -76,6 +88,24 @@ TileRun TileQueue::longest_run(std::size_t first,
 void TileQueue::finish(const TileRun& run) {
     pixels_finished_ += run.whole.pixels();
     tiles_finished_ += run.tiles;
+}
+
+void TileQueue::give_back(const TileRun& run) {
+    const std::scoped_lock lock(returned_mutex_);
+    for (std::size_t i = run.tiles; i > 0; --i) returned_.push_back(run.first + i - 1);
+    any_returned_ = true;
+}
+
+void TileQueue::take_back(const std::vector<TileRun>& runs, const RayCounts& rays) {
+    for (const TileRun& run : runs) {
+        pixels_finished_ -= run.whole.pixels();
+        tiles_finished_ -= run.tiles;
+        give_back(run);
+    }
+    primary_ -= rays.primary;
+    shadow_ -= rays.shadow;
+    mirror_ -= rays.mirror;
+    transmitted_ -= rays.transmitted;
 }
 
 void TileQueue::add_rays(const RayCounts& rays) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -16,10 +17,11 @@ namespace rt {
 /// Cuts a region into tiles of at most the given size, row by row from the top left.
 std::vector<Rect> make_tiles(const Rect& region, int tile_width, int tile_height);
 
-/// Neighboring tiles that make up one rectangle.
+/// Consecutive tiles that make up one rectangle.
 struct TileRun {
     Rect whole;
     std::size_t tiles = 1;
+    std::size_t first = 0;  ///< index of the first tile
 };
 
 /// Set by a signal handler to the signal's number; 0 while none has come.
@@ -33,7 +35,7 @@ class TileQueue {
     TileQueue(std::vector<Rect> tiles, const StopFlag& stop);
 
     /// The next tile; empty when there is none or the work was stopped. A renderer finishes every
-    /// tile it has taken.
+    /// tile it has taken, or gives it back.
     std::optional<Rect> next();
 
     /// As next, but for as many of the next tiles as make up a rectangle that `fits`; one tile at
@@ -42,6 +44,12 @@ class TileQueue {
 
     void finish(const Rect& tile) { finish(TileRun{tile}); }
     void finish(const TileRun& run);
+
+    /// Hands tiles out again that were taken and will not be finished.
+    void give_back(const TileRun& run);
+
+    /// The same for tiles that were finished and whose pixels are lost; `rays` is what they added.
+    void take_back(const std::vector<TileRun>& runs, const RayCounts& rays);
 
     /// Adds to the rays traced so far; for progress, and for the totals at the end.
     void add_rays(const RayCounts& rays);
@@ -53,12 +61,16 @@ class TileQueue {
     RayCounts rays() const;
 
    private:
+    std::optional<std::size_t> next_returned();
     TileRun longest_run(std::size_t first, const std::function<bool(const Rect&)>& fits) const;
 
     const std::vector<Rect> tiles_;
     const StopFlag& stop_;
     std::int64_t pixels_ = 0;
     std::atomic<std::size_t> next_ = 0;
+    std::mutex returned_mutex_;
+    std::vector<std::size_t> returned_;  ///< tiles given back
+    std::atomic<bool> any_returned_ = false;
     std::atomic<std::size_t> tiles_finished_ = 0;
     std::atomic<std::int64_t> pixels_finished_ = 0;
     std::atomic<std::uint64_t> primary_ = 0, shadow_ = 0, mirror_ = 0, transmitted_ = 0;

@@ -9,7 +9,7 @@
 #include "host/image/picture.h"
 #include "host/measure/bench_result.h"
 #include "host/measure/converge_result.h"
-#include "host/measure/render_stats.h"
+#include "host/picture/render_stats.h"
 #include "host/stress/stress_result.h"
 
 namespace rt {

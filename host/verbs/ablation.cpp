@@ -16,12 +16,13 @@ void add_features(const Features& needed, Changes& changes) {
     for (const FeatureName& feature : feature_names) {
         if (needed.*feature.flag) continue;
         changes.push_back(
-            {std::string(feature.name) + " compiled in",
-             [&feature](RenderOptions& options) { options.also_features.*feature.flag = true; }});
+            {std::string(feature.name) + " compiled in", [&feature](RenderSettings& settings) {
+                 settings.also_features.*feature.flag = true;
+             }});
     }
     if (changes.empty()) return;
     changes.push_back(
-        {"everything compiled in", [](RenderOptions& options) { options.all_features = true; }});
+        {"everything compiled in", [](RenderSettings& settings) { settings.all_features = true; }});
 }
 
 /// Whether some kind has primitives to build a hierarchy over, and none.
@@ -35,11 +36,11 @@ void add_hierarchies(const FlatScene<float>& flat, Changes& changes) {
     const std::size_t primitives = flat.spheres.size() + flat.cones.size() + flat.triangles.size();
     if (!flat.nodes.empty() && primitives <= most_without_hierarchy) {
         changes.push_back(
-            {"no hierarchies", [](RenderOptions& options) { options.hierarchies = false; }});
+            {"no hierarchies", [](RenderSettings& settings) { settings.hierarchies = false; }});
     }
     if (lacks_hierarchy(flat)) {
         changes.push_back({"hierarchies over few primitives",
-                           [](RenderOptions& options) { options.hierarchies = true; }});
+                           [](RenderSettings& settings) { settings.hierarchies = true; }});
     }
 }
 
@@ -52,7 +53,7 @@ std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& d
     if (!device.is_threads) add_features(flat.features, changes);
     if (flat.stats.casters < flat.stats.lit_triangles) {
         changes.push_back(
-            {"no caster lists", [](RenderOptions& options) { options.caster_lists = false; }});
+            {"no caster lists", [](RenderSettings& settings) { settings.caster_lists = false; }});
     }
     add_hierarchies(flat, changes);
     const int lanes = precision == Precision::float32 ? device.float_lanes : device.double_lanes;
@@ -60,10 +61,10 @@ std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& d
         const int samples = scene.aa.samples();
         if (packet_shape(lanes, samples).samples == samples) {
             changes.push_back({"a loop over samples",
-                               [](RenderOptions& options) { options.any_samples = true; }});
+                               [](RenderSettings& settings) { settings.any_samples = true; }});
         }
         changes.push_back({"one lane instead of " + std::to_string(lanes),
-                           [](RenderOptions& options) { options.lanes = 1; }});
+                           [](RenderSettings& settings) { settings.lanes = 1; }});
     }
     return changes;
 }

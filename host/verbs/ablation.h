@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/options/render_options.h"
+#include "host/picture/render_settings.h"
 #include "host/scene/scene.h"
 #include "host/verbs/device_list.h"
 
@@ -15,7 +15,7 @@ namespace rt {
 /// that it has taken away.
 struct Change {
     std::string what;
-    std::function<void(RenderOptions&)> make;
+    std::function<void(RenderSettings&)> make;
 };
 
 /// What `bench --ablate` tries on this scene and device. No hierarchy is taken away from more

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 
 #include "host/console.h"
 #include "host/error.h"
@@ -19,6 +20,7 @@
 #include "host/print/run_json.h"
 #include "host/print/stats_json.h"
 #include "host/render/stopwatch.h"
+#include "host/render/threads_renderer.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"
@@ -26,7 +28,6 @@
 #include "host/verbs/default_scene.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/measure.h"
-#include "host/verbs/picture_job.h"
 #include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"
 
@@ -70,8 +71,7 @@ class Plan {
         for (const LoadedScene& loaded : scenes_) {
             for (const PictureSize& size : options_.sizes) {
                 for (const AaMode& aa : options_.aa) {
-                    RenderOptions picture = timed_options();
-                    picture.scene = loaded.path;
+                    RenderSettings picture = timed_settings();
                     picture.size = size;
                     picture.aa = aa;
                     if (!add_reference(loaded, picture, result)) return false;
@@ -100,22 +100,25 @@ class Plan {
         }
     }
 
-    bool add_reference(const LoadedScene& loaded, RenderOptions picture, BenchResult& result) {
-        picture.device = "threads";
+    bool add_reference(const LoadedScene& loaded, RenderSettings picture, BenchResult& result) {
         picture.precision = Precision::float64;
         Scene scene = loaded.scene;
         apply_overrides(scene, picture);
-        RenderedPicture rendered = render_picture(scene, picture);
+        RenderedPicture rendered = render_quietly(scene, picture, threads_device());
         if (!rendered.stats.complete()) return false;
         rendered.stats.scene.path = loaded.path;
         rendered.stats.phases.load = loaded.load_seconds;
         rendered.stats.phases.total = timed_total(rendered.stats);
+        hashes_[Precision::float64] = rendered.stats.image_hash;
         result.references.push_back(rendered.stats);
         references_.push_back(std::move(rendered.picture));
-        return true;
+        picture.precision = Precision::float32;
+        const RenderedPicture in_float = render_quietly(scene, picture, threads_device());
+        hashes_[Precision::float32] = in_float.stats.image_hash;
+        return in_float.stats.complete();
     }
 
-    void add_rows(const LoadedScene& loaded, RenderOptions picture) {
+    void add_rows(const LoadedScene& loaded, RenderSettings picture) {
         for (const Precision precision : options_.precisions) {
             picture.precision = precision;
             for (const ListedDevice& device : devices_) {
@@ -125,8 +128,7 @@ class Plan {
                 } else if (device.is_threads) {
                     add_threads_rows(loaded, picture, device);
                 } else {
-                    picture.device = device.spec;
-                    add_row(loaded, picture, device, 0);
+                    add_row(loaded, picture, device);
                 }
             }
         }
@@ -134,7 +136,7 @@ class Plan {
 
     /// threads: 1 to N threads in every schedule; threads:K: K alone. In the schedule by buffers no
     /// more threads run than a pixel has samples.
-    void add_threads_rows(const LoadedScene& loaded, RenderOptions picture,
+    void add_threads_rows(const LoadedScene& loaded, RenderSettings picture,
                           const ListedDevice& device) {
         const int most = options_.threads > 0 ? options_.threads : available_cores();
         const int first = device.threads > 0 ? device.threads : 1;
@@ -144,35 +146,37 @@ class Plan {
                 const int running = thread_count({threads, schedule}, picture.aa->samples());
                 if (running < threads) break;
                 picture.schedule = schedule;
-                picture.device = fmt::format("threads:{}", threads);
-                add_row(loaded, picture, device, threads);
+                add_row(loaded, picture, with_threads(device, threads));
             }
         }
     }
 
+    static ListedDevice with_threads(ListedDevice device, int threads) {
+        device.spec = fmt::format("threads:{}", threads);
+        device.threads = device.choice.threads = threads;
+        return device;
+    }
+
     /// The picture as usual, then with each change.
-    void add_ablation(const LoadedScene& loaded, RenderOptions picture,
+    void add_ablation(const LoadedScene& loaded, const RenderSettings& picture,
                       const ListedDevice& device) {
-        int threads = 0;
-        picture.device = device.spec;
-        if (device.is_threads) {
-            threads = device.threads > 0     ? device.threads
-                      : options_.threads > 0 ? options_.threads
-                                             : available_cores();
-            picture.device = fmt::format("threads:{}", threads);
+        ListedDevice used = device;
+        if (device.is_threads && device.threads == 0) {
+            used =
+                with_threads(device, options_.threads > 0 ? options_.threads : available_cores());
         }
-        add_row(loaded, picture, device, threads);
+        add_row(loaded, picture, used);
         Scene scene = loaded.scene;
         apply_overrides(scene, picture);
         for (const Change& change : changes_to_measure(scene, device, picture.precision)) {
-            RenderOptions changed = picture;
+            RenderSettings changed = picture;
             change.make(changed);
-            add_row(loaded, changed, device, threads, change.what);
+            add_row(loaded, changed, used, change.what);
         }
     }
 
-    void add_row(const LoadedScene& loaded, const RenderOptions& picture,
-                 const ListedDevice& device, int threads, const std::string& change = "") {
+    void add_row(const LoadedScene& loaded, const RenderSettings& picture,
+                 const ListedDevice& device, const std::string& change = "") {
         PlannedRow row;
         BenchCase& asked = row.asked;
         asked.scene_path = loaded.path;
@@ -183,16 +187,19 @@ class Plan {
         asked.aa = *picture.aa;
         asked.double_precision = picture.precision == Precision::float64;
         asked.uses_threads = device.is_threads;
-        asked.device = picture.device;
+        asked.device = device.spec;
         asked.device_name = device.name;
-        asked.threads = threads;
+        asked.threads = device.threads;
         asked.change = change;
         if (device.is_threads) {
             asked.schedule = picture.schedule == Schedule::tiles ? "tiles" : "buffers";
         }
         row.timed.scene = &loaded.scene;
         row.timed.reference = &references_.back();
-        row.timed.options = picture;
+        row.timed.path = loaded.path;
+        row.timed.device = device.choice;
+        row.timed.settings = picture;
+        row.timed.expected_hash = hashes_.at(picture.precision);
         row.timed.load_seconds = loaded.load_seconds;
         rows.push_back(std::move(row));
     }
@@ -201,6 +208,7 @@ class Plan {
     const std::vector<ListedDevice> devices_;
     std::deque<LoadedScene> scenes_;  // deques: rows point into them
     std::deque<Picture> references_;
+    std::map<Precision, std::uint64_t> hashes_;  ///< of the latest reference, and in float
 };
 
 void say_bad_rows(const BenchResult& result) {

@@ -22,7 +22,6 @@
 #include "host/verbs/converge_reference.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/measure.h"
-#include "host/verbs/picture_job.h"
 #include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"
 
@@ -50,9 +49,10 @@ void add_points(const ConvergeOptions& options, const std::vector<int>& bounces,
 /// Devices without double have no points in it; threads have none in fast math, which is the
 /// OpenCL compiler's.
 std::vector<ConvergePoint> planned_points(const ConvergeOptions& options,
-                                          const std::vector<int>& bounces) {
+                                          const std::vector<int>& bounces,
+                                          const std::vector<ListedDevice>& devices) {
     std::vector<ConvergePoint> points;
-    for (const ListedDevice& device : listed_devices(options.devices)) {
+    for (const ListedDevice& device : devices) {
         for (const Precision precision : options.precisions) {
             for (const bool fast_math : options.fast_math) {
                 ConvergeCase of;
@@ -67,26 +67,30 @@ std::vector<ConvergePoint> planned_points(const ConvergeOptions& options,
     return points;
 }
 
-TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options) {
+TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
+                     const std::vector<ListedDevice>& devices) {
     TimedCase timed;
-    timed.options = timed_options();
-    timed.options.scene = options.scene;
-    timed.options.device = asked.device;
-    timed.options.aa = asked.aa;
-    timed.options.max_bounces = asked.max_bounces;
-    timed.options.precision = asked.double_precision ? Precision::float64 : Precision::float32;
-    timed.options.fast_math = asked.fast_math;
-    if (asked.device == "threads") timed.options.threads = options.threads;
+    timed.path = options.scene;
+    timed.device = std::find_if(devices.begin(), devices.end(), [&](const ListedDevice& device) {
+                       return device.spec == asked.device;
+                   })->choice;
+    timed.settings = timed_settings();
+    timed.settings.aa = asked.aa;
+    timed.settings.max_bounces = asked.max_bounces;
+    timed.settings.precision = asked.double_precision ? Precision::float64 : Precision::float32;
+    timed.settings.fast_math = asked.fast_math;
+    if (asked.device == "threads") timed.settings.threads = options.threads;
     timed.judge = judge_estimate;
     return timed;
 }
 
 /// Times the points of the result against the converged picture.
 void time_points(const Scene& scene, double load_seconds, const ConvergedPicture& converged,
-                 const ConvergeOptions& options, ConvergeResult& result) {
+                 const ConvergeOptions& options, const std::vector<ListedDevice>& devices,
+                 ConvergeResult& result) {
     std::vector<TimedCase> cases;
     for (const ConvergePoint& point : result.points) {
-        TimedCase timed = timed_case(point.asked, options);
+        TimedCase timed = timed_case(point.asked, options, devices);
         timed.scene = &scene;
         timed.reference = &converged.picture;
         timed.load_seconds = load_seconds;
@@ -135,7 +139,8 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     result.height = scene.height;
     std::vector<int> bounces = options.max_bounces;
     if (bounces.empty()) bounces.push_back(scene.max_bounces);
-    result.points = planned_points(options, bounces);
+    const std::vector<ListedDevice> devices = listed_devices(options.devices);
+    result.points = planned_points(options, bounces, devices);
     if (result.points.empty()) {
         throw Error(ExitCode::usage,
                     "nothing to sweep: no device named can do that --precision "
@@ -147,7 +152,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     result.reference = converged.about;
     result.interrupted = !converged.complete;
     if (converged.complete) {
-        time_points(scene, load_seconds, converged, options, result);
+        time_points(scene, load_seconds, converged, options, devices, result);
     }
     return result;
 }

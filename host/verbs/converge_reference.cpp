@@ -13,12 +13,11 @@
 #include "host/error.h"
 #include "host/hash.h"
 #include "host/image/atomic_file.h"
+#include "host/image/image_error.h"
 #include "host/image/pfm_file.h"
-#include "host/measure/image_error.h"
 #include "host/measure/picture_judge.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_hash.h"
-#include "host/verbs/picture_job.h"
 #include "host/verbs/timing_loop.h"
 
 namespace rt {
@@ -103,10 +102,9 @@ Half make_half(Scene scene, int seed, const ConvergeOptions& options) {
         print_message(fmt::format("mirrorball: rendering the reference, {} in double, half {}\n",
                                   to_string(scene.aa), seed));
     }
-    RenderOptions render = timed_options();
-    render.device = "threads";
-    render.precision = Precision::float64;
-    RenderedPicture rendered = render_picture(scene, render);
+    RenderSettings settings = timed_settings();
+    settings.precision = Precision::float64;
+    RenderedPicture rendered = render_quietly(scene, settings, threads_device());
     half.complete = rendered.stats.complete();
     half.picture = std::move(rendered.picture);
     if (half.complete && !half.path.empty() && count_non_finite(half.picture) == 0) {

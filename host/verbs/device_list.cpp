@@ -4,22 +4,33 @@
 #include <algorithm>
 
 #include "host/console.h"
-#include "host/render/cl_renderer.h"
-#include "host/render/device_spec.h"
-#include "host/render/pocl_threads.h"
+#include "host/opencl/cl_renderer.h"
+#include "host/opencl/device_spec.h"
+#include "host/pocl/pocl_threads.h"
 
 namespace rt {
 
 namespace {
 
 ListedDevice list_entry(const ClDevice& device) {
-    return {std::to_string(device.index),
-            device.name,
-            false,
-            0,
-            device.has_double,
-            packet_lanes<float>(0, device),
-            packet_lanes<double>(0, device)};
+    ListedDevice entry;
+    entry.spec = std::to_string(device.index);
+    entry.choice.device = device;
+    entry.name = device.name;
+    entry.has_double = device.has_double;
+    entry.float_lanes = packet_lanes<float>(0, device);
+    entry.double_lanes = packet_lanes<double>(0, device);
+    return entry;
+}
+
+ListedDevice threads_entry(const std::string& spec, int threads) {
+    ListedDevice entry;
+    entry.spec = spec;
+    entry.choice.use_threads = true;
+    entry.choice.threads = entry.threads = threads;
+    entry.name = "threads";
+    entry.is_threads = true;
+    return entry;
 }
 
 void add_once(std::vector<ListedDevice>& list, const ListedDevice& device) {
@@ -49,7 +60,7 @@ class ClDevices {
 };
 
 void add_all(std::vector<ListedDevice>& list, ClDevices& devices) {
-    add_once(list, {"threads", "threads", true, 0, true});
+    add_once(list, threads_entry("threads", 0));
     for (const ClDevice& device : devices.list()) {
         if (device.unusable.empty()) {
             add_once(list, list_entry(device));
@@ -72,7 +83,7 @@ std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs) 
         if (spec == "all") {
             add_all(list, devices);
         } else if (names_threads(spec, choice)) {
-            add_once(list, {spec, "threads", true, choice.threads, true});
+            add_once(list, threads_entry(spec, choice.threads));
         } else {
             const auto& all = devices.list();
             add_once(list, list_entry(choose_device(spec, all, devices.problems()).device));

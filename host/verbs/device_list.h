@@ -4,11 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "host/opencl/device_spec.h"
+
 namespace rt {
 
 /// A device to be measured.
 struct ListedDevice {
     std::string spec;  ///< for --device: "threads", "threads:2", "0"
+    DeviceChoice choice;
     std::string name;  ///< "threads", or the OpenCL device's own name
     bool is_threads = false;
     int threads = 0;                        ///< from threads:N; 0 when not given

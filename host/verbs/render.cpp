@@ -8,15 +8,16 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
-#include "host/measure/image_error.h"
+#include "host/picture/render_picture.h"
 #include "host/print/stats_json.h"
 #include "host/print/stats_text.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
-#include "host/verbs/picture_job.h"
+#include "host/verbs/progress.h"
 #include "host/verbs/verbs.h"
 #include "host/version.h"
 
@@ -124,6 +125,24 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     return path;
 }
 
+RenderedPicture render_with_progress(const Scene& scene, const RenderOptions& options,
+                                     std::future<std::vector<DeviceChoice>> devices) {
+    std::optional<ProgressReporter> progress;
+    RenderEvents events;
+    events.message = [&](const std::string& text) {
+        const std::string line = options.verbose ? text : text.substr(0, text.find('\n'));
+        if (!options.quiet) print_message("mirrorball: " + line + "\n");
+    };
+    if (options.verbose) events.detail = events.message;
+    events.started = [&](const TileQueue& queue) {
+        install_stop_signals();
+        progress.emplace(queue, progress_mode_for_stderr(options));
+    };
+    events.ended = [&] { progress.reset(); };
+    events.driver_loaded = restore_stop_signals;
+    return render_picture(scene, options, std::move(devices), events, stop_flag());
+}
+
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
@@ -132,7 +151,7 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
         check_picture_path(options.output);
         check_output_is_no_input(options.output, {options.scene, options.reference});
     }
-    std::future<DeviceChoice> device = find_device(options);
+    auto devices = find_devices(options.device, options.threads, restore_stop_signals);
     Stopwatch watch;
     Scene scene = load_scene(options.scene, options.light);
     if (!options.quiet) print_notes(scene.notes);
@@ -141,7 +160,7 @@ int run_render(const RenderOptions& options, double seconds_before_main) {
     const std::optional<Picture> reference = load_reference(options, scene);
     const double reference_seconds = watch.lap();
     say_unsaved(options);
-    RenderedPicture rendered = render_picture(scene, options, std::move(device));
+    RenderedPicture rendered = render_with_progress(scene, options, std::move(devices));
     RenderStats& stats = rendered.stats;
     stats.scene.path = options.scene;
     stats.phases.start = seconds_before_main;

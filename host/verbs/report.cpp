@@ -19,7 +19,6 @@
 #include "host/verbs/converge_reference.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/measure.h"
-#include "host/verbs/picture_job.h"
 #include "host/verbs/report_settings.h"
 #include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"
@@ -75,12 +74,10 @@ class SceneStudy {
         if (interrupted || stop_flag() != 0) throw Stopped{};
     }
 
-    RenderOptions picture_options(const AaMode& aa) const {
-        RenderOptions options = timed_options();
-        options.scene = path_;
-        options.aa = aa;
-        options.device = device().spec;
-        return options;
+    static RenderSettings picture_settings(const AaMode& aa) {
+        RenderSettings settings = timed_settings();
+        settings.aa = aa;
+        return settings;
     }
 
     /// The first OpenCL device named, else the first at all.
@@ -93,9 +90,9 @@ class SceneStudy {
 
     ReportPicture picture(const AaMode& aa, const Picture& reference) const {
         Scene scene = scene_;
-        const RenderOptions options = picture_options(aa);
-        apply_overrides(scene, options);
-        RenderedPicture rendered = render_picture(scene, options);
+        const RenderSettings settings = picture_settings(aa);
+        apply_overrides(scene, settings);
+        RenderedPicture rendered = render_quietly(scene, settings, device().choice);
         stop_if(!rendered.stats.complete());
         rendered.stats.scene.path = path_;
         rendered.stats.error = image_error(clamped(rendered.picture), reference);
@@ -109,9 +106,11 @@ class SceneStudy {
             timed.scene = &scene_;
             timed.reference = &study.reference;
             timed.judge = judge_estimate;
-            timed.options = picture_options(scene_.aa);
+            timed.path = path_;
+            timed.device = device().choice;
+            timed.settings = picture_settings(scene_.aa);
         }
-        cases[1].options.all_features = true;
+        cases[1].settings.all_features = true;
         stop_if(!run_rounds(cases, std::max(options_.repeats, 9), true));
         if (cases[0].repeats.empty() || cases[1].repeats.empty()) return std::nullopt;
         return FeatureTrial{cases[0].repeats, cases[1].repeats, cold_build(study.bench),

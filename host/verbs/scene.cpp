@@ -8,7 +8,7 @@
 #include "host/counted.h"
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
-#include "host/measure/render_stats.h"
+#include "host/picture/render_stats.h"
 #include "host/print/flatten_text.h"
 #include "host/print/stats_json.h"
 #include "host/printable.h"

@@ -10,15 +10,15 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/hash.h"
-#include "host/render/cl_ray_tracer.h"
-#include "host/render/device_spec.h"
+#include "host/opencl/cl_ray_tracer.h"
+#include "host/opencl/device_spec.h"
+#include "host/picture/render_picture.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/json_file.h"
 #include "host/stop_signal.h"
 #include "host/stress/naive_tracer.h"
 #include "host/stress/ray_trials.h"
 #include "host/verbs/device_list.h"
-#include "host/verbs/picture_job.h"
 #include "host/verbs/stress_pictures.h"
 #include "host/verbs/timing_loop.h"
 
@@ -31,21 +31,17 @@ std::string first_line(const Error& error) {
     return text.substr(0, text.find('\n'));
 }
 
-RenderOptions row_options(const StressRow& row, const StressOptions& stress) {
-    RenderOptions options = timed_options();
-    options.device = row.device;
-    options.precision = row.double_precision ? Precision::float64 : Precision::float32;
-    options.all_features = stress.quick || stress.all_features;
-    return options;
+RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
+    RenderSettings settings = timed_settings();
+    settings.precision = row.double_precision ? Precision::float64 : Precision::float32;
+    settings.all_features = stress.quick || stress.all_features;
+    return settings;
 }
 
-/// Traces the rays of a trial where pictures with this --device are traced.
-RayCaster ray_caster(const std::string& spec) {
-    DeviceChoice choice;
-    if (names_threads(spec, choice)) return threads_ray_caster();
-    std::vector<std::string> problems;
-    const auto devices = list_cl_devices(problems);
-    const ClDevice device = choose_device(spec, devices, problems).device;
+/// Traces the rays of a trial where pictures on this device are traced.
+RayCaster ray_caster(const DeviceChoice& choice) {
+    if (choice.use_threads) return threads_ray_caster();
+    const ClDevice device = choice.device;
     return {[=](const auto& scene) { return make_cl_ray_tracer<float>(scene, device, {}); },
             [=](const auto& scene) { return make_cl_ray_tracer<double>(scene, device, {}); }};
 }
@@ -101,6 +97,16 @@ class Runner {
         return rows;
     }
 
+    const DeviceChoice& device_of(const StressRow& row) const {
+        return std::find_if(devices_.begin(), devices_.end(),
+                            [&](const ListedDevice& device) { return device.spec == row.device; })
+            ->choice;
+    }
+
+    RenderedPicture rendered_row(const Scene& scene, const StressRow& row) const {
+        return render_quietly(scene, row_settings(row, options_), device_of(row));
+    }
+
     void judge(const Picture& picture, ReferencePicture* reference, const StressBar& bar,
                StressRow& row) const {
         row.figures =
@@ -123,7 +129,7 @@ class Runner {
         for (StressRow& row : planned_rows(one.bar)) {
             if (stop_flag() != 0) return;
             try {
-                const RenderedPicture rendered = render_picture(scene, row_options(row, options_));
+                const RenderedPicture rendered = rendered_row(scene, row);
                 if (!rendered.stats.complete()) return;
                 row.hash = rendered.stats.image_hash;
                 row.seconds = rendered.stats.phases.renderer.trace;
@@ -194,7 +200,7 @@ class Runner {
     void render_text(const Scene& scene, const StressBar& bar, StressRow& row,
                      Hasher& hasher) const {
         try {
-            const RenderedPicture rendered = render_picture(scene, row_options(row, options_));
+            const RenderedPicture rendered = rendered_row(scene, row);
             const PictureFigures figures = count_non_numbers(rendered.picture);
             row.figures.nans += figures.nans;
             row.figures.infinities += figures.infinities;
@@ -236,7 +242,7 @@ class Runner {
             if (stop_flag() != 0) return;
             const Stopwatch watch;
             try {
-                const RayCaster caster = ray_caster(row.device);
+                const RayCaster caster = ray_caster(device_of(row));
                 row.rays = row.double_precision ? trial.in_double(rays, caster)
                                                 : trial.in_float(rays, caster);
                 row.why = broken_ray_bar(*row.rays, one.bar);

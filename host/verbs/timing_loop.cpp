@@ -15,19 +15,22 @@
 #include "host/measure/statistics.h"
 #include "host/render/stopwatch.h"
 #include "host/stop_signal.h"
-#include "host/verbs/picture_job.h"
 
 namespace rt {
 
 namespace {
 
-/// What is wrong with the newest of a case's runs next to the picture itself: that it is not the
-/// same picture as before.
-std::string what_changed(const TimedCase& timed, const RenderStats& run) {
+/// What is wrong with the bits of the newest of a case's runs: not those of the runs before, or of
+/// threads.
+std::string what_differs(const TimedCase& timed, const RenderStats& run) {
     for (const std::vector<RenderStats>* runs : {&timed.warm_up, &timed.repeats}) {
         if (runs->empty() || runs->front().image_hash == run.image_hash) continue;
         return fmt::format("the picture changes from run to run: {}, then {}",
                            hash_text(runs->front().image_hash), hash_text(run.image_hash));
+    }
+    if (timed.expected_hash.value_or(run.image_hash) != run.image_hash) {
+        return fmt::format("image {}, where threads compute {}", hash_text(run.image_hash),
+                           hash_text(*timed.expected_hash));
     }
     return "";
 }
@@ -36,17 +39,17 @@ std::string what_changed(const TimedCase& timed, const RenderStats& run) {
 void render_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     const double started = watch.seconds();
     Scene scene = *timed.scene;
-    apply_overrides(scene, timed.options);
-    RenderedPicture rendered = render_picture(scene, timed.options);
+    apply_overrides(scene, timed.settings);
+    RenderedPicture rendered = render_quietly(scene, timed.settings, timed.device);
     RenderStats& run = rendered.stats;
     if (!run.complete()) return;
     run.started = started;
-    run.scene.path = timed.options.scene;
+    run.scene.path = timed.path;
     run.phases.load = timed.load_seconds;
     run.phases.total = timed_total(run);
     const Judgement judgment = timed.judge(rendered.picture, *timed.reference);
     run.error = judgment.error;
-    timed.why = judgment.why_wrong.empty() ? what_changed(timed, run) : judgment.why_wrong;
+    timed.why = judgment.why_wrong.empty() ? what_differs(timed, run) : judgment.why_wrong;
     (warm_up ? timed.warm_up : timed.repeats).push_back(run);
     if (!timed.why.empty()) {
         timed.verdict = Verdict::wrong;
@@ -78,11 +81,25 @@ void say_round(int round, int rounds, std::size_t pictures, double seconds_befor
 
 }  // namespace
 
-RenderOptions timed_options() {
-    RenderOptions options;
-    options.quiet = true;
-    options.no_fallback = true;
-    return options;
+RenderSettings timed_settings() {
+    RenderSettings settings;
+    settings.no_fallback = true;
+    settings.self_test = false;
+    return settings;
+}
+
+RenderedPicture render_quietly(const Scene& scene, const RenderSettings& settings,
+                               const DeviceChoice& device) {
+    RenderEvents events;
+    events.started = [](const TileQueue&) { install_stop_signals(); };
+    events.driver_loaded = restore_stop_signals;
+    return render_picture(scene, settings, device, events, stop_flag());
+}
+
+DeviceChoice threads_device() {
+    DeviceChoice choice;
+    choice.use_threads = true;
+    return choice;
 }
 
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {

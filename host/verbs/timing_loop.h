@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,7 @@
 #include "host/measure/bench_result.h"
 #include "host/measure/picture_judge.h"
 #include "host/options/options.h"
+#include "host/picture/render_picture.h"
 #include "host/scene/scene.h"
 
 namespace rt {
@@ -16,9 +19,12 @@ namespace rt {
 struct TimedCase {
     const Scene* scene = nullptr;        ///< as loaded; options override
     const Picture* reference = nullptr;  ///< what `judge` compares with
-    RenderOptions options;
+    std::string path;                    ///< of the scene's file
+    DeviceChoice device;
+    RenderSettings settings;
     Judgement (*judge)(const Picture& picture, const Picture& reference) = judge_picture;
-    double load_seconds = 0;  ///< of the scene file, noted in every run
+    std::optional<std::uint64_t> expected_hash;  ///< of the picture, in strict arithmetic
+    double load_seconds = 0;                     ///< of the scene file, noted in every run
 
     // What comes of it.
     std::vector<RenderStats> warm_up, repeats;
@@ -26,8 +32,16 @@ struct TimedCase {
     std::string why;  ///< what is wrong or what failed
 };
 
-/// Options of a benchmark's rendering: quiet, and failing when its device fails.
-RenderOptions timed_options();
+/// Settings of a benchmark's rendering, which fails when its device fails, and is judged by the
+/// benchmark itself.
+RenderSettings timed_settings();
+
+/// Renders on the device without a word, until a stop signal.
+RenderedPicture render_quietly(const Scene& scene, const RenderSettings& settings,
+                               const DeviceChoice& device);
+
+/// As many threads as settings or this processor have.
+DeviceChoice threads_device();
 
 /// Renders every case once to warm up, then again `repeats` times; the rounds go over all cases
 /// (A B A B), so that a slow moment of the machine hits all alike. Every picture is judged; a case

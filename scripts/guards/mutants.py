@@ -110,10 +110,10 @@ MUTANTS = [
          "if (is_new && first->second != row.hash) {"),
     ], driver("Stress.test_cases_that_should_have_the_same_bits_and_do_not_fail")),
     Mutant("kernel seconds times 7", [
-        ("host/render/cl_renderer.cpp", "times_.kernel += kernel;", "times_.kernel += 7 * kernel;"),
+        ("host/opencl/cl_renderer.cpp", "times_.kernel += kernel;", "times_.kernel += 7 * kernel;"),
     ], [("cli", "stats_cases.Phases.test_kernels_take_most_of_the_trace_time")]),
     Mutant("--math fast without its options", [
-        ("host/render/cl_program.cpp", '" -DRT_FAST_MATH=1 -cl-mad-enable"', '""'),
+        ("host/opencl/cl_program.cpp", '" -DRT_FAST_MATH=1 -cl-mad-enable"', '""'),
     ], driver("Math.test_fast_lets_the_compiler_contract")),
     Mutant("medians of an even number by the upper one", [
         (M + "statistics.cpp", "(values[middle - 1] + values[middle]) / 2", "values[middle]"),

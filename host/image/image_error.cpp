@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/image_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/error.h"
+
+namespace rt {
+
+namespace {
+
+void check_same_shape(const Picture& a, const Picture& b) {
+    if (a.width == b.width && a.height == b.height && a.channels == b.channels) return;
+    throw Error(ExitCode::input,
+                fmt::format("the pictures differ in shape: {}x{} with {} channels, {}x{} with {}; "
+                            "compare pictures of one size",
+                            a.width, a.height, a.channels, b.width, b.height, b.channels));
+}
+
+bool is_finite_pixel(const Picture& picture, std::size_t pixel) {
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    const auto first = picture.pixels.begin() + static_cast<std::ptrdiff_t>(pixel * channels);
+    return std::all_of(first, first + picture.channels, [](float v) { return std::isfinite(v); });
+}
+
+/// Levels of an 8-bit picture. Twice the rounding of a value below 1 to float on top: pictures that
+/// were stored with 8 bits, one level apart, are not over 1/255.
+constexpr double levels(int count) { return count / 255.0 + 0x1p-23; }
+
+std::size_t pixel_count(const Picture& picture) {
+    return picture.pixels.size() / static_cast<std::size_t>(picture.channels);
+}
+
+}  // namespace
+
+std::size_t count_non_finite(const Picture& picture) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < pixel_count(picture); ++i) count += !is_finite_pixel(picture, i);
+    return count;
+}
+
+std::pair<int, int> first_non_finite(const Picture& picture) {
+    std::size_t i = 0;
+    while (is_finite_pixel(picture, i)) ++i;
+    const auto width = static_cast<std::size_t>(picture.width);
+    return {static_cast<int>(i % width), static_cast<int>(i / width)};
+}
+
+double pixel_difference(const float* a, const float* b, int channels) {
+    double largest = 0;
+    for (int c = 0; c < channels; ++c) {
+        if (!std::isfinite(a[c]) || !std::isfinite(b[c])) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        largest = std::max(largest, std::fabs(double{a[c]} - double{b[c]}));
+    }
+    return largest;
+}
+
+ImageError image_error(const Picture& picture, const Picture& reference) {
+    check_same_shape(picture, reference);
+    ImageError error;
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    const std::size_t pixels = pixel_count(picture);
+    double squares = 0, sum = 0, relative_squares = 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const float* a = &picture.pixels[i * channels];
+        const float* b = &reference.pixels[i * channels];
+        const double largest = pixel_difference(a, b, picture.channels);
+        if (std::isnan(largest)) {
+            ++error.non_finite;
+            continue;
+        }
+        for (std::size_t c = 0; c < channels; ++c) {
+            const double difference = double{a[c]} - double{b[c]};
+            squares += difference * difference;
+            sum += std::fabs(difference);
+            const double relative = difference / (std::fabs(double{b[c]}) + 0.01);
+            relative_squares += relative * relative;
+        }
+        error.over_1 += largest > levels(1) ? 1 : 0;
+        error.over_2 += largest > levels(2) ? 1 : 0;
+        error.over_8 += largest > levels(8) ? 1 : 0;
+        if (largest > error.max) {
+            error.max = largest;
+            error.max_x = static_cast<int>(i % static_cast<std::size_t>(picture.width));
+            error.max_y = static_cast<int>(i / static_cast<std::size_t>(picture.width));
+        }
+    }
+    const auto compared = static_cast<double>((pixels - error.non_finite) * channels);
+    const double mse = compared > 0 ? squares / compared : 0;
+    error.rmse = std::sqrt(mse);
+    error.mean = compared > 0 ? sum / compared : 0;
+    error.rel_mse = compared > 0 ? relative_squares / compared : 0;
+    error.psnr = mse > 0 ? -10 * std::log10(mse) : std::numeric_limits<double>::infinity();
+    return error;
+}
+
+}  // namespace rt

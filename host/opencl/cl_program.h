@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/flatten/features.h"
+#include "host/opencl/cl_device.h"
+#include "host/opencl/opencl.h"
+
+namespace rt {
+
+inline cl::Device handle_of(const ClDevice& device) { return cl::Device(device.handle, true); }
+
+/// kernels/render.cl with its includes, embedded at build time (host/embed_kernels.cpp).
+extern const char* const render_kernels;
+
+/// The entry points of kernels/render.cl that a renderer launches; the switches RT_RENDERS_.. of
+/// kernels/features.h.
+struct EntryPoints {
+    bool pixels = true;   ///< render_pixels
+    bool samples = true;  ///< render_samples and resolve_samples
+    bool list = true;     ///< render_list
+    bool rays = true;     ///< trace_rays
+};
+
+/// What a program is compiled for. `features` says what may be left out.
+struct ProgramOptions {
+    bool double_precision = false;
+    bool fast_math = false;            ///< let the compiler contract a * b + c
+    bool warnings_are_errors = false;  ///< for tests
+    int lanes = 1;                     ///< rays of a packet: 1, 2, 4, 8 or 16
+    int samples = 0;  ///< of a pixel, where a packet holds them all: compiled in; 0: any number
+    Features features;
+    EntryPoints entries;
+};
+
+/// The options of clBuildProgram; the same for the same arguments, since drivers cache by them.
+std::string build_options(const ClDevice& device, const ProgramOptions& options);
+
+/// Compiles the source for the device. Throws Error (ExitCode::device) with device, options and the
+/// compiler's log.
+cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
+                          const ProgramOptions& options);
+
+/// The Error (ExitCode::device) for an OpenCL call that failed.
+[[noreturn]] void throw_device_error(const ClDevice& device, const cl::Error& error);
+
+}  // namespace rt

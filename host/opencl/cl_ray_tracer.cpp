@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opencl/cl_ray_tracer.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "host/opencl/cl_buffer.h"
+#include "host/opencl/cl_program.h"
+#include "host/opencl/cl_scene.h"
+
+namespace rt {
+
+namespace {
+
+/// Rays of a launch: few enough items that PoCL does not compile the kernel again.
+constexpr std::size_t rays_of_a_launch = 1 << 15;
+
+template <typename T>
+class ClRayTracer {
+   public:
+    ClRayTracer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
+        : device_(device),
+          context_(handle_of(device)),
+          queue_(context_, handle_of(device)),
+          scene_(scene, context_, queue_, device) {
+        ProgramOptions program;
+        program.double_precision = sizeof(T) == sizeof(double);
+        program.lanes = packet_lanes<T>(options.lanes, device);
+        program.fast_math = options.fast_math;
+        program.warnings_are_errors = options.warnings_are_errors;
+        program.entries = {false, false, false, true};
+        lanes_ = static_cast<std::size_t>(program.lanes);
+        kernel_ =
+            cl::Kernel(build_program(context_, device, render_kernels, program), "trace_rays");
+        const cl_uint params = scene_.set_arguments(kernel_, 2);
+        kernel_.setArg(params, scene.params);
+        count_argument_ = params + 1;
+        queries_ = make_cl_buffer(context_, device_, rays_of_a_launch * sizeof(Query), "the rays",
+                                  CL_MEM_READ_ONLY);
+        answers_ = make_cl_buffer(context_, device_, rays_of_a_launch * sizeof(Answer),
+                                  "what the rays hit", CL_MEM_WRITE_ONLY);
+        kernel_.setArg(0, answers_);
+        kernel_.setArg(1, queries_);
+    }
+
+    void trace(std::span<const typename Flat<T>::RayQuery> queries,
+               std::span<typename Flat<T>::RayAnswer> answers) {
+        for (std::size_t at = 0; at < queries.size(); at += rays_of_a_launch) {
+            const std::size_t count = std::min(queries.size() - at, rays_of_a_launch);
+            trace_some(&queries[at], &answers[at], count);
+        }
+    }
+
+   private:
+    using Query = typename Flat<T>::RayQuery;
+    using Answer = typename Flat<T>::RayAnswer;
+
+    void trace_some(const Query* queries, Answer* answers, std::size_t count) {
+        constexpr std::size_t group = 16;
+        const std::size_t items = (count + lanes_ - 1) / lanes_;
+        const std::size_t whole_groups = (items + group - 1) / group * group;
+        kernel_.setArg(count_argument_, static_cast<typename Flat<T>::Index>(count));
+        queue_.enqueueWriteBuffer(queries_, CL_TRUE, 0, count * sizeof(Query), queries);
+        queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, whole_groups, group);
+        queue_.enqueueReadBuffer(answers_, CL_TRUE, 0, count * sizeof(Answer), answers);
+    }
+
+    const ClDevice device_;
+    cl::Context context_;
+    cl::CommandQueue queue_;
+    ClScene<T> scene_;
+    cl::Kernel kernel_;
+    cl::Buffer queries_, answers_;
+    cl_uint count_argument_ = 0;
+    std::size_t lanes_ = 1;
+};
+
+}  // namespace
+
+template <typename T>
+RayTracer<T> make_cl_ray_tracer(const FlatScene<T>& scene, const ClDevice& device,
+                                const ClOptions& options) {
+    try {
+        const auto tracer = std::make_shared<ClRayTracer<T>>(scene, device, options);
+        return [tracer, device](auto queries, auto answers) {
+            try {
+                tracer->trace(queries, answers);
+            } catch (const cl::Error& error) {
+                throw_device_error(device, error);
+            }
+        };
+    } catch (const cl::Error& error) {
+        throw_device_error(device, error);
+    }
+}
+
+template RayTracer<float> make_cl_ray_tracer(const FlatScene<float>&, const ClDevice&,
+                                             const ClOptions&);
+template RayTracer<double> make_cl_ray_tracer(const FlatScene<double>&, const ClDevice&,
+                                              const ClOptions&);
+
+}  // namespace rt

@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opencl/cl_renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "host/error.h"
+#include "host/opencl/cl_buffer.h"
+#include "host/opencl/cl_film.h"
+#include "host/opencl/cl_program.h"
+#include "host/opencl/cl_scene.h"
+#include "host/pocl/pocl_cache.h"
+#include "host/render/launch_pacer.h"
+#include "host/render/packet_shape.h"
+#include "host/render/stopwatch.h"
+
+namespace rt {
+
+namespace {
+
+/// Work items of a group: of single rays, and of packets, which are wide enough by themselves
+/// (Intel's compiler would vectorize them once more, and slow them down).
+constexpr std::size_t single_group = 64;
+constexpr std::size_t packet_group = 1;
+
+/// Work items of one launch. PoCL compiles a kernel again when a grid passes 64 K items, so a CPU
+/// launch stays below; a GPU wants more to fill up.
+constexpr std::size_t cpu_items = 65536 - single_group;
+constexpr std::size_t gpu_items = 1u << 20;
+
+/// Samples of a tile: what an interrupt may lose, and what launches are put together from.
+constexpr std::size_t tile_samples = 1u << 14;
+
+/// Samples of the first launch, of which nothing is known, and of the longest.
+constexpr std::int64_t cpu_first_samples = 1 << 17, cpu_most_samples = 1 << 22;
+constexpr std::int64_t gpu_first_samples = 1 << 20, gpu_most_samples = 1 << 24;
+
+/// One runs and one waits; more would only make an interrupt wait.
+constexpr std::size_t launches_in_flight = 2;
+constexpr double progress_seconds = 0.2;
+
+std::size_t divided_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
+
+std::size_t most_items(const ClDevice& device) { return device.is_cpu ? cpu_items : gpu_items; }
+
+/// The wall-clock seconds that the device spent between two commands' start and end.
+double device_seconds(const cl::Event& event) {
+    const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+    const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+    return static_cast<double>(end - start) * 1e-9;
+}
+
+template <typename T>
+class ClRenderer : public Renderer<T> {
+   public:
+    ClRenderer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
+        : device_(device),
+          options_(options),
+          params_(scene.params),
+          pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
+                 device.is_cpu ? cpu_most_samples : gpu_most_samples) {
+        launch_samples_ = launches_samples(options.launch, device);
+        lanes_ = packet_lanes<T>(options.lanes, device);
+        group_ = lanes_ == 1 ? single_group : packet_group;
+        try {
+            open();
+            upload(scene);
+            build(scene, options);
+        } catch (const cl::Error& error) {
+            throw_device_error(device_, error);
+        }
+    }
+
+    Rect tile_size(int film_width) const override { return tiles(film_width).best; }
+    std::int64_t most_tile_pixels() const override { return tiles(1).most_pixels; }
+
+    void render(TileQueue& queue, const Rect& region, Film<T>& film) override {
+        try {
+            const Stopwatch watch;
+            const double read_before = times_.read_back;
+            ClFilm<T> on_device(film, context_, queue_, device_,
+                                device_.is_cpu && !options_.shares_film);
+            Progress progress{queue, on_device, {}, {}, counted_};
+            try {
+                trace_tiles(progress, region);
+                const Stopwatch finishing;
+                on_device.finish();
+                times_.read_back += finishing.seconds();
+            } catch (const cl::Error&) {
+                save_finished(progress, region);
+                throw;
+            }
+            times_.trace += watch.seconds() - (times_.read_back - read_before);
+        } catch (const cl::Error& error) {
+            throw_device_error(device_, error);
+        }
+    }
+
+    void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
+                const Rect& region, Film<T>& film) override {
+        try {
+            const Stopwatch watch;
+            const std::vector<T> colors = refined_colors(pixels, grid, region);
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                const std::size_t at = 3 * static_cast<std::size_t>(pixels[i]);
+                std::copy_n(colors.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                            film.rgb.begin() + static_cast<std::ptrdiff_t>(at));
+            }
+            primary_ += pixels.size() * static_cast<std::size_t>(grid * grid);
+            count_rays(queue);
+            times_.trace += watch.seconds();
+        } catch (const cl::Error& error) {
+            throw_device_error(device_, error);
+        }
+    }
+
+    RendererTimes times() const override { return times_; }
+
+   private:
+    using FlatTile = typename Flat<T>::Tile;
+    using FlatCounts = typename Flat<T>::RayCounts;
+
+    struct InFlight {
+        TileRun run;
+        std::vector<cl::Event> events;
+    };
+
+    /// Of one call of render.
+    struct Progress {
+        TileQueue& queue;
+        ClFilm<T>& film;
+        std::deque<InFlight> in_flight;
+        std::vector<TileRun> finished;
+        RayCounts counted_before;
+    };
+
+    ClTiles tiles(int film_width) const {
+        return cl_tiles<T>(params_, device_, options_, film_width);
+    }
+
+    std::size_t samples() const { return static_cast<std::size_t>(params_.samples); }
+
+    PacketShape shape(std::size_t samples) const {
+        return packet_shape(lanes_, static_cast<int>(samples));
+    }
+
+    /// Whether a launch may have so many pixels.
+    bool fits(const Rect& rect) const {
+        const std::int64_t traced = rect.pixels() * static_cast<std::int64_t>(samples());
+        if (traced > pacer_.samples()) return false;
+        if (launch_samples_) return traced <= static_cast<std::int64_t>(most_items(device_));
+        return packets(flat_tile<T>(rect, rect), shape(samples())) <= most_items(device_);
+    }
+
+    /// Packets that cover a tile.
+    std::size_t packets(const FlatTile& tile, const PacketShape& shape) const {
+        return divided_up(static_cast<std::size_t>(tile.width),
+                          static_cast<std::size_t>(shape.width)) *
+               divided_up(static_cast<std::size_t>(tile.height),
+                          static_cast<std::size_t>(shape.height));
+    }
+
+    void enqueue(const cl::Kernel& kernel, std::size_t items, cl::Event& event) {
+        const std::size_t whole_groups =
+            std::max<std::size_t>(divided_up(items, group_), 1) * group_;
+        used_slots_ = std::max(used_slots_, whole_groups);
+        queue_.enqueueNDRangeKernel(kernel, cl::NullRange, whole_groups, group_, nullptr, &event);
+    }
+
+    std::size_t count_slots() const { return divided_up(most_items(device_), group_) * group_; }
+
+    void open() {
+        const Stopwatch watch;
+        const cl::Device device = handle_of(device_);
+        context_ = cl::Context(device);
+        queue_ = cl::CommandQueue(context_, device, CL_QUEUE_PROFILING_ENABLE);
+        reads_ = cl::CommandQueue(context_, device);
+        times_.open = watch.seconds();
+    }
+
+    cl::Buffer make_buffer(std::size_t bytes, const char* what,
+                           cl_mem_flags flags = CL_MEM_READ_WRITE) const {
+        return make_cl_buffer(context_, device_, bytes, what, flags);
+    }
+
+    void upload(const FlatScene<T>& scene) {
+        const Stopwatch watch;
+        scene_ = std::make_unique<ClScene<T>>(scene, context_, queue_, device_);
+        const std::size_t count_bytes = count_slots() * sizeof(FlatCounts);
+        counts_ = make_buffer(count_bytes, "the ray counts");
+        queue_.enqueueFillBuffer(counts_, std::uint64_t{0}, 0, count_bytes);
+        if (launch_samples_) {
+            samples_ = make_buffer(most_items(device_) * 3 * sizeof(T), "the samples");
+        }
+        times_.upload = watch.seconds();
+    }
+
+    /// Builds the program and launches each kernel once over nothing, since some drivers finish
+    /// compiling only then.
+    void build(const FlatScene<T>& scene, const ClOptions& options) {
+        ProgramOptions program_options;
+        program_options.double_precision = sizeof(T) == sizeof(double);
+        program_options.lanes = lanes_;
+        program_options.fast_math = options.fast_math;
+        program_options.warnings_are_errors = options.warnings_are_errors;
+        program_options.entries.rays = false;
+        if (!options.all_features) {
+            program_options.features = either_of(scene.features, options.also);
+            program_options.entries = {!launch_samples_, launch_samples_, options.will_refine,
+                                       false};
+            const int held = shape(samples()).samples;
+            const bool is_one_packet = !launch_samples_ && held == params_.samples;
+            if (is_one_packet && !options.any_samples) program_options.samples = held;
+        }
+        const bool is_pocl = device_.platform == pocl_platform;
+        const auto start = std::filesystem::file_time_type::clock::now();
+        const Stopwatch watch;
+        const cl::Program program =
+            build_program(context_, device_, render_kernels, program_options);
+        render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
+        set_scene_arguments(render_, params_);
+        if (launch_samples_) {
+            resolve_ = cl::Kernel(program, "resolve_samples");
+            resolve_.setArg(1, samples_);
+            resolve_.setArg(2, params_);
+        }
+        FlatTile nothing{};
+        nothing.width = 1;  // kernels divide by the width
+        launch(nothing, cl::Buffer());
+        if (options.will_refine) {
+            list_ = cl::Kernel(program, "render_list");
+            launch_list({}, params_, cl::Buffer(), cl::Buffer());
+        }
+        queue_.finish();
+        times_.build = watch.seconds();
+        times_.build_cache = is_pocl ? pocl_build_since(start) : BuildCache::unknown;
+    }
+
+    /// All arguments that stay for a picture; the tile's comes next.
+    void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::LaunchParams& params) {
+        kernel.setArg(1, counts_);
+        const cl_uint params_argument = scene_->set_arguments(kernel, 2);
+        kernel.setArg(params_argument, params);
+        tile_argument_ = params_argument + 1;
+    }
+
+    /// Enqueues the kernels of one tile.
+    std::vector<cl::Event> launch(const FlatTile& tile, const cl::Buffer& film) {
+        std::vector<cl::Event> events(launch_samples_ ? 2 : 1);
+        render_.setArg(0, launch_samples_ ? samples_ : film);
+        render_.setArg(tile_argument_, tile);
+        const PacketShape packet = shape(samples());
+        const std::size_t rounds =
+            launch_samples_ ? samples() / static_cast<std::size_t>(packet.samples) : 1;
+        enqueue(render_, packets(tile, packet) * rounds, events[0]);
+        if (launch_samples_) {
+            is_half_launched_ = true;
+            resolve_.setArg(0, film);
+            resolve_.setArg(3, tile);
+            enqueue(resolve_, packets(tile, shape(1)), events[1]);
+            is_half_launched_ = false;
+        }
+        queue_.flush();
+        return events;
+    }
+
+    cl::Event launch_list(const FlatTile& tile, const typename Flat<T>::LaunchParams& params,
+                          const cl::Buffer& colors, const cl::Buffer& list) {
+        set_scene_arguments(list_, params);
+        list_.setArg(0, colors);
+        list_.setArg(tile_argument_, tile);
+        list_.setArg(tile_argument_ + 1, list);
+        const PacketShape packet = packet_shape(lanes_, static_cast<int>(params.samples), lanes_);
+        cl::Event event;
+        enqueue(list_,
+                divided_up(static_cast<std::size_t>(tile.width),
+                           static_cast<std::size_t>(packet.pixels())),
+                event);
+        return event;
+    }
+
+    /// Three numbers for each of the pixels, rendered with a grid of their own.
+    std::vector<T> refined_colors(std::span<const std::int32_t> pixels, int grid,
+                                  const Rect& region) {
+        const std::size_t bytes = pixels.size() * 3 * sizeof(T);
+        cl::Buffer colors = make_buffer(bytes, "the refined pixels");
+        cl::Buffer list = make_buffer(pixels.size_bytes(), "the pixel list", CL_MEM_READ_ONLY);
+        queue_.enqueueWriteBuffer(list, CL_TRUE, 0, pixels.size_bytes(), pixels.data());
+        typename Flat<T>::LaunchParams params = params_;
+        params.grid = grid;
+        params.samples = grid * grid;
+        FlatTile tile = flat_tile<T>(region, region);
+        tile.width = static_cast<typename Flat<T>::Index>(pixels.size());
+        const cl::Event event = launch_list(tile, params, colors, list);
+        std::vector<T> result(pixels.size() * 3);
+        queue_.enqueueReadBuffer(colors, CL_TRUE, 0, bytes, result.data());
+        times_.kernel += device_seconds(event);
+        return result;
+    }
+
+    void trace_tiles(Progress& progress, const Rect& region) {
+        Stopwatch since_count;
+        const auto fits_here = [&](const Rect& rect) { return fits(rect); };
+        while (const auto run = progress.queue.next_run(fits_here)) {
+            InFlight& newest = progress.in_flight.emplace_back(InFlight{*run, {}});
+            newest.events = launch(flat_tile<T>(run->whole, region), progress.film.buffer());
+            if (progress.in_flight.size() < launches_in_flight) continue;
+            finish_oldest(progress, region);
+            if (since_count.seconds() < progress_seconds) continue;
+            count_rays(progress.queue);
+            since_count.lap();
+        }
+        while (!progress.in_flight.empty()) finish_oldest(progress, region);
+        count_rays(progress.queue);
+    }
+
+    /// Reads it back while the next launch runs.
+    void finish_oldest(Progress& progress, const Rect& region) {
+        const InFlight& oldest = progress.in_flight.front();
+        oldest.events.back().wait();
+        const double kernel = device_seconds(oldest.events.front());
+        times_.kernel += kernel;
+        if (launch_samples_) times_.resolve += device_seconds(oldest.events.back());
+        const Rect& whole = oldest.run.whole;
+        const Stopwatch reading;
+        progress.film.read_back({whole.x - region.x, whole.y - region.y, whole.width, whole.height},
+                                reads_);
+        if (progress.in_flight.size() == 1) times_.read_back += reading.seconds();
+        const auto traced = static_cast<std::uint64_t>(whole.pixels()) * samples();
+        primary_ += traced;
+        times_.pixels += whole.pixels();
+        pacer_.note(static_cast<std::int64_t>(traced), kernel);
+        progress.queue.finish(oldest.run);
+        progress.finished.push_back(oldest.run);
+        progress.in_flight.pop_front();
+    }
+
+    /// After a failure: what was launched before stays if it can still be waited for and read, rays
+    /// and all; the rest is for others.
+    void save_finished(Progress& progress, const Rect& region) {
+        try {
+            if (is_half_launched_) throw cl::Error(CL_INVALID_OPERATION, "its rays are counted");
+            while (!progress.in_flight.empty() && !progress.in_flight.front().events.empty()) {
+                finish_oldest(progress, region);
+            }
+            progress.film.finish();
+            count_rays(progress.queue);
+        } catch (const cl::Error&) {
+            const RayCounts& before = progress.counted_before;
+            progress.queue.take_back(
+                progress.finished,
+                {counted_.primary - before.primary, counted_.shadow - before.shadow,
+                 counted_.mirror - before.mirror, counted_.transmitted - before.transmitted});
+            for (const TileRun& run : progress.finished) times_.pixels -= run.whole.pixels();
+        }
+        for (const InFlight& launch : progress.in_flight) progress.queue.give_back(launch.run);
+    }
+
+    /// Tells the queue of the rays traced since the last time.
+    void count_rays(TileQueue& queue) {
+        auto* const mapped = static_cast<FlatCounts*>(queue_.enqueueMapBuffer(
+            counts_, CL_TRUE, CL_MAP_READ, 0, used_slots_ * sizeof(FlatCounts)));
+        RayCounts total;
+        total.primary = primary_;
+        for (const FlatCounts& slot : std::span(mapped, used_slots_)) {
+            total.shadow += slot.shadow;
+            total.mirror += slot.mirror;
+            total.transmitted += slot.transmitted;
+        }
+        queue_.enqueueUnmapMemObject(counts_, mapped);
+        queue.add_rays({total.primary - counted_.primary, total.shadow - counted_.shadow,
+                        total.mirror - counted_.mirror, total.transmitted - counted_.transmitted});
+        counted_ = total;
+    }
+
+    const ClDevice device_;
+    const ClOptions options_;
+    typename Flat<T>::LaunchParams params_;
+    bool launch_samples_ = false;
+    bool is_half_launched_ = false;  ///< samples, and not yet their average
+    int lanes_ = 1;
+    std::size_t group_ = 1;  ///< work items of a group
+    LaunchPacer pacer_;
+    cl::Context context_;
+    cl::CommandQueue queue_, reads_;
+    cl::Kernel render_, resolve_, list_;
+    std::unique_ptr<ClScene<T>> scene_;
+    cl::Buffer counts_, samples_;
+    cl_uint tile_argument_ = 0;
+    std::size_t used_slots_ = 0;  ///< of counts_, so far
+    std::uint64_t primary_ = 0;
+    RayCounts counted_;
+    RendererTimes times_;
+};
+
+}  // namespace
+
+bool launches_samples(Launch launch, const ClDevice& device) {
+    return launch == Launch::sample || (launch == Launch::automatic && !device.is_cpu);
+}
+
+template <typename T>
+int packet_lanes(int asked_for, const ClDevice& device) {
+    if (asked_for != 0) return asked_for;
+    if (!device.is_cpu) return 1;
+    const unsigned native = sizeof(T) == sizeof(float) ? device.float_lanes : device.double_lanes;
+    return static_cast<int>(std::bit_floor(std::clamp(native, 1u, 16u)));
+}
+
+template int packet_lanes<float>(int, const ClDevice&);
+template int packet_lanes<double>(int, const ClDevice&);
+
+template <typename T>
+ClTiles cl_tiles(const typename Flat<T>::LaunchParams& params, const ClDevice& device,
+                 const ClOptions& options, int film_width) {
+    const auto samples = static_cast<std::size_t>(params.samples);
+    const PacketShape block =
+        packet_shape(packet_lanes<T>(options.lanes, device), static_cast<int>(samples));
+    const auto blocks = static_cast<int>(std::max<std::size_t>(
+        tile_samples / (samples * static_cast<std::size_t>(block.pixels())), 1));
+    const int across = (film_width + block.width - 1) / block.width;
+    const int width = std::min(film_width, std::min(across, blocks) * block.width);
+    // A tile has no more packets than pixels, whatever its shape.
+    const std::size_t items = most_items(device);
+    return {{0, 0, width, std::max(blocks / across, 1) * block.height},
+            static_cast<std::int64_t>(launches_samples(options.launch, device) ? items / samples
+                                                                               : items)};
+}
+
+template ClTiles cl_tiles<float>(const Flat<float>::LaunchParams&, const ClDevice&,
+                                 const ClOptions&, int);
+template ClTiles cl_tiles<double>(const Flat<double>::LaunchParams&, const ClDevice&,
+                                  const ClOptions&, int);
+
+template <typename T>
+std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const ClDevice& device,
+                                              const ClOptions& options) {
+    if (sizeof(T) == sizeof(double) && !device.has_double) {
+        throw Error(ExitCode::device,
+                    fmt::format("{} has no double precision; use --precision float or --device "
+                                "threads",
+                                device.name));
+    }
+    return std::make_unique<ClRenderer<T>>(scene, device, options);
+}
+
+template std::unique_ptr<Renderer<float>> make_cl_renderer(const FlatScene<float>&, const ClDevice&,
+                                                           const ClOptions&);
+template std::unique_ptr<Renderer<double>> make_cl_renderer(const FlatScene<double>&,
+                                                            const ClDevice&, const ClOptions&);
+
+}  // namespace rt

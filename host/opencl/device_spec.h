@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/opencl/cl_device.h"
+
+namespace rt {
+
+/// What `--device` names: the pthreads baseline, or one OpenCL device.
+struct DeviceChoice {
+    bool use_threads = false;
+    int threads = 0;   ///< from threads:N; 0 when not given
+    ClDevice device;   ///< meaningless for threads
+    std::string note;  ///< why it is not what one might expect, for stderr; often empty
+};
+
+/// Whether the text names the pthreads baseline ("threads" or "threads:N"), so that OpenCL need not
+/// be looked for. Throws Error (ExitCode::usage) for threads:0 and the like.
+bool names_threads(const std::string& spec, DeviceChoice& choice);
+
+/// Whether the text leaves the choice to the program: "auto" or "".
+bool is_auto(const std::string& spec);
+
+/// What can be chosen without loading OpenCL: threads where the text names them, or where it leaves
+/// the choice and this machine shows no GPU. Throws as names_threads.
+std::optional<DeviceChoice> choose_without_opencl(const std::string& spec);
+
+/// Throws Error (ExitCode::usage) unless the text is a spec or a list of them with commas, whatever
+/// devices there are.
+void check_device_list(const std::string& list);
+
+/// The devices that a list of specs with commas names; "all": threads and every usable device. They
+/// are looked for on another thread: drivers take their time to load (PoCL 0.03 s), and a scene can
+/// be read meanwhile. `threads`: of threads and of PoCL; 0: all cores. `loaded` is called when
+/// drivers were loaded, by that thread. get() throws what goes wrong (Error); who drops the future
+/// waits until the drivers are loaded.
+std::future<std::vector<DeviceChoice>> find_devices(const std::string& list, int threads,
+                                                    const std::function<void()>& loaded);
+
+/// Chooses among the devices: "0", "0:1", "pocl", "name:TEXT", "cpu", "gpu", or "auto": a
+/// GPU or accelerator if there is one, else threads, which start sooner than OpenCL on the same
+/// CPU. Text must fit exactly one usable device, else Error (ExitCode::usage) lists the candidates;
+/// a device that cannot be used is Error (ExitCode::device) with the reason; "auto" then chooses
+/// threads and says so in `note`.
+DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,
+                           const std::vector<std::string>& problems);
+
+}  // namespace rt

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/picture/crew_members.h"
+
+#include "host/opencl/cl_renderer.h"
+#include "host/picture/tile_check.h"
+
+namespace rt {
+
+namespace {
+
+ClOptions cl_options(const RenderSettings& settings, bool refines, bool is_alone) {
+    ClOptions options;
+    options.launch = settings.launch;
+    options.lanes = settings.lanes;
+    options.fast_math = settings.fast_math;
+    options.will_refine = refines;
+    options.all_features = settings.all_features;
+    options.also = settings.also_features;
+    options.any_samples = settings.any_samples;
+    options.shares_film = !is_alone;
+    return options;
+}
+
+}  // namespace
+
+ThreadsOptions threads_options(const RenderSettings& settings, int threads) {
+    ThreadsOptions options;
+    options.threads = threads > 0 ? threads : settings.threads;
+    options.schedule = settings.schedule;
+    options.lanes = settings.lanes;
+    options.all_features = settings.all_features;
+    options.also = settings.also_features;
+    options.any_samples = settings.any_samples;
+    options.isa = settings.isa;
+    return options;
+}
+
+template <typename T>
+CrewMember<T> threads_member(const SharedScene<T>& scene, const ThreadsOptions& options) {
+    const auto make = [scene, options] { return make_threads_renderer<T>(*scene, options); };
+    const auto renderer = make();
+    return {"threads",
+            renderer->tile_size(static_cast<int>(scene->params.width)),
+            renderer->most_tile_pixels(),
+            make,
+            {}};
+}
+
+template <typename T>
+CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& settings,
+                            const ClDevice& device, bool refines, bool is_alone,
+                            const std::function<void()>& loaded) {
+    const ClOptions options = cl_options(settings, refines, is_alone);
+    const ClTiles tiles =
+        cl_tiles<T>(scene->params, device, options, static_cast<int>(scene->params.width));
+    CrewMember<T> member{device.name, tiles.best, tiles.most_pixels, {}, {}};
+    member.make = [scene, device, options, loaded] {
+        auto renderer = make_cl_renderer<T>(*scene, device, options);
+        if (loaded) loaded();
+        return renderer;
+    };
+    if (settings.self_test && !settings.fast_math) {
+        const std::string isa = settings.isa;
+        member.test = [scene, name = device.name, isa](Renderer<T>& renderer) {
+            self_test(renderer, name, *scene, isa);
+        };
+    }
+    return member;
+}
+
+template CrewMember<float> threads_member(const SharedScene<float>&, const ThreadsOptions&);
+template CrewMember<double> threads_member(const SharedScene<double>&, const ThreadsOptions&);
+template CrewMember<float> device_member(const SharedScene<float>&, const RenderSettings&,
+                                         const ClDevice&, bool, bool, const std::function<void()>&);
+template CrewMember<double> device_member(const SharedScene<double>&, const RenderSettings&,
+                                          const ClDevice&, bool, bool,
+                                          const std::function<void()>&);
+
+}  // namespace rt

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "host/flatten/flat_scene.h"
+#include "host/opencl/cl_device.h"
+#include "host/picture/crew.h"
+#include "host/picture/render_settings.h"
+#include "host/render/threads_renderer.h"
+
+namespace rt {
+
+/// A scene ready to render, held by every renderer of it.
+template <typename T>
+using SharedScene = std::shared_ptr<const FlatScene<T>>;
+
+/// The settings as the pthreads renderer takes them. `threads`: 0 means the settings'.
+ThreadsOptions threads_options(const RenderSettings& settings, int threads);
+
+/// Threads, ready at once.
+template <typename T>
+CrewMember<T> threads_member(const SharedScene<T>& scene, const ThreadsOptions& options);
+
+/// An OpenCL device, made by opening it, compiling and uploading, and tested by self_test. `loaded`
+/// is called when it is made: drivers replace signal handlers.
+template <typename T>
+CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& settings,
+                            const ClDevice& device, bool refines, bool is_alone,
+                            const std::function<void()>& loaded);
+
+}  // namespace rt

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/picture/render_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+
+#include "host/error.h"
+#include "host/flatten/flat_scene.h"
+#include "host/memory_limit.h"
+#include "host/opencl/cl_renderer.h"
+#include "host/picture/crew_members.h"
+#include "host/picture/tile_check.h"
+#include "host/render/picture_loop.h"
+#include "host/render/stopwatch.h"
+#include "host/scene/scene_hash.h"
+
+namespace rt {
+
+namespace {
+
+using Devices = std::vector<DeviceChoice>;
+
+Rect chosen_region(const Scene& scene, const RenderSettings& settings) {
+    const Rect whole{0, 0, scene.width, scene.height};
+    if (!settings.crop) return whole;
+    const Rect& crop = *settings.crop;
+    if (crop.x + crop.width > whole.width || crop.y + crop.height > whole.height) {
+        throw Error(
+            ExitCode::usage,
+            fmt::format("--crop reaches to {},{}, beyond the picture of {}x{} pixels",
+                        crop.x + crop.width, crop.y + crop.height, whole.width, whole.height));
+    }
+    return crop;
+}
+
+SceneStats scene_stats(const Scene& scene) {
+    SceneStats stats;
+    stats.name = scene.name;
+    stats.hash = scene_hash(scene);
+    stats.spheres = scene.spheres.size();
+    stats.cones = scene.cones.size();
+    stats.lights = scene.lights.size();
+    stats.materials = scene.materials.size();
+    return stats;
+}
+
+bool has_opencl(const Devices& devices) {
+    return std::any_of(devices.begin(), devices.end(),
+                       [](const DeviceChoice& choice) { return !choice.use_threads; });
+}
+
+/// One flattened scene being rendered in the precision of T, with what is found out on the way.
+template <typename T>
+class Job {
+   public:
+    Job(const Scene& scene, const RenderSettings& settings, const RenderEvents& events,
+        const StopFlag& stop)
+        : settings_(settings),
+          events_(events),
+          stop_(stop),
+          region_(chosen_region(scene, settings)),
+          rendered_(region_to_render(scene.aa, region_, scene.width, scene.height)) {
+        const Stopwatch watch;
+        FlattenOptions flatten_options;
+        flatten_options.hierarchies = settings.hierarchies;
+        flatten_options.caster_lists = settings.caster_lists;
+        scene_ = std::make_shared<const FlatScene<T>>(flatten<T>(scene, flatten_options));
+        stats_.phases.flatten = watch.seconds();
+        stats_.scene = scene_stats(scene);
+        stats_.scene.triangles = scene_->triangles.size();
+        stats_.scene.smooth_triangles = scene_->vertex_normals.size();
+        stats_.scene.bytes = scene_->bytes();
+        stats_.scene.flatten = scene_->stats;
+        stats_.width = scene.width;
+        stats_.height = scene.height;
+        stats_.region = region_;
+        stats_.aa = scene.aa;
+        stats_.filter = scene.filter;
+        stats_.max_bounces = scene.max_bounces;
+        stats_.double_precision = sizeof(T) == sizeof(double);
+        stats_.fast_math = settings.fast_math;
+        stats_.features = scene_->features;
+        stats_.all_features = settings.all_features;
+        stats_.also_features = settings.also_features;
+        stats_.hierarchies = settings.hierarchies;
+        stats_.caster_lists = settings.caster_lists;
+    }
+
+    RenderedPicture run(const Devices& devices, double wait_seconds) {
+        for (const DeviceChoice& choice : devices) {
+            say_ignored_settings(choice);
+            if (!choice.note.empty()) say(choice.note);
+        }
+        Crew<T> crew = make_crew(devices);
+        crew.open();
+        render_with(crew);
+        note_devices(crew, devices);
+        if (has_opencl(devices)) check_again();
+        stats_.phases.renderer.open += wait_seconds;
+        return finished_picture();
+    }
+
+   private:
+    void say(const std::string& line) const {
+        if (events_.message) events_.message(line);
+    }
+
+    /// Settings that mean nothing on the chosen device are named, not dropped in silence.
+    void say_ignored_settings(const DeviceChoice& choice) const {
+        if (choice.use_threads && settings_.launch != Launch::automatic) {
+            say("--launch is for OpenCL devices; threads ignore it");
+        }
+        if (choice.use_threads && settings_.fast_math) {
+            say("--math fast is for OpenCL devices; threads are strict");
+        }
+        if (!choice.use_threads && settings_.schedule != Schedule::tiles) {
+            say("--schedule is for --device threads; OpenCL devices ignore it");
+        }
+        const bool is_pocl = choice.device.platform == pocl_platform;
+        if (!choice.use_threads && settings_.threads > 0 && !is_pocl) {
+            say("--threads is for --device threads and PoCL; " + choice.device.name +
+                " ignores it");
+        }
+        if (!choice.use_threads && !settings_.fast_math && !choice.device.rounds_correctly &&
+            events_.detail) {
+            events_.detail(choice.device.name +
+                           " does not promise correctly rounded division and square root; the "
+                           "picture's bits may differ from other devices'");
+        }
+    }
+
+    /// Threads that take tiles from others cannot render whole sample buffers.
+    ThreadsOptions threads_beside_others() const {
+        ThreadsOptions options = threads_options(settings_, 0);
+        options.schedule = Schedule::tiles;
+        return options;
+    }
+
+    Crew<T> make_crew(const Devices& devices) {
+        const bool is_alone = devices.size() == 1;
+        std::vector<CrewMember<T>> members;
+        for (const DeviceChoice& choice : devices) {
+            if (!choice.use_threads) {
+                members.push_back(device_member<T>(scene_, settings_, choice.device,
+                                                   stats_.aa.refines(), is_alone,
+                                                   events_.driver_loaded));
+                continue;
+            }
+            ThreadsOptions options = threads_options(settings_, choice.threads);
+            if (!is_alone) options.schedule = Schedule::tiles;
+            members.push_back(threads_member<T>(scene_, options));
+        }
+        std::optional<CrewMember<T>> spare;
+        if (!settings_.no_fallback && has_opencl(devices)) {
+            spare = threads_member<T>(scene_, threads_beside_others());
+        }
+        return Crew<T>(std::move(members), std::move(spare),
+                       [this](const std::string& line) { say(line); });
+    }
+
+    /// Renders the region; a device that failed is left out of what follows.
+    void render_with(Crew<T>& crew) {
+        check_memory(
+            static_cast<std::uint64_t>(rendered_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
+            fmt::format("the film of {}x{} pixels, with its file", rendered_.width,
+                        rendered_.height),
+            "make it smaller with --size, or render parts with --crop");
+        film_ = Film<T>(rendered_.width, rendered_.height);
+        tile_ = tile_size(crew);
+        TileQueue queue(make_tiles(rendered_, tile_.width, tile_.height), stop_);
+        if (events_.started) events_.started(queue);
+        try {
+            stats_.refined = render_all<T>(crew, stats_.aa, queue, rendered_, film_);
+        } catch (...) {
+            if (events_.ended) events_.ended();
+            throw;
+        }
+        if (events_.ended) events_.ended();
+        if (region_ != rendered_) film_ = part_of(film_, rendered_, region_);
+        stats_.phases.renderer = crew.times();
+        stats_.rays = queue.rays();
+        stats_.tiles = queue.tiles().size();
+        stats_.tiles_finished = queue.tiles_finished();
+    }
+
+    /// The tile asked for, cut down to the region and to what the renderer takes.
+    PictureSize tile_size(const Renderer<T>& renderer) const {
+        const Rect own = renderer.tile_size(rendered_.width);
+        const PictureSize asked = settings_.tile.value_or(PictureSize{own.width, own.height});
+        const auto most = static_cast<int>(
+            std::min<std::int64_t>(renderer.most_tile_pixels(), rendered_.pixels()));
+        const int width = std::min({asked.width, rendered_.width, most});
+        return {width, std::min({asked.height, rendered_.height, most / width})};
+    }
+
+    void note_devices(const Crew<T>& crew, const Devices& devices) {
+        const std::vector<DeviceShare> shares = crew.shares();
+        if (shares.size() > 1) stats_.shares = shares;
+        if (crew.uses_spare()) {
+            note_threads(threads_beside_others());
+            stats_.device.fallback_from = shares.front().name;
+        } else if (devices.size() > 1) {
+            for (const DeviceShare& share : shares) {
+                stats_.device.name += (stats_.device.name.empty() ? "" : " + ") + share.name;
+            }
+        } else if (devices.front().use_threads) {
+            note_threads(threads_options(settings_, devices.front().threads));
+        } else {
+            note_device(devices.front().device);
+        }
+    }
+
+    void note_threads(const ThreadsOptions& options) {
+        const NativeKernels<T>& kernels = native_kernels_for(*scene_, options);
+        stats_.device = {};
+        stats_.device.lanes = kernels.lanes;
+        stats_.device.isa = kernels.isa;
+        stats_.device.name = "threads";
+        stats_.device.threads = thread_count(options, stats_.aa.samples());
+        stats_.device.schedule = options.schedule == Schedule::tiles ? "tiles" : "buffers";
+    }
+
+    void note_device(const ClDevice& device) {
+        stats_.device.name = device.name;
+        stats_.device.platform = device.platform;
+        stats_.device.driver = device.driver;
+        stats_.device.launch = launches_samples(settings_.launch, device) ? "sample" : "pixel";
+        stats_.device.lanes = packet_lanes<T>(settings_.lanes, device);
+    }
+
+    /// Traces a share of a device's tiles again, where that was asked for; all of the picture when
+    /// one is wrong.
+    void check_again() {
+        if (settings_.check <= 0 || !stats_.complete() || settings_.fast_math) return;
+        const TileCheck check = check_tiles(*scene_, stats_.aa, settings_.isa,
+                                            make_tiles(region_, tile_.width, tile_.height),
+                                            settings_.check, region_, film_);
+        stats_.tiles_checked = check.tiles;
+        if (check.wrong_tiles == 0) return;
+        const std::string what =
+            fmt::format("{}: {} of {} tiles that threads traced again are different",
+                        stats_.device.name, check.wrong_tiles, check.tiles);
+        if (settings_.no_fallback) throw Error(ExitCode::device, what);
+        say(what + "; rendering on threads instead");
+        const std::string failed = stats_.device.name;
+        Crew<T> threads({threads_member<T>(scene_, threads_beside_others())}, {}, {});
+        threads.open();
+        render_with(threads);
+        note_threads(threads_beside_others());
+        stats_.device.fallback_from = failed;
+    }
+
+    RenderedPicture finished_picture() {
+        stats_.image_hash = hash_of(film_);
+        RenderedPicture rendered;
+        rendered.picture.width = film_.width;
+        rendered.picture.height = film_.height;
+        if constexpr (std::is_same_v<T, float>) {
+            rendered.picture.pixels = std::move(film_.rgb);
+        } else {
+            rendered.picture.pixels.assign(film_.rgb.begin(), film_.rgb.end());
+        }
+        stats_.non_finite = count_non_finite(rendered.picture);
+        rendered.stats = stats_;
+        return rendered;
+    }
+
+    const RenderSettings& settings_;
+    const RenderEvents& events_;
+    const StopFlag& stop_;
+    const Rect region_;    ///< asked for
+    const Rect rendered_;  ///< that, and what it takes to refine it
+    SharedScene<T> scene_;
+    Film<T> film_{0, 0};
+    PictureSize tile_{};
+    RenderStats stats_;
+};
+
+/// `devices` gives the devices when the scene is flattened.
+template <typename T>
+RenderedPicture render_on(const Scene& scene, const RenderSettings& settings,
+                          const std::function<Devices()>& devices, const RenderEvents& events,
+                          const StopFlag& stop) {
+    Job<T> job(scene, settings, events, stop);
+    const Stopwatch watch;
+    const Devices chosen = devices();
+    return job.run(chosen, watch.seconds());
+}
+
+RenderedPicture render_on(const Scene& scene, const RenderSettings& settings,
+                          const std::function<Devices()>& devices, const RenderEvents& events,
+                          const StopFlag& stop) {
+    if (settings.precision == Precision::float64) {
+        return render_on<double>(scene, settings, devices, events, stop);
+    }
+    return render_on<float>(scene, settings, devices, events, stop);
+}
+
+}  // namespace
+
+RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
+                               std::future<Devices> devices, const RenderEvents& events,
+                               const StopFlag& stop) {
+    return render_on(
+        scene, settings, [&] { return devices.get(); }, events, stop);
+}
+
+RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
+                               const DeviceChoice& device, const RenderEvents& events,
+                               const StopFlag& stop) {
+    return render_on(
+        scene, settings, [&] { return Devices{device}; }, events, stop);
+}
+
+}  // namespace rt

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/flatten/features.h"
+#include "host/render/launch.h"
+#include "host/render/rect.h"
+#include "host/render/schedule.h"
+#include "host/scene/aa_mode.h"
+#include "host/scene/scene.h"
+
+namespace rt {
+
+enum class Precision { float32, float64 };
+
+struct PictureSize {
+    int width, height;
+};
+
+/// How to render a scene, on whatever device. What is not given is the scene's.
+struct RenderSettings {
+    std::optional<PictureSize> size;
+    std::optional<AaMode> aa;
+    Filter filter = Filter::box;
+    int sampling_seed = 0;  ///< of sobol samples
+    std::optional<int> max_bounces;
+    std::optional<Rect> crop;  ///< the part of the picture to render
+    Precision precision = Precision::float32;
+    bool fast_math = false;
+    Launch launch = Launch::automatic;
+    int lanes = 0;    ///< rays of a packet; 0: as suits the device
+    std::string isa;  ///< instruction set of the threads' kernels; empty: the best
+    Schedule schedule = Schedule::tiles;
+    int threads = 0;  ///< 0: all cores
+    std::optional<PictureSize> tile;
+    bool all_features = false;
+    Features also_features = no_features();  ///< compiled, needed or not
+    bool any_samples = false;                ///< compile the loop over them, needed or not
+    std::optional<bool> hierarchies;         ///< not given: where they are faster
+    bool caster_lists = true;
+    bool no_fallback = false;  ///< fail when the device fails, instead of using threads
+    bool self_test = true;     ///< compare a few of a device's pixels with threads' beforehand
+    double check = 0;          ///< share of the tiles to trace again on threads and compare, 0 to 1
+};
+
+/// Gives the scene what the settings override: size, AA, filter, bounces. Throws Error
+/// (ExitCode::usage) for a filter that needs more samples.
+void apply_overrides(Scene& scene, const RenderSettings& settings);
+
+}  // namespace rt

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/flatten/flat_scene.h"
+#include "host/render/renderer.h"
+#include "host/scene/aa_mode.h"
+
+namespace rt {
+
+/// Renders a small tile in the middle of the picture on the device and on threads. Throws Error
+/// (ExitCode::device) unless the bits are the same: the driver, or the kernel it keeps in its
+/// cache, is broken. Strict arithmetic only. At most 4,096 samples, a millisecond.
+template <typename T>
+void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
+               const std::string& isa);
+
+/// What of a finished picture was traced again on threads.
+struct TileCheck {
+    std::size_t tiles = 0;
+    std::size_t wrong_tiles = 0;  ///< whose bits differ
+};
+
+/// Traces `share` (0 to 1) of the tiles again, spread over the region of the picture that the film
+/// shows; the tiles lie in it.
+template <typename T>
+TileCheck check_tiles(const FlatScene<T>& scene, const AaMode& aa, const std::string& isa,
+                      const std::vector<Rect>& tiles, double share, const Rect& region,
+                      const Film<T>& film);
+
+}  // namespace rt

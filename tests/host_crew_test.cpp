@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "host/error.h"
+#include "host/picture/crew.h"
+
+namespace rt {
+namespace {
+
+const Rect picture{0, 0, 40, 30};
+const StopFlag never = 0;
+
+/// Paints its tiles and pixels in one color; fails after some.
+struct Painter : Renderer<float> {
+    float color = 1;
+    int fails_after = -1;  ///< tiles or calls of refine; -1: never
+    std::chrono::milliseconds pause{0};
+    int done = 0;
+    std::int64_t pixels = 0;
+
+    void fail_if_due() {
+        if (done++ == fails_after) throw Error(ExitCode::device, "painter fell off");
+    }
+    Rect tile_size(int) const override { return {0, 0, 4, 5}; }
+    void render(TileQueue& queue, const Rect& region, Film<float>& film) override {
+        while (const auto run = queue.next_run([](const Rect& rect) { return rect.width <= 8; })) {
+            try {
+                fail_if_due();
+            } catch (const Error&) {
+                queue.give_back(*run);
+                throw;
+            }
+            const Rect& tile = run->whole;
+            for (int y = tile.y; y < tile.y + tile.height; ++y) {
+                for (int x = tile.x; x < tile.x + tile.width; ++x) {
+                    film.rgb[std::size_t(3 * (y * region.width + x))] += color;
+                }
+            }
+            std::this_thread::sleep_for(pause);
+            queue.finish(*run);
+            pixels += tile.pixels();
+        }
+    }
+    void refine(std::span<const std::int32_t> list, int, TileQueue&, const Rect&,
+                Film<float>& film) override {
+        fail_if_due();
+        std::this_thread::sleep_for(pause);
+        for (const std::int32_t pixel : list) film.rgb[std::size_t(3 * pixel)] += color;
+    }
+    RendererTimes times() const override {
+        RendererTimes times;
+        times.pixels = pixels;
+        return times;
+    }
+};
+
+CrewMember<float> member(const std::string& name, float color, int fails_after = -1,
+                         std::chrono::milliseconds pause = {}) {
+    CrewMember<float> painter{name, {0, 0, 4, 5}, 1000, {}, {}};
+    painter.make = [=] {
+        auto made = std::make_unique<Painter>();
+        made->color = color;
+        made->fails_after = fails_after;
+        made->pause = pause;
+        return made;
+    };
+    return painter;
+}
+
+CrewMember<float> failing_to_open(const std::string& name) {
+    CrewMember<float> painter = member(name, 1);
+    painter.make = []() -> std::unique_ptr<Renderer<float>> {
+        throw Error(ExitCode::device, "no ladder");
+    };
+    return painter;
+}
+
+/// A crew with what it says and what it painted.
+struct Painting {
+    std::vector<std::string> said;
+    Film<float> film{picture.width, picture.height};
+    TileQueue queue{make_tiles(picture, 4, 5), never};
+    Crew<float> crew;
+
+    explicit Painting(std::vector<CrewMember<float>> members,
+                      std::optional<CrewMember<float>> spare = {})
+        : crew(std::move(members), std::move(spare),
+               [this](const std::string& line) { said.push_back(line); }) {
+        crew.open();
+    }
+    void render() { crew.render(queue, picture, film); }
+    void refine() {
+        std::vector<std::int32_t> all;
+        for (std::int32_t i = 0; i < picture.pixels(); ++i) all.push_back(i);
+        crew.refine(all, 2, queue, picture, film);
+    }
+    /// Pixels of a color.
+    std::int64_t count(float color) const {
+        std::int64_t found = 0;
+        for (std::size_t at = 0; at < film.rgb.size(); at += 3) found += film.rgb[at] == color;
+        return found;
+    }
+    bool is_finished() const { return queue.tiles_finished() == queue.tiles().size(); }
+};
+
+TEST(Crew, OfOneRenders) {
+    Painting painting({member("a", 1)});
+    painting.render();
+    painting.refine();
+    EXPECT_EQ(painting.count(2), picture.pixels());
+    EXPECT_TRUE(painting.is_finished());
+    EXPECT_EQ(painting.crew.times().pixels, picture.pixels());
+    EXPECT_FALSE(painting.crew.uses_spare());
+}
+
+TEST(Crew, OfSeveralSharesTheTiles) {
+    const std::chrono::milliseconds pause(1);
+    Painting painting({member("a", 1, -1, pause), member("b", 2, -1, pause)});
+    painting.render();
+    EXPECT_EQ(painting.count(1) + painting.count(2), picture.pixels());
+    const std::vector<DeviceShare> shares = painting.crew.shares();
+    ASSERT_EQ(shares.size(), 2u);
+    EXPECT_EQ(shares[0].pixels, painting.count(1));
+    EXPECT_EQ(shares[1].pixels, painting.count(2));
+    painting.refine();
+    EXPECT_EQ(painting.count(2) + painting.count(3) + painting.count(4), picture.pixels());
+}
+
+TEST(Crew, DoesNotWaitForAMemberThatIsStillBeingMade) {
+    auto gate = std::make_shared<std::atomic<bool>>(false);
+    CrewMember<float> slow = member("slow", 2);
+    slow.make = [gate, make = slow.make] {
+        while (!*gate) std::this_thread::yield();
+        return make();
+    };
+    {
+        Painting painting({slow, member("a", 1)});
+        painting.render();
+        painting.refine();
+        EXPECT_EQ(painting.count(2), picture.pixels());
+        EXPECT_EQ(painting.crew.shares()[0].ready, 0);
+    }
+    *gate = true;  // its thread ends by itself
+}
+
+TEST(Crew, GoesOnWithoutAMemberThatFails) {
+    const std::chrono::milliseconds pause(1);
+    for (const int after : {0, 1, 3}) {
+        Painting painting({member("a", 1, after, pause), member("b", 2, -1, pause)});
+        painting.render();
+        EXPECT_TRUE(painting.is_finished());
+        EXPECT_EQ(painting.count(1) + painting.count(2), picture.pixels());
+        EXPECT_EQ(painting.said, std::vector<std::string>{"painter fell off; going on without it"});
+        EXPECT_EQ(painting.crew.shares()[0].failure, "painter fell off");
+        painting.refine();
+        EXPECT_EQ(painting.count(3) + painting.count(4), picture.pixels());
+    }
+}
+
+TEST(Crew, RefinesWhatAMemberLeft) {
+    Painting painting({member("a", 1, 30), member("b", 1, -1, std::chrono::milliseconds(1))});
+    painting.render();
+    for (int i = 0; i < 40; ++i) painting.refine();
+    EXPECT_EQ(painting.count(41), picture.pixels());
+}
+
+TEST(Crew, HasTheSpareTakeOver) {
+    for (const int after : {0, 2}) {
+        Painting painting({member("a", 1, after)}, member("spare", 2));
+        painting.render();
+        EXPECT_EQ(painting.count(1), 8 * 5 * after);
+        EXPECT_EQ(painting.count(2), picture.pixels() - painting.count(1));
+        EXPECT_TRUE(painting.crew.uses_spare());
+        EXPECT_EQ(painting.said.front(), "painter fell off");
+        EXPECT_EQ(painting.crew.shares()[1].pixels, painting.count(2));
+    }
+}
+
+TEST(Crew, HasTheSpareTakeOverFromSeveral) {
+    Painting painting({member("a", 1, 1), member("b", 1, 1), failing_to_open("c")},
+                      member("spare", 2));
+    painting.render();
+    EXPECT_EQ(painting.count(1) + painting.count(2), picture.pixels());
+    EXPECT_TRUE(painting.crew.uses_spare());
+    painting.refine();
+    EXPECT_EQ(painting.count(3) + painting.count(4), picture.pixels());
+}
+
+TEST(Crew, HasTheSpareTakeOverFromOneThatDoesNotOpenOrFailsItsTest) {
+    Painting closed({failing_to_open("a")}, member("spare", 2));
+    closed.render();
+    EXPECT_EQ(closed.count(2), picture.pixels());
+    CrewMember<float> wrong = member("a", 1);
+    wrong.test = [](Renderer<float>&) { throw Error(ExitCode::device, "wrong color"); };
+    Painting tested({wrong}, member("spare", 2));
+    tested.render();
+    EXPECT_EQ(tested.count(2), picture.pixels());
+    EXPECT_EQ(tested.said.front(), "wrong color");
+}
+
+TEST(Crew, WithoutASpareThrows) {
+    EXPECT_THROW(Painting({failing_to_open("a")}), Error);
+    Painting one({member("a", 1, 2)});
+    EXPECT_THROW(one.render(), Error);
+    Painting two({member("a", 1, 2), member("b", 1, 2)});
+    EXPECT_THROW(two.render(), Error);
+}
+
+TEST(Crew, LeavesErrorsThatAreNotTheDevicesToTheCaller) {
+    CrewMember<float> large = member("a", 1);
+    large.make = []() -> std::unique_ptr<Renderer<float>> {
+        throw Error(ExitCode::limit, "too large a wall");
+    };
+    EXPECT_THROW(Painting({large}, member("spare", 2)), Error);
+}
+
+TEST(Crew, StopsWhileNobodyIsReady) {
+    StopFlag stop = 0;
+    auto gate = std::make_shared<std::atomic<bool>>(false);
+    CrewMember<float> slow = member("slow", 1);
+    slow.make = [gate, make = slow.make] {
+        while (!*gate) std::this_thread::yield();
+        return make();
+    };
+    Film<float> film(picture.width, picture.height);
+    TileQueue queue(make_tiles(picture, 4, 5), stop);
+    {
+        Crew<float> crew({slow, slow}, {}, {});
+        crew.open();
+        std::thread later([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            stop = 2;
+        });
+        crew.render(queue, picture, film);
+        later.join();
+    }
+    EXPECT_EQ(queue.tiles_finished(), 0u);
+    *gate = true;
+}
+
+}  // namespace
+}  // namespace rt
