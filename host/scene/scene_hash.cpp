@@ -7,65 +7,81 @@ namespace rt {
 
 namespace {
 
+// Every struct is taken apart by a structured binding, so that a new member does not compile until
+// somebody has decided whether it is part of the hash.
+
 void add(Hasher& hasher, const glm::dvec3& v) {
     hasher.add(v.x);
     hasher.add(v.y);
     hasher.add(v.z);
 }
 
+void add(Hasher& hasher, const Scene::Window& window) {
+    const auto& [left, right, bottom, top] = window;
+    hasher.add(left);
+    hasher.add(right);
+    hasher.add(bottom);
+    hasher.add(top);
+}
+
 void add(Hasher& hasher, const Scene::Camera& camera) {
-    hasher.add(static_cast<int>(camera.projection));
-    add(hasher, camera.from);
-    add(hasher, camera.at);
-    add(hasher, camera.up);
-    hasher.add(static_cast<int>(camera.field_of_view.fixed));
-    if (camera.field_of_view.fixed != Scene::FieldOfView::Fixed::window) {
-        hasher.add(camera.field_of_view.amount);
-        return;
+    const auto& [projection, from, at, up, field_of_view, window] = camera;
+    const auto& [fixed, amount] = field_of_view;
+    hasher.add(static_cast<int>(projection));
+    add(hasher, from);
+    add(hasher, at);
+    add(hasher, up);
+    hasher.add(static_cast<int>(fixed));
+    if (fixed == Scene::FieldOfView::Fixed::window) {
+        add(hasher, window);
+    } else {
+        hasher.add(amount);
     }
-    hasher.add(camera.window.left);
-    hasher.add(camera.window.right);
-    hasher.add(camera.window.bottom);
-    hasher.add(camera.window.top);
 }
 
 void add(Hasher& hasher, const Scene::Material& material) {
-    add(hasher, material.ambient);
-    add(hasher, material.diffuse);
-    add(hasher, material.specular);
-    add(hasher, material.mirror);
-    add(hasher, material.transmission);
-    hasher.add(material.shininess);
-    hasher.add(material.ior);
-    hasher.add(material.two_sided);
+    const auto& [name, ambient, diffuse, specular, mirror, transmission, shininess, ior,
+                 two_sided] = material;
+    add(hasher, ambient);
+    add(hasher, diffuse);
+    add(hasher, specular);
+    add(hasher, mirror);
+    add(hasher, transmission);
+    hasher.add(shininess);
+    hasher.add(ior);
+    hasher.add(two_sided);
 }
 
 void add(Hasher& hasher, const Scene::Light& light) {
-    add(hasher, light.position);
-    add(hasher, light.intensity);
+    const auto& [position, intensity, has_own_intensity] = light;
+    add(hasher, position);
+    add(hasher, intensity);
 }
 
 void add(Hasher& hasher, const Scene::Sphere& sphere) {
-    add(hasher, sphere.center);
-    hasher.add(sphere.radius);
-    hasher.add(sphere.material);
+    const auto& [center, radius, material] = sphere;
+    add(hasher, center);
+    hasher.add(radius);
+    hasher.add(material);
 }
 
 void add(Hasher& hasher, const Scene::Triangle& triangle) {
-    for (const auto& vertex : triangle.vertices) add(hasher, vertex);
-    hasher.add(triangle.normals.has_value());
-    if (triangle.normals) {
-        for (const auto& normal : *triangle.normals) add(hasher, normal);
+    const auto& [vertices, normals, material] = triangle;
+    for (const auto& vertex : vertices) add(hasher, vertex);
+    hasher.add(normals.has_value());
+    if (normals) {
+        for (const auto& normal : *normals) add(hasher, normal);
     }
-    hasher.add(triangle.material);
+    hasher.add(material);
 }
 
 void add(Hasher& hasher, const Scene::Cone& cone) {
-    add(hasher, cone.base);
-    add(hasher, cone.apex);
-    hasher.add(cone.base_radius);
-    hasher.add(cone.apex_radius);
-    hasher.add(cone.material);
+    const auto& [base, apex, base_radius, apex_radius, material] = cone;
+    add(hasher, base);
+    add(hasher, apex);
+    hasher.add(base_radius);
+    hasher.add(apex_radius);
+    hasher.add(material);
 }
 
 void add(Hasher& hasher, const Scene::Mesh::Face& face) {
@@ -83,26 +99,30 @@ void add_all(Hasher& hasher, const std::vector<Item>& items) {
 }
 
 void add(Hasher& hasher, const Scene::Mesh& mesh) {
-    add_all(hasher, mesh.positions);
-    add_all(hasher, mesh.normals);
-    add_all(hasher, mesh.faces);
-    add_all(hasher, mesh.face_normals);
-    add_all(hasher, mesh.face_materials);
+    const auto& [positions, normals, faces, face_normals, face_materials] = mesh;
+    add_all(hasher, positions);
+    add_all(hasher, normals);
+    add_all(hasher, faces);
+    add_all(hasher, face_normals);
+    add_all(hasher, face_materials);
 }
 
 }  // namespace
 
 std::uint64_t scene_hash(const Scene& scene) {
+    const auto& [name, camera, width, height, aa, filter, sampling_seed, max_bounces, background,
+                 ambient_light, lights, materials, spheres, cones, triangles, meshes, notes] =
+        scene;
     Hasher hasher;
-    add(hasher, scene.camera);
-    add(hasher, scene.background);
-    add(hasher, scene.ambient_light);
-    add_all(hasher, scene.lights);
-    add_all(hasher, scene.materials);
-    add_all(hasher, scene.spheres);
-    add_all(hasher, scene.cones);
-    add_all(hasher, scene.triangles);
-    add_all(hasher, scene.meshes);
+    add(hasher, camera);
+    add(hasher, background);
+    add(hasher, ambient_light);
+    add_all(hasher, lights);
+    add_all(hasher, materials);
+    add_all(hasher, spheres);
+    add_all(hasher, cones);
+    add_all(hasher, triangles);
+    add_all(hasher, meshes);
     return hasher.value();
 }
 
