@@ -4,9 +4,12 @@
 // outcome the same for any number of threads, whatever the boxes are.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "host/flatten/bvh.h"
 #include "host/flatten/flat_scene.h"
@@ -191,6 +194,68 @@ TYPED_TEST(BuildBvh, BeatsHalvingOnASoup) {
     const BvhShape shape = shape_of<TypeParam>(bvh.nodes, bvh.root, bvh.settings);
     EXPECT_LT(shape.sah_cost, 250);
     EXPECT_LT(shape.depth, 40);
+}
+
+/// Half the surface.
+template <typename Node>
+double area_of(const Node& box) {
+    const double x = double(box.high.x) - box.low.x, y = double(box.high.y) - box.low.y;
+    const double z = double(box.high.z) - box.low.z;
+    return x * (y + z) + y * z;
+}
+
+template <typename T>
+double cost_of_side(std::span<const BvhBox<T>> boxes) {
+    BvhBox<T> whole = boxes[0];
+    for (const BvhBox<T>& box : boxes) {
+        whole.low = {std::min(whole.low.x, box.low.x), std::min(whole.low.y, box.low.y),
+                     std::min(whole.low.z, box.low.z)};
+        whole.high = {std::max(whole.high.x, box.high.x), std::max(whole.high.y, box.high.y),
+                      std::max(whole.high.z, box.high.z)};
+    }
+    return area_of(whole) * static_cast<double>(boxes.size());
+}
+
+/// The least cost of a split of the boxes in the order of their centers along some axis.
+template <typename T>
+double least_cost(Boxes<T> boxes) {
+    using Packed3 = typename Flat<T>::Packed3;
+    double least = INFINITY;
+    for (const auto axis : {&Packed3::x, &Packed3::y, &Packed3::z}) {
+        std::sort(boxes.begin(), boxes.end(), [&](const auto& a, const auto& b) {
+            return a.low.*axis + a.high.*axis < b.low.*axis + b.high.*axis;
+        });
+        const std::span<const BvhBox<T>> sorted = boxes;
+        for (std::size_t left = 1; left < boxes.size(); ++left) {
+            least = std::min(
+                least, cost_of_side<T>(sorted.first(left)) + cost_of_side<T>(sorted.subspan(left)));
+        }
+    }
+    return least;
+}
+
+TYPED_TEST(BuildBvh, SplitsFewBoxesWhereItCostsLeast) {
+    Random random(3);
+    for (int trial = 0; trial < 200; ++trial) {
+        Boxes<TypeParam> boxes;
+        const int count = 2 + trial % 7;
+        for (int i = 0; i < count; ++i) {
+            boxes.push_back(box_about<TypeParam>(random.in_cube(1), random.uniform(0.01, 0.5)));
+        }
+        BvhSettings settings;
+        settings.most_in_leaf = 1;
+        std::vector<typename Flat<TypeParam>::BvhNode> nodes;
+        Boxes<TypeParam> ordered = boxes;
+        const auto root = static_cast<std::size_t>(build_bvh<TypeParam>(ordered, settings, nodes));
+        double cost = 0;
+        for (const std::size_t child : {0, 1}) {
+            const auto pair = static_cast<std::size_t>(nodes[root].first);
+            const BvhShape shape = shape_of<TypeParam>(
+                nodes, static_cast<typename Flat<TypeParam>::Index>(pair + child), settings);
+            cost += area_of(nodes[pair + child]) * static_cast<double>(shape.leaves);
+        }
+        EXPECT_NEAR(cost, least_cost<TypeParam>(boxes), 1e-4 * cost) << trial;
+    }
 }
 
 TYPED_TEST(BuildBvh, KeepsAMeshWithinAHundredBytesATriangle) {

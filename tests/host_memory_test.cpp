@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "host/huge_pages.h"
 #include "host/memory_limit.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
@@ -83,6 +89,35 @@ TEST(CheckMemory, NamesTheBufferItsBytesAndTheWayOut) {
     EXPECT_EQ(code, ExitCode::limit);
     EXPECT_EQ(message.find("the film needs 1099511627776 MiB of memory and "), 0u) << message;
     EXPECT_NE(message.find("; use --crop"), message.npos) << message;
+}
+
+/// The flags of this process's mapping that holds an address.
+std::string flags_at(const void* address) {
+    std::ifstream maps("/proc/self/smaps");
+    const auto wanted = reinterpret_cast<std::uintptr_t>(address);
+    bool inside = false;
+    for (std::string line; std::getline(maps, line);) {
+        std::uintptr_t first = 0, end = 0;
+        char dash = 0;
+        std::istringstream range(line);
+        if (range >> std::hex >> first >> dash >> end && dash == '-') {
+            inside = first <= wanted && wanted < end;
+        }
+        if (inside && line.starts_with("VmFlags:")) return line + " ";
+    }
+    return "";
+}
+
+TEST(ResizeHuge, GrowsWithZerosAndAsksForLargePagesWhereThereIsMuch) {
+    std::vector<int> items{1, 2};
+    resize_huge(items, 5);
+    EXPECT_EQ(items, (std::vector<int>{1, 2, 0, 0, 0}));
+    resize_huge(items, 8 * mib);
+    EXPECT_EQ(items.size(), 8 * mib);
+    EXPECT_EQ(std::count(items.begin(), items.end(), 0), static_cast<std::ptrdiff_t>(8 * mib - 2));
+    if (!fs::exists("/sys/kernel/mm/transparent_hugepage")) GTEST_SKIP() << "no large pages here";
+    const std::string flags = flags_at(&items[4 * mib]);
+    EXPECT_NE(flags.find(" hg "), flags.npos) << flags;
 }
 
 }  // namespace

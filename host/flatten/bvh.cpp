@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Binned surface-area heuristic (Wald 2007): the boxes' centers fall into bins along each axis, and
-// the plane between two bins with the lowest expected cost splits the node. Large nodes are split
-// level by level, all threads on one node or a node each; below a size that depends on the number
-// of boxes alone, each subtree is one thread's work. Minima, maxima and counts are exact in any
-// order, so the outcome does not depend on the number of threads.
+// the plane between two bins with the lowest expected cost splits the node; the last few boxes are
+// sorted instead. Large nodes are split level by level, all threads on one node or a node each;
+// below a size that depends on the number of boxes alone, each subtree is one thread's work.
+// Minima, maxima and counts are exact in any order, and boxes are moved in runs of one length, so
+// the outcome does not depend on the number of threads.
 //
 // Where the heuristic sees nothing to gain (coincident centers), or would dig too deep, a node is
 // halved by number instead: that bounds the depth.
 //
 // Here is who works on which node; how one is split stands in bvh_split, at which plane in
-// bvh_bins.
+// bvh_bins and bvh_few, how its boxes are moved in bvh_partition.
 #include "host/flatten/bvh.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <utility>
 
 #include "host/flatten/bvh_split.h"
+#include "host/huge_pages.h"
 #include "host/parallel.h"
 
 namespace rt {
@@ -57,17 +59,25 @@ class Builder {
         std::size_t node;
     };
 
-    /// Splits what is too large for one thread, level by level.
+    /// Splits what is too large for one thread, level by level: the largest with all threads on
+    /// one node, the others side by side.
     void split_large(std::vector<Task> level, std::vector<Node>& nodes) {
         const std::size_t task_size = std::max(smallest_task, boxes_.size() / 64);
         const auto threads = static_cast<std::size_t>(settings_.threads);
         while (!level.empty()) {
             std::vector<bvh::Halves<T>> halves(level.size());
-            const int across = level.size() >= threads ? settings_.threads : 1;
-            for_each_run(level.size(), 1, across, [&](std::size_t i, std::size_t) {
-                if (level[i].range.count() <= task_size) return;
-                halves[i] = bvh::split_range<T>(boxes_, level[i].range, settings_,
-                                                across == 1 ? settings_.threads : 1);
+            const auto split = [&](std::size_t i, int on_it) {
+                halves[i] = bvh::split_range<T>(boxes_, level[i].range, settings_, on_it);
+            };
+            const auto is_shared = [&](std::size_t i) {
+                return 2 * threads * level[i].range.count() > boxes_.size();
+            };
+            const auto is_task = [&](std::size_t i) { return level[i].range.count() <= task_size; };
+            for (std::size_t i = 0; i < level.size(); ++i) {
+                if (is_shared(i) && !is_task(i)) split(i, settings_.threads);
+            }
+            for_each_run(level.size(), 1, settings_.threads, [&](std::size_t i, std::size_t) {
+                if (!is_shared(i) && !is_task(i)) split(i, 1);
             });
             std::vector<Task> next;
             for (std::size_t i = 0; i < level.size(); ++i) {
@@ -108,7 +118,7 @@ class Builder {
             starts.push_back(size);
             size += subtree.size - 2;
         }
-        nodes.resize(size);
+        resize_huge(nodes, size);
         for_each_run(tasks_.size(), 1, settings_.threads, [&](std::size_t i, std::size_t) {
             const auto moved = [&](Node node) {
                 if (node.count == 0) node.first += static_cast<Index>(starts[i]) - 2;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/flatten/bvh_bins.h"
 
-#include <array>
 #include <vector>
 
 #include "host/parallel.h"
@@ -11,81 +10,114 @@ namespace rt::bvh {
 namespace {
 
 template <typename T>
-struct Bins {
-    std::array<std::array<Bounds<T>, bin_count>, 3> bounds;
-    std::array<std::array<std::size_t, bin_count>, 3> counts{};
+void fill_run(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, Bins<T>& bins) {
+    bins.count = most_bins;
+    for (auto& bounds : bins.bounds) bounds.fill(Bounds<T>::none());
+    bins.boxes.fill(Mask<T>{});
+    for (const BvhBox<T>& box : boxes) {
+        const Bounds<T> added = bounds_of<T>(box);
+        const Mask<T> bin = binning.all(added.low + added.high);
+        // Constant lanes, not a loop over them: those would go through memory.
+        const auto x = static_cast<std::size_t>(bin[0]), y = static_cast<std::size_t>(bin[1]);
+        const auto z = static_cast<std::size_t>(bin[2]);
+        bins.bounds[x][0].add(added);
+        bins.bounds[y][1].add(added);
+        bins.bounds[z][2].add(added);
+        bins.boxes[x][0] += 1;
+        bins.boxes[y][1] += 1;
+        bins.boxes[z][2] += 1;
+    }
+}
 
-    void add(const Bins& other) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (std::size_t bin = 0; bin < bin_count; ++bin) {
-                bounds[axis][bin].add(other.bounds[axis][bin]);
-                counts[axis][bin] += other.counts[axis][bin];
-            }
-        }
+/// For each axis half the surface of its bounds, lengths being multiplied by `scale` first.
+template <typename T>
+Vector<T> areas(const std::array<Bounds<T>, 3>& bounds, T scale) {
+    const Vector<T> a = (bounds[0].high - bounds[0].low) * scale;
+    const Vector<T> b = (bounds[1].high - bounds[1].low) * scale;
+    const Vector<T> c = (bounds[2].high - bounds[2].low) * scale;
+    const Vector<T> ab_xy = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+    const Vector<T> ab_z = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Vector<T> x = __builtin_shufflevector(ab_xy, c, 0, 1, 4, 7);
+    const Vector<T> y = __builtin_shufflevector(ab_xy, c, 2, 3, 5, 7);
+    const Vector<T> z = __builtin_shufflevector(ab_z, c, 0, 1, 6, 7);
+    return x * (y + z) + y * z;
+}
+
+/// One side of a split, on each axis.
+template <typename T>
+struct Side {
+    std::array<Bounds<T>, 3> bounds{Bounds<T>::none(), Bounds<T>::none(), Bounds<T>::none()};
+    Mask<T> boxes{};
+
+    void add(const Bins<T>& bins, std::size_t bin) {
+        for (std::size_t axis = 0; axis < 3; ++axis) bounds[axis].add(bins.bounds[bin][axis]);
+        boxes += bins.boxes[bin];
+    }
+    /// Area times count; NaN, which is less than nothing, when the side is empty.
+    Vector<T> costs(T scale) const {
+        return areas<T>(bounds, scale) * __builtin_convertvector(boxes, Vector<T>);
     }
 };
-
-template <typename T>
-void fill_bins(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, Bins<T>& bins) {
-    for (const BvhBox<T>& box : boxes) {
-        const Vector<T> low = load<T>(box.low), high = load<T>(box.high);
-        const auto bin = binning.all(low + high);
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis), b = static_cast<std::size_t>(bin[axis]);
-            bins.bounds[a][b].add(low, high);
-            bins.counts[a][b] += 1;
-        }
-    }
-}
-
-template <typename T>
-Bins<T> binned(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, int threads) {
-    Bins<T> bins;
-    if (threads == 1 || boxes.size() <= binning_run) {
-        fill_bins<T>(boxes, binning, bins);
-        return bins;
-    }
-    std::vector<Bins<T>> parts((boxes.size() + binning_run - 1) / binning_run);
-    for_each_run(boxes.size(), binning_run, threads, [&](std::size_t first, std::size_t last) {
-        fill_bins<T>(boxes.subspan(first, last - first), binning, parts[first / binning_run]);
-    });
-    for (const Bins<T>& part : parts) bins.add(part);
-    return bins;
-}
 
 }  // namespace
 
 template <typename T>
-Split<T> best_split(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, T scale,
-                    int threads) {
-    const Bins<T> bins = binned<T>(boxes, binning, threads);
+void fill_bins(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, int threads,
+               Bins<T>& bins) {
+    if (boxes.size() <= run_length) return fill_run<T>(boxes, binning, bins);
+    std::vector<Bins<T>> parts((boxes.size() + run_length - 1) / run_length);
+    for_each_run(boxes.size(), run_length, threads, [&](std::size_t first, std::size_t last) {
+        fill_run<T>(boxes.subspan(first, last - first), binning, parts[first / run_length]);
+    });
+    bins = parts[0];
+    for (std::size_t part = 1; part < parts.size(); ++part) {
+        for (std::size_t bin = 0; bin < bins.count; ++bin) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                bins.bounds[bin][axis].add(parts[part].bounds[bin][axis]);
+            }
+            bins.boxes[bin] += parts[part].boxes[bin];
+        }
+    }
+}
+
+template <typename T>
+Split<T> best_split(const Bins<T>& bins, T scale) {
+    std::array<Vector<T>, most_bins> right_costs;
+    Side<T> right;
+    for (std::size_t bin = bins.count - 1; bin > 0; --bin) {
+        right.add(bins, bin);
+        right_costs[bin] = right.costs(scale);
+    }
+    Side<T> left;
+    Vector<T> least = Bounds<T>::none().low;
+    Mask<T> least_bin{};
+    for (std::size_t bin = 0; bin + 1 < bins.count; ++bin) {
+        left.add(bins, bin);
+        const Vector<T> costs = left.costs(scale) + right_costs[bin + 1];
+        const Mask<T> is_less = costs < least;
+        least = is_less ? costs : least;
+        least_bin = is_less ? Mask<T>{} + static_cast<typename Flat<T>::Index>(bin) : least_bin;
+    }
     Split<T> best;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::array<T, bin_count> right_cost;
-        Bounds<T> side;
-        std::size_t on_side = 0;
-        for (std::size_t bin = bin_count - 1; bin > 0; --bin) {
-            side.add(bins.bounds[axis][bin]);
-            on_side += bins.counts[axis][bin];
-            right_cost[bin] = on_side > 0 ? side.area(scale) * static_cast<T>(on_side)
-                                          : std::numeric_limits<T>::infinity();
-        }
-        side = Bounds<T>();
-        on_side = 0;
-        for (std::size_t bin = 0; bin + 1 < bin_count; ++bin) {
-            side.add(bins.bounds[axis][bin]);
-            on_side += bins.counts[axis][bin];
-            if (on_side == 0) continue;
-            const T cost = side.area(scale) * static_cast<T>(on_side) + right_cost[bin + 1];
-            if (cost < best.cost) best = {static_cast<int>(axis), static_cast<int>(bin), cost};
-        }
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(least[axis] < best.cost)) continue;
+        best.axis = axis;
+        best.bin = static_cast<int>(least_bin[axis]);
+        best.cost = least[axis];
+    }
+    if (best.axis < 0) return best;
+    for (int bin = 0; bin < static_cast<int>(bins.count); ++bin) {
+        best.bounds[bin > best.bin ? 1 : 0].add(
+            bins.bounds[static_cast<std::size_t>(bin)][static_cast<std::size_t>(best.axis)]);
     }
     return best;
 }
 
-template Split<float> best_split<float>(std::span<const f32::BvhNode>, const Binning<float>&, float,
-                                        int);
-template Split<double> best_split<double>(std::span<const f64::BvhNode>, const Binning<double>&,
-                                          double, int);
+template void fill_bins<float>(std::span<const f32::BvhNode>, const Binning<float>&, int,
+                               Bins<float>&);
+template void fill_bins<double>(std::span<const f64::BvhNode>, const Binning<double>&, int,
+                                Bins<double>&);
+template Split<float> best_split<float>(const Bins<float>&, float);
+template Split<double> best_split<double>(const Bins<double>&, double);
 
 }  // namespace rt::bvh

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,40 +12,53 @@
 
 namespace rt::bvh {
 
-inline constexpr int bin_count = 16;
-inline constexpr std::size_t binning_run = 1 << 16;  ///< boxes that a thread goes through at once
+inline constexpr std::size_t most_bins = 16;
+inline constexpr std::size_t run_length = 1 << 14;  ///< boxes that a thread goes through at once
 
-/// Which bin a center (times two) falls into, on each axis.
+/// Which of most_bins bins a center (times two) falls into, on each axis.
 template <typename T>
 struct Binning {
     Vector<T> low, scale;
 
     explicit Binning(const Bounds<T>& centers) : low(centers.low) {
-        const T almost = T(bin_count) * (T(1) - 4 * Flat<T>::roundoff);
+        const T almost = T(most_bins) * (T(1) - 4 * Flat<T>::roundoff);
         for (int axis = 0; axis < 4; ++axis) {
             const T extent = axis < 3 ? centers.high[axis] - low[axis] : T(0);
             const T wanted = extent > 0 ? almost / extent : T(0);
             scale[axis] = std::isfinite(wanted) ? wanted : T(0);
         }
     }
-    typename Lanes<T>::Mask all(const Vector<T>& center) const {
-        return __builtin_convertvector((center - low) * scale, typename Lanes<T>::Mask);
+    Mask<T> all(const Vector<T>& center) const {
+        return __builtin_convertvector((center - low) * scale, Mask<T>);
     }
-    int one(const Vector<T>& center, int axis) const {
-        return static_cast<int>((center[axis] - low[axis]) * scale[axis]);
+    int one(T center, int axis) const {
+        return static_cast<int>((center - low[axis]) * scale[axis]);
     }
 };
+
+/// What lies in each bin, on each axis.
+template <typename T>
+struct Bins {
+    std::size_t count = 0;
+    std::array<std::array<Bounds<T>, 3>, most_bins> bounds;
+    std::array<Mask<T>, most_bins> boxes;  ///< how many
+};
+
+/// Makes `threads` threads go through the boxes; the outcome does not depend on how many.
+template <typename T>
+void fill_bins(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, int threads,
+               Bins<T>& bins);
 
 /// The boxes in bins up to `bin` on `axis` go left; -1 where no split puts boxes on both sides.
 template <typename T>
 struct Split {
     int axis = -1, bin = 0;
     T cost = std::numeric_limits<T>::infinity();  ///< area times count, of both sides
+    std::array<Bounds<T>, 2> bounds{Bounds<T>::none(), Bounds<T>::none()};  ///< of the sides
 };
 
 /// The split of least cost. Lengths are multiplied by `scale` before areas are made of them.
 template <typename T>
-Split<T> best_split(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, T scale,
-                    int threads);
+Split<T> best_split(const Bins<T>& bins, T scale);
 
 }  // namespace rt::bvh

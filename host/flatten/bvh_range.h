@@ -21,12 +21,14 @@ struct Lanes {
 };
 template <typename T>
 using Vector = typename Lanes<T>::Vector;
+template <typename T>
+using Mask = typename Lanes<T>::Mask;
 
 template <typename T>
 Vector<T> load(const typename Flat<T>::Packed3& row) {
-    typename Lanes<T>::Mask bits;
+    Mask<T> bits;
     std::memcpy(&bits, &row, sizeof bits);
-    bits &= typename Lanes<T>::Mask{-1, -1, -1, 0};
+    bits &= Mask<T>{-1, -1, -1, 0};
     Vector<T> v;
     std::memcpy(&v, &bits, sizeof v);
     return v;
@@ -36,35 +38,40 @@ template <typename T>
 struct Bounds {
     Vector<T> low, high;
 
-    static constexpr T huge = std::numeric_limits<T>::infinity();
-    Bounds() : low{huge, huge, huge, huge}, high{-huge, -huge, -huge, -huge} {}
-
+    static Bounds none() {
+        constexpr T huge = std::numeric_limits<T>::infinity();
+        return {Vector<T>{huge, huge, huge, huge}, Vector<T>{-huge, -huge, -huge, -huge}};
+    }
     void add(const Vector<T>& point_low, const Vector<T>& point_high) {
         low = point_low < low ? point_low : low;
         high = point_high > high ? point_high : high;
     }
     void add(const Bounds& other) { add(other.low, other.high); }
-
-    /// Half the surface, lengths being multiplied by `scale` first.
-    T area(T scale) const {
-        const Vector<T> d = (high - low) * scale;
-        return d[0] * (d[1] + d[2]) + d[1] * d[2];
+    /// Adds the point where `where` is -1; it is 0 elsewhere.
+    void add_where(const Mask<T>& where, const Vector<T>& point) {
+        const auto point_or_nan = (Vector<T>)((Mask<T>)point | ~where);
+        add(point_or_nan, point_or_nan);
     }
 };
+
+template <typename T>
+Bounds<T> bounds_of(const BvhBox<T>& box) {
+    return {load<T>(box.low), load<T>(box.high)};
+}
 
 /// Boxes first .. last with their bounds and those of their centers (times two).
 template <typename T>
 struct Range {
     std::size_t first = 0, last = 0;
     int depth = 0;
-    Bounds<T> bounds, centers;
+    Bounds<T> bounds = Bounds<T>::none(), centers = Bounds<T>::none();
 
     std::size_t count() const { return last - first; }
 
     void add(const BvhBox<T>& box) {
-        const Vector<T> box_low = load<T>(box.low), box_high = load<T>(box.high);
-        bounds.add(box_low, box_high);
-        centers.add(box_low + box_high, box_low + box_high);
+        const Bounds<T> added = bounds_of<T>(box);
+        bounds.add(added);
+        centers.add(added.low + added.high, added.low + added.high);
     }
 };
 

@@ -8,27 +8,13 @@
 #include <vector>
 
 #include "host/flatten/bvh_bins.h"
+#include "host/flatten/bvh_few.h"
+#include "host/flatten/bvh_partition.h"
 #include "host/parallel.h"
 
 namespace rt::bvh {
 
 namespace {
-
-/// Moves the boxes that go left to the front; the first that does not is returned.
-template <typename T>
-std::size_t move_left(std::span<BvhBox<T>> boxes, const Binning<T>& binning, const Split<T>& best,
-                      Range<T>& left, Range<T>& right) {
-    const auto goes_left = [&](const BvhBox<T>& box) {
-        return binning.one(center_of<T>(box), best.axis) <= best.bin;
-    };
-    std::size_t from = left.first, to = right.last;
-    for (;;) {
-        for (; from < to && goes_left(boxes[from]); ++from) left.add(boxes[from]);
-        for (; from < to && !goes_left(boxes[to - 1]); --to) right.add(boxes[to - 1]);
-        if (from == to) return from;
-        std::swap(boxes[from], boxes[to - 1]);
-    }
-}
 
 /// Puts the lower half along the axis on which the centers spread most to the front.
 template <typename T>
@@ -44,46 +30,96 @@ void halve_by_center(std::span<BvhBox<T>> boxes, const Range<T>& range, std::siz
                      });
 }
 
-/// The sides of a range before their boxes are known.
 template <typename T>
-Halves<T> open_sides(const Range<T>& range) {
+Halves<T> halves_at(const Range<T>& range, std::size_t middle) {
     Halves<T> halves;
     halves.is_leaf = false;
-    halves.sides[0].first = range.first;
-    halves.sides[1].last = range.last;
-    for (Range<T>& side : halves.sides) side.depth = range.depth + 1;
+    auto& [left, right] = halves.sides;
+    left.first = range.first;
+    left.last = right.first = middle;
+    right.last = range.last;
+    left.depth = right.depth = range.depth + 1;
     return halves;
 }
 
+/// The sides of a range whose boxes are in order already.
 template <typename T>
-Halves<T> split_at(std::span<BvhBox<T>> boxes, const Range<T>& range, const Binning<T>& binning,
-                   const Split<T>& best) {
-    Halves<T> halves = open_sides(range);
-    auto& [left, right] = halves.sides;
-    left.last = right.first = move_left(boxes, binning, best, left, right);
-    return halves;
-}
-
-/// Halves a range by number.
-template <typename T>
-Halves<T> halve(std::span<BvhBox<T>> boxes, const Range<T>& range) {
-    Halves<T> halves = open_sides(range);
-    auto& [left, right] = halves.sides;
-    left.last = right.first = range.first + range.count() / 2;
-    halve_by_center(boxes, range, left.last);
+Halves<T> cut_at(std::span<const BvhBox<T>> boxes, const Range<T>& range, std::size_t middle) {
+    Halves<T> halves = halves_at(range, middle);
     for (Range<T>& side : halves.sides) {
         for (std::size_t i = side.first; i < side.last; ++i) side.add(boxes[i]);
     }
     return halves;
 }
 
+/// Halves a range by number.
+template <typename T>
+Halves<T> halve(std::span<BvhBox<T>> boxes, const Range<T>& range) {
+    const std::size_t middle = range.first + range.count() / 2;
+    halve_by_center(boxes, range, middle);
+    return cut_at<T>(boxes, range, middle);
+}
+
+/// One range and what it becomes.
+template <typename T>
+class Splitting {
+   public:
+    Splitting(std::span<BvhBox<T>> boxes, const Range<T>& range, const BvhSettings& settings,
+              T scale)
+        : boxes_(boxes),
+          own_(boxes.subspan(range.first, range.count())),
+          range_(range),
+          settings_(settings),
+          scale_(scale) {}
+
+    Halves<T> few() const {
+        const Places<T> places = places_of<T>(own_);
+        const Split<T> split = best_split<T>(bins_at<T>(places, own_), scale_);
+        if (!pays(split)) return {};
+        if (split.axis < 0) return halve<T>(boxes_, range_);
+        sort_along<T>(split.axis, places, own_);
+        return cut_at<T>(boxes_, range_, range_.first + static_cast<std::size_t>(split.bin) + 1);
+    }
+
+    Halves<T> many(int threads) const {
+        const Binning<T> binning(range_.centers);
+        Bins<T> bins;
+        fill_bins<T>(own_, binning, threads, bins);
+        const Split<T> split = best_split<T>(bins, scale_);
+        if (!pays(split)) return {};
+        if (split.axis < 0) return halve<T>(boxes_, range_);
+        const Partition<T> parted = partition<T>(own_, binning, split, threads);
+        Halves<T> halves = halves_at(range_, range_.first + parted.left_count);
+        for (std::size_t side : {0, 1}) {
+            halves.sides[side].bounds = split.bounds[side];
+            halves.sides[side].centers = parted.centers[side];
+        }
+        return halves;
+    }
+
+   private:
+    /// Whether a split is cheaper than a leaf, if one may be made.
+    bool pays(const Split<T>& split) const {
+        if (own_.size() > static_cast<std::size_t>(settings_.most_in_leaf)) return true;
+        const Vector<T> d = (range_.bounds.high - range_.bounds.low) * scale_;
+        const T area = d[0] * (d[1] + d[2]) + d[1] * d[2];
+        const T inner = static_cast<T>(settings_.inner_cost) * area + split.cost;
+        return inner < area * static_cast<T>(own_.size());
+    }
+
+    const std::span<BvhBox<T>> boxes_, own_;
+    const Range<T>& range_;
+    const BvhSettings& settings_;
+    const T scale_;
+};
+
 }  // namespace
 
 template <typename T>
 Range<T> whole_range(std::span<const BvhBox<T>> boxes, int threads) {
-    std::vector<Range<T>> parts((boxes.size() + binning_run - 1) / binning_run);
-    for_each_run(boxes.size(), binning_run, threads, [&](std::size_t first, std::size_t last) {
-        Range<T>& part = parts[first / binning_run];
+    std::vector<Range<T>> parts((boxes.size() + run_length - 1) / run_length);
+    for_each_run(boxes.size(), run_length, threads, [&](std::size_t first, std::size_t last) {
+        Range<T>& part = parts[first / run_length];
         for (std::size_t i = first; i < last; ++i) part.add(boxes[i]);
     });
     Range<T> range;
@@ -99,21 +135,16 @@ template <typename T>
 Halves<T> split_range(std::span<BvhBox<T>> boxes, const Range<T>& range,
                       const BvhSettings& settings, int threads) {
     if (range.count() == 1) return {};
-    const bool fits = range.count() <= static_cast<std::size_t>(settings.most_in_leaf);
     const int halvings = std::bit_width(range.count());
     const bool too_deep = range.depth + halvings >= max_bvh_depth;
     const Vector<T> size = range.bounds.high - range.bounds.low;
     const T scale = T(1) / std::max({size[0], size[1], size[2]});
-    if (too_deep || !std::isfinite(scale)) return fits ? Halves<T>{} : halve<T>(boxes, range);
-    const Binning<T> binning(range.centers);
-    const Split<T> best =
-        best_split<T>(boxes.subspan(range.first, range.count()), binning, scale, threads);
-    if (fits) {
-        const T area = range.bounds.area(scale);
-        const T inner = static_cast<T>(settings.inner_cost) * area + best.cost;
-        if (!(inner < area * static_cast<T>(range.count()))) return {};
+    if (too_deep || !std::isfinite(scale)) {
+        const bool fits = range.count() <= static_cast<std::size_t>(settings.most_in_leaf);
+        return fits ? Halves<T>{} : halve<T>(boxes, range);
     }
-    return best.axis < 0 ? halve<T>(boxes, range) : split_at<T>(boxes, range, binning, best);
+    const Splitting<T> splitting(boxes, range, settings, scale);
+    return range.count() <= few_boxes ? splitting.few() : splitting.many(threads);
 }
 
 template Range<float> whole_range<float>(std::span<const f32::BvhNode>, int);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "host/flatten/flat_params.h"
 #include "host/flatten/flat_shapes.h"
 #include "host/flatten/view_frame.h"
+#include "host/huge_pages.h"
 #include "host/memory_limit.h"
 #include "host/parallel.h"
 
@@ -108,7 +110,8 @@ class Flattener {
         if (options_.hierarchies.has_value()) crossover = *options_.hierarchies ? 2 : count + 1;
         if (count < crossover) return {};
         const auto start = std::chrono::steady_clock::now();
-        std::vector<BvhBox<T>> boxes(count);
+        std::vector<BvhBox<T>> boxes;
+        resize_huge(boxes, count);
         for_each(count, [&](std::size_t i) {
             boxes[i] = box(i);
             boxes[i].first = static_cast<Index>(i);
@@ -136,12 +139,11 @@ class Flattener {
 
     bool eye_is_on_surface() const {
         if (!view_.is_perspective) return false;
-        return std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
+        return eye_is_in_plane_ ||
+               std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
                            [](const auto& sphere) { return sphere.touches_eye != 0; }) ||
                std::any_of(flat_.cones.begin(), flat_.cones.end(),
-                           [](const auto& cone) { return cone.touches_eye != 0; }) ||
-               std::any_of(flat_.triangles.begin(), flat_.triangles.end(),
-                           [](const auto& triangle) { return triangle.plane == T(0); });
+                           [](const auto& cone) { return cone.touches_eye != 0; });
     }
 
     /// Flattens one kind of primitive, then puts it into the order of its hierarchy's leaves.
@@ -172,7 +174,7 @@ class Flattener {
                                  pack_position<T>(view_, corners[2]));
             },
             flat_.params.triangle_root, flat_.stats.triangles);
-        flat_.triangles.resize(count);
+        resize_huge(flat_.triangles, count);
         const std::vector<std::size_t> smooth = smooth_before_runs(count);
         flat_.vertex_normals.resize(smooth.back());
         for_each_run(count, run_length, options_.threads, [&](std::size_t first, std::size_t last) {
@@ -181,6 +183,7 @@ class Flattener {
                 const std::size_t number = triangle_number(i);
                 flat_.triangles[i] = flatten_triangle<T>(view_, triangles_.corners(number),
                                                          triangles_.material(number));
+                if (flat_.triangles[i].plane == T(0)) eye_is_in_plane_ = true;
                 const auto normals = triangles_.normals(number);
                 if (!normals) continue;
                 flat_.triangles[i].smooth = static_cast<Index>(next_smooth);
@@ -272,6 +275,7 @@ class Flattener {
     ViewFrame view_;
     MaterialUse material_use_;
     Order spheres_order_, cones_order_, triangles_order_;
+    std::atomic<bool> eye_is_in_plane_ = false;  ///< of a triangle
     FlatScene<T> flat_{};
 };
 

@@ -39,19 +39,28 @@ double barycentric_offset(const glm::dvec3& a, const glm::dvec3& b, const glm::d
     return static_cast<double>(Flat<T>::roundoff) * glm::dot(glm::abs(normal), error);
 }
 
+[[noreturn]] void refuse_distance(const glm::dvec3& scene_point, double farthest, bool is_float) {
+    throw Error(ExitCode::input,
+                fmt::format("({:g}, {:g}, {:g}) lies more than {:g} times as far away as most "
+                            "of the scene; move it nearer{}",
+                            scene_point.x, scene_point.y, scene_point.z, farthest,
+                            is_float ? ", or use --precision double" : ""));
+}
+
+/// `p` is the point in the renderer's frame.
+template <typename T>
+typename Flat<T>::Packed3 pack_near(const glm::dvec3& p, const glm::dvec3& scene_point) {
+    if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > farthest<T>) {
+        refuse_distance(scene_point, farthest<T>, sizeof(T) == sizeof(float));
+    }
+    return pack<T>(p);
+}
+
 }  // namespace
 
 template <typename T>
 typename Flat<T>::Packed3 pack_position(const ViewFrame& view, const glm::dvec3& scene_point) {
-    const glm::dvec3 p = view.to_view(scene_point);
-    if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > farthest<T>) {
-        throw Error(ExitCode::input,
-                    fmt::format("({:g}, {:g}, {:g}) lies more than {:g} times as far away as most "
-                                "of the scene; move it nearer{}",
-                                scene_point.x, scene_point.y, scene_point.z, farthest<T>,
-                                sizeof(T) == sizeof(float) ? ", or use --precision double" : ""));
-    }
-    return pack<T>(p);
+    return pack_near<T>(view.to_view(scene_point), scene_point);
 }
 
 template <typename T>
@@ -111,9 +120,9 @@ typename Flat<T>::Triangle flatten_triangle(const ViewFrame& view,
     const glm::dvec3 c = view.to_view(corners[2]);
     const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
     typename Flat<T>::Triangle flat{};
-    flat.p0 = pack_position<T>(view, corners[0]);
-    flat.p1 = pack_position<T>(view, corners[1]);
-    flat.p2 = pack_position<T>(view, corners[2]);
+    flat.p0 = pack_near<T>(a, corners[0]);
+    flat.p1 = pack_near<T>(b, corners[1]);
+    flat.p2 = pack_near<T>(c, corners[2]);
     flat.material = material;
     flat.smooth = Flat<T>::none;
     flat.offset = static_cast<T>(barycentric_offset<T>(a, b, c, normal));

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <future>
 #include <type_traits>
 #include <utility>
 
@@ -64,12 +66,13 @@ class Job {
           region_(chosen_region(scene, settings)),
           rendered_(region_to_render(scene.aa, region_, scene.width, scene.height)) {
         const Stopwatch watch;
+        auto figures = std::async(scene_stats, std::cref(scene));
         FlattenOptions flatten_options;
         flatten_options.hierarchies = settings.hierarchies;
         flatten_options.caster_lists = settings.caster_lists;
         scene_ = std::make_shared<const FlatScene<T>>(flatten<T>(scene, flatten_options));
         stats_.phases.flatten = watch.seconds();
-        stats_.scene = scene_stats(scene);
+        stats_.scene = figures.get();
         stats_.scene.triangles = scene_->triangles.size();
         stats_.scene.smooth_triangles = scene_->vertex_normals.size();
         stats_.scene.bytes = scene_->bytes();
