@@ -28,7 +28,7 @@ std::array<StopSignal, 5> stop_signals{{{SIGINT, "interrupted (Ctrl-C)", true},
                                         {SIGTERM, "terminated (SIGTERM)", true},
                                         {SIGHUP, "hung up (SIGHUP)", true},
                                         {SIGXCPU, "out of CPU time (SIGXCPU)", false},
-                                        {SIGUSR1, "told to stop (SIGUSR1)", false}}};
+                                        {SIGUSR1, "asked to stop (SIGUSR1)", false}}};
 
 const StopSignal& of_number(int number) {
     for (const StopSignal& signal : stop_signals) {

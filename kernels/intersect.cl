@@ -84,7 +84,7 @@ Mask ends_on_sphere(const Ray* ray, __global const Sphere* sphere, Reals t, Real
     return (t < b) & ((t_max - t) * (b - t) <= slack);
 }
 
-// The rays' frames: axis z is where a ray's direction is largest, x and y the next two in turn.
+// The rays' frames: axis z is where a ray's direction is largest, x and y the next two in order.
 typedef struct {
     real3 origin;  // its components in that order
     Reals sx, sy, sz;

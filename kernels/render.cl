@@ -2,7 +2,7 @@
 //
 // The entry points of OpenCL devices (kernels/items.cl says what a work item does). counts has one
 // slot a work item and is added to launch after launch. A program holds those that are launched
-// (RT_RENDERS_..): each is built anew from the whole tracer.
+// (RT_RENDERS_..): each is built from the whole tracer again.
 
 #include "kernels/items.cl"
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """bench and converge: their JSON is what the schemas say, and every figure in it follows from the
-raw runs in it, worked out anew here.
+raw runs in it, computed independently here.
 
 usage: bench_test.py BUILD_DIR REPO_ROOT
 """

@@ -8,7 +8,7 @@
 
 namespace {
 
-// GCC 12 drops the rounding of two neighboring doubles to float in its SLP vectorizer, unless told
+// GCC 12 drops the rounding of two neighboring doubles to float in its SLP vectorizer, unless asked
 // not to vectorize so (CMakeLists.txt): a double renderer would be fed unrounded numbers.
 __attribute__((noinline)) void round_pair(const double* in, double* out) {
     const float x = static_cast<float>(in[0]), y = static_cast<float>(in[1]);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t mib = 1 << 20;
 
-/// A system of files, as far as free memory is told in them.
+/// A system of files, as far as free memory is reported in them.
 class FreeMemoryTest : public ScratchFolder {
    protected:
     FreeMemoryTest() {

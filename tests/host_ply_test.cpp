@@ -185,7 +185,7 @@ TEST(ParsePly, PositionsAreFloatsExactly) {
     EXPECT_EQ(mesh.faces, (Faces{{2, 0, 1}}));
 }
 
-/// A grid of squares, each as two triangles or as one quadrilateral; the last face is as told.
+/// A grid of squares, each as two triangles or as one quadrilateral; the last face is as given.
 std::string ply_grid(const std::string& format, int side, bool quads,
                      const std::vector<int>& last = {}) {
     PlyData data(format);

@@ -428,7 +428,7 @@ TEST(SceneWarnings, NoLightAtAll) {
 }
 
 TEST(SceneWarnings, NothingInView) {
-    const std::string lamp = R"(, "ambient_light": 1, )";
+    const std::string light = R"(, "ambient_light": 1, )";
     const std::string words = "nothing is in view";
     const std::string gray = R"({"ambient": 1})";
     for (const std::string center : {"[0, 0, 7]", "[4, 0, 0]", "[0, -4, 0]", "[9, 9, -9]"}) {
@@ -445,7 +445,7 @@ TEST(SceneWarnings, NothingInView) {
         warnings_for(ball_at("[2, 0, 0]", gray) + R"(, "ambient_light": 1)", ortho).empty());
     EXPECT_TRUE(warns(
         warnings_for(ball_at("[-0.5, 0, 0]", gray) + R"(, "ambient_light": 1)", ortho), words));
-    const std::string skin = R"("materials": {"m": {"ambient": 1}})" + lamp;
+    const std::string skin = R"("materials": {"m": {"ambient": 1}})" + light;
     const auto triangle = [&](const std::string& vertices) {
         return skin + R"("triangles": [{"material": "m", "vertices": )" + vertices + "}]";
     };

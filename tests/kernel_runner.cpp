@@ -22,7 +22,7 @@ extern const char* const probe_kernels;
 
 namespace {
 
-/// One work-group size and few items a launch: PoCL compiles a kernel anew for another size, and
+/// One work-group size and few items a launch: PoCL compiles a kernel again for another size, and
 /// again for more than 64 K items.
 constexpr std::size_t local_size = 64;
 constexpr std::size_t launch_items = 65536 - local_size;

@@ -13,7 +13,7 @@
 namespace rt {
 
 /// All triangles of a scene by number: Scene::triangles first, then the
-/// faces of each mesh in turn. The scene must outlive it.
+/// faces of mesh after mesh. The scene must outlive it.
 class TriangleList {
    public:
     using Corners = std::array<glm::dvec3, 3>;

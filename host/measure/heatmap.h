@@ -11,7 +11,7 @@ namespace rt {
 constexpr std::array<float, 3> non_finite_color{0, 1, 1};
 
 /// The color of a share from 0 to 1, beyond which it stays: matplotlib's magma (CC0) from black
-/// over purple and orange to pale yellow, lightness rising all the way, told apart by
+/// over purple and orange to pale yellow, lightness rising all the way, distinguishable by
 /// color-blind eyes; ten of its colors with straight lines between. Display values, red first.
 std::array<float, 3> heat_color(double share);
 

@@ -14,7 +14,7 @@ struct Refinement {
     std::vector<std::int32_t> pixels;
 };
 
-/// Which pixels of an adaptively sampled film to render anew, and how finely. A pixel that differs
+/// Which pixels of an adaptively sampled film to render again, and how finely. A pixel that differs
 /// from one of its eight neighbors by c (the largest channel difference, channels clamped to 0..1)
 /// gets the coarsest grid of 2, 4, 8 or 16 samples a side, n, for which c / n <= threshold: the
 /// error of an edge pixel under an n x n grid is about c / n. `levels` holds what each pixel has

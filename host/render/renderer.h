@@ -48,7 +48,7 @@ class Renderer {
     /// pixels are not in the film.
     virtual void render(TileQueue& queue, const Rect& region, Film<T>& film) = 0;
 
-    /// Renders these pixels of the film anew, with a regular grid x grid of samples each; at most
+    /// Renders these pixels of the film again, with a regular grid x grid of samples each; at most
     /// most_tile_pixels of them. Adds their rays to the queue's. Throws like render; all of them
     /// must be refined again then.
     virtual void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,

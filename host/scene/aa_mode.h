@@ -26,7 +26,7 @@ struct AaMode {
     /// Samples of every pixel; of an adaptive mode, in its first pass.
     int samples() const;
 
-    /// Whether pixels are rendered anew after the first pass.
+    /// Whether pixels are rendered again after the first pass.
     bool refines() const { return pattern == Pattern::adaptive; }
 
     bool operator==(const AaMode&) const = default;

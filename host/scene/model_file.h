@@ -32,7 +32,7 @@ Model load_model(const FileDescriptor& file, const std::string& path, const Mode
 Model finish_model(Model model, const std::string& path, const Affine& transform);
 
 /// A model alone: in the middle of a picture, from the right, the front and a little above, on a
-/// light ground with two lamps (docs/scene-format.md).
+/// light ground with two lights (docs/scene-format.md).
 Scene load_model_scene(const std::string& path);
 Scene make_model_scene(Model model, const std::string& path);
 

@@ -208,7 +208,7 @@ class SettingUp(LargeSceneTest):
         large = self.write_large_scene(1500000)
         for number, reason in [(signal.SIGINT, "interrupted (Ctrl-C)"),
                                (signal.SIGTERM, "terminated"), (signal.SIGHUP, "hung up"),
-                               (signal.SIGXCPU, "CPU time"), (signal.SIGUSR1, "told to stop")]:
+                               (signal.SIGXCPU, "CPU time"), (signal.SIGUSR1, "asked to stop")]:
             with self.subTest(number=number):
                 process = self.start("render", large, "-o", "out.png")
                 time.sleep(0.3)
