@@ -35,9 +35,9 @@ std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding);
 /// that is missing: the format's is loaded here.
 void check_picture_path(const std::string& path);
 
-/// Reads a picture of any format in picture_format.h, recognized by its first bytes; a name with the
-/// ending of another format is refused. Integers become exactly v / 255 or v / 65535, floats stay
-/// as they are; no color conversion, alpha as stored. Regular files only; sizes as in
+/// Reads a picture of any format in picture_format.h, recognized by its first bytes; a name with
+/// the ending of another format is refused. Integers become exactly v / 255 or v / 65535, floats
+/// stay as they are; no color conversion, alpha as stored. Regular files only; sizes as in
 /// check_picture_size, checked with the free memory before any is taken.
 /// Throws Error(ExitCode::input), or limit when memory is short.
 Picture read_picture(const std::string& path);

@@ -65,7 +65,7 @@ std::string why_no_device(const std::string& platform) {
     return fmt::format("OpenCL platform '{}' has no devices; {}", platform,
                        platform == pocl_platform
                            ? "check that its kernel cache can be written (POCL_CACHE_DIR, else "
-                             "~/.cache/pocl) and what POCL_DEVICES says"
+                             "~/.cache/mirrorball) and what POCL_DEVICES says"
                            : "look at its driver");
 }
 

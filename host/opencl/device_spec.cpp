@@ -12,7 +12,7 @@
 
 #include "host/error.h"
 #include "host/opencl/gpu_nodes.h"
-#include "host/pocl/pocl_threads.h"
+#include "host/pocl/pocl_environment.h"
 
 namespace rt {
 
@@ -244,7 +244,7 @@ std::future<std::vector<DeviceChoice>> find_devices(const std::string& list, int
                                                     const std::function<void()>& loaded) {
     const auto find = [=] { return DeviceFinder(threads, loaded).find(list); };
     if (needs_opencl(list)) {
-        set_pocl_threads(threads);
+        prepare_pocl(threads);
         try {
             return std::async(std::launch::async, find);
         } catch (const std::system_error&) {  // no thread is to be had: later, then

@@ -93,8 +93,8 @@ struct RenderStats {
     double rays_per_second() const;
 
     /// Whether kernels took less than half of the time of tracing, by the device's clock: the
-    /// driver did something else, as a rule compile. Not known of adaptive modes, which plan between
-    /// kernels, nor of short pictures.
+    /// driver did something else, as a rule compile. Not known of adaptive modes, which plan
+    /// between kernels, nor of short pictures.
     bool driver_took_its_time() const;
 
     bool complete() const { return refined && tiles_finished == tiles; }

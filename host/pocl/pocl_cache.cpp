@@ -17,10 +17,8 @@ namespace fs = std::filesystem;
 
 /// Where PoCL keeps kernels.
 fs::path pocl_cache_folder() {
-    if (const char* const own = getenv("POCL_CACHE_DIR")) return own;
-    if (const char* const xdg = getenv("XDG_CACHE_HOME")) return fs::path(xdg) / "pocl/kcache";
-    const char* const home = getenv("HOME");
-    return home == nullptr ? "/tmp/pocl/kcache" : fs::path(home) / ".cache/pocl/kcache";
+    const char* const folder = getenv("POCL_CACHE_DIR");  // prepare_pocl has set it
+    return folder == nullptr ? "/tmp/pocl/kcache" : folder;
 }
 
 struct Search {

@@ -66,8 +66,8 @@ StressFamily cone_needles() {
     return family;
 }
 
-/// A ring with hardly any height. In float the rims are distinguished by heights over the base, and so
-/// not any more where the ring is flatter than the rounding of these.
+/// A ring with hardly any height. In float the rims are distinguished by heights over the base, and
+/// so not any more where the ring is flatter than the rounding of these.
 Scene flat_cone(double height) {
     Scene scene = shape_scene(60);
     const glm::dvec3 axis(0.28, 0.576, 0.768);

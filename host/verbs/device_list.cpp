@@ -6,7 +6,7 @@
 #include "host/console.h"
 #include "host/opencl/cl_renderer.h"
 #include "host/opencl/device_spec.h"
-#include "host/pocl/pocl_threads.h"
+#include "host/pocl/pocl_environment.h"
 
 namespace rt {
 
@@ -45,7 +45,7 @@ class ClDevices {
    public:
     const std::vector<ClDevice>& list() {
         if (!listed_) {
-            set_pocl_threads(0);
+            prepare_pocl(0);
             devices_ = list_cl_devices(problems_);
         }
         listed_ = true;

@@ -10,6 +10,7 @@
 #include "host/opencl/cl_device.h"
 #include "host/opencl/icd_files.h"
 #include "host/parallel.h"
+#include "host/pocl/pocl_environment.h"
 #include "host/print/stats_json.h"
 #include "host/render/native_kernels.h"
 #include "host/verbs/timing_loop.h"
@@ -99,6 +100,7 @@ std::string threads_text(int cores) {
 
 int run_devices(const DevicesOptions& options) {
     std::vector<std::string> problems = broken_icd_files(options.drivers);
+    prepare_pocl(0);
     if (options.json) {
         const std::vector<ClDevice> devices = list_cl_devices(problems);
         print_json(devices, problems);

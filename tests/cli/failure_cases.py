@@ -167,3 +167,28 @@ class KernelCache(CliTest):
         self.assertIn("cannot write its kernel cache (/proc/sys", result.stderr)
         self.assertNotIn("update the driver", result.stderr)
 
+    def render_on_pocl(self, **env):
+        result = self.run_cli("render", scene_path("single-sphere"), "--size", "8", "--device",
+                              "pocl", "--no-fallback", "-q",
+                              env=dict({"XDG_CACHE_HOME": str(self.folder / "home")}, **env))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.folder / "home" / "mirrorball" / "pocl"
+
+    def test_is_our_own_and_closed_to_others(self):
+        """Where none is named, or one that others can put kernels into."""
+        shared = self.folder / "shared"
+        shared.mkdir()
+        shared.chmod(0o777)
+        own = self.render_on_pocl(POCL_CACHE_DIR=str(shared))
+        self.assertEqual(list(shared.iterdir()), [])
+        self.assertTrue(list(own.iterdir()))
+        self.assertEqual(own.stat().st_mode & 0o777, 0o700)
+        shutil.rmtree(own)
+        self.render_on_pocl(POCL_CACHE_DIR="")
+        self.assertTrue(list(own.iterdir()))
+
+    def test_needs_no_path_to_the_linker(self):
+        """PoCL calls ld, and ends the process where it finds none."""
+        self.render_on_pocl(POCL_CACHE_DIR=str(self.folder / "cold"), PATH="")
+        self.assertTrue(list((self.folder / "cold").iterdir()))
+

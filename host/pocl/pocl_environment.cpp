@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/pocl/pocl_environment.h"
+
+#include <sched.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <system_error>
+
+namespace rt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int overwrite = 1;
+constexpr const char* cache_variable = "POCL_CACHE_DIR";
+constexpr const char* most_threads = "POCL_MAX_PTHREAD_COUNT";
+constexpr const char* least_threads = "POCL_PTHREAD_MIN_THREADS";
+
+/// The number of cores, where this process may use them all; else 0.
+int cores_to_use() {
+    cpu_set_t usable;
+    if (sched_getaffinity(0, sizeof(usable), &usable) != 0) return 0;
+    const auto cores = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+    for (int core = 0; core < cores; ++core) {
+        if (!CPU_ISSET(static_cast<std::size_t>(core), &usable)) return 0;
+    }
+    return cores;
+}
+
+void set_threads(int count) {
+    const int cores = cores_to_use();
+    if (count == 0 && !getenv(most_threads) && !getenv(least_threads)) count = cores;
+    if (count == 0) return;
+    setenv(most_threads, std::to_string(count).c_str(), overwrite);
+    // PoCL puts thread i on core i, and ends the process where there is no such core.
+    if (count == cores && !getenv(least_threads)) setenv("POCL_AFFINITY", "1", !overwrite);
+}
+
+std::string variable(const char* name) {
+    const char* const value = getenv(name);
+    return value == nullptr ? "" : value;
+}
+
+/// Whether others can put nothing there; what is not there yet will be made by us.
+bool is_ours(const fs::path& folder) {
+    struct stat status {};
+    if (stat(folder.c_str(), &status) != 0) return errno == ENOENT;
+    return status.st_uid == geteuid() && (status.st_mode & S_IWOTH) == 0;
+}
+
+/// Empty where there is no home.
+fs::path own_cache_folder() {
+    if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) return xdg;
+    const std::string home = variable("HOME");
+    return home.empty() ? fs::path() : fs::path(home) / ".cache";
+}
+
+void set_cache_folder() {
+    const std::string given = variable(cache_variable);
+    if (!given.empty() && is_ours(given)) return;
+    std::error_code error;
+    fs::path folder = own_cache_folder();
+    if (folder.empty()) {
+        folder = fs::temp_directory_path(error) / ("mirrorball-" + std::to_string(geteuid()));
+        mkdir(folder.c_str(), S_IRWXU);
+        if (!is_ours(folder)) return;
+    }
+    folder /= "mirrorball";
+    fs::create_directories(folder, error);
+    folder /= "pocl";
+    mkdir(folder.c_str(), S_IRWXU);
+    if (is_ours(folder)) setenv(cache_variable, folder.c_str(), overwrite);
+}
+
+void find_linker() {
+    const std::string path = variable("PATH");
+    std::istringstream folders(path);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        if (access((fs::path(folder) / "ld").c_str(), X_OK) == 0) return;
+    }
+    setenv("PATH", (path + (path.empty() ? "" : ":") + "/usr/bin:/bin").c_str(), overwrite);
+}
+
+}  // namespace
+
+void prepare_pocl(int count) {
+    set_threads(count);
+    set_cache_folder();
+    find_linker();
+}
+
+}  // namespace rt
