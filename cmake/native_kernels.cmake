@@ -19,13 +19,12 @@ set(NATIVE_KERNEL_FLAGS -x cl -cl-std=CL1.2 -cl-no-stdinc
     -O3 -ffp-contract=off -cl-fp32-correctly-rounded-divide-sqrt -fno-math-errno -fPIC
     -Wall -Wextra -Werror -Wno-unused-parameter -Wno-unused-function -Wno-psabi)
 
-# Under sanitizers and fuzzers the kernels of all features stand for all: they take long to compile.
+# Under sanitizers the kernels of all features stand for all: they take long to compile.
 set(NATIVE_SETS plain_4 plain mesh_4 mesh all)
-if(MIRRORBALL_SANITIZE OR MIRRORBALL_FUZZ)
+if(MIRRORBALL_SANITIZE)
     set(NATIVE_SETS all)
     set(NATIVE_FEWER_ISAS x86-64-v3)
-endif()
-if(MIRRORBALL_SANITIZE)
+    set(NATIVE_FEWER_WIDTHS 1 16)  # and that of a vector
     # The bits of numbers are added as integers that may wrap (kernels/power.cl).
     list(APPEND NATIVE_KERNEL_FLAGS -O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all
         -fno-sanitize=signed-integer-overflow -fno-omit-frame-pointer)
@@ -94,6 +93,8 @@ function(native_kernels TABLE OBJECTS)
                     if(NOT set STREQUAL all)
                         set(widths "")  # slow whatever is left out: fma is a call
                     endif()
+                elseif(NATIVE_FEWER_WIDTHS)
+                    set(widths ${NATIVE_FEWER_WIDTHS} ${width})
                 elseif(set STREQUAL all)
                     set(widths 1 2 4 8 16)
                 elseif(set MATCHES _4)

@@ -43,7 +43,7 @@ using Precisions = testing::Types<float, double>;
 TYPED_TEST_SUITE(CasterLists, Precisions);
 
 // Sanitizers look for other mistakes than a wrong pixel, and make rays 13 times as slow.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef MIRRORBALL_SANITIZED
 constexpr int divisor = 3;
 #else
 constexpr int divisor = 1;

@@ -33,7 +33,8 @@ function(add_test_program NAME LABEL)
     target_link_libraries(${NAME} PRIVATE mirrorball_report GTest::gtest_main)
     target_compile_definitions(${NAME} PRIVATE
         MIRRORBALL_SCENES_DIR="${CMAKE_SOURCE_DIR}/scenes"
-        MIRRORBALL_BAD_SCENES_DIR="${CMAKE_SOURCE_DIR}/tests/scenes_bad")
+        MIRRORBALL_BAD_SCENES_DIR="${CMAKE_SOURCE_DIR}/tests/scenes_bad"
+        $<$<BOOL:${MIRRORBALL_SANITIZE}>:MIRRORBALL_SANITIZED>)
     set(files ${ARGN})
     list(FILTER files INCLUDE REGEX "_test\\.cpp$")
     set_target_properties(${NAME} PROPERTIES TEST_FILES "${files}")
