@@ -45,14 +45,14 @@ struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 /// An open file without a name: it is gone when it is closed, or with the process.
-using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
+using NamelessFile = std::unique_ptr<std::FILE, CloseFile>;
 
 [[noreturn]] void fail(const char* what, int error) {
     throw std::system_error(error, std::generic_category(), what);
 }
 
-TemporaryFile temporary_file() {
-    TemporaryFile file(std::tmpfile());
+NamelessFile nameless_file() {
+    NamelessFile file(std::tmpfile());
     if (!file) fail("FLIP: cannot make a temporary file", errno);
     return file;
 }
@@ -158,7 +158,7 @@ FlipResult result_of(const std::string& output) {
 }  // namespace
 
 FlipResult measure_flip(const Picture& picture, const Picture& reference) {
-    const TemporaryFile in = temporary_file(), out = temporary_file();
+    const NamelessFile in = nameless_file(), out = nameless_file();
     write_pixels(in.get(), reference);
     write_pixels(in.get(), picture);
     if (std::fflush(in.get()) != 0) fail("FLIP: cannot write a temporary file", errno);

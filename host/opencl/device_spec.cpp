@@ -18,7 +18,7 @@ namespace rt {
 
 namespace {
 
-constexpr int most_threads = 4096;
+constexpr int most_threads_asked = 4096;
 
 std::optional<int> parse_number(std::string_view text) {
     int number = 0;
@@ -188,10 +188,10 @@ bool names_threads(const std::string& spec, DeviceChoice& choice) {
     choice.use_threads = true;
     if (spec == "threads") return true;
     const auto count = parse_number(std::string_view(spec).substr(8));
-    if (!count || *count < 1 || *count > most_threads) {
+    if (!count || *count < 1 || *count > most_threads_asked) {
         throw Error(ExitCode::usage,
                     fmt::format("--device '{}': the number of threads must be 1 to {}", spec,
-                                most_threads));
+                                most_threads_asked));
     }
     choice.threads = *count;
     return true;
