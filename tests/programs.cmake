@@ -25,12 +25,28 @@ function(add_file_tests PROGRAM LABEL PREFIX TIMEOUT ENVIRONMENT)
     endforeach()
 endfunction()
 
+# optimize_tests(FILES...): for tests that compute much. Others are compiled without optimization, in
+# half the time; the libraries that they test are the program's.
+if(MIRRORBALL_SANITIZE)
+    set(TEST_OPTIMIZATION -O1)
+else()
+    set(TEST_OPTIMIZATION -O2)
+endif()
+function(optimize_tests)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS ${TEST_OPTIMIZATION}
+        SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
 # add_test_program(NAME LABEL SOURCES...): a program of the sources; each that ends in _test.cpp is a
 # ctest test of its own. NAME_whole fails where a suite is in none of them.
 function(add_test_program NAME LABEL)
     add_executable(${NAME} ${ARGN})
     set_target_properties(${NAME} PROPERTIES UNITY_BUILD OFF)  # test files have helpers of one name
     target_link_libraries(${NAME} PRIVATE mirrorball_report GTest::gtest_main)
+    target_compile_options(${NAME} PRIVATE -O0)
+    if(NOT CMAKE_CXX_COMPILER_LAUNCHER)  # ccache and precompiled headers do not go together
+        target_precompile_headers(${NAME} PRIVATE precompiled.h)
+    endif()
     target_compile_definitions(${NAME} PRIVATE
         MIRRORBALL_SCENES_DIR="${CMAKE_SOURCE_DIR}/scenes"
         MIRRORBALL_BAD_SCENES_DIR="${CMAKE_SOURCE_DIR}/tests/scenes_bad"
