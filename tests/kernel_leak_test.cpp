@@ -88,8 +88,8 @@ void expect_no_leaks() {
     for (const ClosedShape& shape : shapes()) {
         const FlatScene<T> flat = flat_scene<T>(shape);
         ASSERT_FALSE(flat.nodes.empty());
-        EXPECT_EQ(leaks(flat, false, ray_count(1000000)), 0u) << "edges of the " << shape.name;
-        EXPECT_EQ(leaks(flat, true, ray_count(1000000)), 0u) << "vertices of the " << shape.name;
+        EXPECT_EQ(leaks(flat, false, ray_count(250000)), 0u) << "edges of the " << shape.name;
+        EXPECT_EQ(leaks(flat, true, ray_count(250000)), 0u) << "vertices of the " << shape.name;
     }
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "host/scene/aa_mode.h"
@@ -11,6 +13,19 @@
 
 namespace rt::test {
 namespace {
+
+/// Rendered once for all widths.
+template <typename T>
+std::uint64_t hash_of_lone_rays(const Scene& scene, const std::string& name) {
+    static std::map<std::string, std::uint64_t> known;
+    const auto [found, is_new] = known.try_emplace(name);
+    if (is_new) {
+        ThreadsOptions lone_rays;
+        lone_rays.lanes = 1;
+        found->second = hash_of(render_on_threads<T>(scene, lone_rays));
+    }
+    return found->second;
+}
 
 class EveryLaneWidth : public testing::TestWithParam<int> {
    protected:
@@ -21,9 +36,7 @@ class EveryLaneWidth : public testing::TestWithParam<int> {
         Scene scene = load_scene(stem);
         set_image_size(scene, 83, 61);
         scene.aa = parse_aa_mode(aa).value();
-        ThreadsOptions lone_rays;
-        lone_rays.lanes = 1;
-        const std::uint64_t hash = hash_of(render_on_threads<T>(scene, lone_rays));
+        const std::uint64_t hash = hash_of_lone_rays<T>(scene, std::string(stem) + " " + aa);
         ThreadsOptions packets;
         packets.lanes = GetParam();
         packets.all_features = all_features;

@@ -16,8 +16,8 @@ ROOT = pathlib.Path(sys.argv.pop(1))
 
 
 def render(scene, options, device, prefix=()):
-    """The --stats=json of a picture, of 32 x 32 pixels where the options do not say."""
-    size = [] if "--size" in options else ["--size", "32"]
+    """The --stats=json of a picture, of 20 x 20 pixels where the options do not say."""
+    size = [] if "--size" in options else ["--size", "20"]
     command = [*prefix, str(BUILD / "mirrorball"), "render", str(ROOT / "scenes" / scene),
                *size, "--device", device, "--no-fallback", "--progress", "none",
                "--stats=json", *options]

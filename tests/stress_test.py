@@ -34,7 +34,7 @@ def validate(result):
 
 class Quick(unittest.TestCase):
     def test_passes_everywhere(self):
-        stress("--quick", "-q")
+        stress("--quick", "-q", "--all-features")
 
 
 class Output(unittest.TestCase):
