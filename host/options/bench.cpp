@@ -28,24 +28,14 @@ std::vector<Schedule> parse_schedules(const std::string& text) {
     return schedules;
 }
 
-/// "5%" or "5": 0.05.
-double parse_percent(const std::string& text) {
-    double percent = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, percent);
-    const bool whole = stop == end || (stop + 1 == end && *stop == '%');
-    if (error != std::errc{} || !whole || !(percent >= 0 && percent <= 1e6)) {
-        refuse("--max-regress", text, "give per cent, as in 5%");
-    }
-    return percent / 100;
-}
-
 void add_baseline(const CommandLine& verb, BenchOptions& bench) {
     verb.option("--baseline", "FILE", "an earlier --json file: exit 1 when a row has become slower",
                 [&](const std::string& text) { bench.baseline = text; });
     verb.option("--max-regress", "P%",
                 "how much slower a row may become (default 5%); noise is allowed for on top",
-                [&](const std::string& text) { bench.max_regress = parse_percent(text); });
+                [&](const std::string& text) {
+                    bench.max_regress = parse_percent("--max-regress", text, 1e6);
+                });
 }
 
 /// What an ablation does not say otherwise: one picture on every device.

@@ -74,6 +74,17 @@ std::optional<std::vector<double>> parse_amounts(std::string_view text) {
     }
 }
 
+double parse_percent(const std::string& option, const std::string& text, double most) {
+    double percent = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, percent);
+    const bool is_whole = stop == end || (stop + 1 == end && *stop == '%');
+    if (error != std::errc{} || !is_whole || !(percent >= 0 && percent <= most)) {
+        refuse(option, text, fmt::format("give per cent from 0% to {:g}%", most));
+    }
+    return percent / 100;
+}
+
 std::string environment(const char* name) {
     const char* value = std::getenv(name);
     return value == nullptr ? "" : value;

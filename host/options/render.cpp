@@ -43,18 +43,6 @@ std::string parse_isa(const std::string& text) {
     return text;
 }
 
-/// "5%": 0.05.
-double parse_percent(const std::string& text) {
-    double percent = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, percent);
-    const bool has_sign = end - rest == 1 && *rest == '%';
-    if (error != std::errc() || !has_sign || !(percent >= 0 && percent <= 100)) {
-        refuse("--check", text, "give a share from 0% to 100%");
-    }
-    return percent / 100;
-}
-
 std::string device_from_environment() {
     const std::string spec = environment("MIRRORBALL_DEVICE");
     try {
@@ -154,8 +142,9 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
                      "list the triangles that cast shadows, where there are few (default on)");
     verb.flag("--no-fallback", render.no_fallback,
               "fail when the device fails, instead of finishing on threads");
-    verb.option("--check", "P%", "trace a share of a device's tiles again on threads and compare",
-                [&](const std::string& text) { render.check = parse_percent(text); });
+    verb.option(
+        "--check", "P%", "trace a share of a device's tiles again on threads and compare",
+        [&](const std::string& text) { render.check = parse_percent("--check", text, 100); });
 }
 
 void add_report_options(const CommandLine& verb, RenderOptions& render) {
