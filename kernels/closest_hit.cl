@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays against the scene: each kind of primitive one after the other, through its hierarchy where it has one;
-// what they find goes to kernels/search.cl.
+// Rays against the scene: one kind of primitive after the other, through its hierarchy where it has
+// one; what they find goes to kernels/search.cl.
 #ifndef RT_CLOSEST_HIT_CL
 #define RT_CLOSEST_HIT_CL
 
