@@ -185,6 +185,7 @@ TEST(Bench, SpeedUpAndAmdahlAreOfMediansWithoutTheWarmUp) {
     ASSERT_TRUE(figures && figures->speed_up && figures->amdahl);
     EXPECT_DOUBLE_EQ(*figures->parallel_fraction, 0.9);
     EXPECT_DOUBLE_EQ(*figures->speed_up, 10 / 5.5);
+    EXPECT_DOUBLE_EQ(*figures->trace_speed_up, 9 / 4.5);
     EXPECT_DOUBLE_EQ(*figures->amdahl, 1 / 0.55);
     EXPECT_NEAR(*figures->over_amdahl, 0, 1e-12);
 }

@@ -60,10 +60,11 @@ std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow
     const BenchRow* const base = base_of(result, row.asked);
     if (base == nullptr || figures.total.median <= 0) return figures;
     const double base_total = spread_of(base->repeats, timed_total).median;
+    const double base_trace = spread_of(base->repeats, trace_seconds).median;
     figures.speed_up = base_total / figures.total.median;
+    if (figures.trace.median > 0) figures.trace_speed_up = base_trace / figures.trace.median;
     if (!row.asked.uses_threads) return figures;
-    figures.parallel_fraction =
-        parallel_fraction(spread_of(base->repeats, trace_seconds).median, base_total);
+    figures.parallel_fraction = parallel_fraction(base_trace, base_total);
     figures.amdahl = amdahl_speed_up(*figures.parallel_fraction, figures.threads);
     figures.over_amdahl = *figures.speed_up - *figures.amdahl;
     return figures;

@@ -19,6 +19,7 @@ struct BenchFigures {
     /// Total seconds of one thread over this row's: the same scene, size, AA and precision, in the
     /// same schedule (for OpenCL: tiles, else buffers). Empty when one thread was not measured.
     std::optional<double> speed_up;
+    std::optional<double> trace_speed_up;     ///< the same of trace seconds
     std::optional<double> parallel_fraction;  ///< of that one-thread row; empty for OpenCL
     std::optional<double> amdahl;             ///< the speed-up it predicts for these threads
     std::optional<double> over_amdahl;        ///< speed_up - amdahl

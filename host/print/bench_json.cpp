@@ -21,6 +21,7 @@ Json figures_json(const BenchResult& result, const BenchRow& row) {
             {"rays_per_second", figures->rays_per_second},
             {"threads", figures->threads},
             {"speed_up", optional_json(figures->speed_up)},
+            {"trace_speed_up", optional_json(figures->trace_speed_up)},
             {"parallel_fraction", optional_json(figures->parallel_fraction)},
             {"amdahl", optional_json(figures->amdahl)},
             {"over_amdahl", optional_json(figures->over_amdahl)}};

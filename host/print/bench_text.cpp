@@ -12,7 +12,7 @@ namespace rt {
 
 namespace {
 
-constexpr std::size_t device_columns = 22;
+constexpr std::size_t device_columns = 19;
 
 /// Everything that heads a group of rows.
 std::string group_of(const BenchCase& asked) {
@@ -22,17 +22,19 @@ std::string group_of(const BenchCase& asked) {
 
 std::string device_text(const BenchCase& asked) {
     std::string text = asked.device;
-    if (!asked.uses_threads) text += " " + asked.device_name;
+    text += " " + (asked.uses_threads ? asked.schedule : asked.device_name);
     return text.substr(0, device_columns);
 }
 
-std::string number_or_dash(const std::optional<double>& number, const char* format) {
-    return number ? fmt::format(fmt::runtime(format), *number) : "-";
+/// Three digits at most, and two behind the point: "0.04", "1.95", "14.7", "104".
+std::string ratio_cell(const std::optional<double>& ratio) {
+    if (!ratio) return "-";
+    const int digits = *ratio < 9.995 ? 2 : *ratio < 99.95 ? 1 : 0;
+    return fmt::format("{:.{}f}", *ratio, digits);
 }
 
 std::string row_text(const BenchResult& result, const BenchRow& row) {
-    const std::string head =
-        fmt::format("  {:<22} {:<7}", device_text(row.asked), row.asked.schedule);
+    const std::string head = fmt::format(" {:<19}", device_text(row.asked));
     const auto figures = figures_of(result, row);
     if (!figures) {
         const bool timed = row.verdict == Verdict::right || row.verdict == Verdict::unfinished;
@@ -43,12 +45,11 @@ std::string row_text(const BenchResult& result, const BenchRow& row) {
     }
     const auto& error = row.repeats.back().error;
     return head +
-           fmt::format(" {:>9.5f} {:>4.1f} {:>9.5f} {:>4.1f} {:>6.2f} {:>7} {:>7} {:>6} {:>7.1e}\n",
+           fmt::format(" {:>8.5f} {:>3.0f} {:>8.5f} {:>3.0f} {:>6.2f} {:>5} {:>5} {:>6} {:>7.1e}\n",
                        figures->trace.median, figures->trace.noise_percent(), figures->total.median,
                        figures->total.noise_percent(), figures->rays_per_second / 1e6,
-                       number_or_dash(figures->speed_up, "{:.2f}"),
-                       number_or_dash(figures->amdahl, "{:.2f}"),
-                       number_or_dash(figures->over_amdahl, "{:+.2f}"), error ? error->rmse : 0);
+                       ratio_cell(figures->trace_speed_up), ratio_cell(figures->speed_up),
+                       ratio_cell(figures->amdahl), error ? error->rmse : 0);
 }
 
 /// Which rows gave which picture: in strict arithmetic all the same.
@@ -65,19 +66,21 @@ std::string images_text(const std::map<std::string, std::vector<std::string>>& i
 }
 
 std::string header_text() {
-    return fmt::format("  {:<22} {:<7} {:>9} {:>4} {:>9} {:>4} {:>6} {:>7} {:>7} {:>6} {:>7}\n",
-                       "device", "sched.", "trace s", "+-%", "total s", "+-%", "Mray/s", "speedup",
-                       "Amdahl", "diff", "RMSE");
+    return fmt::format("{:>65}\n", "speed-up of") +
+           fmt::format(" {:<19} {:>8} {:>3} {:>8} {:>3} {:>6} {:>5} {:>5} {:>6} {:>7}\n", "device",
+                       "trace s", "+-%", "total s", "+-%", "Mray/s", "trace", "total", "Amdahl",
+                       "RMSE");
 }
 
 std::string ablation_row_text(const BenchResult& result, const BenchRow& row) {
     const bool usual = row.asked.change.empty();
-    const std::string head = fmt::format("  {:<34}", usual ? "as usual" : row.asked.change);
+    const std::string head = fmt::format(" {:<31}", usual ? "as usual" : row.asked.change);
     const auto figures = ablation_figures(result, row);
     if (figures) {
-        return head + fmt::format(" {:>9.5f} {:>8.5f} {:>6.2f} {:>8.3f}  {}\n",
-                                  figures->trace.median, figures->trace.mad, figures->ratio,
-                                  figures->first_build, hash_text(row.repeats.back().image_hash));
+        return head + fmt::format(" {:>8.5f} {:>3.0f} {:>5.2f} {:>7.3f}  {}\n",
+                                  figures->trace.median, figures->trace.noise_percent(),
+                                  figures->ratio, figures->first_build,
+                                  hash_text(row.repeats.back().image_hash));
     }
     if (row.verdict == Verdict::right) return head + " the usual picture is missing\n";
     if (row.verdict == Verdict::unfinished) return head + " not finished\n";
@@ -85,18 +88,17 @@ std::string ablation_row_text(const BenchResult& result, const BenchRow& row) {
 }
 
 constexpr const char* ablation_legend =
-    "Trace seconds: medians, median absolute deviations. ratio: over the median as usual; above "
-    "1,\n"
-    "slower. build: seconds before the first picture.\n";
+    "trace s: medians; +-%: median absolute deviation. ratio: over the median as\n"
+    "usual; above 1, slower. build: seconds before the first picture.\n";
 
 std::string ablation_text(const BenchResult& result) {
     std::string text;
     for (const BenchRow& row : result.ablation) {
         if (row.asked.change.empty()) {
-            text += fmt::format("{}{}, {}\n  {:<34} {:>9} {:>8} {:>6} {:>8}  {}\n",
+            text += fmt::format("{}{}, {}\n {:<31} {:>8} {:>3} {:>5} {:>7}  {}\n",
                                 text.empty() ? "" : "\n", group_of(row.asked),
                                 row.asked.uses_threads ? row.asked.device : row.asked.device_name,
-                                "", "trace s", "+-", "ratio", "build", "image");
+                                "", "trace s", "+-%", "ratio", "build", "image");
         }
         text += ablation_row_text(result, row);
     }
@@ -104,10 +106,10 @@ std::string ablation_text(const BenchResult& result) {
 }
 
 constexpr const char* legend =
-    "Medians; +-% is the median absolute deviation. total: flatten, open, build, upload, trace,\n"
-    "resolve, read back. speedup: of total, over one thread. Amdahl: 1/((1-f)+f/n), f = "
-    "trace/total\n"
-    "of one thread. RMSE: from the same samples in double, clamped to [0,1].\n";
+    "Medians; +-%: median absolute deviation. total: flatten, open, build, upload,\n"
+    "trace, resolve, read back. speed-up: over one thread. Amdahl: the speed-up of\n"
+    "total that it predicts, 1/((1-f)+f/n), f = trace/total of one thread. RMSE: from\n"
+    "the same samples in double, clamped to [0,1].\n";
 
 }  // namespace
 

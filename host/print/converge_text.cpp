@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "host/counted.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
@@ -13,17 +14,27 @@ namespace rt {
 
 namespace {
 
-/// "0 pthread-AMD EPYC 7 float strict"
+/// "0 pthread-AMD EPYC 7763"
+std::string device_text(const std::string& device, const std::string& name) {
+    return name == "threads" ? device : device + " " + name;
+}
+
+/// "0 pthread-AMD EP float  strict"
 std::string who(const ConvergeCase& of) {
-    std::string name = of.device;
-    if (of.device_name.rfind("threads", 0) != 0) name += " " + of.device_name;
-    return fmt::format("{:<20} {:<6} {:<6}", name.substr(0, 20),
+    return fmt::format("{:<16} {:<6} {:<6}", device_text(of.device, of.device_name).substr(0, 16),
                        of.double_precision ? "double" : "float", of.fast_math ? "fast" : "strict");
 }
 
+/// Everything that heads the points of one setting.
+std::string group_of(const ConvergeCase& of) {
+    return fmt::format("{}, {}, {}, {}", device_text(of.device, of.device_name),
+                       of.double_precision ? "double" : "float",
+                       of.fast_math ? "fast math" : "strict",
+                       counted(static_cast<std::size_t>(of.max_bounces), "bounce"));
+}
+
 std::string point_text(const ConvergeResult& result, const ConvergePoint& point, bool on_front) {
-    const std::string head = fmt::format("{} {:>7} {:<14}", who(point.asked),
-                                         point.asked.max_bounces, to_string(point.asked.aa));
+    const std::string head = fmt::format("  {:<16}", to_string(point.asked.aa));
     const auto figures = figures_of(result, point);
     if (!figures) return fmt::format("{} {} {}\n", head, to_string(point.verdict), point.why);
     return fmt::format("{} {:>9.5f} {:>4.1f} {:>9.5f} {:>9.2e} {}{}\n", head,
@@ -33,24 +44,28 @@ std::string point_text(const ConvergeResult& result, const ConvergePoint& point,
 }
 
 std::string points_text(const ConvergeResult& result) {
-    std::string text =
-        fmt::format("{:<20} {:<6} {:<6} {:>7} {:<14} {:>9} {:>4} {:>9} {:>9}\n", "device", "prec.",
-                    "math", "bounces", "AA", "seconds", "+-%", "slowest", "RMSE");
+    std::string text, group;
     const auto front = front_of(result);
     for (std::size_t i = 0; i < result.points.size(); ++i) {
+        if (const std::string next = group_of(result.points[i].asked); next != group) {
+            text += fmt::format("{}\n  {:<16} {:>9} {:>4} {:>9} {:>9}\n", next, "AA", "seconds",
+                                "+-%", "slowest", "RMSE");
+            group = next;
+        }
         const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
         text += point_text(result, result.points[i], on_front);
     }
     return text +
-           "* on the Pareto front; < below the reference's own error: not to be told\n"
-           "apart. seconds: medians without open and build; +-%: median absolute deviation.\n";
+           "* on the Pareto front; < below the reference's own error: not to be told apart.\n"
+           "seconds: medians without open and build; +-%: median absolute deviation.\n";
 }
 
 std::string curves_text(const ConvergeResult& result) {
     std::string text = "\nslope of log RMSE over log seconds\n";
     for (const Curve& curve : curves_of(result)) {
         if (!curve.slope) continue;
-        text += fmt::format("{} {:>7} {:<14} {:>6.2f}\n", who(curve.of), curve.of.max_bounces,
+        text += fmt::format("{} {:<10} {:<10} {:>6.2f}\n", who(curve.of),
+                            counted(static_cast<std::size_t>(curve.of.max_bounces), "bounce"),
                             curve.family, *curve.slope);
     }
     return text;
@@ -58,7 +73,7 @@ std::string curves_text(const ConvergeResult& result) {
 
 std::string builds_text(const ConvergeResult& result) {
     std::string text = fmt::format(
-        "\non top of the first picture, seconds\n{:<34} {:>9} {:>11} {:<8} "
+        "\non top of the first picture, seconds\n{:<30} {:>9} {:>11} {:<8} "
         "{:>11} {:>4}\n",
         "", "open", "first build", "cache", "later build", "+-%");
     for (const BuildOffset& offset : build_offsets(result)) {
@@ -69,30 +84,22 @@ std::string builds_text(const ConvergeResult& result) {
     return text;
 }
 
-std::string target_cell(const ConvergeResult& result, const TargetTime& time) {
+std::string target_text(const ConvergeResult& result, const TargetTime& time) {
     if (time.below_floor) return "below the floor";
     if (!time.point) return "not reached";
     const ConvergeCase& of = result.points[*time.point].asked;
-    return fmt::format("{:.4f} {}{}", time.seconds, to_string(of.aa),
-                       of.double_precision ? " d" : "");
+    return fmt::format("{:>8.4f} s  {}{}", time.seconds, to_string(of.aa),
+                       of.double_precision ? " in double" : "");
 }
 
 std::string targets_text(const ConvergeResult& result) {
-    std::string text =
-        "\nseconds to reach an RMSE, with the fastest setting measured (d: double)\n";
-    text += fmt::format("{:<16}", "device");
-    for (const double target : rmse_targets) text += fmt::format(" {:<20.0e}", target);
-    std::string device;
+    std::string text = "\ntime to reach an RMSE, with the fastest setting measured that does\n";
     for (const TargetTime& time : target_times(result)) {
-        if (time.device != device) {
-            device = time.device;
-            const bool is_cl = time.device_name != "threads";
-            text += fmt::format("\n{:<16}",
-                                (device + (is_cl ? " " + time.device_name : "")).substr(0, 16));
-        }
-        text += fmt::format(" {:<20}", target_cell(result, time));
+        text += fmt::format("{:<24} {:>5.0e}  {}\n",
+                            device_text(time.device, time.device_name).substr(0, 24), time.target,
+                            target_text(result, time));
     }
-    return text + "\n";
+    return text;
 }
 
 }  // namespace
@@ -100,9 +107,9 @@ std::string targets_text(const ConvergeResult& result) {
 std::string converge_text(const ConvergeResult& result) {
     const ConvergeReference& reference = result.reference;
     std::string text = fmt::format(
-        "{} {}x{}, {} rounds after a warm-up{}; load before {:.2f}\n"
+        "{}\n{}x{}, {} rounds after a warm-up{}; load before {:.2f}\n"
         "reference: mean of {} and {} in double, {} bounces\n"
-        "its halves differ by RMSE {:.2e}: floor {:.2e}. Errors on values clamped to [0,1].\n\n",
+        "its halves differ by RMSE {:.2e}: floor {:.2e}; values clamped to [0,1]\n\n",
         result.scene_path, result.width, result.height, result.repeats_asked,
         result.interrupted ? ", interrupted" : "", result.load_before, reference.aa_a,
         reference.aa_b, reference.max_bounces, reference.halves_rmse, reference.floor());

@@ -5,6 +5,9 @@
 
 #include <vector>
 
+#include "host/print/environment_json.h"
+#include "host/version.h"
+
 namespace rt {
 
 namespace {
@@ -54,6 +57,13 @@ std::vector<std::string> figure_cells(const RenderStats& run) {
     return cells;
 }
 
+/// What made the numbers: processor, driver, program.
+std::vector<std::string> maker_cells(const RenderStats& run) {
+    static const std::string machine = cpu_name();
+    return {quoted(machine), quoted(run.device.driver),
+            fmt::format("{} ({})", version, git_revision)};
+}
+
 }  // namespace
 
 std::string run_csv_header() {
@@ -61,13 +71,14 @@ std::string run_csv_header() {
            "schedule,launch,verdict,round,build_cache,load,flatten,open,build,upload,trace,kernel,"
            "resolve,read_back,total,primary_rays,shadow_rays,mirror_rays,transmitted_rays,rays_per_"
            "second,"
-           "image_hash,rmse,max_error,non_finite";
+           "image_hash,rmse,max_error,non_finite,machine,driver,version";
 }
 
 std::string run_csv_line(const RenderStats& run, const RunPlace& place) {
     std::string line;
     for (const std::string& cell : what_cells(run, place)) line += cell + ",";
     for (const std::string& cell : figure_cells(run)) line += cell + ",";
+    for (const std::string& cell : maker_cells(run)) line += cell + ",";
     line.back() = '\n';
     return line;
 }

@@ -2,6 +2,7 @@
 #include "host/print/run_json.h"
 
 #include "host/measure/machine_load.h"
+#include "host/print/environment_json.h"
 #include "host/print/stats_json.h"
 
 namespace rt {

@@ -1,38 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/print/stats_json.h"
 
-#include <cstdlib>
-#include <fstream>
 #include <string>
 
-#include "host/parallel.h"
+#include "host/print/environment_json.h"
 #include "host/print/error_json.h"
 #include "host/print/flatten_text.h"
-#include "host/version.h"
 
 namespace rt {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string cpu_name() {
-    std::ifstream file("/proc/cpuinfo");
-    std::string line;
-    while (std::getline(file, line)) {
-        const auto colon = line.find(": ");
-        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-            return line.substr(colon + 2);
-        }
-    }
-    return "unknown";
-}
-
-/// The one-minute load average; null where the system does not tell.
-Json load_json() {
-    double load = 0;
-    return getloadavg(&load, 1) == 1 ? Json(load) : Json(nullptr);
-}
 
 Json scene_json(const RenderStats& stats) {
     return {{"path", stats.scene.path},
@@ -114,14 +93,6 @@ Json phases_json(const PhaseStats& phases) {
 
 std::string json_text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-Json environment_json() {
-    return {{"program", std::string("mirrorball ") + version},
-            {"git_revision", git_revision},
-            {"cpu", cpu_name()},
-            {"cores", available_cores()},
-            {"load", load_json()}};
 }
 
 Json stats_json(const RenderStats& stats) {

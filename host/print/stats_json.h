@@ -11,9 +11,6 @@ namespace rt {
 /// hold them) become replacement characters.
 std::string json_text(const nlohmann::ordered_json& json);
 
-/// The machine and program behind a result: CPU, cores, load, version, git revision.
-nlohmann::ordered_json environment_json();
-
 /// One rendering in the shape of docs/results-format.md, format "mirrorball-render", version 1.
 nlohmann::ordered_json stats_json(const RenderStats& stats);
 
