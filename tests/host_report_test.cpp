@@ -8,11 +8,16 @@
 #include "host/picture/render_stats.h"
 #include "host/print/stats_text.h"
 #include "host/processor_time.h"
+#include "host/report/bars.h"
+#include "host/report/device_colors.h"
 #include "host/report/html.h"
+#include "host/report/label_placer.h"
 #include "host/report/plot_axis.h"
 #include "host/report/report_page.h"
-#include "host/report/svg_bars.h"
+#include "host/report/sections.h"
+#include "host/report/stress_margins.h"
 #include "host/report/svg_plot.h"
+#include "host/report/verdict.h"
 
 namespace {
 
@@ -157,18 +162,18 @@ rt::Plot small_plot() {
     plot.title = "Error & time";
     plot.x = {"time", 1, 100, true, AxisUnit::seconds};
     plot.y = {"error", 0, 10, false, AxisUnit::plain};
-    plot.curves.push_back({"<curve>", 0, 1, {point(1, 10), point(10, 5), point(100, 0)}, false});
+    plot.curves.push_back({"<curve>", 0, 1, 1, {point(1, 10), point(10, 5), point(100, 0)}});
     plot.curves[0].points[1].source = "bench#/rows/1";
     return plot;
 }
 
 TEST(SvgPlot, DrawsTheData) {
-    // The frame is 72 to 604 across and 34 to 344 down.
+    // The frame is 64 to 396 across and 34 to 278 down.
     const std::string svg = rt::svg_plot(small_plot());
-    EXPECT_TRUE(holds(svg, "M72.0 34.0L338.0 189.0L604.0 344.0"));
+    EXPECT_TRUE(holds(svg, "M64.0 34.0L230.0 156.0L396.0 278.0"));
     EXPECT_TRUE(holds(svg, "data-source=\"bench#/rows/1\""));
     EXPECT_TRUE(holds(svg, "Error &amp; time</title>"));
-    EXPECT_TRUE(holds(rt::plot_legend(small_plot()), "&lt;curve&gt;"));
+    EXPECT_TRUE(holds(svg, "name-of-curve s0\">&lt;curve&gt;</text>"));
 }
 
 TEST(SvgPlot, FrontStepsDownAndGoesOn) {
@@ -176,16 +181,172 @@ TEST(SvgPlot, FrontStepsDownAndGoesOn) {
     plot.front = {point(1, 10), point(10, 5)};
     plot.floor = 1;
     const std::string svg = rt::svg_plot(plot);
-    EXPECT_TRUE(holds(svg, "M72.0 34.0H338.0V189.0H604.0"));
-    EXPECT_TRUE(holds(svg, "class=\"floor\" x=\"72.0\" y=\"313.0\""));
+    EXPECT_TRUE(holds(svg, "M64.0 34.0H230.0V156.0H396.0"));
+    EXPECT_TRUE(holds(svg, "class=\"floor\" x=\"64.0\" y=\"253.6\""));
 }
 
-TEST(SvgBars, AreAsLongAsTheirSeconds) {
-    const rt::BarChart chart{"b", "t", "d", {{"x", "", {{"trace", 3, 5}, {"load", 1, 0}}}}};
-    const std::string svg = rt::svg_bars(chart);
-    EXPECT_TRUE(holds(svg, "width=\"381.00\""));
-    EXPECT_TRUE(holds(svg, "width=\"127.00\""));
-    EXPECT_TRUE(holds(svg, "4.00 s"));
+TEST(SvgPlot, AnAxisMayNameItsOwnTicks) {
+    rt::Plot plot = small_plot();
+    plot.x.ticks = {{1, "100²"}, {100, "500²"}};
+    const std::string svg = rt::svg_plot(plot);
+    EXPECT_TRUE(holds(svg, ">100²</text>"));
+    EXPECT_FALSE(holds(svg, ">10 s</text>"));
+}
+
+TEST(SvgPlot, NumbersOnAnAxisDoNotTouch) {
+    rt::Plot plot = small_plot();
+    plot.x.ticks = {{10, "100²"}, {10.5, "200²"}, {90, "500²"}};
+    const std::string svg = rt::svg_plot(plot);
+    EXPECT_TRUE(holds(svg, ">100²</text>"));
+    EXPECT_FALSE(holds(svg, ">200²</text>"));
+    EXPECT_TRUE(holds(svg, ">500²</text>"));
+}
+
+bool apart(const rt::DrawnBox& a, const rt::DrawnBox& b) {
+    return a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+}
+
+TEST(LabelPlacer, LabelsStayApartAndInside) {
+    rt::LabelPlacer placer({0, 0, 300, 200});
+    std::vector<rt::DrawnBox> boxes;
+    for (int i = 0; i < 6; ++i) {
+        const auto place = placer.place("a device", {{290.0, 100.0 + i}});
+        if (!place) continue;
+        EXPECT_GE(place->box.left, 0);
+        EXPECT_LE(place->box.right, 300);
+        for (const rt::DrawnBox& other : boxes) EXPECT_TRUE(apart(place->box, other));
+        boxes.push_back(place->box);
+    }
+    EXPECT_GE(boxes.size(), 2U);
+    EXPECT_FALSE(placer.place(std::string(60, 'x'), {{150, 100}}));
+}
+
+TEST(LabelPlacer, LeavesLinesFree) {
+    rt::LabelPlacer placer({0, 0, 300, 200});
+    EXPECT_EQ(placer.place("on the right", {{100, 100}})->y, 104);
+    rt::LabelPlacer crossed({0, 0, 300, 200});
+    crossed.avoid_line(100, 100, 300, 100);
+    const auto place = crossed.place("off the line", {{100, 100}});
+    EXPECT_TRUE(place->box.bottom <= 100 || place->box.top >= 100);
+}
+
+TEST(Bars, AreAsLongAsTheirSecondsAndNameTheirParts) {
+    const std::string html = rt::bars_html(
+        "t", {{"PoCL", "", 1, {{"trace", 3, 5}, {"load", 0.99, 0}, {"upload", 0.01, 4}}}});
+    EXPECT_TRUE(holds(html, "class=\"bar s1\""));
+    EXPECT_TRUE(holds(html, "class=\"part p5\" x=\"0.00\" width=\"750.00\""));
+    EXPECT_TRUE(holds(html, "PoCL <strong>4.00 s</strong>"));
+    EXPECT_TRUE(holds(html, "trace 3.00 s</li>"));
+    EXPECT_TRUE(holds(html, "other 10.0 ms</li>"));
+    EXPECT_FALSE(holds(html, "upload"));
+}
+
+TEST(HtmlTable, AlignsNumbersAtTheirPoints) {
+    const std::string html = rt::html_table(
+        {"",
+         {"who", "ms", "what"},
+         {{{"a"}, {"1.25"}, {"x"}}, {{"b"}, {"103"}, {"2"}}, {{"c"}, {"–"}, {"y"}}}});
+    EXPECT_TRUE(holds(html, "<th scope=\"col\" class=\"number\">ms</th>"));
+    EXPECT_TRUE(holds(html, "<td class=\"number\">1.25</td>"));
+    EXPECT_TRUE(holds(html, "<td class=\"number\" data-pad=\".00\">103</td>"));
+    EXPECT_TRUE(holds(html, "<td class=\"number\">–</td>"));
+    EXPECT_TRUE(holds(html, "<td>x</td>"));
+    EXPECT_TRUE(holds(html, "<td>2</td>"));
+}
+
+rt::BenchRow bench_row(const std::string& device, int threads, double trace) {
+    rt::BenchRow row;
+    row.asked.device_name = device;
+    row.asked.device = threads > 0 ? "threads:" + std::to_string(threads) : "0";
+    row.asked.uses_threads = threads > 0;
+    row.asked.threads = threads;
+    row.asked.schedule = threads > 0 ? "tiles" : "";
+    row.asked.width = row.asked.height = 100;
+    row.verdict = rt::Verdict::right;
+    rt::RenderStats run;
+    run.device.name = device;
+    run.device.threads = threads;
+    run.device.schedule = row.asked.schedule;
+    run.device.platform = threads > 0 ? "" : "Portable Computing Language";
+    run.phases.renderer.trace = trace;
+    run.phases.renderer.build = threads > 0 ? 0 : 0.1;
+    run.error.emplace().rmse = 2e-7;
+    row.repeats = {run, run, run};
+    return row;
+}
+
+TEST(DeviceColors, AreOneADevice) {
+    const std::vector<rt::BenchRow> rows{bench_row("threads", 1, 1), bench_row("threads", 2, 1),
+                                         bench_row("x", 0, 1), bench_row("y", 0, 1)};
+    const rt::DeviceColors colors(rows);
+    EXPECT_EQ(colors.of(rows[0].asked), rt::DeviceColors::threads);
+    EXPECT_EQ(colors.of(rows[1].asked), rt::DeviceColors::threads);
+    EXPECT_EQ(colors.of(rows[2].asked), 1);
+    EXPECT_EQ(colors.of(rows[3].asked), 2);
+    rt::ConvergeCase point;
+    point.device_name = "y";
+    EXPECT_EQ(colors.of(point), 2);
+}
+
+TEST(Verdict, SaysWhoIsFastestAndByHowMuch) {
+    rt::ReportScene scene;
+    scene.has_pictures = false;
+    scene.bench.references.emplace_back().scene.name = "a box";
+    EXPECT_EQ(rt::verdict_text(scene, 0), "");
+    scene.bench.rows = {bench_row("threads", 1, 0.3), bench_row("threads", 2, 0.15),
+                        bench_row("x", 0, 0.02)};
+    EXPECT_EQ(rt::verdict_text(scene, 0), "PoCL traces a box in 20.0 ms: 15.0 times one thread");
+    EXPECT_EQ(rt::fastest_row(scene, 4)->source, "bench-4#/rows/2");
+    const std::string details = rt::verdict_details(scene, 0);
+    EXPECT_TRUE(holds(details, "With set-up it takes 120 ms: 2.50 times as fast as one thread"));
+    EXPECT_TRUE(holds(details, "all 3 rows are right: float is within RMSE 2.0·10⁻⁷ of double"));
+    scene.bench.rows[2].verdict = rt::Verdict::wrong;
+    EXPECT_EQ(rt::verdict_text(scene, 0), "2 threads trace a box in 150 ms: 2.00 times one thread");
+    EXPECT_TRUE(holds(rt::verdict_details(scene, 0), "Of 3 rows, 1 gave a wrong picture"));
+}
+
+rt::StressFamilyResult stress_family(const std::string& name, double error, double allowed,
+                                     const std::string& broken = "") {
+    rt::StressFamilyResult family{name, "size", "it is hard", {}, std::nullopt};
+    rt::StressCaseResult one;
+    one.label = "1";
+    one.bar.max_error = allowed;
+    one.rows.emplace_back().figures.max_error = error;
+    one.rows.front().why = broken;
+    family.cases.push_back(one);
+    family.shot = rt::StressShot{
+        "1", {2, 2, 3, std::vector<float>(12)}, {2, 2, 3, std::vector<float>(12)}, 0};
+    return family;
+}
+
+TEST(StressMargins, FailuresThenTheTightest) {
+    rt::StressResult result;
+    result.families = {stress_family("loose", 1e-7, 1e-4), stress_family("tight", 5e-5, 1e-4),
+                       stress_family("broken", 1e-9, 1e-4, "2 pixels are wrong"),
+                       stress_family("none", 0, 0)};
+    EXPECT_EQ(rt::by_margin(result), (std::vector<std::size_t>{2, 1, 0, 3}));
+    EXPECT_DOUBLE_EQ(*rt::used_tolerance(result.families[1]), 0.5);
+    EXPECT_FALSE(rt::used_tolerance(result.families[3]));
+    const std::string html = rt::stress_section(result);
+    EXPECT_TRUE(holds(html, "FAIL: 3 of 4 families."));
+    EXPECT_LT(html.find(">broken<"), html.find(">tight<"));
+    EXPECT_LT(html.find(">tight<"), html.find(">loose<"));
+    EXPECT_TRUE(holds(html, "</svg> 50 %"));
+    result.families.erase(result.families.begin() + 2);
+    EXPECT_TRUE(holds(rt::stress_section(result),
+                      "PASS: 3 of 3 families; tight comes closest to "
+                      "its tolerance, at 50 % of it."));
+}
+
+TEST(StressPictures, AreTheWorstFew) {
+    rt::StressResult result;
+    for (int i = 1; i <= 9; ++i) {
+        result.families.push_back(stress_family("f" + std::to_string(i), i * 1e-5, 1e-4));
+    }
+    const std::string html = rt::stress_pictures(result);
+    EXPECT_TRUE(holds(html, "<h4>f9/1</h4>"));
+    EXPECT_TRUE(holds(html, "<h4>f6/1</h4>"));
+    EXPECT_FALSE(holds(html, "<h4>f5/1</h4>"));
 }
 
 rt::ReportPicture tiny_picture(const std::string& name) {
@@ -234,7 +395,7 @@ TEST(ReportPage, SaysThatItIsIncomplete) {
     report.stopped = "interrupted (Ctrl-C)";
     const std::string page = rt::report_page(report);
     EXPECT_TRUE(holds(page, "Incomplete: interrupted (Ctrl-C)"));
-    EXPECT_TRUE(holds(page, "half a scene (incomplete)</title>"));
+    EXPECT_TRUE(holds(page, "(incomplete)</title>"));
     EXPECT_FALSE(holds(page, "<h3>Pictures</h3>"));
 }
 

@@ -4,6 +4,7 @@ console of a real Chromium.
 
 usage: report_test.py BUILD_DIR REPO_ROOT
 """
+import html
 import html.parser
 import json
 import os
@@ -22,6 +23,37 @@ ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 EVIL = '</title><script>alert("x")</script>'
 VOID = {"meta", "link", "img", "br", "hr", "input"}
 
+# Looks at the page as a browser lays it out in a frame of some width, and says what is wrong.
+LAYOUT = """<!doctype html><body><iframe style="width:%dpx;height:4000px;border:0" srcdoc="%s"></iframe>
+<pre id="found"></pre><script>
+onload = () => {
+  const page = document.querySelector("iframe").contentDocument, found = [];
+  const root = page.documentElement;
+  if (root.scrollWidth > root.clientWidth) found.push("the page is too wide: " + root.scrollWidth);
+  const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+  for (const svg of page.querySelectorAll(".plot > svg")) {
+    const frame = svg.getBoundingClientRect();
+    const names = [...svg.querySelectorAll("text")];
+    for (const text of names) {
+      const box = text.getBoundingClientRect();
+      if (box.left < frame.left - 1 || box.right > frame.right + 1 || box.bottom > frame.bottom + 1)
+        found.push(svg.id + ": cut off: " + text.textContent);
+      if (box.height < 9) found.push(svg.id + ": too small: " + text.textContent);
+    }
+    const curves = names.filter(text => text.classList.contains("name-of-curve"));
+    for (const [i, a] of curves.entries())
+      for (const b of curves.slice(i + 1))
+        if (!apart(a.getBoundingClientRect(), b.getBoundingClientRect()))
+          found.push(svg.id + ": one name on another: " + a.textContent + ", " + b.textContent);
+  }
+  if (root.clientWidth > 1000)
+    for (const part of page.querySelectorAll("main > section > .scroll, .dense .scroll, .facts .scroll"))
+      if (part.scrollWidth > part.clientWidth) found.push("a table is cut off: " + part.ariaLabel);
+  document.getElementById("found").textContent = "looked at " + page.querySelectorAll("text").length +
+    " texts\\n" + found.join("\\n");
+};
+</script></body>"""
+
 
 class Page(html.parser.HTMLParser):
     """Checks that elements nest; keeps start tags, the JSON blocks, and the tables' rows: a cell is
@@ -31,6 +63,7 @@ class Page(html.parser.HTMLParser):
         super().__init__()
         self.open, self.mistakes, self.tags, self.blocks = [], [], [], {}
         self.tables, self.glance = [], []
+        self.colors, self.colored = [], []  # of the open elements; [(color, data-source)]
         self.block = self.cell = None
         self.feed(text)
         self.close()
@@ -38,8 +71,13 @@ class Page(html.parser.HTMLParser):
     def handle_starttag(self, tag, attrs):
         attrs = dict(attrs)
         self.tags.append((tag, attrs))
+        color = re.search(r"(?:^| )s(\d)(?: |$)", attrs.get("class", ""))
+        color = color[1] if color else next(iter(self.colors[-1:]), None)
         if tag not in VOID:
             self.open.append(tag)
+            self.colors.append(color)
+        if color is not None and "data-source" in attrs:
+            self.colored.append((color, attrs["data-source"]))
         if tag == "table":
             self.tables.append([])
         if tag == "tr":
@@ -59,6 +97,7 @@ class Page(html.parser.HTMLParser):
     def handle_endtag(self, tag):
         if not self.open or self.open.pop() != tag:
             self.mistakes.append(f"</{tag}> at {self.getpos()}")
+        self.colors = self.colors[:len(self.open)]
         self.block = None
         if tag in {"td", "th", "dd"}:
             self.cell = None
@@ -72,12 +111,12 @@ class Page(html.parser.HTMLParser):
 
 
 SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-UNITS = {"s": 1, "ms": 1e-3, "µs": 1e-6, "million": 1e6}
+UNITS = {"s": 1, "ms": 1e-3, "µs": 1e-6, "M": 1e6}
 
 
 def number(text):
     """What a reader takes from 1.9·10⁻⁷, 403 µs or RMSE 0.1."""
-    found = re.search(r"([0-9.]+)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?: (s|ms|µs|million)\b)?", text)
+    found = re.search(r"([0-9.]+)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?: (s|ms|µs|M)\b)?", text)
     power = 10.0 ** int(found[2].translate(SUPERSCRIPTS)) if found[2] else 1
     return float(found[1]) * power * UNITS.get(found[3], 1)
 
@@ -141,7 +180,61 @@ class Report(unittest.TestCase):
             if tag == "img":
                 self.assertTrue(attrs.get("alt"), attrs.get("src", "")[:40])
             if tag == "svg":
-                self.assertTrue(attrs.get("aria-labeledby") or attrs.get("aria-hidden"))
+                self.assertTrue(attrs.get("aria-labelledby") or attrs.get("aria-hidden"))
+        ids = {attrs["id"] for _, attrs in PAGE.tags if "id" in attrs}
+        for _, attrs in PAGE.tags:
+            self.assertLessEqual(set(attrs.get("aria-labelledby", "").split()), ids)
+
+    def test_headings_leave_no_level_out(self):
+        levels = [int(tag[1]) for tag, _ in PAGE.tags if re.fullmatch("h[1-6]", tag)]
+        self.assertEqual(levels.count(1), 1)
+        for before, after in zip(levels, levels[1:]):
+            self.assertLessEqual(after, before + 1, levels)
+
+    def test_a_policy_forbids_scripts_and_addresses(self):
+        policy = next(attrs["content"] for _, attrs in PAGE.tags
+                      if attrs.get("http-equiv") == "Content-Security-Policy")
+        self.assertTrue(policy.startswith("default-src 'none';"))
+        self.assertNotIn("script-src", policy)
+
+    def test_the_verdict_is_in_words_and_those_of_the_data(self):
+        verdict = html.unescape(re.search(r"<h1>(.*?)</h1>", TEXT, re.S)[1])
+        found = re.fullmatch(r"(.*) traces? (.*) in ([\d.]+ \S+?)(?:: ([\d.]+) times one thread)?",
+                             verdict)
+        self.assertTrue(found, verdict)
+        self.assertEqual(found[2], EVIL)
+        rows = [row for row in self.source("bench-0#/rows")
+                if row["width"] == 48 and row["aa"] == "grid:2"]
+        fastest = min(rows, key=trace)
+        self.assert_shown(found[3], trace(fastest))
+        self.assertEqual(found[1], "PoCL" if not fastest["threads"] else
+                         f"{fastest['threads']} thread" + "s" * (fastest["threads"] > 1) +
+                         ", a buffer each" * (fastest["schedule"] == "buffers"))
+        if found[4]:
+            self.assert_shown(found[4], fastest["figures"]["trace_speed_up"])
+        title = html.unescape(re.search(r"<title>(.*?)</title>", TEXT, re.S)[1])
+        self.assertTrue(title.startswith(verdict))
+        self.assertIn(self.source("environment#/cpu"), title)
+        self.assertRegex(title, r"\d{4}-\d\d-\d\d \d\d:\d\d UTC$")
+
+    def test_a_color_is_a_device(self):
+        devices = {}
+        for color, source in PAGE.colored:
+            found = re.match(r"((?:bench|converge)-0#/(?:rows|points)/\d+)", source)
+            devices.setdefault(color, set()).add(self.source(found[1])["device_name"])
+        self.assertEqual([len(names) for names in devices.values()], [1] * len(devices), devices)
+        names = [name for found in devices.values() for name in found]
+        self.assertEqual(len(names), len(set(names)), devices)
+        self.assertGreaterEqual(len(names), 2)
+
+    def test_the_environment_names_the_machine(self):
+        shown = {name: text for (name, _), (text, _) in next(
+            table for table in PAGE.tables if table[0][0][0] == "what")[1:]}
+        for name in ["git revision", "compiler", "processor", "memory", "operating system",
+                     "kernel", "load before"]:
+            self.assertTrue(shown[name], name)
+        self.assertRegex(shown["memory"], r"^[\d.]{1,5} GiB$")
+        self.assertLessEqual(len(shown["load before"]), 4)
 
     def test_names_are_text(self):
         self.assertNotIn(EVIL, TEXT)
@@ -201,7 +294,8 @@ class Report(unittest.TestCase):
                         if other["device"] == "threads:1"
                         and other["schedule"] == (row["schedule"] or "tiles")
                         and all(other[k] == row[k] for k in ["width", "aa", "precision"]))
-            self.assert_shown(cells["times one thread"][0], total(base) / total(row))
+            self.assert_shown(cells["total speed-up"][0], total(base) / total(row))
+            self.assert_shown(cells["trace speed-up"][0], trace(base) / trace(row))
 
     def test_tables_of_trace_times_show_their_rows(self):
         cells = [cell for table in PAGE.tables if len(table[0]) < 8
@@ -211,18 +305,19 @@ class Report(unittest.TestCase):
             self.assert_shown(text, 1e3 * trace(self.source(source)))
 
     def test_the_front_shows_its_points(self):
-        for cells in self.table_with("sampling", "run time", "RMSE"):
+        for cells in self.table_with("sampling", "run time, ms", "RMSE"):
             point = self.source(cells["sampling"][1])
             seconds = seconds_of(point, ["flatten", "upload", "trace", "resolve", "read_back"])
-            self.assert_shown(cells["run time"][0], seconds)
+            self.assert_shown(cells["run time, ms"][0], 1e3 * seconds)
             self.assert_shown(cells["RMSE"][0], statistics.median(
                 one["error"]["rmse"] for one in point["repeats"]))
 
     def test_the_numbers_at_a_glance_are_those_of_their_row(self):
-        (time, source), (rays, _), (_, _), (rounding, _), (sampling, picture) = PAGE.glance
+        (time, source), (rays, _), (gain, _), (rounding, _), (sampling, picture) = PAGE.glance
         row = self.source(source)
         self.assert_shown(time, trace(row))
         self.assert_shown(rays, rate(row))
+        self.assert_shown(gain, row["figures"]["trace_speed_up"])
         self.assert_shown(rounding, rmse(row), digits=2)
         self.assert_shown(sampling, self.source(picture)["rmse"], digits=2)
 
@@ -242,7 +337,7 @@ class Report(unittest.TestCase):
         trial = re.search(r"kernels compiled with.*?</table>", TEXT, re.S).group(0)
         self.assertNotIn("trace", trial)
 
-    def chromium(self, *arguments):
+    def chromium(self, *arguments, page="report.html"):
         program = shutil.which("chromium") or shutil.which("chromium-browser")
         if program is None:
             self.skipTest("no chromium: scripts/install test")
@@ -251,7 +346,7 @@ class Report(unittest.TestCase):
                 [program, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
                  "--disable-background-networking", "--disable-component-update",
                  "--disable-sync", "--user-data-dir=" + profile, "--enable-logging=stderr",
-                 "--v=0", *arguments, (FOLDER / "report.html").as_uri()],
+                 "--v=0", *arguments, (FOLDER / page).as_uri()],
                 capture_output=True, timeout=120, check=False)
 
     def test_chromium_renders_it_in_silence(self):
@@ -261,6 +356,20 @@ class Report(unittest.TestCase):
         self.assertEqual(result.returncode, 0, log)
         self.assertNotIn("CONSOLE", log)
         self.assertGreater(picture.stat().st_size, 50_000)
+
+    def test_nothing_is_cut_off(self):
+        for width in [1280, 400]:
+            with self.subTest(width=width):
+                (FOLDER / "layout.html").write_text(LAYOUT % (width, html.escape(TEXT)),
+                                                    encoding="utf-8")
+                result = self.chromium("--dump-dom", "--window-size=1400,4000", page="layout.html")
+                found = re.search(r'<pre id="found">(.*?)</pre>', result.stdout.decode(), re.S)[1]
+                self.assertRegex(found, r"^looked at [1-9]\d+ texts\n$")
+
+    def test_it_is_short_on_paper(self):
+        paper = FOLDER / "page.pdf"
+        self.chromium(f"--print-to-pdf={paper}")
+        self.assertLessEqual(len(re.findall(rb"/Type\s*/Page\b", paper.read_bytes())), 6)
 
     def test_chromium_keeps_its_elements(self):
         result = self.chromium("--dump-dom")
@@ -292,7 +401,7 @@ class Stopped(unittest.TestCase):
                 page = Page(text)
                 self.assertEqual((page.mistakes, page.open), ([], []))
                 self.assertIn("Incomplete: interrupted (Ctrl-C)", text)
-                self.assertIn("(incomplete)</title>", text)
+                self.assertIn(" (incomplete)</title>", text)
                 rows = json.loads(page.blocks["bench-0"][1])["rows"]
                 self.assertTrue(any(row["figures"] for row in rows))
                 self.assertIn("ray trace, milliseconds", text)

@@ -50,7 +50,7 @@ PlotPoint plot_point(const ConvergeResult& result, std::size_t i, std::size_t in
     return point;
 }
 
-/// A curve's place among the devices and families met so far: color and shape.
+/// A family's place among those met so far.
 int place_of(std::vector<std::string>& known, const std::string& name) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at != known.end()) return static_cast<int>(at - known.begin());
@@ -58,17 +58,32 @@ int place_of(std::vector<std::string>& known, const std::string& name) {
     return static_cast<int>(known.size()) - 1;
 }
 
-std::vector<PlotCurve> plot_curves(const ConvergeResult& result, std::size_t index) {
+std::string short_device(const ConvergePoint& point) {
+    return point.repeats.empty() ? point.asked.device_name : device_label(point.repeats.front());
+}
+
+bool has_float(const ConvergeResult& result) {
+    return std::any_of(result.points.begin(), result.points.end(),
+                       [](const ConvergePoint& p) { return !p.asked.double_precision; });
+}
+
+/// Color is the device, dash and marker the kind of sampling; double precision is hollow and, where
+/// float is there, without a name.
+std::vector<PlotCurve> plot_curves(const ConvergeResult& result, const DeviceColors& colors,
+                                   std::size_t index) {
     std::vector<PlotCurve> curves;
-    std::vector<std::string> devices, families;
+    std::vector<std::string> families;
+    const bool names_double = !has_float(result);
     const std::vector<std::size_t> front = front_of(result);
     for (const Curve& measured : curves_of(result)) {
-        const std::string device = device_text(result.points[measured.points.front()]);
+        const ConvergePoint& first = result.points[measured.points.front()];
         PlotCurve curve;
-        curve.label = device + ", " + measured.family;
-        if (measured.slope) curve.label += ", slope " + significant(*measured.slope, 2);
-        curve.color = place_of(devices, device);
-        curve.shape = place_of(families, measured.family);
+        curve.is_hollow = first.asked.double_precision;
+        if (!curve.is_hollow || names_double) {
+            curve.label = short_device(first) + " " + measured.family;
+        }
+        curve.color = colors.of(first.asked);
+        curve.dash = curve.marker = place_of(families, measured.family);
         for (const std::size_t i : measured.points) {
             curve.points.push_back(plot_point(result, i, index));
             const bool is_best = std::find(front.begin(), front.end(), i) != front.end();
@@ -83,25 +98,25 @@ std::vector<PlotCurve> plot_curves(const ConvergeResult& result, std::size_t ind
     return curves;
 }
 
-Plot error_time_plot(const ConvergeResult& result, std::size_t index) {
+Plot error_time_plot(const ConvergeResult& result, const DeviceColors& colors, std::size_t index) {
     Plot plot;
     plot.id = fmt::format("error-time-{}", index);
     plot.title = "Error against run time";
-    plot.curves = plot_curves(result, index);
+    plot.curves = plot_curves(result, colors, index);
     for (const std::size_t i : front_of(result)) {
         plot.front.push_back(plot_point(result, i, index));
     }
     std::vector<double> x, y{result.reference.floor()};
     for (const PlotCurve& curve : plot.curves) {
         for (const PlotPoint& point : curve.points) {
-            x.insert(x.end(), {point.x_low, point.x_high, point.x_with_build.value_or(point.x)});
+            x.insert(x.end(), {point.x_low, point.x_high});
             y.push_back(point.y);
         }
     }
     plot.x = axis_around("run time of a picture", x, true, AxisUnit::seconds);
     plot.y = axis_around("RMSE against the converged picture", y, true, AxisUnit::power);
     plot.floor = result.reference.floor();
-    plot.floor_label = "the reference itself is no better known";
+    plot.floor_label = "below the reference's own noise";
     plot.description = fmt::format(
         "Both axes logarithmic: {} curves, each a device and precision with one kind of sampling, "
         "falling to the right. The numbers are in the tables below.",
@@ -111,14 +126,14 @@ Plot error_time_plot(const ConvergeResult& result, std::size_t index) {
 
 std::string front_table(const ConvergeResult& result, std::size_t index) {
     HtmlTable table{"Pareto front: no other setting is both faster and more exact",
-                    {"sampling", "on", "run time", "noise, %", "RMSE"},
+                    {"sampling", "device", "run time, ms", "noise, %", "RMSE"},
                     {}};
     for (const std::size_t i : front_of(result)) {
         const ConvergePoint& point = result.points[i];
         const PointFigures figures = *figures_of(result, point);
         table.rows.push_back({{to_string(point.asked.aa), point_source(index, i)},
                               {device_text(point), ""},
-                              {duration_text(figures.seconds.median), ""},
+                              {milliseconds(figures.seconds.median), ""},
                               {significant(figures.seconds.noise_percent(), 2), ""},
                               {scientific_text(figures.rmse, 3), ""}});
     }
@@ -127,7 +142,7 @@ std::string front_table(const ConvergeResult& result, std::size_t index) {
 
 std::string targets_table(const ConvergeResult& result, std::size_t index) {
     HtmlTable table{
-        "Time to reach an error, with the fastest setting measured that does", {"on"}, {}};
+        "Time to reach an error, with the fastest setting measured that does", {"device"}, {}};
     for (const double target : rmse_targets) {
         table.heads.push_back("RMSE " + significant(target, 1));
     }
@@ -149,6 +164,25 @@ std::string targets_table(const ConvergeResult& result, std::size_t index) {
     return html_table(table);
 }
 
+/// How fast each kind of sampling converges, a row a device and precision.
+std::string slopes_table(const ConvergeResult& result) {
+    HtmlTable table{"Slope of log RMSE over log time", {"device"}, {}};
+    for (const Curve& curve : curves_of(result)) {
+        if (!curve.slope) continue;
+        const std::string device = device_text(result.points[curve.points.front()]);
+        const auto head = std::find(table.heads.begin(), table.heads.end(), curve.family);
+        const auto column = static_cast<std::size_t>(head - table.heads.begin());
+        if (head == table.heads.end()) table.heads.push_back(curve.family);
+        if (table.rows.empty() || table.rows.back()[0].text != device) {
+            table.rows.push_back({{device, ""}});
+        }
+        auto& cells = table.rows.back();
+        if (cells.size() <= column) cells.resize(column + 1);
+        cells[column].text = fmt::format("{:.2f}", *curve.slope);
+    }
+    return table.rows.empty() ? "" : html_table(table);
+}
+
 std::string reference_text(const ConvergeReference& reference) {
     return fmt::format(
         "Two independent pictures in double precision ({} and {}) lie RMSE {} apart; their mean, "
@@ -167,14 +201,15 @@ std::string error_time_section(const ReportScene& scene, std::size_t index) {
                        html_attribute("data-source", source),
                        html_text(reference_text(result.reference))) +
            plot_figure(
-               error_time_plot(result, index),
+               error_time_plot(result, DeviceColors(scene.bench.rows), index),
                html_text(fmt::format(
-                   "{} x {} pixels, medians of {} repeats; bands: median absolute deviation. The "
-                   "dotted whisker at a curve's first point is the time to open the device "
-                   "and build its kernels, paid once. Run time: flatten, upload, trace, "
-                   "resolve, read back. Values clamped to 0 to 1.",
+                   "{} x {} pixels, medians of {} repeats; bands: median absolute deviation. "
+                   "Hollow markers: double precision. A dotted whisker at a curve's first point "
+                   "leads to the time with opening the device and building its kernels, paid once, "
+                   "or to the frame where that is beyond it. Run time: "
+                   "flatten, upload, trace, resolve, read back. Values clamped to 0 to 1.",
                    result.width, result.height, result.repeats_asked))) +
-           front_table(result, index) + targets_table(result, index);
+           front_table(result, index) + targets_table(result, index) + slopes_table(result);
 }
 
 }  // namespace rt

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,11 +28,13 @@ std::string json_block(const std::string& id, const nlohmann::ordered_json& json
 /// One cell of a table. Texts are escaped.
 struct HtmlCell {
     std::string text;
-    std::string source;  ///< where the number comes from: "bench#/runs/3"; empty: nowhere
+    std::string source = {};  ///< where the number comes from: "bench#/runs/3"; empty: nowhere
     bool strong = false;
+    std::optional<double> drawn = std::nullopt;  ///< a bar of this share of its full length
 };
 
-/// A table with a caption and heads for columns and, in the first cell of each row, rows.
+/// A table with a caption and heads for columns and, in the first cell of each row, rows. Columns
+/// of numbers are aligned at their decimal points, others at the left.
 struct HtmlTable {
     std::string caption;
     std::vector<std::string> heads;

@@ -4,11 +4,11 @@
 #include <array>
 #include <span>
 
+#include "host/report/bars.h"
+#include "host/report/device_colors.h"
 #include "host/report/html.h"
 #include "host/report/labels.h"
-#include "host/report/plot_axis.h"
 #include "host/report/plots.h"
-#include "host/report/svg_bars.h"
 
 namespace rt {
 
@@ -30,29 +30,14 @@ constexpr std::array<Phase, 8> phases{{
     {"read back", [](const RenderStats& run) { return run.phases.renderer.read_back; }},
 }};
 
-Bar phases_bar(const std::string& label, const std::string& source,
+Bar phases_bar(const std::string& label, const std::string& source, int color,
                std::span<const RenderStats> runs) {
-    Bar bar{label, source, {}};
+    Bar bar{label, source, color, {}};
     for (std::size_t i = 0; i < phases.size(); ++i) {
         const double seconds = spread_of(runs, phases[i].seconds).median;
         bar.parts.push_back({phases[i].name, seconds, static_cast<int>(i)});
     }
     return bar;
-}
-
-/// The bars in words, for those who cannot see them.
-std::string spoken(const std::vector<Bar>& bars) {
-    std::string text;
-    for (const Bar& bar : bars) {
-        text += bar.label + ":";
-        for (const BarPart& part : bar.parts) {
-            if (part.seconds > 0)
-                text += " " + part.label + " " + duration_text(part.seconds) + ",";
-        }
-        text.back() = '.';
-        text += " ";
-    }
-    return text;
 }
 
 bool built_anew(const BenchRow& row) {
@@ -66,38 +51,37 @@ std::string cold_label(const BenchRow& row) {
                        row.asked.double_precision ? "double" : "float");
 }
 
-std::string bars_figure(BarChart chart, const std::string& caption) {
-    chart.description = spoken(chart.bars);
-    return figure_html(svg_bars(chart), chart.title, bars_legend(chart), html_text(caption));
+std::string bars_figure(const std::string& title, const std::vector<Bar>& bars,
+                        const std::string& caption) {
+    return "<figure class=\"plot\">" + bars_html(title, bars) + "<figcaption>" +
+           html_text(caption) + "</figcaption></figure>\n";
 }
 
 }  // namespace
 
-std::string phases_figure(const std::vector<PlacedRow>& rows, std::size_t index) {
+std::string phases_figure(const std::vector<PlacedRow>& rows, const DeviceColors& colors) {
     const std::vector<PlacedRow> largest = largest_rows(rows);
     if (largest.empty()) return "";
-    BarChart warm{fmt::format("phases-{}", index), "Where the time goes, device by device", "", {}};
+    std::vector<Bar> warm, cold;
     for (const PlacedRow& placed : largest) {
-        warm.bars.push_back(
-            phases_bar(device_label(*placed.row), placed.source + "/repeats", placed.row->repeats));
+        warm.push_back(phases_bar(device_label(*placed.row), placed.source + "/repeats",
+                                  colors.of(placed.row->asked), placed.row->repeats));
     }
-    BarChart cold{
-        fmt::format("phases-cold-{}", index), "Where a first picture's time goes", "", {}};
     for (const PlacedRow& placed : rows) {
         if (!built_anew(*placed.row)) continue;
-        cold.bars.push_back(
-            phases_bar(cold_label(*placed.row), placed.source + "/warm_up", placed.row->warm_up));
+        cold.push_back(phases_bar(cold_label(*placed.row), placed.source + "/warm_up",
+                                  colors.of(placed.row->asked), placed.row->warm_up));
     }
     const BenchCase& asked = largest.front().row->asked;
-    std::string html =
-        "<h3>Where the time goes</h3>\n" +
-        bars_figure(warm, fmt::format("{} x {} pixels, {}, float: the median of "
-                                      "each phase, kernels from a cache.",
-                                      asked.width, asked.height, to_string(asked.aa)));
-    if (!cold.bars.empty()) {
-        html += bars_figure(cold,
-                            "The first picture after an install: kernels are compiled once, "
-                            "then kept.");
+    std::string html = "<h3>Where the time goes</h3>\n" +
+                       bars_figure("Time by phase and device", warm,
+                                   fmt::format("{} x {} pixels, {}, float: the median of "
+                                               "each phase, kernels from a cache.",
+                                               asked.width, asked.height, to_string(asked.aa)));
+    if (!cold.empty()) {
+        html += "<h4>The first picture</h4>\n" +
+                bars_figure("Time of a first picture by phase", cold,
+                            "After an install, kernels are compiled once, then kept.");
     }
     return html;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host/image/picture_io.h"
 #include "host/measure/heatmap.h"
@@ -22,15 +23,27 @@ constexpr double error_map_scale = 0.25;  ///< the difference at the top of the 
 struct Image {
     std::string alt, caption;
     std::string source;
+    std::optional<Rect> marked = std::nullopt;  ///< framed in the picture
 };
+
+/// A frame around a window of a picture, in black and white to be seen on anything.
+std::string frame_svg(const Picture& picture, const Rect& window) {
+    const auto box = [&](const char* css_class) {
+        return fmt::format("<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
+                           css_class, window.x, window.y, window.width, window.height);
+    };
+    return fmt::format("<svg class=\"mark\" viewBox=\"0 0 {} {}\" aria-hidden=\"true\">{}{}</svg>",
+                       picture.width, picture.height, box("under"), box("over"));
+}
 
 std::string image_figure(const Picture& picture, const Image& image) {
     return fmt::format(
-        "<figure{}><img src=\"{}\" width=\"{}\" height=\"{}\"{}><figcaption>{}</figcaption>"
-        "</figure>\n",
+        "<figure{}><div class=\"picture\"><img src=\"{}\" width=\"{}\" height=\"{}\"{}>{}</div>"
+        "<figcaption>{}</figcaption></figure>\n",
         image.source.empty() ? "" : html_attribute("data-source", image.source),
         png_data_uri(encode_png(picture, Encoding::display)), picture.width, picture.height,
-        html_attribute("alt", image.alt), html_text(image.caption));
+        html_attribute("alt", image.alt), image.marked ? frame_svg(picture, *image.marked) : "",
+        html_text(image.caption));
 }
 
 Picture cropped(const Picture& picture, const Rect& window) {
@@ -103,20 +116,20 @@ std::string color_scale() {
         png_data_uri(encode_png(bar, Encoding::display)), error_map_scale, error_map_scale);
 }
 
-std::string whole_pictures(const ReportScene& scene, const std::string& source) {
+std::string whole_pictures(const ReportScene& scene, const Rect& window,
+                           const std::string& source) {
     const std::string name = scene.plain.stats.scene.name;
     const auto figure = [&](const ReportPicture& shot, const char* kind, const char* key) {
-        return image_figure(
-            shot.picture,
-            {fmt::format("{}, {}", name, kind),
-             fmt::format("{}: {}.", kind, made_text(shot.stats, scene.bench)), source + key});
+        return image_figure(shot.picture,
+                            {fmt::format("{}, {}", name, kind),
+                             fmt::format("{}: {}.", kind, made_text(shot.stats, scene.bench)),
+                             source + key, window});
     };
     return "<div class=\"pictures\">\n" + figure(scene.plain, "Plain", "/plain") +
            figure(scene.smooth, "Anti-aliased", "/smooth") + "</div>\n";
 }
 
-std::string crops(const ReportScene& scene) {
-    const Rect window = telling_window(scene.plain.picture, scene.smooth.picture);
+std::string crops(const ReportScene& scene, const Rect& window) {
     const std::string where = fmt::format("{} x {} pixels from {},{}, enlarged", window.width,
                                           window.height, window.x, window.y);
     const auto figure = [&](const Picture& picture, const char* kind) {
@@ -125,7 +138,7 @@ std::string crops(const ReportScene& scene) {
                              fmt::format("{}: {}.", kind, where), ""});
     };
     return "<h3>Edges, close up</h3>\n<p>The part of the picture that anti-aliasing changes "
-           "most.</p>\n<div class=\"pictures three pixels\">\n" +
+           "most: the frame in the pictures above.</p>\n<div class=\"pictures three pixels\">\n" +
            figure(scene.plain.picture, "Plain") + figure(scene.smooth.picture, "Anti-aliased") +
            figure(scene.reference, "Converged") + "</div>\n";
 }
@@ -151,7 +164,8 @@ std::string error_maps(const ReportScene& scene, const std::string& source) {
 
 std::string pictures_section(const ReportScene& scene, std::size_t index) {
     const std::string source = fmt::format("pictures-{}#", index);
-    return "<h3>Pictures</h3>\n" + whole_pictures(scene, source) + crops(scene) +
+    const Rect window = telling_window(scene.plain.picture, scene.smooth.picture);
+    return "<h3>Pictures</h3>\n" + whole_pictures(scene, window, source) + crops(scene, window) +
            error_maps(scene, source);
 }
 

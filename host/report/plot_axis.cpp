@@ -73,12 +73,13 @@ std::vector<Tick> linear_ticks(const Axis& axis, int most_labels) {
 }  // namespace
 
 std::vector<Tick> axis_ticks(const Axis& axis, int most_labels) {
+    if (!axis.ticks.empty()) return axis.ticks;
     return axis.logarithmic ? log_ticks(axis, most_labels) : linear_ticks(axis, most_labels);
 }
 
 Axis axis_around(const std::string& label, const std::vector<double>& values, bool logarithmic,
                  AxisUnit unit) {
-    Axis axis{label, logarithmic ? 1.0 : 0.0, logarithmic ? 10.0 : 1.0, logarithmic, unit};
+    Axis axis{label, logarithmic ? 1.0 : 0.0, logarithmic ? 10.0 : 1.0, logarithmic, unit, {}};
     bool empty = true;
     for (const double value : values) {
         if (!std::isfinite(value) || (logarithmic && !(value > 0))) continue;

@@ -14,21 +14,23 @@ enum class AxisUnit {
     count,    ///< whole numbers only
 };
 
+struct Tick {
+    double value = 0;
+    std::string label;  ///< empty: a line without a number
+};
+
 /// What an axis spans, in the data's own numbers; both ends above 0 where it is logarithmic.
 struct Axis {
     std::string label;
     double low = 0, high = 1;
     bool logarithmic = false;
     AxisUnit unit = AxisUnit::plain;
+    std::vector<Tick> ticks = {};  ///< the axis' own; empty: round numbers
 };
 
-struct Tick {
-    double value = 0;
-    std::string label;  ///< empty: a line without a number
-};
-
-/// Ticks inside the axis, in ascending order: decades on a logarithmic axis, with 2 and 5 between
-/// them where at most `most_labels` numbers stand; else steps of 1, 2 or 5 times a power of ten.
+/// The axis' own ticks, or round ones inside the axis, in ascending order: decades on a logarithmic
+/// axis, with 2 and 5 between them where at most `most_labels` numbers stand; else steps of 1, 2 or
+/// 5 times a power of ten.
 std::vector<Tick> axis_ticks(const Axis& axis, int most_labels);
 
 /// An axis around the values with a little air at both ends. A logarithmic one leaves out values

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/report/device_colors.h"
 #include "host/report/rows.h"
 #include "host/report/svg_plot.h"
 
@@ -12,19 +13,24 @@ namespace rt {
 
 /// Stacked bars: where the time of the largest picture goes, device by device; for OpenCL also in
 /// the first round, where that built kernels anew.
-std::string phases_figure(const std::vector<PlacedRow>& rows, std::size_t index);
+std::string phases_figure(const std::vector<PlacedRow>& rows, const DeviceColors& colors);
 
-/// Trace seconds against pixels, a curve a device.
-std::string size_figure(const std::vector<PlacedRow>& rows, std::size_t index);
+/// Two plots against picture size: trace seconds of each device, and how many times as fast as one
+/// thread it is.
+std::string size_figures(const std::vector<PlacedRow>& rows, std::size_t index,
+                         const DeviceColors& colors);
 
-/// Measured speed-up against threads beside Amdahl's prediction; empty without two thread counts.
-std::string threads_figure(const std::vector<PlacedRow>& rows, std::size_t index);
+/// Measured speed-up against threads beside Amdahl's prediction: a plot of three thread counts or
+/// more, a sentence of two, nothing of one.
+std::string threads_html(const std::vector<PlacedRow>& rows, std::size_t index);
 
-/// A drawing named by its title, with its legend and caption (both HTML), as a figure.
-std::string figure_html(const std::string& drawing, const std::string& title,
-                        const std::string& legend, const std::string& caption);
-
-/// A plot with its legend and caption (HTML, already escaped) as a figure.
+/// A plot with its caption (HTML, already escaped) as a figure.
 std::string plot_figure(const Plot& plot, const std::string& caption);
+
+/// A point without noise or label.
+PlotPoint plain_point(double x, double y, const std::string& title, const std::string& source);
+
+/// The axes that hold all points of the curves, ranges included.
+void fit_axes(Plot& plot);
 
 }  // namespace rt

@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "host/counted.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
 #include "host/print/run_json.h"
@@ -12,11 +11,9 @@
 #include "host/print/stats_text.h"
 #include "host/print/stress_json.h"
 #include "host/report/html.h"
-#include "host/report/labels.h"
-#include "host/report/plot_axis.h"
-#include "host/report/rows.h"
 #include "host/report/sections.h"
 #include "host/report/style.h"
+#include "host/report/verdict.h"
 
 namespace rt {
 
@@ -24,70 +21,56 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Any run of the scene, for what it says of the scene.
-const RenderStats& some_run(const ReportScene& scene) {
-    return scene.has_pictures ? scene.plain.stats : scene.bench.references.back();
+constexpr const char* policy =
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; "
+    "form-action 'none'";
+
+std::string text_of(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-std::string scene_name(const ReportScene& scene) {
-    const SceneStats& stats = some_run(scene).scene;
-    return stats.name.empty() ? stats.path : stats.name;
-}
-
-std::string head(const Report& report) {
+/// "PoCL traces Cornell box in 22 ms: 14.7 times one thread", else the scenes' names.
+std::string headline(const Report& report) {
+    if (report.scenes.size() == 1) {
+        const std::string verdict = verdict_text(report.scenes.front(), 0);
+        if (!verdict.empty()) return verdict;
+    }
     std::string names;
     for (const ReportScene& scene : report.scenes) {
         names += (names.empty() ? "" : ", ") + scene_name(scene);
     }
+    return "How fast and how exactly mirrorball renders " + names;
+}
+
+/// "AMD EPYC 7763, 2 cores, 2026-11-20 12:00 UTC"
+std::string machine_and_date(const Report& report) {
+    const Json& machine = report.environment;
+    std::string text;
+    if (machine.contains("cpu")) text += text_of(machine["cpu"]) + ", ";
+    if (machine.contains("cores")) {
+        text += counted(machine["cores"].get<std::size_t>(), "core") + ", ";
+    }
+    return text + report.date;
+}
+
+std::string head(const Report& report) {
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+           "<meta http-equiv=\"Content-Security-Policy\"" +
+           html_attribute("content", policy) +
+           ">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
            "<meta name=\"color-scheme\" content=\"light dark\">\n"
-           "<link rel=\"icon\" href=\"data:,\">\n<title>mirrorball report: " +
-           html_text(names) + (report.stopped.empty() ? "" : " (incomplete)") +
-           "</title>\n<style>" + report_style + "</style>\n</head>\n";
+           "<link rel=\"icon\" href=\"data:,\">\n<title>" +
+           html_text(headline(report) + " – mirrorball on " + machine_and_date(report)) +
+           (report.stopped.empty() ? "" : " (incomplete)") + "</title>\n<style>" + report_style +
+           "</style>\n</head>\n";
 }
 
-std::string tile(const std::string& term, const std::string& value, const std::string& more,
-                 const std::string& source) {
-    return fmt::format("<div><dt>{}</dt><dd{}>{}<small>{}</small></dd></div>\n", html_text(term),
-                       source.empty() ? "" : html_attribute("data-source", source),
-                       html_text(value), html_text(more));
-}
-
-/// The few numbers to take away: the fastest device, its rays, its gain, and how exact it is.
-std::string glance(const Report& report, std::size_t index) {
-    const ReportScene& scene = report.scenes[index];
-    const std::vector<PlacedRow> rows = largest_rows(rows_of(scene.bench, index));
-    const auto fastest =
-        std::min_element(rows.begin(), rows.end(), [](const PlacedRow& a, const PlacedRow& b) {
-            return a.figures->trace.median < b.figures->trace.median;
-        });
-    if (fastest == rows.end()) return "";
-    const BenchFigures& figures = *fastest->figures;
-    const BenchCase& asked = fastest->row->asked;
-    const std::string on = "on " + device_label(*fastest->row);
-    std::string html = "<dl class=\"glance\">\n";
-    html +=
-        tile("Fastest anti-aliased trace", duration_text(figures.trace.median),
-             fmt::format("± {} %, {}, {} x {}, {}", significant(figures.trace.noise_percent(), 2),
-                         on, asked.width, asked.height, to_string(asked.aa)),
-             fastest->source);
-    html += tile("Rays per second", significant(figures.rays_per_second * 1e-6, 3) + " million",
-                 on + ", all kinds of ray", fastest->source);
-    if (figures.speed_up) {
-        html += tile("Speed-up over one thread", significant(*figures.speed_up, 3) + " times",
-                     "total time, " + on, fastest->source);
-    }
-    const auto& rounding = fastest->row->repeats.front().error;
-    if (rounding) {
-        html += tile("Rounding error", "RMSE " + scientific_text(rounding->rmse),
-                     "float against double, same samples", fastest->source);
-    }
-    html += tile("Sampling error", "RMSE " + scientific_text(scene.smooth.stats.error->rmse),
-                 fmt::format("{}; plain: {}", to_string(scene.smooth.stats.aa),
-                             scientific_text(scene.plain.stats.error->rmse)),
-                 fmt::format("pictures-{}#/smooth/error", index));
-    return html + "</dl>\n";
+/// Where the page tells of several scenes: each one's verdict.
+std::string scene_verdict(const Report& report, std::size_t index) {
+    const std::string verdict = verdict_text(report.scenes[index], index);
+    if (report.scenes.size() == 1 || verdict.empty()) return "";
+    return "<p class=\"lead\">" + html_text(verdict + ". ") +
+           html_text(verdict_details(report.scenes[index], index)) + "</p>\n";
 }
 
 std::string scene_html(const Report& report, std::size_t index) {
@@ -95,14 +78,15 @@ std::string scene_html(const Report& report, std::size_t index) {
     const RenderStats& run = some_run(scene);
     const SceneStats& stats = run.scene;
     std::string html = fmt::format(
-        "<section id=\"scene-{}\" aria-labeledby=\"scene-{}-head\">\n"
+        "<section id=\"scene-{}\" aria-labelledby=\"scene-{}-head\">\n"
         "<h2 id=\"scene-{}-head\">{}</h2>\n"
         "<p class=\"note\">{}: {}; {} x {} pixels, up to {} bounces; scene hash "
         "<code>{}</code></p>\n",
         index, index, index, html_text(scene_name(scene)), html_text(stats.path),
         holdings_text(run), run.width, run.height, run.max_bounces, hash_text(stats.hash));
+    html += scene_verdict(report, index);
     if (!scene.complete) html += "<p class=\"warning\">Incomplete: stopped on the way.</p>\n";
-    if (scene.has_pictures) html += glance(report, index) + pictures_section(scene, index);
+    if (scene.has_pictures) html += glance_html(scene, index) + pictures_section(scene, index);
     html += timing_section(scene, index);
     if (!front_of(scene.converge).empty()) html += error_time_section(scene, index);
     if (scene.has_pictures) html += features_section(scene, index);
@@ -119,31 +103,6 @@ std::string warnings_html(const Report& report) {
     const std::string busy = busy_text(load_of(report.load_before));
     if (!busy.empty()) html += "<p class=\"warning\">" + html_text(busy) + "</p>\n";
     return html;
-}
-
-std::string text_of(const Json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
-std::string environment_html(const Report& report) {
-    HtmlTable table{"The machine and the program behind every number", {"what", "value"}, {}};
-    for (const auto& [key, value] : report.environment.items()) {
-        table.rows.push_back({{key, ""}, {text_of(value), "environment#/" + key}});
-    }
-    std::vector<std::string> devices;
-    for (const BenchRow& row : report.scenes.front().bench.rows) {
-        if (row.repeats.empty() || row.asked.uses_threads) continue;
-        const DeviceStats& device = row.repeats.front().device;
-        const std::string text =
-            fmt::format("{}, {}, driver {}, per {}, {} lane{}", device.name, device.platform,
-                        device.driver, device.launch, device.lanes, device.lanes == 1 ? "" : "s");
-        if (std::find(devices.begin(), devices.end(), text) != devices.end()) continue;
-        devices.push_back(text);
-        table.rows.push_back({{"OpenCL device", ""}, {text, ""}});
-    }
-    table.rows.push_back({{"made on", ""}, {report.date, ""}});
-    return "<h2 id=\"machine\">Environment</h2>\n<div class=\"facts\">" + html_table(table) +
-           "</div>\n";
 }
 
 std::string commands_html(const Report& report) {
@@ -200,14 +159,15 @@ std::string data_html(const Report& report) {
 }  // namespace
 
 std::string report_page(const Report& report) {
-    std::string html = head(report) +
-                       "<body>\n<header>\n<h1>How it renders, how fast, how exactly</h1>\n"
-                       "<p class=\"lead\">A mirrorball report: pictures, run times and errors, "
-                       "measured on one machine in one go.</p>\n" +
-                       warnings_html(report) + navigation(report) + "</header>\n<main>\n";
+    std::string html = head(report) + "<body>\n<header>\n<h1>" + html_text(headline(report)) +
+                       "</h1>\n<p class=\"lead\">";
+    if (report.scenes.size() == 1) html += html_text(verdict_details(report.scenes.front(), 0));
+    html += "</p>\n<p class=\"note\">A mirrorball report, measured in one go on " +
+            html_text(machine_and_date(report)) + ".</p>\n" + warnings_html(report) +
+            navigation(report) + "</header>\n<main>\n";
     for (std::size_t i = 0; i < report.scenes.size(); ++i) html += scene_html(report, i);
     if (report.stress) html += stress_section(*report.stress);
-    return html + environment_html(report) + commands_html(report) + data_html(report) +
+    return html + environment_section(report) + commands_html(report) + data_html(report) +
            "</main>\n<footer>Made by " + html_text(text_of(report.environment["program"])) + ", " +
            html_text(report.date) +
            ". Nothing in this page comes from elsewhere, and no script "

@@ -10,6 +10,9 @@ namespace rt {
 
 // The page's sections about one scene, as HTML; ids and sources carry the scene's index.
 
+/// The few numbers to take away: the fastest device, its rays, its gain, and how exact it is.
+std::string glance_html(const ReportScene& scene, std::size_t index);
+
 /// The pictures, their error maps, and plain and anti-aliased crops side by side.
 std::string pictures_section(const ReportScene& scene, std::size_t index);
 
@@ -25,7 +28,11 @@ std::string features_section(const ReportScene& scene, std::size_t index);
 /// Verdicts of the stress suite, and error against the parameter of its families.
 std::string stress_section(const StressResult& result);
 
-/// The worst picture of each family beside its reference and their difference; empty without any.
+/// The worst pictures of the families with the least margin, beside their references and their
+/// differences; empty without any.
 std::string stress_pictures(const StressResult& result);
+
+/// The machine, the program and its devices, as a table.
+std::string environment_section(const Report& report);
 
 }  // namespace rt

@@ -8,13 +8,15 @@
 #include "host/measure/heatmap.h"
 #include "host/report/html.h"
 #include "host/report/sections.h"
+#include "host/report/stress_margins.h"
 
 namespace rt {
 
 namespace {
 
 constexpr double map_scale = 1.0 / 255;  ///< the difference at the top of the color map
-constexpr int most_pixels = 160 * 120;   ///< of a picture on the page
+constexpr int most_families = 4;
+constexpr int most_pixels = 160 * 120;  ///< of a picture on the page
 
 /// Clamped to [0, 1]; NaN as white.
 Picture shown(Picture picture) {
@@ -52,13 +54,17 @@ bool fits_page(const StressFamilyResult& family) {
 
 std::string stress_pictures(const StressResult& result) {
     std::string html;
-    for (const StressFamilyResult& family : result.families) {
-        if (fits_page(family)) html += shot_figures(family);
+    int shown_families = 0;
+    for (const std::size_t i : by_margin(result)) {
+        const StressFamilyResult& family = result.families[i];
+        if (!fits_page(family) || shown_families == most_families) continue;
+        html += shot_figures(family);
+        ++shown_families;
     }
     if (html.empty()) return "";
-    return "<details><summary>Pictures: every family's worst case, its reference and the "
-           "difference</summary>\n" +
-           html + "</details>\n";
+    return "<h3>Worst pictures</h3>\n<p>Of the families with the least margin to their "
+           "tolerance.</p>\n" +
+           html;
 }
 
 }  // namespace rt

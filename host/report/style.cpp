@@ -12,8 +12,6 @@ const char* const report_style = R"css(
   --grid: #e3e7eb; --faint: #f0f2f4; --accent: #0b62a3; --floor: #8a939d33;
   --s0: #0068a8; --s1: #c04f00; --s2: #00805d; --s3: #a8407f;
   --s4: #746400; --s5: #5b4bb5; --s6: #333; --s7: #86503f;
-  --p0: #b9c2cc; --p1: #8f9aa6; --p2: #7a5195; --p3: #d9822b; --p4: #46a08a;
-  --p5: #2470ac; --p6: #c46a9c; --p7: #6d7a2e;
 }
 @media (prefers-color-scheme: dark) {
   :root {
@@ -21,8 +19,6 @@ const char* const report_style = R"css(
     --grid: #2b3139; --faint: #20252b; --accent: #79bdf2; --floor: #9aa5b133;
     --s0: #5fb8f5; --s1: #ff9a55; --s2: #3ecb9d; --s3: #f29ac7;
     --s4: #e4d150; --s5: #ab9eff; --s6: #e8e8e8; --s7: #d8a898;
-    --p0: #5b6670; --p1: #7d8995; --p2: #a884c4; --p3: #e3964a; --p4: #5bbfa6;
-    --p5: #62b0ec; --p6: #dc8bb8; --p7: #a8b752;
   }
 }
 @media print {
@@ -31,8 +27,6 @@ const char* const report_style = R"css(
     --grid: #ddd; --faint: #eee; --accent: #000; --floor: #0002;
     --s0: #0068a8; --s1: #c04f00; --s2: #00805d; --s3: #a8407f;
     --s4: #746400; --s5: #5b4bb5; --s6: #333; --s7: #86503f;
-    --p0: #b9c2cc; --p1: #8f9aa6; --p2: #7a5195; --p3: #d9822b; --p4: #46a08a;
-    --p5: #2470ac; --p6: #c46a9c; --p7: #6d7a2e;
   }
 }
 * { box-sizing: border-box; }
@@ -42,7 +36,7 @@ body {
   background: var(--paper); color: var(--ink);
   font: 1rem/1.6 system-ui, -apple-system, "Segoe UI", "Helvetica Neue", "DejaVu Sans", sans-serif;
 }
-h1, h2, h3 { line-height: 1.25; font-weight: 650; text-wrap: balance; }
+h1, h2, h3, h4 { line-height: 1.25; font-weight: 650; text-wrap: balance; }
 h1 { font-size: 2.1rem; margin: 0 0 .5rem; letter-spacing: -.015em; }
 h2 { font-size: 1.5rem; margin: 3.5rem 0 1rem; padding-top: 1rem; border-top: 2px solid var(--ink); }
 h3 { font-size: 1.13rem; margin: 2.5rem 0 .5rem; }
@@ -52,6 +46,7 @@ a { color: var(--accent); text-underline-offset: .15em; }
 :focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; }
 .lead { font-size: 1.1rem; color: var(--soft); margin-top: 0; }
 .warning { border-left: .3rem solid #c60; padding-left: .8rem; font-weight: 600; }
+.glance dd { white-space: nowrap; } .glance dd small { white-space: normal; }
 .note, figcaption, caption { color: var(--soft); font-size: .9rem; line-height: 1.5; }
 nav ul { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; padding: 0; margin: 1.25rem 0 0; list-style: none; font-size: .95rem; }
 code, pre { font: .85rem/1.55 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; }
@@ -71,14 +66,18 @@ figcaption { margin-top: .45rem; max-width: 44rem; }
 .pixels img { image-rendering: pixelated; }
 .scale { display: flex; align-items: center; gap: .6rem; font-size: .85rem; color: var(--soft); margin: -.75rem 0 1.5rem; }
 .scale img { height: .8rem; width: 14rem; max-width: 45vw; border-radius: 2px; image-rendering: auto; }
-.plot { max-width: 46rem; }
-.plot > .scroll { padding-bottom: 0; }
-.plot .scroll > svg { display: block; width: 100%; min-width: 30rem; height: auto; }
+.picture { position: relative; }
+.mark { position: absolute; inset: 0; width: 100%; height: 100%; }
+.mark rect { fill: none; vector-effect: non-scaling-stroke; }
+.mark .under { stroke: #000; stroke-width: 4; } .mark .over { stroke: #fff; stroke-width: 2; }
+.plot { max-width: 38rem; }
+.plot > svg { display: block; width: 100%; height: auto; }
+.plots { display: grid; gap: 0 2rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 25rem), 1fr)); align-items: start; }
 .scroll { overflow-x: auto; }
-svg text { font: 13.5px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; fill: var(--ink); font-variant-numeric: tabular-nums; }
+svg text { font: 12px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; fill: var(--ink); font-variant-numeric: tabular-nums; }
 svg .axes text { fill: var(--soft); }
 svg text.name { fill: var(--ink); font-weight: 600; }
-svg text.small { font-size: 12px; }
+svg text.name-of-curve { fill: var(--c); font-weight: 600; }
 svg text.strong { font-weight: 600; }
 svg text.halo { paint-order: stroke; stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round; }
 .grid { stroke: var(--grid); } .grid.faint { stroke: var(--faint); } .edge { stroke: var(--soft); }
@@ -86,6 +85,7 @@ svg text.halo { paint-order: stroke; stroke: var(--paper); stroke-width: 4px; st
 .line.prediction { stroke-width: 1.5; stroke-dasharray: 2 4; stroke-linecap: round; }
 .band { fill: var(--c); stroke: var(--c); stroke-width: 1; opacity: .2; }
 .marker { fill: var(--c); stroke: var(--paper); stroke-width: 1.2; }
+.hollow .line { stroke-width: 1; } .hollow .marker { fill: var(--paper); stroke: var(--c); } .hollow .band { display: none; }
 .offset { fill: none; stroke: var(--c); stroke-width: 1.3; stroke-dasharray: 1.5 3; }
 .front { fill: none; stroke: var(--ink); stroke-width: 5; opacity: .2; stroke-linejoin: round; }
 .floor { fill: var(--floor); }
@@ -95,18 +95,27 @@ svg text.halo { paint-order: stroke; stroke: var(--paper); stroke-width: 4px; st
 .d3 .line { stroke-dasharray: 10 3 2 3; } .d4 .line { stroke-dasharray: 4 4; }
 .d5 .line { stroke-dasharray: 12 4; } .d6 .line { stroke-dasharray: 1 3; }
 .d7 .line { stroke-dasharray: 8 2 2 2 2 2; }
-.p0 { fill: var(--p0); } .p1 { fill: var(--p1); } .p2 { fill: var(--p2); } .p3 { fill: var(--p3); }
-.p4 { fill: var(--p4); } .p5 { fill: var(--p5); } .p6 { fill: var(--p6); } .p7 { fill: var(--p7); }
-.part { stroke: var(--paper); stroke-width: 1; }
-svg text.on-part { fill: #000; }
-svg text.on-p2, svg text.on-p5, svg text.on-p7 { fill: var(--paper); }
-.legend { display: flex; flex-wrap: wrap; gap: .15rem 1.4rem; list-style: none; padding: 0; margin: .5rem 0; font-size: .9rem; }
-.legend svg { width: 34px; height: 14px; vertical-align: -2px; margin-right: .25rem; }
-.legend svg.box { width: 14px; }
+.bar { margin: 0 0 1.1rem; }
+.bar p { margin: 0; }
+.bar > svg { display: block; width: 100%; height: 1.25rem; }
+.bar ul { display: flex; flex-wrap: wrap; gap: 0 1rem; margin: .15rem 0 0; padding: 0; list-style: none; font-size: .85rem; color: var(--soft); font-variant-numeric: tabular-nums; }
+.box { width: .7em; height: .7em; margin-right: .35em; }
+.part { fill: var(--c); stroke: var(--paper); stroke-width: 1; vector-effect: non-scaling-stroke; }
+.p0, .p2, .p4 { fill-opacity: .25; } .p1, .p6 { fill-opacity: .5; } .p3 { fill-opacity: .7; } .p7 { fill-opacity: .35; }
+.share { width: 5rem; height: .6rem; vertical-align: baseline; margin-right: .4rem; }
+.share rect { fill: var(--soft); } .share .whole { fill: var(--rule); }
 table { border-collapse: collapse; font-size: .92rem; font-variant-numeric: tabular-nums; margin: .75rem 0 1.25rem; }
 caption { text-align: left; caption-side: top; padding-bottom: .5rem; }
-th, td { padding: .34rem .9rem .34rem 0; text-align: right; vertical-align: baseline; border-bottom: 1px solid var(--rule); white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; }
+th, td { padding: .34rem 1.1rem .34rem 0; text-align: left; vertical-align: baseline; border-bottom: 1px solid var(--rule); white-space: nowrap; }
+.number { text-align: right; }
+td.number[data-pad]::after { content: attr(data-pad); visibility: hidden; }
+td.long { white-space: normal; min-width: 16rem; }
+.dense table { font-size: .82rem; }
+.dense th, .dense td { padding-right: .7rem; white-space: normal; }
+.dense th[scope=row], .dense .number { white-space: nowrap; }
+.dense td.long { min-width: 13rem; }
+.on-paper { display: none; }
+h4 { font-size: 1rem; margin: 1.5rem 0 .5rem; }
 th:last-child, td:last-child { padding-right: .1rem; }
 thead th { font-weight: 600; border-bottom-color: var(--ink); white-space: normal; vertical-align: bottom; }
 tbody th { font-weight: 400; }
@@ -120,19 +129,36 @@ footer { margin-top: 3.5rem; padding-top: 1rem; border-top: 1px solid var(--rule
   h1 { font-size: 1.7rem; }
   .pictures, .pictures.three { gap: 0 .6rem; }
   .pictures.three { grid-template-columns: minmax(0, 1fr); }
+  svg text { font-size: 15px; }
 }
 @media print {
-  @page { margin: 16mm 14mm; }
-  body { padding: 0; max-width: none; font-size: 10pt; }
-  nav { display: none; }
-  h2 { margin-top: 2rem; }
-  h2, h3, caption { break-after: avoid; }
-  figure, tr, .glance div, pre { break-inside: avoid; }
-  .pictures { break-inside: avoid; }
-  pre { white-space: pre-wrap; overflow-wrap: anywhere; }
+  @page { margin: 13mm 12mm; }
+  body { padding: 0; max-width: none; font-size: 9pt; line-height: 1.4; }
+  nav, details { display: none; }
+  .on-paper { display: block; }
+  h1 { font-size: 16pt; }
+  h2 { margin-top: 1.2rem; font-size: 13pt; }
+  h3 { margin: 1rem 0 .3rem; }
+  h2, h3, h4, caption { break-after: avoid; }
+  p { margin: .25rem 0 .5rem; }
+  figcaption, .note, caption { font-size: 8pt; }
+  figure { margin: .4rem 0 .5rem; }
+  figure, tr, .glance div, .bar, pre { break-inside: avoid; }
+  .glance { grid-template-columns: repeat(5, 1fr); gap: 0 1rem; margin: .7rem 0; }
+  .glance dd { font-size: 1.2rem; }
+  .pictures { break-inside: avoid; max-width: 116mm; }
+  .pictures.three { max-width: 116mm; grid-template-columns: repeat(3, minmax(0, 1fr)); }
+  .plots { grid-template-columns: 1fr 1fr; }
+  .plot { max-width: 105mm; }
+  .bars { columns: 2; column-gap: 8mm; } .bar { margin: 0 0 .6rem; }
+  .bars + figcaption { max-width: none; }
+  figure:has(.bars) { max-width: none; }
+  table { font-size: 8pt; margin: .3rem 0 .6rem; }
+  th, td { padding-top: .12rem; padding-bottom: .12rem; }
+  .dense table { font-size: 7pt; }
+  .dense td.long { min-width: 0; }
+  pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: 7pt; }
   .scroll { overflow: visible; }
-  .plot { max-width: 120mm; }
-  .plot .scroll > svg { min-width: 0; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 )css";

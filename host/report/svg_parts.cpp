@@ -3,12 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "host/report/html.h"
+#include "host/utf8.h"
 
 namespace rt {
 
 namespace {
 
+constexpr double tick_character_width = 8;  ///< at most, on narrow screens
 constexpr int most_x_labels = 8;
 constexpr int most_y_labels = 8;
 
@@ -16,6 +22,29 @@ std::string line(double x1, double y1, double x2, double y2, const char* css_cla
     return fmt::format(
         "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", css_class,
         x1, y1, x2, y2);
+}
+
+double tick_width(const Tick& tick) {
+    const auto characters = std::count_if(tick.label.begin(), tick.label.end(),
+                                          [](char c) { return !is_utf8_continuation(c); });
+    return tick_character_width * static_cast<double>(characters);
+}
+
+/// The ticks with numbers only where they do not touch; those that begin with a 1 come first.
+std::vector<Tick> with_room(std::vector<Tick> ticks, const AxisScale& scale) {
+    std::vector<std::pair<double, double>> taken;
+    for (const bool ones : {true, false}) {
+        for (Tick& tick : ticks) {
+            if (tick.label.empty() || tick.label.starts_with('1') != ones) continue;
+            const double at = scale.at(tick.value), half = tick_width(tick) / 2 + 2;
+            const bool is_free = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
+                return at - half < other.second && other.first < at + half;
+            });
+            if (is_free) taken.emplace_back(at - half, at + half);
+            if (!is_free) tick.label.clear();
+        }
+    }
+    return ticks;
 }
 
 std::string marker_shape(int style, double x, double y) {
@@ -49,7 +78,7 @@ std::string svg_open(const std::string& id, double width, double height, const s
                      const std::string& description) {
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" "
-        "aria-labeledby=\"{}-title {}-desc\"{}>\n<title id=\"{}-title\">{}</title>\n"
+        "aria-labelledby=\"{}-title {}-desc\"{}>\n<title id=\"{}-title\">{}</title>\n"
         "<desc id=\"{}-desc\">{}</desc>\n",
         width, height, html_text(id), html_text(id), html_attribute("id", id), html_text(id),
         html_text(title), html_text(id), html_text(description));
@@ -65,7 +94,7 @@ std::string svg_label(double x, double y, const char* anchor, const std::string&
 std::string svg_axes(const PlotFrame& frame, const Axis& x, const Axis& y) {
     const AxisScale x_scale(x, frame.left, frame.right), y_scale(y, frame.bottom, frame.top);
     std::string svg = "<g class=\"axes\">\n";
-    for (const Tick& tick : axis_ticks(x, most_x_labels)) {
+    for (const Tick& tick : with_room(axis_ticks(x, most_x_labels), x_scale)) {
         const double at = x_scale.at(tick.value);
         svg += line(at, frame.top, at, frame.bottom, tick.label.empty() ? "grid faint" : "grid");
         if (!tick.label.empty()) svg += svg_label(at, frame.bottom + 18, "middle", tick.label);
@@ -78,7 +107,7 @@ std::string svg_axes(const PlotFrame& frame, const Axis& x, const Axis& y) {
     svg += line(frame.left, frame.bottom, frame.right, frame.bottom, "edge");
     svg += line(frame.left, frame.top, frame.left, frame.bottom, "edge");
     svg += svg_label((frame.left + frame.right) / 2, frame.bottom + 40, "middle", x.label, "name");
-    svg += svg_label(frame.left, frame.top - 12, "start", y.label, "name");
+    svg += svg_label(4, frame.top - 16, "start", y.label, "name");
     return svg + "</g>\n";
 }
 

@@ -7,14 +7,17 @@
 #include <cmath>
 
 #include "host/report/html.h"
+#include "host/report/label_placer.h"
 #include "host/report/svg_parts.h"
 
 namespace rt {
 
 namespace {
 
-constexpr double plot_width = 620, plot_height = 400;
-constexpr PlotFrame frame{72, 34, 604, 344};
+// Small, so that type stays readable where the drawing is scaled to a narrow screen; names of
+// curves that end at the right edge stand outside the frame.
+constexpr double plot_width = 480, plot_height = 330;
+constexpr PlotFrame frame{64, 34, 396, 278};
 
 /// Draws the parts of one plot, each as a piece of SVG.
 class Painter {
@@ -54,7 +57,7 @@ class Painter {
         std::string svg;
         for (const PlotPoint& point : curve.points) {
             svg +=
-                svg_marker(curve.shape, x_.at(point.x), y_.at(point.y), point.title, point.source);
+                svg_marker(curve.marker, x_.at(point.x), y_.at(point.y), point.title, point.source);
         }
         return svg;
     }
@@ -66,16 +69,16 @@ class Painter {
         const double y = y_.at(point.y);
         const double to = std::min(x_.at(*point.x_with_build), frame.right);
         return fmt::format(
-            "<path class=\"offset\" d=\"M{:.1f} {:.1f}H{:.1f}m0 -5v10\">"
+            "<path class=\"offset\" d=\"M{:.1f} {:.1f}H{:.1f}{}\">"
             "<title>{}</title></path>\n",
-            x_.at(point.x), y, to,
+            x_.at(point.x), y, to, to < frame.right ? "m0 -5v10" : "",
             html_text(curve.label +
                       " with its kernels built: " + duration_text(*point.x_with_build)));
     }
 
     std::string curve(const PlotCurve& curve) const {
-        std::string svg = fmt::format("<g class=\"s{} d{}\">\n", curve.color % plot_styles,
-                                      curve.shape % plot_styles);
+        std::string svg = fmt::format("<g class=\"s{} d{}{}\">\n", curve.color % plot_styles,
+                                      curve.dash % plot_styles, curve.is_hollow ? " hollow" : "");
         if (!curve.is_prediction) svg += band(curve) + build_offset(curve);
         svg += line(curve);
         if (!curve.is_prediction) svg += markers(curve);
@@ -93,28 +96,66 @@ class Painter {
         return fmt::format("<path class=\"front\" d=\"{}H{:.1f}\"/>\n", path, frame.right);
     }
 
-    /// Names beside points, each only where no earlier one stands.
+    /// Names of curves, then of points, where there is room for them.
     std::string labels() const {
+        LabelPlacer placer({frame.left + 2, 2, plot_width - 2, frame.bottom - 2});
+        avoid_ink(placer);
         std::string svg;
-        std::vector<std::pair<double, double>> taken;
+        for (const PlotCurve& curve : plot_.curves) svg += curve_label(placer, curve);
+        if (!plot_.front.empty()) {
+            svg += placed_label(placer, plot_.front_label, spots_of(plot_.front), "small halo");
+        }
         for (const PlotCurve& curve : plot_.curves) {
             for (const PlotPoint& point : curve.points) {
-                if (point.label.empty()) continue;
-                const double x = x_.at(point.x) + 8, y = y_.at(point.y) - 8;
-                const bool free = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
-                    return std::fabs(other.first - x) < 74 && std::fabs(other.second - y) < 15;
-                });
-                const bool inside = x < frame.right - 60;
-                if (!free) continue;
-                taken.emplace_back(x, y);
-                svg += svg_label(inside ? x : x - 16, y, inside ? "start" : "end", point.label,
-                                 "small halo");
+                svg += placed_label(placer, point.label, {{x_.at(point.x), y_.at(point.y)}},
+                                    "small halo");
             }
         }
         return svg;
     }
 
    private:
+    using Spots = std::vector<std::pair<double, double>>;
+
+    void avoid_ink(LabelPlacer& placer) const {
+        placer.avoid_box({frame.left, 0, frame.right, frame.top - 8});  // the y axis' name
+        if (plot_.floor) {
+            const double top = std::clamp(y_.at(*plot_.floor), frame.top, frame.bottom);
+            placer.avoid_box({frame.left, top, frame.right, top + 19});
+        }
+        for (const PlotCurve& curve : plot_.curves) {
+            const Spots spots = spots_of(curve.points);
+            for (std::size_t i = 0; i < spots.size(); ++i) {
+                const auto [x, y] = spots[i];
+                const auto [next_x, next_y] = spots[std::min(i + 1, spots.size() - 1)];
+                placer.avoid_line(x, y, next_x, next_y);
+                placer.avoid_line(x - 5, y, x + 5, y);
+            }
+        }
+    }
+
+    /// Beside the curve's last point, else its first, else any.
+    std::string curve_label(LabelPlacer& placer, const PlotCurve& curve) const {
+        Spots spots = spots_of(curve.points);
+        if (spots.size() > 1) std::swap(spots.front(), spots.back());
+        if (spots.size() > 2) std::swap(spots[1], spots.back());
+        return placed_label(placer, curve.label, spots,
+                            fmt::format("small halo name-of-curve s{}", curve.color % plot_styles));
+    }
+
+    std::string placed_label(LabelPlacer& placer, const std::string& text, const Spots& spots,
+                             const std::string& css_class) const {
+        if (text.empty()) return "";
+        const auto place = placer.place(text, spots);
+        return place ? svg_label(place->x, place->y, place->anchor, text, css_class) : "";
+    }
+
+    Spots spots_of(const std::vector<PlotPoint>& points) const {
+        Spots spots;
+        for (const PlotPoint& point : points) spots.emplace_back(x_.at(point.x), y_.at(point.y));
+        return spots;
+    }
+
     std::string step(double x, double y, const std::string& before) const {
         return fmt::format("{}{:.1f} {:.1f}", before.empty() ? "M" : "L", x_.at(x), y_.at(y));
     }
@@ -131,23 +172,6 @@ std::string svg_plot(const Plot& plot) {
     svg += painter.floor() + svg_axes(frame, plot.x, plot.y) + painter.front();
     for (const PlotCurve& curve : plot.curves) svg += painter.curve(curve);
     return svg + painter.labels() + "</svg>\n";
-}
-
-std::string plot_legend(const Plot& plot) {
-    std::string html = "<ul class=\"legend\">\n";
-    const auto item = [&](const std::string& drawing, const std::string& label) {
-        html += "<li><svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" focusable=\"false\">" +
-                drawing + "</svg> " + html_text(label) + "</li>\n";
-    };
-    for (const PlotCurve& curve : plot.curves) {
-        const std::string marker = curve.is_prediction ? "" : svg_marker(curve.shape, 17, 7);
-        item(fmt::format("<g class=\"s{} d{}\"><path class=\"line{}\" d=\"M1 7H33\"/>{}</g>",
-                         curve.color % plot_styles, curve.shape % plot_styles,
-                         curve.is_prediction ? " prediction" : "", marker),
-             curve.label);
-    }
-    if (!plot.front.empty()) item("<path class=\"front\" d=\"M1 7H33\"/>", plot.front_label);
-    return html + "</ul>\n";
 }
 
 }  // namespace rt

@@ -23,11 +23,13 @@ struct PlotPoint {
 
 /// Points of one kind, joined by a line.
 struct PlotCurve {
-    std::string label;
-    int color = 0;  ///< of plot_styles; so that curves of one kind may share it
-    int shape = 0;  ///< of plot_styles: dashes and marker, for eyes that see no color
-    std::vector<PlotPoint> points;
+    std::string label;  ///< written beside it; empty: none
+    int color = 0;      ///< of plot_styles: the device, as DeviceColors says
+    int dash = 0;       ///< of plot_styles: what else tells curves of one device apart
+    int marker = 0;     ///< of plot_styles
+    std::vector<PlotPoint> points = {};
     bool is_prediction = false;  ///< a thin line without markers
+    bool is_hollow = false;      ///< outlined markers on a thin line
 };
 
 struct Plot {
@@ -44,11 +46,8 @@ struct Plot {
 
 inline constexpr int plot_styles = 8;
 
-/// The plot as inline SVG. Colors and dashes are the page's: classes s0 to s7 and
-/// d0 to d7.
+/// The plot as inline SVG, each curve with its name beside it. Colors and dashes are the page's:
+/// classes s0 to s7 and d0 to d7.
 std::string svg_plot(const Plot& plot);
-
-/// The curves' names with a piece of line and a marker each, as an HTML list.
-std::string plot_legend(const Plot& plot);
 
 }  // namespace rt

@@ -92,7 +92,7 @@ std::vector<HtmlCell> full_row(const PlacedRow& placed) {
                                 {device_label(*placed.row), ""}};
     if (!placed.figures) {
         cells.push_back({fmt::format("{}: {}", verdict_text(*placed.row), placed.row->why), ""});
-        cells.resize(10);
+        cells.resize(11);
         return cells;
     }
     const BenchFigures& figures = *placed.figures;
@@ -104,6 +104,7 @@ std::vector<HtmlCell> full_row(const PlacedRow& placed) {
     cells.push_back({significant(figures.trace.noise_percent(), 2), ""});
     cells.push_back({milliseconds(figures.total.median), ""});
     cells.push_back({significant(figures.rays_per_second * 1e-6, 3), ""});
+    cells.push_back(optional(figures.trace_speed_up));
     cells.push_back(optional(figures.speed_up));
     cells.push_back({error ? scientific_text(error->rmse) : "–", ""});
     return cells;
@@ -112,15 +113,17 @@ std::vector<HtmlCell> full_row(const PlacedRow& placed) {
 std::string full_table(const std::vector<PlacedRow>& rows) {
     HtmlTable table{
         "Every row; total leaves out starting the program, reading the scene and "
-        "writing the picture; RMSE is against double precision at the same samples",
-        {"pixels", "sampling", "precision", "on", "trace, ms", "noise, %", "total, ms", "Mrays/s",
-         "times one thread", "RMSE"},
+        "writing the picture; speed-up is over one thread; RMSE is against double precision at the "
+        "same samples",
+        {"pixels", "sampling", "precision", "device", "trace, ms", "noise, %", "total, ms",
+         "Mrays/s", "trace speed-up", "total speed-up", "RMSE"},
         {}};
     for (const PlacedRow& placed : rows) table.rows.push_back(full_row(placed));
     return fmt::format(
-               "<details><summary>All {} rows with noise, rays per second, speed-up and "
-               "error</summary>\n",
-               rows.size()) +
+               "<p class=\"on-paper\">The table of all {} rows, with noise, rays per second, "
+               "speed-up and error, is left out on paper.</p>\n<details><summary>All {} rows with "
+               "noise, rays per second, speed-up and error</summary>\n",
+               rows.size(), rows.size()) +
            html_table(table) + "</details>\n";
 }
 
@@ -129,13 +132,14 @@ std::string full_table(const std::vector<PlacedRow>& rows) {
 std::string timing_section(const ReportScene& scene, std::size_t index) {
     const std::vector<PlacedRow> rows = rows_of(scene.bench, index);
     if (rows.empty()) return "";
+    const DeviceColors colors(scene.bench.rows);
     return fmt::format(
                "<h3>Time</h3>\n<p>Medians of {} repeats, interleaved so that a slow moment "
                "of the machine hits every row alike; the first round is not counted. A picture "
                "that is not right gets no time.</p>\n",
                scene.bench.repeats_asked) +
-           paper_tables(rows) + full_table(rows) + phases_figure(rows, index) +
-           size_figure(rows, index) + threads_figure(rows, index);
+           paper_tables(rows) + full_table(rows) + phases_figure(rows, colors) +
+           size_figures(rows, index, colors) + threads_html(rows, index);
 }
 
 }  // namespace rt

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rt {
+
+/// A part of a bar; parts of the same `shade` in all bars are of one kind.
+struct BarPart {
+    std::string label;
+    double seconds = 0;
+    int shade = 0;
+};
+
+struct Bar {
+    std::string label;
+    std::string source;  ///< where its numbers come from, for data-source
+    int color = 0;       ///< as DeviceColors says
+    std::vector<BarPart> parts;
+};
+
+/// Stacked horizontal bars on one axis of seconds, as HTML that fits any width: each with its name
+/// and total above and its parts, named with their times, below. Parts under half a percent of
+/// their bar are one: "other".
+std::string bars_html(const std::string& title, const std::vector<Bar>& bars);
+
+}  // namespace rt

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rt {
+
+/// A rectangle of a drawing, y downwards.
+struct DrawnBox {
+    double left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// Where a label stands: the start, middle or end of its base line.
+struct LabelPlace {
+    double x = 0, y = 0;
+    const char* anchor = "start";
+    DrawnBox box;
+};
+
+/// Finds room for labels beside what they name: off lines and markers, never on another label,
+/// never outside. Greedy, in the order they are asked for.
+class LabelPlacer {
+   public:
+    explicit LabelPlacer(const DrawnBox& bounds) : bounds_(bounds) {}
+
+    void avoid_line(double x1, double y1, double x2, double y2);
+    void avoid_box(const DrawnBox& box) { taken_.push_back(box); }
+
+    /// Beside one of the spots, those named first preferred; empty where a label would stand on
+    /// another one or outside.
+    std::optional<LabelPlace> place(const std::string& text,
+                                    const std::vector<std::pair<double, double>>& spots);
+
+   private:
+    double cost_of(const DrawnBox& box) const;
+
+    DrawnBox bounds_;
+    std::vector<DrawnBox> taken_;
+    std::vector<std::pair<double, double>> inked_;
+};
+
+}  // namespace rt
