@@ -222,7 +222,7 @@ TEST(StressSection, ShowsTheWorstPictureAndItsErrors) {
 TEST(StressSection, SaysHowLongItTook) {
     StressResult result = small_result();
     for (StressCaseResult& one : result.families[0].cases) one.rows[0].seconds = 1.5;
-    EXPECT_NE(stress_section(result).find("<td>3"), std::string::npos);
+    EXPECT_NE(stress_section(result).find("<td class=\"number\">3000</td>"), std::string::npos);
 }
 
 // The naive tracer

@@ -46,9 +46,8 @@ onload = () => {
         if (!apart(a.getBoundingClientRect(), b.getBoundingClientRect()))
           found.push(svg.id + ": one name on another: " + a.textContent + ", " + b.textContent);
   }
-  if (root.clientWidth > 1000)
-    for (const part of page.querySelectorAll("main > section > .scroll, .dense .scroll, .facts .scroll"))
-      if (part.scrollWidth > part.clientWidth) found.push("a table is cut off: " + part.ariaLabel);
+  for (const part of page.querySelectorAll("main > section > .scroll, .facts .scroll"))
+    if (part.scrollWidth > part.clientWidth) found.push("a table is cut off: " + part.ariaLabel);
   document.getElementById("found").textContent = "looked at " + page.querySelectorAll("text").length +
     " texts\\n" + found.join("\\n");
 };

@@ -140,6 +140,15 @@ std::string front_table(const ConvergeResult& result, std::size_t index) {
     return html_table(table);
 }
 
+/// As other tables and plots call it, where it has rendered anything.
+std::string name_of(const ConvergeResult& result, const std::string& device,
+                    const std::string& device_name) {
+    for (const ConvergePoint& point : result.points) {
+        if (point.asked.device == device && !point.repeats.empty()) return short_device(point);
+    }
+    return device_name;
+}
+
 std::string targets_table(const ConvergeResult& result, std::size_t index) {
     HtmlTable table{
         "Time to reach an error, with the fastest setting measured that does", {"device"}, {}};
@@ -149,7 +158,7 @@ std::string targets_table(const ConvergeResult& result, std::size_t index) {
     std::string device;
     for (const TargetTime& time : target_times(result)) {
         if (table.rows.empty() || time.device != device) {
-            table.rows.push_back({{time.device_name, ""}});
+            table.rows.push_back({{name_of(result, time.device, time.device_name), ""}});
             device = time.device;
         }
         HtmlCell cell{time.below_floor ? "below the floor" : "not reached", ""};
@@ -157,7 +166,6 @@ std::string targets_table(const ConvergeResult& result, std::size_t index) {
             const ConvergePoint& point = result.points[*time.point];
             cell = {fmt::format("{} ({})", duration_text(time.seconds), to_string(point.asked.aa)),
                     point_source(index, *time.point)};
-            table.rows.back()[0].text = device_label(point.repeats.front());
         }
         table.rows.back().push_back(cell);
     }

@@ -13,7 +13,7 @@ namespace rt {
 namespace {
 
 // Of the type on narrow screens, which is the largest in a drawing's units.
-constexpr double character_width = 7.6, ascent = 12, descent = 4;
+constexpr double character_width = 8.7, ascent = 13, descent = 4;
 constexpr double ink_step = 5;  ///< between the points that stand for a line
 
 struct Side {

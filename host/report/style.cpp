@@ -102,7 +102,7 @@ svg text.halo { paint-order: stroke; stroke: var(--paper); stroke-width: 4px; st
 .box { width: .7em; height: .7em; margin-right: .35em; }
 .part { fill: var(--c); stroke: var(--paper); stroke-width: 1; vector-effect: non-scaling-stroke; }
 .p0, .p2, .p4 { fill-opacity: .25; } .p1, .p6 { fill-opacity: .5; } .p3 { fill-opacity: .7; } .p7 { fill-opacity: .35; }
-.share { width: 5rem; height: .6rem; vertical-align: baseline; margin-right: .4rem; }
+.share { float: left; width: 5rem; height: .6rem; margin: .35em .5rem 0 0; }
 .share rect { fill: var(--soft); } .share .whole { fill: var(--rule); }
 table { border-collapse: collapse; font-size: .92rem; font-variant-numeric: tabular-nums; margin: .75rem 0 1.25rem; }
 caption { text-align: left; caption-side: top; padding-bottom: .5rem; }
@@ -110,10 +110,14 @@ th, td { padding: .34rem 1.1rem .34rem 0; text-align: left; vertical-align: base
 .number { text-align: right; }
 td.number[data-pad]::after { content: attr(data-pad); visibility: hidden; }
 td.long { white-space: normal; min-width: 16rem; }
+.facts td.long { min-width: 0; }
 .dense table { font-size: .82rem; }
 .dense th, .dense td { padding-right: .7rem; white-space: normal; }
-.dense th[scope=row], .dense .number { white-space: nowrap; }
-.dense td.long { min-width: 13rem; }
+.dense { margin-right: calc(-1 * min(8rem, max(0rem, (100vw - 62.5rem) / 2 - 1.5rem))); }
+.dense th[scope=row], .dense td.number { white-space: nowrap; }
+.dense td.words { white-space: normal; min-width: 5rem; }
+.dense .share { width: 3.2rem; }
+.dense td.long { min-width: 12rem; }
 .on-paper { display: none; }
 h4 { font-size: 1rem; margin: 1.5rem 0 .5rem; }
 th:last-child, td:last-child { padding-right: .1rem; }
@@ -129,7 +133,9 @@ footer { margin-top: 3.5rem; padding-top: 1rem; border-top: 1px solid var(--rule
   h1 { font-size: 1.7rem; }
   .pictures, .pictures.three { gap: 0 .6rem; }
   .pictures.three { grid-template-columns: minmax(0, 1fr); }
-  svg text { font-size: 15px; }
+  svg text { font-size: 14px; }
+  table { font-size: .8rem; }
+  th, td { padding-right: .5rem; white-space: normal; }
 }
 @media print {
   @page { margin: 13mm 12mm; }
@@ -139,13 +145,15 @@ footer { margin-top: 3.5rem; padding-top: 1rem; border-top: 1px solid var(--rule
   h1 { font-size: 16pt; }
   h2 { margin-top: 1.2rem; font-size: 13pt; }
   h3 { margin: 1rem 0 .3rem; }
-  h2, h3, h4, caption { break-after: avoid; }
+  h2, h3, h4, caption, h3 + p { break-after: avoid; }
   p { margin: .25rem 0 .5rem; }
   figcaption, .note, caption { font-size: 8pt; }
   figure { margin: .4rem 0 .5rem; }
   figure, tr, .glance div, .bar, pre { break-inside: avoid; }
   .glance { grid-template-columns: repeat(5, 1fr); gap: 0 1rem; margin: .7rem 0; }
   .glance dd { font-size: 1.2rem; }
+  .glance dd small, .bar ul, .scale { font-size: 8pt; }
+  .lead { font-size: 10pt; }
   .pictures { break-inside: avoid; max-width: 116mm; }
   .pictures.three { max-width: 116mm; grid-template-columns: repeat(3, minmax(0, 1fr)); }
   .plots { grid-template-columns: 1fr 1fr; }
@@ -155,8 +163,11 @@ footer { margin-top: 3.5rem; padding-top: 1rem; border-top: 1px solid var(--rule
   figure:has(.bars) { max-width: none; }
   table { font-size: 8pt; margin: .3rem 0 .6rem; }
   th, td { padding-top: .12rem; padding-bottom: .12rem; }
-  .dense table { font-size: 7pt; }
-  .dense td.long { min-width: 0; }
+  .dense { margin-right: 0; }
+  .dense table { font-size: 6.5pt; }
+  .dense td.long { min-width: 38mm; } .dense td.words { min-width: 0; }
+  .dense .share { width: 1.6rem; }
+  .dense th, .dense td { padding-right: .4rem; }
   pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: 7pt; }
   .scroll { overflow: visible; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }

@@ -29,11 +29,16 @@ class Painter {
         if (!plot_.floor) return "";
         const double top = std::clamp(y_.at(*plot_.floor), frame.top, frame.bottom);
         return fmt::format(
-                   "<rect class=\"floor\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
-                   "height=\"{:.1f}\"/>\n",
-                   frame.left, top, frame.right - frame.left, frame.bottom - top) +
-               svg_label(frame.right - 6, std::min(top + 15, frame.bottom - 5), "end",
-                         plot_.floor_label, "small");
+            "<rect class=\"floor\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
+            "height=\"{:.1f}\"/>\n",
+            frame.left, top, frame.right - frame.left, frame.bottom - top);
+    }
+
+    std::string floor_label() const {
+        if (!plot_.floor) return "";
+        const double top = std::clamp(y_.at(*plot_.floor), frame.top, frame.bottom);
+        return svg_label(frame.right - 6, std::min(top + 15, frame.bottom - 5), "end",
+                         plot_.floor_label, "small halo");
     }
 
     /// The range of the repeats: along one edge of low values, back along the high ones.
@@ -171,7 +176,7 @@ std::string svg_plot(const Plot& plot) {
     std::string svg = svg_open(plot.id, plot_width, plot_height, plot.title, plot.description);
     svg += painter.floor() + svg_axes(frame, plot.x, plot.y) + painter.front();
     for (const PlotCurve& curve : plot.curves) svg += painter.curve(curve);
-    return svg + painter.labels() + "</svg>\n";
+    return svg + painter.floor_label() + painter.labels() + "</svg>\n";
 }
 
 }  // namespace rt

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "host/report/html.h"
@@ -33,8 +34,11 @@ void add_threads_row(ThreadsCurves& curves, const PlacedRow& placed) {
     curves.predicted.points.push_back(plain_point(threads, *figures.amdahl, "", ""));
 }
 
-std::map<std::string, ThreadsCurves> threads_curves(const std::vector<PlacedRow>& rows) {
-    std::map<std::string, ThreadsCurves> curves;
+/// Shared tiles, the usual schedule, come first.
+using CurvesBySchedule = std::map<std::string, ThreadsCurves, std::greater<>>;
+
+CurvesBySchedule threads_curves(const std::vector<PlacedRow>& rows) {
+    CurvesBySchedule curves;
     for (const PlacedRow& placed : largest_rows(rows)) {
         if (placed.row->asked.uses_threads) {
             add_threads_row(curves[placed.row->asked.schedule], placed);
@@ -44,7 +48,7 @@ std::map<std::string, ThreadsCurves> threads_curves(const std::vector<PlacedRow>
 }
 
 /// "2 threads are 1.95 times as fast as one (Amdahl's law: 1.98)."
-std::string sentences(const std::map<std::string, ThreadsCurves>& curves) {
+std::string sentences(const CurvesBySchedule& curves) {
     std::string html;
     for (const auto& [schedule, pair] : curves) {
         if (pair.measured.points.size() < 2) continue;
@@ -59,7 +63,7 @@ std::string sentences(const std::map<std::string, ThreadsCurves>& curves) {
     return html;
 }
 
-Plot threads_plot(std::map<std::string, ThreadsCurves> all, std::size_t index) {
+Plot threads_plot(CurvesBySchedule all, std::size_t index) {
     Plot plot;
     plot.id = fmt::format("threads-{}", index);
     plot.title = "Speed-up against threads, measured and after Amdahl";
