@@ -29,7 +29,7 @@ double build_seconds(const ConvergeResult& result, const ConvergeCase& asked) {
     for (const BuildOffset& offset : build_offsets(result)) {
         if (offset.of.device == asked.device && offset.of.fast_math == asked.fast_math &&
             offset.of.double_precision == asked.double_precision) {
-            return offset.open + offset.first_build;
+            return offset.first_build > 0 ? offset.open + offset.first_build : 0;
         }
     }
     return 0;

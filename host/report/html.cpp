@@ -93,7 +93,9 @@ std::string cell_html(const HtmlCell& cell, const Column& column, bool is_head) 
     if (is_head) return fmt::format("<th scope=\"row\"{}>{}</th>", attributes, text);
     if (column.is_numeric) {
         const bool is_short = is_number(cell.text) || cell.text.size() < 6;
-        attributes += html_attribute("class", is_short ? "number" : "number words");
+        attributes += html_attribute("class", cell.drawn ? "number drawn"
+                                              : is_short ? "number"
+                                                         : "number words");
         const std::string pad = padding(cell.text, column);
         if (!pad.empty()) attributes += html_attribute("data-pad", pad);
     } else if (cell.text.size() > long_text) {

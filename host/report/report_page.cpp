@@ -65,12 +65,15 @@ std::string head(const Report& report) {
            "</style>\n</head>\n";
 }
 
+std::string lead_html(const std::string& text) {
+    return text.empty() ? "" : "<p class=\"lead\">" + html_text(text) + "</p>\n";
+}
+
 /// Where the page tells of several scenes: each one's verdict.
 std::string scene_verdict(const Report& report, std::size_t index) {
     const std::string verdict = verdict_text(report.scenes[index], index);
     if (report.scenes.size() == 1 || verdict.empty()) return "";
-    return "<p class=\"lead\">" + html_text(verdict + ". ") +
-           html_text(verdict_details(report.scenes[index], index)) + "</p>\n";
+    return lead_html(verdict + ". " + verdict_details(report.scenes[index], index));
 }
 
 std::string scene_html(const Report& report, std::size_t index) {
@@ -159,10 +162,10 @@ std::string data_html(const Report& report) {
 }  // namespace
 
 std::string report_page(const Report& report) {
-    std::string html = head(report) + "<body>\n<header>\n<h1>" + html_text(headline(report)) +
-                       "</h1>\n<p class=\"lead\">";
-    if (report.scenes.size() == 1) html += html_text(verdict_details(report.scenes.front(), 0));
-    html += "</p>\n<p class=\"note\">A mirrorball report, measured in one go on " +
+    std::string html =
+        head(report) + "<body>\n<header>\n<h1>" + html_text(headline(report)) + "</h1>\n";
+    if (report.scenes.size() == 1) html += lead_html(verdict_details(report.scenes.front(), 0));
+    html += "<p class=\"note\">A mirrorball report, measured in one go on " +
             html_text(machine_and_date(report)) + ".</p>\n" + warnings_html(report) +
             navigation(report) + "</header>\n<main>\n";
     for (std::size_t i = 0; i < report.scenes.size(); ++i) html += scene_html(report, i);

@@ -102,7 +102,8 @@ svg text.halo { paint-order: stroke; stroke: var(--paper); stroke-width: 4px; st
 .box { width: .7em; height: .7em; margin-right: .35em; }
 .part { fill: var(--c); stroke: var(--paper); stroke-width: 1; vector-effect: non-scaling-stroke; }
 .p0, .p2, .p4 { fill-opacity: .25; } .p1, .p6 { fill-opacity: .5; } .p3 { fill-opacity: .7; } .p7 { fill-opacity: .35; }
-.share { float: left; width: 5rem; height: .6rem; margin: .35em .5rem 0 0; }
+td.drawn { position: relative; padding-left: 3.8rem; }
+.share { position: absolute; left: 0; top: .75em; width: 3.4rem; height: .6rem; }
 .share rect { fill: var(--soft); } .share .whole { fill: var(--rule); }
 table { border-collapse: collapse; font-size: .92rem; font-variant-numeric: tabular-nums; margin: .75rem 0 1.25rem; }
 caption { text-align: left; caption-side: top; padding-bottom: .5rem; }
@@ -116,7 +117,6 @@ td.long { white-space: normal; min-width: 16rem; }
 .dense { margin-right: calc(-1 * min(8rem, max(0rem, (100vw - 62.5rem) / 2 - 1.5rem))); }
 .dense th[scope=row], .dense td.number { white-space: nowrap; }
 .dense td.words { white-space: normal; min-width: 5rem; }
-.dense .share { width: 3.2rem; }
 .dense td.long { min-width: 12rem; }
 .on-paper { display: none; }
 h4 { font-size: 1rem; margin: 1.5rem 0 .5rem; }
@@ -166,7 +166,7 @@ footer { margin-top: 3.5rem; padding-top: 1rem; border-top: 1px solid var(--rule
   .dense { margin-right: 0; }
   .dense table { font-size: 6.5pt; }
   .dense td.long { min-width: 38mm; } .dense td.words { min-width: 0; }
-  .dense .share { width: 1.6rem; }
+  td.drawn { padding-left: 2rem; } .share { width: 1.7rem; top: .4em; }
   .dense th, .dense td { padding-right: .4rem; }
   pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: 7pt; }
   .scroll { overflow: visible; }

@@ -77,8 +77,8 @@ class Painter {
             "<path class=\"offset\" d=\"M{:.1f} {:.1f}H{:.1f}{}\">"
             "<title>{}</title></path>\n",
             x_.at(point.x), y, to, to < frame.right ? "m0 -5v10" : "",
-            html_text(curve.label +
-                      " with its kernels built: " + duration_text(*point.x_with_build)));
+            html_text(point.title +
+                      "; with its kernels built: " + duration_text(*point.x_with_build)));
     }
 
     std::string curve(const PlotCurve& curve) const {

@@ -34,13 +34,12 @@ std::string correctness_text(const BenchResult& bench) {
                        timed, scientific_text(rounding));
 }
 
-/// "Counting set-up too, it takes 41 ms: 3.5 times one thread."
+/// "With set-up it takes 41 ms, one thread 330 ms."
 std::string total_text(const BenchFigures& figures) {
-    const std::string time =
-        fmt::format("With set-up it takes {}", duration_text(figures.total.median));
-    if (!figures.speed_up || figures.threads == 1) return time + ".";
-    return fmt::format("{}: {} times as fast as one thread with its own.", time,
-                       significant(*figures.speed_up, 3));
+    const double total = figures.total.median;
+    const bool alone = !figures.speed_up || figures.threads == 1;
+    return fmt::format("With set-up it takes {}{}.", duration_text(total),
+                       alone ? "" : ", one thread " + duration_text(*figures.speed_up * total));
 }
 
 }  // namespace
