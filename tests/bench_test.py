@@ -94,7 +94,10 @@ class Bench(FiguresTest):
     def test_rows_are_complete_and_right(self):
         threads = {(r["width"], r["aa"], r["precision"], r["device"], r["schedule"])
                    for r in self.result["rows"] if r["device_name"] == "threads"}
-        self.assertEqual(len(threads), 2 * 2 * 2 * 4 - 2 * 2)  # one buffer has work for one thread
+        # One buffer has work for one thread; and each picture without vectors on one and on two.
+        self.assertEqual(len(threads), 2 * 2 * 2 * 4 - 2 * 2 + 2 * 2 * 2 * 2)
+        self.assertEqual({run["device"]["lanes"] for row in self.result["rows"]
+                          for run in row["repeats"] if row["schedule"] == "scalar"}, {1})
         for row in self.result["rows"]:
             self.assertEqual(row["verdict"], "right", row["why"])
             self.assertEqual((len(row["warm_up"]), len(row["repeats"])), (1, 5))

@@ -208,7 +208,8 @@ class Report(unittest.TestCase):
         self.assert_shown(found[3], trace(fastest))
         self.assertEqual(found[1], "PoCL" if not fastest["threads"] else
                          f"{fastest['threads']} thread" + "s" * (fastest["threads"] > 1) +
-                         ", a buffer each" * (fastest["schedule"] == "buffers"))
+                         ", a buffer each" * (fastest["schedule"] == "buffers") +
+                         ", one ray at a time" * (fastest["schedule"] == "scalar"))
         if found[4]:
             self.assert_shown(found[4], fastest["figures"]["trace_speed_up"])
         title = html.unescape(re.search(r"<title>(.*?)</title>", TEXT, re.S)[1])

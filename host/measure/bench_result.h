@@ -27,7 +27,8 @@ struct BenchCase {
     std::string device;         ///< spec for --device: "threads:2", "0"
     std::string device_name;    ///< "threads", or the OpenCL device's own name
     int threads = 0;            ///< asked for; 0 for OpenCL
-    std::string schedule;       ///< "tiles" or "buffers"; empty for OpenCL
+    std::string schedule;       ///< "tiles", "buffers" or "scalar" (tiles, one ray at a time);
+                                ///< empty for OpenCL
     std::string change;         ///< of an ablation: what is not as usual; empty: nothing
 };
 

@@ -17,15 +17,19 @@ std::vector<PictureSize> parse_sizes(const std::string& text) {
     return sizes;
 }
 
-std::vector<Schedule> parse_schedules(const std::string& text) {
-    std::vector<Schedule> schedules;
+void parse_schedules(const std::string& text, BenchOptions& bench) {
+    bench.schedules.clear();
+    bench.scalar = false;
     for (const std::string& part : split_list("--schedules", text)) {
-        if (part != "tiles" && part != "buffers") {
-            refuse("--schedules", part, "give tiles, buffers or tiles,buffers");
+        if (part == "scalar") {
+            bench.scalar = true;
+            continue;
         }
-        schedules.push_back(part == "tiles" ? Schedule::tiles : Schedule::buffers);
+        if (part != "tiles" && part != "buffers") {
+            refuse("--schedules", part, "give some of tiles,buffers,scalar");
+        }
+        bench.schedules.push_back(part == "tiles" ? Schedule::tiles : Schedule::buffers);
     }
-    return schedules;
 }
 
 void add_baseline(const CommandLine& verb, BenchOptions& bench) {
@@ -64,8 +68,11 @@ void add_bench(const CommandLine& program, Options& options) {
               "'threads' is timed with 1 to N threads (default: all cores)");
     add_precisions(verb, bench.precisions);
     add_light_options(verb, bench.light);
-    verb.option("--schedules", "LIST", "of pthreads (default tiles,buffers)",
-                [&](const std::string& text) { bench.schedules = parse_schedules(text); });
+    verb.option(
+        "--schedules", "LIST",
+        "of pthreads: tiles, buffers, scalar (tiles, one ray at a time; on one thread and on "
+        "the most); default: all",
+        [&](const std::string& text) { parse_schedules(text, bench); });
     add_count(verb, "--repeats", bench.repeats, 1, 1000,
               "timed rounds after the warm-up (default 5)");
     add_baseline(verb, bench);

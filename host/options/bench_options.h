@@ -24,6 +24,7 @@ struct BenchOptions {
     int threads = 0;  ///< "threads" runs with 1 to this many; 0: all cores
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
     std::vector<Schedule> schedules{Schedule::tiles, Schedule::buffers};
+    bool scalar = true;  ///< also threads without vectors: one ray at a time
     LightOverrides light;
     int repeats = 5;  ///< without the warm-up
     ResultFiles results;

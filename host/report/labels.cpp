@@ -19,7 +19,9 @@ std::string device_label(const BenchRow& row) {
     const BenchCase& asked = row.asked;
     if (asked.uses_threads) {
         return fmt::format("{} thread{}{}", asked.threads, asked.threads == 1 ? "" : "s",
-                           asked.schedule == "buffers" ? ", a buffer each" : "");
+                           asked.schedule == "buffers"  ? ", a buffer each"
+                           : asked.schedule == "scalar" ? ", one ray at a time"
+                                                        : "");
     }
     return row.repeats.empty() ? asked.device_name : device_label(row.repeats.front());
 }

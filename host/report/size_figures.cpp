@@ -13,7 +13,7 @@ namespace rt {
 namespace {
 
 // Dashes and markers of threads: the most there are; one alone; a buffer each.
-constexpr int most_threads_style = 0, one_thread_style = 1, buffers_style = 2;
+constexpr int most_threads_style = 0, one_thread_style = 1, buffers_style = 2, scalar_style = 3;
 
 /// A square's side, of any other picture the side of the square as large.
 double side_of(const BenchCase& asked) { return std::sqrt(static_cast<double>(pixels_of(asked))); }
@@ -45,16 +45,19 @@ PlotPoint ratio_point(const PlacedRow& placed) {
 int style_of(const BenchCase& asked) {
     if (!asked.uses_threads) return 0;
     if (asked.schedule == "buffers") return buffers_style;
+    if (asked.schedule == "scalar") return scalar_style;
     return asked.threads == 1 ? one_thread_style : most_threads_style;
 }
 
-/// The largest picture's rows that get a curve: OpenCL, and threads at their most and alone.
+/// The largest picture's rows that get a curve: OpenCL, and threads at their most and alone, with
+/// vectors and without.
 std::vector<PlacedRow> drawn_devices(const std::vector<PlacedRow>& rows) {
     std::vector<PlacedRow> devices = largest_rows(rows);
     int most = 1;
     for (const PlacedRow& placed : devices) most = std::max(most, placed.row->asked.threads);
     std::erase_if(devices, [&](const PlacedRow& placed) {
         const BenchCase& asked = placed.row->asked;
+        if (asked.schedule == "scalar") return asked.threads != 1;
         return asked.uses_threads && asked.threads != most &&
                (asked.threads != 1 || asked.schedule == "buffers");
     });

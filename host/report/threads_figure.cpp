@@ -40,7 +40,7 @@ using CurvesBySchedule = std::map<std::string, ThreadsCurves, std::greater<>>;
 CurvesBySchedule threads_curves(const std::vector<PlacedRow>& rows) {
     CurvesBySchedule curves;
     for (const PlacedRow& placed : largest_rows(rows)) {
-        if (placed.row->asked.uses_threads) {
+        if (placed.row->asked.uses_threads && placed.row->asked.schedule != "scalar") {
             add_threads_row(curves[placed.row->asked.schedule], placed);
         }
     }

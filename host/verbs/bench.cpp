@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <set>
 
 #include "host/console.h"
 #include "host/error.h"
@@ -134,7 +135,8 @@ class Plan {
         }
     }
 
-    /// threads: 1 to N threads in every schedule; threads:K: K alone. In the schedule by buffers no
+    /// threads: 1 to N threads in every schedule; threads:K: K alone; then without vectors, which
+    /// says what those give. In the schedule by buffers no
     /// more threads run than a pixel has samples.
     void add_threads_rows(const LoadedScene& loaded, RenderSettings picture,
                           const ListedDevice& device) {
@@ -148,6 +150,12 @@ class Plan {
                 picture.schedule = schedule;
                 add_row(loaded, picture, with_threads(device, threads));
             }
+        }
+        if (!options_.scalar) return;
+        picture.schedule = Schedule::tiles;
+        picture.lanes = 1;
+        for (const int threads : std::set{first, last}) {
+            add_row(loaded, picture, with_threads(device, threads));
         }
     }
 
@@ -192,7 +200,9 @@ class Plan {
         asked.threads = device.threads;
         asked.change = change;
         if (device.is_threads) {
-            asked.schedule = picture.schedule == Schedule::tiles ? "tiles" : "buffers";
+            asked.schedule = picture.lanes == 1                    ? "scalar"
+                             : picture.schedule == Schedule::tiles ? "tiles"
+                                                                   : "buffers";
         }
         row.timed.scene = &loaded.scene;
         row.timed.reference = &references_.back();
