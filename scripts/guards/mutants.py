@@ -91,8 +91,8 @@ MUTANTS = [
     ], [("bench_test.py", "Bench.test_rounds_go_over_all_rows")]),
     Mutant("bench ignores its judge", [
         (V + "timing_loop.cpp",
-         "judgment.why_wrong.empty() ? what_changed(timed, run) : judgment.why_wrong;",
-         "what_changed(timed, run);"),
+         "judgment.why_wrong.empty() ? what_differs(timed, run) : judgment.why_wrong;",
+         "what_differs(timed, run);"),
     ], driver("Bench.test_a_picture_far_from_the_reference_is_wrong")),
     Mutant("bench overlooks pictures that change", [
         (V + "timing_loop.cpp", "runs->front().image_hash == run.image_hash) continue;",
@@ -131,7 +131,7 @@ MUTANTS = [
          "if (!(costs[i].rmse < 2 * best)) continue;"),
     ], [("host_bench_test", "Pareto.*")]),
     Mutant("RMSE over pixels instead of values", [
-        (M + "image_error.cpp", "(pixels - error.non_finite) * channels);",
+        ("host/image/image_error.cpp", "(pixels - error.non_finite) * channels);",
          "(pixels - error.non_finite));"),
     ], [("host_compare_test", "ImageError.*")]),
     Mutant("shifted pictures pass", [

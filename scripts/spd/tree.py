@@ -17,7 +17,7 @@ def count(size):
     return {"c": branches, "s": branches, "p": 1}
 
 
-class LaunchParams:
+class Frame:
     """Where a branch stands: its foot, and what x, y and z of a branch become."""
 
     def __init__(self, foot, axes):
