@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/crew.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
+#include <future>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -49,6 +54,19 @@ RendererTimes without(RendererTimes times, const RendererTimes& before) {
     times.read_back -= before.read_back;
     times.pixels -= before.pixels;
     return times;
+}
+
+/// Runs the work on a thread that leaves most of a busy processor to the others, such as those that
+/// already trace while a driver compiles. Priorities cannot be raised again, hence its own thread.
+void behind_the_others(const std::function<void()>& work) {
+    constexpr int niceness = 5;
+    std::packaged_task<void()> task([&] {
+        setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness);
+        work();
+    });
+    std::thread thread(std::ref(task));
+    thread.join();
+    task.get_future().get();
 }
 
 /// Runs of pixels that several renderers take from each other.
@@ -187,12 +205,15 @@ void Crew<T>::serve(const std::shared_ptr<Team>& team, Place& place) {
         team->changed.notify_all();
     };
     Place made;
-    try {
+    const auto make = [&] {
         made.renderer = place.member.make();
         const Stopwatch watch;
         if (place.member.test) place.member.test(*made.renderer);
         made.check = watch.seconds();
         made.before = made.renderer->times();
+    };
+    try {
+        behind_the_others(make);
     } catch (...) {
         return fail();
     }

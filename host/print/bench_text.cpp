@@ -107,9 +107,10 @@ std::string ablation_text(const BenchResult& result) {
 
 constexpr const char* legend =
     "Medians; +-%: median absolute deviation. total: flatten, open, build, upload,\n"
-    "trace, resolve, read back. speed-up: over one thread. Amdahl: the speed-up of\n"
-    "total that it predicts, 1/((1-f)+f/n), f = trace/total of one thread. RMSE: from\n"
-    "the same samples in double, clamped to [0,1].\n";
+    "trace, resolve, read back. speed-up: over one thread of the same kind, for\n"
+    "devices over tiles. Amdahl: the speed-up of total that it predicts,\n"
+    "1/((1-f)+f/n), f = trace/total of one thread. scalar: one ray at a time. RMSE:\n"
+    "from the same samples in double, clamped to [0,1].\n";
 
 }  // namespace
 
