@@ -7,6 +7,7 @@
 #include "host/opencl/cl_buffer.h"
 #include "host/opencl/cl_program.h"
 #include "host/opencl/cl_scene.h"
+#include "host/opencl/cl_tiles.h"
 
 namespace rt {
 

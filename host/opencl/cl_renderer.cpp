@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <deque>
 #include <filesystem>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "host/opencl/cl_film.h"
 #include "host/opencl/cl_program.h"
 #include "host/opencl/cl_scene.h"
+#include "host/opencl/cl_tiles.h"
 #include "host/pocl/pocl_cache.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"
@@ -29,14 +29,6 @@ namespace {
 constexpr std::size_t single_group = 64;
 constexpr std::size_t packet_group = 1;
 
-/// Work items of one launch. PoCL compiles a kernel again when a grid passes 64 K items, so a CPU
-/// launch stays below; a GPU wants more to fill up.
-constexpr std::size_t cpu_items = 65536 - single_group;
-constexpr std::size_t gpu_items = 1u << 20;
-
-/// Samples of a tile: what an interrupt may lose, and what launches are put together from.
-constexpr std::size_t tile_samples = 1u << 14;
-
 /// Samples of the first launch, of which nothing is known, and of the longest.
 constexpr std::int64_t cpu_first_samples = 1 << 17, cpu_most_samples = 1 << 22;
 constexpr std::int64_t gpu_first_samples = 1 << 20, gpu_most_samples = 1 << 24;
@@ -46,8 +38,6 @@ constexpr std::size_t launches_in_flight = 2;
 constexpr double progress_seconds = 0.2;
 
 std::size_t divided_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
-
-std::size_t most_items(const ClDevice& device) { return device.is_cpu ? cpu_items : gpu_items; }
 
 /// The wall-clock seconds that the device spent between two commands' start and end.
 double device_seconds(const cl::Event& event) {
@@ -400,43 +390,6 @@ class ClRenderer : public Renderer<T> {
 };
 
 }  // namespace
-
-bool launches_samples(Launch launch, const ClDevice& device) {
-    return launch == Launch::sample || (launch == Launch::automatic && !device.is_cpu);
-}
-
-template <typename T>
-int packet_lanes(int asked_for, const ClDevice& device) {
-    if (asked_for != 0) return asked_for;
-    if (!device.is_cpu) return 1;
-    const unsigned native = sizeof(T) == sizeof(float) ? device.float_lanes : device.double_lanes;
-    return static_cast<int>(std::bit_floor(std::clamp(native, 1u, 16u)));
-}
-
-template int packet_lanes<float>(int, const ClDevice&);
-template int packet_lanes<double>(int, const ClDevice&);
-
-template <typename T>
-ClTiles cl_tiles(const typename Flat<T>::LaunchParams& params, const ClDevice& device,
-                 const ClOptions& options, int film_width) {
-    const auto samples = static_cast<std::size_t>(params.samples);
-    const PacketShape block =
-        packet_shape(packet_lanes<T>(options.lanes, device), static_cast<int>(samples));
-    const auto blocks = static_cast<int>(std::max<std::size_t>(
-        tile_samples / (samples * static_cast<std::size_t>(block.pixels())), 1));
-    const int across = (film_width + block.width - 1) / block.width;
-    const int width = std::min(film_width, std::min(across, blocks) * block.width);
-    // A tile has no more packets than pixels, whatever its shape.
-    const std::size_t items = most_items(device);
-    return {{0, 0, width, std::max(blocks / across, 1) * block.height},
-            static_cast<std::int64_t>(launches_samples(options.launch, device) ? items / samples
-                                                                               : items)};
-}
-
-template ClTiles cl_tiles<float>(const Flat<float>::LaunchParams&, const ClDevice&,
-                                 const ClOptions&, int);
-template ClTiles cl_tiles<double>(const Flat<double>::LaunchParams&, const ClDevice&,
-                                  const ClOptions&, int);
 
 template <typename T>
 std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const ClDevice& device,

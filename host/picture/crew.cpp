@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/crew.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <functional>
-#include <future>
 #include <limits>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "host/error.h"
+#include "host/low_priority.h"
+#include "host/picture/pixel_runs.h"
 #include "host/render/stopwatch.h"
 
 namespace rt {
@@ -55,48 +52,6 @@ RendererTimes without(RendererTimes times, const RendererTimes& before) {
     times.pixels -= before.pixels;
     return times;
 }
-
-/// Runs the work on a thread that leaves most of a busy processor to the others, such as those that
-/// already trace while a driver compiles. Priorities cannot be raised again, hence its own thread.
-void behind_the_others(const std::function<void()>& work) {
-    constexpr int niceness = 5;
-    std::packaged_task<void()> task([&] {
-        setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness);
-        work();
-    });
-    std::thread thread(std::ref(task));
-    thread.join();
-    task.get_future().get();
-}
-
-/// Runs of pixels that several renderers take from each other.
-class PixelRuns {
-   public:
-    PixelRuns(std::span<const std::int32_t> pixels, std::size_t run) {
-        for (std::size_t at = 0; at < pixels.size(); at += run) {
-            runs_.push_back(pixels.subspan(at, std::min(run, pixels.size() - at)));
-        }
-    }
-    std::optional<std::span<const std::int32_t>> take() {
-        const std::scoped_lock lock(mutex_);
-        if (runs_.empty()) return std::nullopt;
-        const auto run = runs_.back();
-        runs_.pop_back();
-        return run;
-    }
-    void give_back(std::span<const std::int32_t> run) {
-        const std::scoped_lock lock(mutex_);
-        runs_.push_back(run);
-    }
-    bool empty() {
-        const std::scoped_lock lock(mutex_);
-        return runs_.empty();
-    }
-
-   private:
-    std::mutex mutex_;
-    std::vector<std::span<const std::int32_t>> runs_;
-};
 
 }  // namespace
 
@@ -213,7 +168,7 @@ void Crew<T>::serve(const std::shared_ptr<Team>& team, Place& place) {
         made.before = made.renderer->times();
     };
     try {
-        behind_the_others(make);
+        run_at_low_priority(make);
     } catch (...) {
         return fail();
     }

@@ -2,6 +2,7 @@
 #include "host/picture/crew_members.h"
 
 #include "host/opencl/cl_renderer.h"
+#include "host/opencl/cl_tiles.h"
 #include "host/picture/tile_check.h"
 
 namespace rt {

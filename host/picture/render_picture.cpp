@@ -12,7 +12,7 @@
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/memory_limit.h"
-#include "host/opencl/cl_renderer.h"
+#include "host/opencl/cl_tiles.h"
 #include "host/picture/crew_members.h"
 #include "host/picture/tile_check.h"
 #include "host/render/picture_loop.h"

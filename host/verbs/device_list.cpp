@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "host/console.h"
-#include "host/opencl/cl_renderer.h"
+#include "host/opencl/cl_tiles.h"
 #include "host/opencl/device_spec.h"
 #include "host/pocl/pocl_environment.h"
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opencl/cl_tiles.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "host/render/packet_shape.h"
+
+namespace rt {
+
+namespace {
+
+/// Below 64 K by a work group of 64.
+constexpr std::size_t cpu_items = 65536 - 64;
+constexpr std::size_t gpu_items = 1u << 20;
+
+/// Samples of a tile: what an interrupt may lose, and what launches are put together from.
+constexpr std::size_t tile_samples = 1u << 14;
+
+}  // namespace
+
+std::size_t most_items(const ClDevice& device) { return device.is_cpu ? cpu_items : gpu_items; }
+
+bool launches_samples(Launch launch, const ClDevice& device) {
+    return launch == Launch::sample || (launch == Launch::automatic && !device.is_cpu);
+}
+
+template <typename T>
+int packet_lanes(int asked_for, const ClDevice& device) {
+    if (asked_for != 0) return asked_for;
+    if (!device.is_cpu) return 1;
+    const unsigned native = sizeof(T) == sizeof(float) ? device.float_lanes : device.double_lanes;
+    return static_cast<int>(std::bit_floor(std::clamp(native, 1u, 16u)));
+}
+
+template int packet_lanes<float>(int, const ClDevice&);
+template int packet_lanes<double>(int, const ClDevice&);
+
+template <typename T>
+ClTiles cl_tiles(const typename Flat<T>::LaunchParams& params, const ClDevice& device,
+                 const ClOptions& options, int film_width) {
+    const auto samples = static_cast<std::size_t>(params.samples);
+    const PacketShape block =
+        packet_shape(packet_lanes<T>(options.lanes, device), static_cast<int>(samples));
+    const auto blocks = static_cast<int>(std::max<std::size_t>(
+        tile_samples / (samples * static_cast<std::size_t>(block.pixels())), 1));
+    const int across = (film_width + block.width - 1) / block.width;
+    const int width = std::min(film_width, std::min(across, blocks) * block.width);
+    // A tile has no more packets than pixels, whatever its shape.
+    const std::size_t items = most_items(device);
+    return {{0, 0, width, std::max(blocks / across, 1) * block.height},
+            static_cast<std::int64_t>(launches_samples(options.launch, device) ? items / samples
+                                                                               : items)};
+}
+
+template ClTiles cl_tiles<float>(const Flat<float>::LaunchParams&, const ClDevice&,
+                                 const ClOptions&, int);
+template ClTiles cl_tiles<double>(const Flat<double>::LaunchParams&, const ClDevice&,
+                                  const ClOptions&, int);
+
+}  // namespace rt
