@@ -68,6 +68,8 @@ HtmlTable paper_table(const std::vector<PlacedRow>& rows) {
 std::string paper_tables(const std::vector<PlacedRow>& rows) {
     std::vector<std::vector<PlacedRow>> groups;
     for (const PlacedRow& placed : rows) {
+        if (placed.row->asked.schedule == "scalar")
+            continue;  // in the plot, and in every row's table
         const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& others) {
             const BenchCase& other = others.front().row->asked;
             return other.aa == placed.row->asked.aa &&
