@@ -310,7 +310,7 @@ rt::StressFamilyResult stress_family(const std::string& name, double error, doub
     rt::StressFamilyResult family{name, "size", "it is hard", {}, std::nullopt};
     rt::StressCaseResult one;
     one.label = "1";
-    one.bar.max_error = allowed;
+    one.tolerance.max_error = allowed;
     one.rows.emplace_back().figures.max_error = error;
     one.rows.front().why = broken;
     family.cases.push_back(one);

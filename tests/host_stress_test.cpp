@@ -87,7 +87,7 @@ TEST(StressJudge, TheReferenceItselfIsRight) {
     const PictureFigures figures = judge_stress_picture(reference.as_picture(), reference);
     EXPECT_EQ(figures.wrong + figures.wrong_at_edges + figures.nans, 0U);
     EXPECT_LT(figures.max_error, 1e-7);
-    EXPECT_EQ(broken_bar(figures, StressBar{}), "");
+    EXPECT_EQ(exceeded_tolerance(figures, StressTolerance{}), "");
 }
 
 /// A pixel in the middle of the floor, and one of the background.
@@ -99,12 +99,12 @@ TEST(StressJudge, ABrokenPictureFails) {
     PictureFigures figures = judge_stress_picture(picture, reference);
     EXPECT_EQ(figures.wrong, 1U);
     EXPECT_NEAR(figures.max_error, 0.01, 1e-6);
-    EXPECT_EQ(broken_bar(figures, StressBar{}), "1 pixels are wrong");
+    EXPECT_EQ(exceeded_tolerance(figures, StressTolerance{}), "1 pixels are wrong");
     picture = right;
     picture.pixels[3 * (25 * 40 + 3)] += 0.001F;
     figures = judge_stress_picture(picture, reference);
     EXPECT_EQ(figures.wrong, 0U);
-    EXPECT_EQ(broken_bar(figures, StressBar{}), "off by 0.001");
+    EXPECT_EQ(exceeded_tolerance(figures, StressTolerance{}), "off by 0.001");
 }
 
 TEST(StressJudge, NaNIsWrongAndInfinityOnlySaturates) {
@@ -114,14 +114,14 @@ TEST(StressJudge, NaNIsWrongAndInfinityOnlySaturates) {
     PictureFigures figures = judge_stress_picture(picture, reference);
     EXPECT_EQ(figures.nans, 1U);
     EXPECT_EQ(figures.wrong + figures.wrong_at_edges, 1U);
-    EXPECT_NE(broken_bar(figures, StressBar{}), "");
-    StressBar bright;
+    EXPECT_NE(exceeded_tolerance(figures, StressTolerance{}), "");
+    StressTolerance bright;
     bright.may_overflow = true;
-    EXPECT_NE(broken_bar(figures, bright), "");
+    EXPECT_NE(exceeded_tolerance(figures, bright), "");
     figures = {};
     figures.infinities = 1;
-    EXPECT_NE(broken_bar(figures, StressBar{}), "");
-    EXPECT_EQ(broken_bar(figures, bright), "");
+    EXPECT_NE(exceeded_tolerance(figures, StressTolerance{}), "");
+    EXPECT_EQ(exceeded_tolerance(figures, bright), "");
 }
 
 /// A floor's edge against the background runs through some pixels: a change there is forgiven, and

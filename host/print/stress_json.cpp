@@ -21,12 +21,12 @@ Json limit_json(std::size_t limit) {
 /// null for what is not finite
 Json number_json(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
-Json bar_json(const StressBar& bar) {
-    return {{"wrong", limit_json(bar.most_wrong)},
-            {"wrong_at_edges", limit_json(bar.most_wrong_at_edges)},
-            {"max_error", bar.max_error},
-            {"may_overflow", bar.may_overflow},
-            {"in_float", bar.in_float}};
+Json tolerance_json(const StressTolerance& tolerance) {
+    return {{"wrong", limit_json(tolerance.most_wrong)},
+            {"wrong_at_edges", limit_json(tolerance.most_wrong_at_edges)},
+            {"max_error", tolerance.max_error},
+            {"may_overflow", tolerance.may_overflow},
+            {"in_float", tolerance.in_float}};
 }
 
 const char* verdict_of(const StressRow& row) {
@@ -66,7 +66,7 @@ Json case_json(const StressCaseResult& one) {
     return {{"label", one.label},
             {"value", one.value},
             {"passed", one.passed()},
-            {"bar", bar_json(one.bar)},
+            {"bar", tolerance_json(one.tolerance)},
             {"disagreement", one.disagreement},
             {"reference_seconds", one.reference_seconds},
             {"rows", rows}};

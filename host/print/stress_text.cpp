@@ -45,7 +45,7 @@ std::string family_worst(const StressFamilyResult& family) {
 
 std::string family_bar(const StressFamilyResult& family) {
     if (has_texts(family)) return "refused, or no NaN";
-    return bar_text(loosest_bar(family));
+    return tolerance_text(loosest_tolerance(family));
 }
 
 std::string row_name(const StressRow& row) {
@@ -114,21 +114,22 @@ std::string family_lines(const StressFamilyResult& family, bool naive, bool verb
 
 }  // namespace
 
-std::string bar_text(const StressBar& bar) {
-    std::string text = fmt::format("{} wrong, {:.0e}", count_text(bar.most_wrong), bar.max_error);
-    if (bar.most_wrong_at_edges != no_limit) {
-        text += fmt::format(", {} at edges", bar.most_wrong_at_edges);
+std::string tolerance_text(const StressTolerance& tolerance) {
+    std::string text =
+        fmt::format("{} wrong, {:.0e}", count_text(tolerance.most_wrong), tolerance.max_error);
+    if (tolerance.most_wrong_at_edges != no_limit) {
+        text += fmt::format(", {} at edges", tolerance.most_wrong_at_edges);
     }
     return text;
 }
 
-StressBar loosest_bar(const StressFamilyResult& family) {
-    StressBar loosest{0, 0, 0, false, true};
+StressTolerance loosest_tolerance(const StressFamilyResult& family) {
+    StressTolerance loosest{0, 0, 0, false, true};
     for (const StressCaseResult& one : family.cases) {
-        loosest.most_wrong = std::max(loosest.most_wrong, one.bar.most_wrong);
+        loosest.most_wrong = std::max(loosest.most_wrong, one.tolerance.most_wrong);
         loosest.most_wrong_at_edges =
-            std::max(loosest.most_wrong_at_edges, one.bar.most_wrong_at_edges);
-        loosest.max_error = std::max(loosest.max_error, one.bar.max_error);
+            std::max(loosest.most_wrong_at_edges, one.tolerance.most_wrong_at_edges);
+        loosest.max_error = std::max(loosest.max_error, one.tolerance.max_error);
     }
     return loosest;
 }
@@ -139,9 +140,9 @@ std::string stress_text(const StressResult& result, bool verbose) {
                                        const auto& rows = family.cases.front().rows;
                                        return !rows.empty() && rows.back().naive;
                                    });
-    std::string text =
-        fmt::format("{:<20} {:>3}  {:<36} {:<20}{} {:<4}  {}\n", "family", "n", "worst", "bar",
-                    naive ? fmt::format(" {:>8} {:>8}", "naive", "its NaN") : "", "", "why");
+    std::string text = fmt::format(
+        "{:<20} {:>3}  {:<36} {:<20}{} {:<4}  {}\n", "family", "n", "worst", "tolerance",
+        naive ? fmt::format(" {:>8} {:>8}", "naive", "its NaN") : "", "", "why");
     for (const StressFamilyResult& family : result.families) {
         text += family_lines(family, naive, verbose);
     }

@@ -8,17 +8,17 @@
 
 namespace rt {
 
-/// A line per family: cases, worst figures, bar, verdict, why it matters; the broken cases below
-/// their family. Verbose: a line per case and renderer.
+/// A line per family: cases, worst figures, tolerance, verdict, why it matters; the broken cases
+/// below their family. Verbose: a line per case and renderer.
 std::string stress_text(const StressResult& result, bool verbose);
 
 /// The names of the families and their cases; those of --quick are marked.
 std::string stress_list(const std::vector<StressFamily>& families);
 
 /// What a case allows, in a few words: "0 wrong, 1e-04".
-std::string bar_text(const StressBar& bar);
+std::string tolerance_text(const StressTolerance& tolerance);
 
-/// The largest bar of a family's cases, likewise.
-StressBar loosest_bar(const StressFamilyResult& family);
+/// The largest tolerance of a family's cases, likewise.
+StressTolerance loosest_tolerance(const StressFamilyResult& family);
 
 }  // namespace rt

@@ -13,7 +13,8 @@ std::optional<double> used_tolerance(const StressFamilyResult& family) {
         for (const StressRow& row : one.rows) {
             if (row.naive || !row.judged || row.refused + row.rendered > 0) continue;
             const double error = row.rays ? row.rays->max_error : row.figures.max_error;
-            if (one.bar.max_error > 0) most = std::max(most.value_or(0), error / one.bar.max_error);
+            if (one.tolerance.max_error > 0)
+                most = std::max(most.value_or(0), error / one.tolerance.max_error);
         }
     }
     return most;

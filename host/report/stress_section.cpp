@@ -47,10 +47,10 @@ std::string time_text(const StressFamilyResult& family, bool naive) {
 }
 
 /// The largest error allowed, and what else is, where that is not the usual "no wrong pixel".
-std::string allowed_text(const StressBar& bar) {
-    const bool usual =
-        bar.most_wrong == 0 && bar.most_wrong_at_edges == StressBar{}.most_wrong_at_edges;
-    return usual ? scientific_text(bar.max_error, 1) : bar_text(bar);
+std::string allowed_text(const StressTolerance& tolerance) {
+    const bool usual = tolerance.most_wrong == 0 &&
+                       tolerance.most_wrong_at_edges == StressTolerance{}.most_wrong_at_edges;
+    return usual ? scientific_text(tolerance.max_error, 1) : tolerance_text(tolerance);
 }
 
 bool has_naive_rows(const StressFamilyResult& family) {
@@ -75,7 +75,7 @@ std::vector<HtmlCell> verdict_row(const StressFamilyResult& family, std::size_t 
             {family.passed() ? "pass" : "fail", "", !family.passed()},
             margin_cell(family),
             {scientific_text(worst.max_error), ""},
-            {allowed_text(loosest_bar(family)), ""},
+            {allowed_text(loosest_tolerance(family)), ""},
             {std::to_string(worst.wrong), ""},
             {has_naive ? std::to_string(naive.wrong) : "", ""},
             {has_naive ? scientific_text(naive.max_error) : "", ""},

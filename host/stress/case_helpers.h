@@ -14,15 +14,15 @@ enum class InQuick { no, yes };
 
 /// A picture of the scene against its reference.
 inline StressCase picture_case(std::string label, double value, InQuick quick,
-                               std::function<Scene()> scene, StressBar bar = {},
+                               std::function<Scene()> scene, StressTolerance tolerance = {},
                                ReferenceKind reference = ReferenceKind::quad) {
     PictureTrial trial{std::move(scene), {}, reference, ""};
-    return {std::move(label), value, bar, std::move(trial), quick == InQuick::yes};
+    return {std::move(label), value, tolerance, std::move(trial), quick == InQuick::yes};
 }
 
 inline StressCase ray_case(std::string label, double value, InQuick quick, RayTrial trial,
-                           StressBar bar = {}) {
-    return {std::move(label), value, bar, std::move(trial), quick == InQuick::yes};
+                           StressTolerance tolerance = {}) {
+    return {std::move(label), value, tolerance, std::move(trial), quick == InQuick::yes};
 }
 
 /// The trial count<T>(rays, caster) in the arithmetic of both types; count is a generic lambda over
@@ -41,9 +41,10 @@ RayTrial both_precisions(const Count& count) {
 
 inline StressCase text_case(std::string label, double value, InQuick quick,
                             std::vector<std::string> scenes) {
-    StressBar bar;
-    bar.may_overflow = true;
-    return {std::move(label), value, bar, TextTrial{std::move(scenes)}, quick == InQuick::yes};
+    StressTolerance tolerance;
+    tolerance.may_overflow = true;
+    return {std::move(label), value, tolerance, TextTrial{std::move(scenes)},
+            quick == InQuick::yes};
 }
 
 inline InQuick quick_if(bool yes) { return yes ? InQuick::yes : InQuick::no; }

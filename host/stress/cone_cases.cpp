@@ -61,7 +61,7 @@ StressFamily cone_needles() {
     for (const double radius : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
         family.cases.push_back(picture_case(
             fmt::format("{:g}", 2 / radius), 2 / radius, quick_if(radius == 1e-1 || radius == 1e-3),
-            [radius] { return cone_needle(radius); }, small_bar(radius)));
+            [radius] { return cone_needle(radius); }, small_tolerance(radius)));
     }
     return family;
 }
@@ -79,11 +79,11 @@ StressFamily flat_cones() {
     StressFamily family{
         "flat-cone", "height over radius", "all hits lie within rounding of both rims", {}};
     for (const double height : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8}) {
-        StressBar bar;
-        bar.in_float = height >= 1e-3;
+        StressTolerance tolerance;
+        tolerance.in_float = height >= 1e-3;
         family.cases.push_back(picture_case(
             fmt::format("{:g}", 2 * height), 2 * height, quick_if(height == 1e-2 || height == 1e-4),
-            [height] { return flat_cone(height); }, bar));
+            [height] { return flat_cone(height); }, tolerance));
     }
     return family;
 }

@@ -52,7 +52,7 @@ StressFamily indices() {
                                       quick_if(ior == 1 || ior == 1 + 1e-7 || ior == 1.5),
                                       [ior] { return of_index(ior); });
         if (ior == 1) std::get<PictureTrial>(one.trial).reference_scene = glass_scene;
-        if (ior == 1e3) one.bar.max_error = 1e-3;
+        if (ior == 1e3) one.tolerance.max_error = 1e-3;
         family.cases.push_back(std::move(one));
     }
     return family;
@@ -114,12 +114,12 @@ StressFamily critical_angles() {
     StressFamily family{
         "critical-angle", "radians beyond it", "the root of what should be 0 is NaN", {}};
     for (const double beyond : {-0.1, -1e-3, -1e-5, -1e-7, 0.0, 1e-7, 1e-5, 1e-3, 0.1}) {
-        StressBar bar;
-        bar.in_float = std::fabs(beyond) >= 1e-5;
-        bar.max_error = std::fabs(beyond) < 1e-3 ? 1e-2 : 1e-4;
+        StressTolerance tolerance;
+        tolerance.in_float = std::fabs(beyond) >= 1e-5;
+        tolerance.max_error = std::fabs(beyond) < 1e-3 ? 1e-2 : 1e-4;
         family.cases.push_back(picture_case(
             fmt::format("{:g}", beyond), beyond, quick_if(beyond == 0 || beyond == 1e-5),
-            [beyond] { return prism(beyond); }, bar,
+            [beyond] { return prism(beyond); }, tolerance,
             beyond == 0 ? ReferenceKind::none : ReferenceKind::quad));
     }
     return family;
@@ -142,11 +142,11 @@ StressFamily glass_depths() {
     StressFamily family{
         "glass-depth", "bounces", "every surface magnifies the rounding of those before it", {}};
     for (const int bounces : {2, 4, 8, 16, 64}) {
-        StressBar bar;
-        if (bounces > 8) bar.max_error = 1e-3;
+        StressTolerance tolerance;
+        if (bounces > 8) tolerance.max_error = 1e-3;
         family.cases.push_back(picture_case(
             fmt::format("{}", bounces), bounces, quick_if(bounces == 8),
-            [=] { return nested_glass(bounces, 0); }, bar));
+            [=] { return nested_glass(bounces, 0); }, tolerance));
     }
     return family;
 }

@@ -64,16 +64,17 @@ PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& re
     return figures;
 }
 
-std::string broken_bar(const PictureFigures& figures, const StressBar& bar) {
+std::string exceeded_tolerance(const PictureFigures& figures, const StressTolerance& tolerance) {
     if (figures.nans > 0) return fmt::format("{} pixels are NaN", figures.nans);
-    if (figures.infinities > 0 && !bar.may_overflow) {
+    if (figures.infinities > 0 && !tolerance.may_overflow) {
         return fmt::format("{} pixels are infinite", figures.infinities);
     }
-    if (figures.wrong > bar.most_wrong) return fmt::format("{} pixels are wrong", figures.wrong);
-    if (figures.wrong_at_edges > bar.most_wrong_at_edges) {
+    if (figures.wrong > tolerance.most_wrong)
+        return fmt::format("{} pixels are wrong", figures.wrong);
+    if (figures.wrong_at_edges > tolerance.most_wrong_at_edges) {
         return fmt::format("{} pixels are wrong at edges", figures.wrong_at_edges);
     }
-    if (!(figures.max_error <= bar.max_error)) {
+    if (!(figures.max_error <= tolerance.max_error)) {
         return fmt::format("off by {:.2g}", figures.max_error);
     }
     return "";

@@ -24,7 +24,7 @@ PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& re
 /// The same of a picture that has no reference: NaN and infinities alone.
 PictureFigures count_non_numbers(const Picture& picture);
 
-/// What breaks the bar, in words; empty when nothing does.
-std::string broken_bar(const PictureFigures& figures, const StressBar& bar);
+/// What breaks the tolerance, in words; empty when nothing does.
+std::string exceeded_tolerance(const PictureFigures& figures, const StressTolerance& tolerance);
 
 }  // namespace rt

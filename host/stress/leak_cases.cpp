@@ -46,7 +46,7 @@ void add_leak_case(StressFamily& family, const char* label, InQuick quick,
         const Scene of = scene();
         return all_gray(of.width, of.height, 1);
     };
-    one.bar.most_wrong_at_edges = 0;
+    one.tolerance.most_wrong_at_edges = 0;
     family.cases.push_back(std::move(one));
 }
 

@@ -116,11 +116,11 @@ StressFamily highlights() {
                         "ulps of light",
                         {}};
     for (const double e : {1e2, 1e3, 1e4, 1e5, 1e6}) {
-        StressBar bar;
-        bar.max_error = e > 1e4 ? 1e-3 : 1e-4;
+        StressTolerance tolerance;
+        tolerance.max_error = e > 1e4 ? 1e-3 : 1e-4;
         family.cases.push_back(picture_case(
             fmt::format("{:g}", e), e, quick_if(e == 1e4 || e == 1e6), [e] { return highlight(e); },
-            bar));
+            tolerance));
     }
     return family;
 }

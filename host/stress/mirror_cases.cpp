@@ -33,11 +33,11 @@ StressFamily mirror_walls() {
                         "next",
                         {}};
     for (const int bounces : {8, 64, 1000}) {
-        StressBar bar;
-        bar.max_error = bounces == 1000 ? 2e-4 : 1e-4;
+        StressTolerance tolerance;
+        tolerance.max_error = bounces == 1000 ? 2e-4 : 1e-4;
         family.cases.push_back(picture_case(
             fmt::format("{}", bounces), bounces, quick_if(bounces == 64),
-            [bounces] { return facing_mirrors(1, 0, bounces, 80, 60); }, bar,
+            [bounces] { return facing_mirrors(1, 0, bounces, 80, 60); }, tolerance,
             bounces == 8 ? ReferenceKind::quad : ReferenceKind::extended));
     }
     return family;
@@ -65,12 +65,12 @@ StressFamily mirror_balls() {
                         "lost, and images of images shake",
                         {}};
     for (const int bounces : {4, 16, 64}) {
-        StressBar bar;
-        bar.most_wrong = bounces == 4 ? 0 : 1;
-        bar.max_error = bounces == 4 ? 1e-4 : 1;
+        StressTolerance tolerance;
+        tolerance.most_wrong = bounces == 4 ? 0 : 1;
+        tolerance.max_error = bounces == 4 ? 1e-4 : 1;
         family.cases.push_back(picture_case(
             fmt::format("{}", bounces), bounces, quick_if(bounces == 4),
-            [bounces] { return mirror_ball(bounces); }, bar));
+            [bounces] { return mirror_ball(bounces); }, tolerance));
     }
     return family;
 }
@@ -82,9 +82,9 @@ StressFamily bright_mirrors() {
                         "overflows, and infinity times 0 is NaN",
                         {}};
     for (const double mirror : {1.0, 1.5, 1e3, 1e30}) {
-        StressBar bar;
-        bar.may_overflow = true;
-        bar.max_error = 1e-3;
+        StressTolerance tolerance;
+        tolerance.may_overflow = true;
+        tolerance.max_error = 1e-3;
         family.cases.push_back(picture_case(
             fmt::format("{:g}", mirror), mirror, quick_if(mirror != 1e3),
             [mirror] {
@@ -92,7 +92,7 @@ StressFamily bright_mirrors() {
                 scene.background = {0, 0.5, 0};
                 return scene;
             },
-            bar, ReferenceKind::extended));
+            tolerance, ReferenceKind::extended));
     }
     return family;
 }

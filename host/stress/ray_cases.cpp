@@ -55,12 +55,13 @@ StressFamily t_junctions() {
     mesh.faces[0] = {a, b, middle};
     mesh.faces.push_back({a, middle, c});
     const Scene scene = mesh_scene(mesh, {0.125, 0.125, 0});
-    StressBar bar;
-    bar.most_wrong = std::numeric_limits<std::size_t>::max();
+    StressTolerance tolerance;
+    tolerance.most_wrong = std::numeric_limits<std::size_t>::max();
     StressFamily family{
         "t-junctions", "aim", "not closed whatever one does: counted, not judged", {}};
-    family.cases = {ray_case("edges", 0, InQuick::yes, leak_trial(scene, RayAim::edges), bar),
-                    ray_case("vertices", 1, InQuick::no, leak_trial(scene, RayAim::vertices), bar)};
+    family.cases = {
+        ray_case("edges", 0, InQuick::yes, leak_trial(scene, RayAim::edges), tolerance),
+        ray_case("vertices", 1, InQuick::no, leak_trial(scene, RayAim::vertices), tolerance)};
     return family;
 }
 

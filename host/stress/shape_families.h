@@ -14,11 +14,11 @@ using SceneOfRadius = std::function<Scene(double radius)>;
 using TrialOfRadius = std::function<RayTrial(double radius)>;
 
 /// Rounding the places to float alone moves a small thing by 2^-24 of its distance, which is 1.
-inline StressBar small_bar(double size) {
-    StressBar bar;
-    if (size < 1) bar.max_error = 1e-4 + 16 * 0x1p-24 / size;
-    bar.in_float = size >= 1e-4;
-    return bar;
+inline StressTolerance small_tolerance(double size) {
+    StressTolerance tolerance;
+    if (size < 1) tolerance.max_error = 1e-4 + 16 * 0x1p-24 / size;
+    tolerance.in_float = size >= 1e-4;
+    return tolerance;
 }
 
 /// Pictures of a shape 1 away: radii from 1e-6 to 1e6, in their middle `middle`.
@@ -29,7 +29,7 @@ inline StressFamily size_family(const char* name, const char* why, double middle
         const double radius = k == 0 ? middle : std::pow(10.0, k);
         family.cases.push_back(picture_case(
             fmt::format("{:g}", radius), radius, quick_if(k == -4 || k == 0 || k == 4),
-            [=] { return scene(radius); }, small_bar(radius)));
+            [=] { return scene(radius); }, small_tolerance(radius)));
     }
     return family;
 }
@@ -38,15 +38,15 @@ inline StressFamily size_family(const char* name, const char* why, double middle
 inline StressFamily leaving_family(const char* name, const char* why, double max_error,
                                    const TrialOfRadius& trial_of) {
     StressFamily family{name, "radius", why, {}};
-    StressBar bar;
-    bar.max_error = max_error;
+    StressTolerance tolerance;
+    tolerance.max_error = max_error;
     for (int k = -6; k <= 6; ++k) {
         const double radius = std::pow(10.0, k);
         RayTrial trial = trial_of(radius);
         trial.rays = 1'000'000;
         trial.quick_rays = 50'000;
         family.cases.push_back(ray_case(fmt::format("{:g}", radius), radius, quick_if(k % 3 == 0),
-                                        std::move(trial), bar));
+                                        std::move(trial), tolerance));
     }
     return family;
 }
@@ -63,11 +63,11 @@ inline StressFamily outline_family(const char* name, const TrialOfRadius& trial_
         const double radius = k == 0 ? 0.5 : std::pow(10.0, k);
         RayTrial trial = trial_of(radius);
         trial.rays = trial.quick_rays = 100'000;
-        StressBar bar;
-        bar.most_wrong = k >= -3 ? 4 : (k == -4 ? 50 : (k == -5 ? 400 : 4000));
-        bar.max_error = 1e-4;
-        family.cases.push_back(
-            ray_case(fmt::format("{:g}", radius), radius, InQuick::yes, std::move(trial), bar));
+        StressTolerance tolerance;
+        tolerance.most_wrong = k >= -3 ? 4 : (k == -4 ? 50 : (k == -5 ? 400 : 4000));
+        tolerance.max_error = 1e-4;
+        family.cases.push_back(ray_case(fmt::format("{:g}", radius), radius, InQuick::yes,
+                                        std::move(trial), tolerance));
     }
     return family;
 }

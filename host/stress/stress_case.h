@@ -17,12 +17,12 @@ namespace rt {
 /// What a picture may be off by. A pixel is wrong when a channel, clamped to [0, 1], is off by more
 /// than 1/255 or is NaN; it lies at an edge when the reference itself changes there by more than
 /// 0.5/255 as the sample moves by 0.02 pixel.
-struct StressBar {
+struct StressTolerance {
     std::size_t most_wrong = 0;  ///< pixels, away from edges
     std::size_t most_wrong_at_edges = std::numeric_limits<std::size_t>::max();
     double max_error = 1e-4;    ///< away from edges
     bool may_overflow = false;  ///< infinities count as saturated; NaN never does
-    bool in_float = true;       ///< false: float is measured, and has no bar here
+    bool in_float = true;       ///< false: float is measured, and has no tolerance here
 };
 
 /// The arithmetic of the reference.
@@ -54,7 +54,7 @@ struct RayFigures {
     double max_error = 0;        ///< relative error of a distance, where the trial measures it
 };
 
-/// Rays without a picture. The bar's most_wrong counts failures.
+/// Rays without a picture. The tolerance's most_wrong counts failures.
 struct RayTrial {
     std::function<RayFigures(std::uint64_t rays, const RayCaster&caster)> in_float, in_double;
     std::uint64_t rays = 10'000'000, quick_rays = 100'000;
@@ -63,7 +63,7 @@ struct RayTrial {
 struct StressCase {
     std::string label;  ///< of the parameter's value: "2^-40"
     double value = 0;   ///< for curves
-    StressBar bar;
+    StressTolerance tolerance;
     std::variant<PictureTrial, TextTrial, RayTrial> trial;
     bool quick = false;  ///< part of --quick
 };

@@ -18,7 +18,7 @@ struct StressRow {
     std::string device;    ///< for --device; empty for naive
     bool double_precision = false;
     bool naive = false;      ///< reported, never judged
-    bool judged = true;      ///< whether the bar holds for it
+    bool judged = true;      ///< whether the tolerance holds for it
     PictureFigures figures;  ///< of the picture, or summed over those of texts
     std::optional<RayFigures> rays;
     std::size_t refused = 0, rendered = 0;  ///< scene texts
@@ -32,7 +32,7 @@ struct StressRow {
 struct StressCaseResult {
     std::string label;
     double value = 0;
-    StressBar bar;
+    StressTolerance tolerance;
     std::vector<StressRow> rows;
     std::string disagreement;  ///< of devices that should give the same bits; empty: none
     double reference_seconds = 0;

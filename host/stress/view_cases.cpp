@@ -19,9 +19,9 @@ StressFamily fields_of_view() {
                         "or the view plane runs off to infinity",
                         {}};
     for (const double degrees : {1e-4, 1e-3, 1e-2, 1e-1, 1.0, 90.0, 170.0, 179.0, 179.99}) {
-        StressBar bar;
-        bar.in_float = degrees >= 1e-3;
-        if (degrees < 1) bar.max_error = std::max(1e-4, 1e-6 / degrees);
+        StressTolerance tolerance;
+        tolerance.in_float = degrees >= 1e-3;
+        if (degrees < 1) tolerance.max_error = std::max(1e-4, 1e-6 / degrees);
         family.cases.push_back(picture_case(
             fmt::format("{:g}", degrees), degrees,
             quick_if(degrees == 1e-3 || degrees == 1e-2 || degrees == 179.99),
@@ -32,7 +32,7 @@ StressFamily fields_of_view() {
                 set_view(scene, {0, 2, 8}, degrees < 2 ? outline : glm::dvec3(0, 0.75, 0), degrees);
                 return scene;
             },
-            bar));
+            tolerance));
     }
     return family;
 }

@@ -46,12 +46,13 @@ RayCaster ray_caster(const DeviceChoice& choice) {
             [=](const auto& scene) { return make_cl_ray_tracer<double>(scene, device, {}); }};
 }
 
-std::string broken_ray_bar(const RayFigures& rays, const StressBar& bar) {
+std::string exceeded_by_rays(const RayFigures& rays, const StressTolerance& tolerance) {
     if (rays.rays == 0) return "no ray was traced";
-    if (rays.failures > bar.most_wrong) {
+    if (rays.failures > tolerance.most_wrong) {
         return fmt::format("{} of {} rays fail", rays.failures, rays.rays);
     }
-    if (!(rays.max_error <= bar.max_error)) return fmt::format("off by {:.2g}", rays.max_error);
+    if (!(rays.max_error <= tolerance.max_error))
+        return fmt::format("off by {:.2g}", rays.max_error);
     return "";
 }
 
@@ -71,7 +72,7 @@ class Runner {
         shot_.reset();
         for (const StressCase& one : family.cases) {
             if (stop_flag() != 0) break;
-            StressCaseResult done{one.label, one.value, one.bar, {}, "", 0};
+            StressCaseResult done{one.label, one.value, one.tolerance, {}, "", 0};
             std::visit([&](const auto& trial) { run_trial(family, one, trial, done); }, one.trial);
             compare_hashes(done);
             result.cases.push_back(std::move(done));
@@ -81,7 +82,7 @@ class Runner {
     }
 
    private:
-    std::vector<StressRow> planned_rows(const StressBar& bar) const {
+    std::vector<StressRow> planned_rows(const StressTolerance& tolerance) const {
         std::vector<StressRow> rows;
         for (const ListedDevice& device : devices_) {
             for (const bool double_precision : {false, true}) {
@@ -90,7 +91,7 @@ class Runner {
                 row.renderer = device.name;
                 row.device = device.spec;
                 row.double_precision = double_precision;
-                row.judged = double_precision || bar.in_float;
+                row.judged = double_precision || tolerance.in_float;
                 rows.push_back(std::move(row));
             }
         }
@@ -107,11 +108,11 @@ class Runner {
         return render_quietly(scene, row_settings(row, options_), device_of(row));
     }
 
-    void judge(const Picture& picture, ReferencePicture* reference, const StressBar& bar,
-               StressRow& row) const {
+    void judge(const Picture& picture, ReferencePicture* reference,
+               const StressTolerance& tolerance, StressRow& row) const {
         row.figures =
             reference ? judge_stress_picture(picture, *reference) : count_non_numbers(picture);
-        row.why = broken_bar(row.figures, bar);
+        row.why = exceeded_tolerance(row.figures, tolerance);
     }
 
     void run_trial(const StressFamily& family, const StressCase& one, const PictureTrial& trial,
@@ -126,14 +127,14 @@ class Runner {
         result.reference_seconds = watch.seconds();
         ReferencePicture* const against = reference ? &*reference : nullptr;
         StressPictures pictures(options_.output, family.name, one.label, against);
-        for (StressRow& row : planned_rows(one.bar)) {
+        for (StressRow& row : planned_rows(one.tolerance)) {
             if (stop_flag() != 0) return;
             try {
                 const RenderedPicture rendered = rendered_row(scene, row);
                 if (!rendered.stats.complete()) return;
                 row.hash = rendered.stats.image_hash;
                 row.seconds = rendered.stats.phases.renderer.trace;
-                judge(rendered.picture, against, one.bar, row);
+                judge(rendered.picture, against, one.tolerance, row);
                 pictures.keep_worst(rendered.picture, row.figures);
             } catch (const Error& error) {
                 row.why = first_line(error);
@@ -172,7 +173,7 @@ class Runner {
         row.double_precision = sizeof(T) == sizeof(double);
         const NaivePicture naive = naive_picture<T>(scene, start);
         row.seconds = naive.seconds;
-        judge(naive.picture, reference, result.bar, row);
+        judge(naive.picture, reference, result.tolerance, row);
         result.rows.push_back(std::move(row));
     }
 
@@ -197,7 +198,7 @@ class Runner {
         return scenes;
     }
 
-    void render_text(const Scene& scene, const StressBar& bar, StressRow& row,
+    void render_text(const Scene& scene, const StressTolerance& tolerance, StressRow& row,
                      Hasher& hasher) const {
         try {
             const RenderedPicture rendered = rendered_row(scene, row);
@@ -207,7 +208,7 @@ class Runner {
             row.seconds += rendered.stats.phases.renderer.trace;
             ++row.rendered;
             hasher.add(rendered.stats.image_hash);
-            const std::string broken = broken_bar(figures, bar);
+            const std::string broken = exceeded_tolerance(figures, tolerance);
             if (row.why.empty()) row.why = broken;
         } catch (const Error& error) {
             if (error.exit_code() == ExitCode::input) {
@@ -222,13 +223,13 @@ class Runner {
                    StressCaseResult& result) {
         std::string why;
         const std::vector<Scene> scenes = readable_scenes(trial, why);
-        for (StressRow& row : planned_rows(one.bar)) {
+        for (StressRow& row : planned_rows(one.tolerance)) {
             row.why = why;
             row.refused = trial.scenes.size() - scenes.size();
             Hasher hasher;
             for (const Scene& scene : scenes) {
                 if (stop_flag() != 0) return;
-                render_text(scene, one.bar, row, hasher);
+                render_text(scene, one.tolerance, row, hasher);
             }
             row.hash = hasher.value();
             result.rows.push_back(std::move(row));
@@ -238,14 +239,14 @@ class Runner {
     void run_trial(const StressFamily&, const StressCase& one, const RayTrial& trial,
                    StressCaseResult& result) {
         const std::uint64_t rays = options_.quick ? trial.quick_rays : trial.rays;
-        for (StressRow& row : planned_rows(one.bar)) {
+        for (StressRow& row : planned_rows(one.tolerance)) {
             if (stop_flag() != 0) return;
             const Stopwatch watch;
             try {
                 const RayCaster caster = ray_caster(device_of(row));
                 row.rays = row.double_precision ? trial.in_double(rays, caster)
                                                 : trial.in_float(rays, caster);
-                row.why = broken_ray_bar(*row.rays, one.bar);
+                row.why = exceeded_by_rays(*row.rays, one.tolerance);
             } catch (const Error& error) {
                 row.why = first_line(error);
             }
