@@ -37,7 +37,7 @@ Ray camera_ray(const LaunchParams* params, Indices x, Indices y, Indices k) {
     }
     ray.origin = add_scaled(scale3(sx, load3(params->origin_dx)), sy, load3(params->origin_dy));
     ray.t_max = (Reals)INFINITY;
-    ray.chord = (Reals)0;
+    ray.self_hit = (Reals)0;
     ray.from = (Indices)(params->eye_on_surface != 0 ? RT_EYE : RT_NONE);
     return ray;
 }

@@ -13,7 +13,7 @@
 // cylinder it is P (R^2 - l^2) with l the ray's distance from the axis). The equation is solved
 // without cancellation, and each root counts if its height is on the frustum and the radius there
 // is not negative, which is the other half of the double cone. A ray that leaves the cone it starts
-// on has the roots 0 and -2 b / a, where -2 b comes with the ray as its chord, made from the normal
+// on has the roots 0 and -2 b / a, where -2 b comes with the ray (self_hit), made from the normal
 // there: origin - base has rounded away what matters on a small cone far from the eye. A ray from
 // an eye on the cone makes it itself.
 #ifndef RT_CONE_CL
@@ -70,9 +70,9 @@ Mask intersect_cone(const Ray* ray, __global const Cone* cone, Mask leaving, Rea
     Reals distance = length3(g);
     Reals k = (distance - radius) * (distance + radius);
     Reals root = sqrt(discriminant);
-    Reals chord = ray->chord;
-    if (RT_HAS_EYE_ON_SURFACE) chord = ray->from == (Index)RT_EYE ? (Reals)-2 * b : chord;
-    Reals q = leaving ? chord : -(b + (b < (Reals)0 ? -root : root));
+    Reals self_hit = ray->self_hit;
+    if (RT_HAS_EYE_ON_SURFACE) self_hit = ray->from == (Index)RT_EYE ? (Reals)-2 * b : self_hit;
+    Reals q = leaving ? self_hit : -(b + (b < (Reals)0 ? -root : root));
     Reals one = q / a;
     Mask is_single = leaving | (q == (Reals)0);
     Reals other = is_single ? one : k / q;

@@ -33,7 +33,7 @@ Surface select_surface(Mask mask, Surface yes, Surface no) {
     chosen.normal = select3(mask, yes.normal, no.normal);
     chosen.geometric = select3(mask, yes.geometric, no.geometric);
     chosen.offset = mask ? yes.offset : no.offset;
-    chosen.diameter = mask ? yes.diameter : no.diameter;
+    chosen.signed_diameter = mask ? yes.signed_diameter : no.signed_diameter;
     chosen.material = mask ? yes.material : no.material;
     return chosen;
 }
@@ -88,7 +88,7 @@ Ray spawn_ray(const Surface* surface, real3 origin, real3 dir, Indices prim) {
     ray.dir_low = make3((Reals)0, (Reals)0, (Reals)0);
     ray.origin_low = add3(sub3(surface->point, origin), surface->point_low);
     ray.t_max = (Reals)INFINITY;
-    ray.chord = -surface->diameter * dot3(surface->geometric, dir);
+    ray.self_hit = -surface->signed_diameter * dot3(surface->geometric, dir);
     ray.from = prim;
     return ray;
 }

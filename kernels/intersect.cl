@@ -42,7 +42,7 @@ Mask intersect_huge_sphere(const Ray* ray, __global const Sphere* sphere, Reals*
 // The lanes whose rays start on the sphere, and how far they run inside it.
 Mask leaves_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Reals* chord) {
     Mask leaving = ray->from == prim;
-    *chord = ray->chord;
+    *chord = ray->self_hit;
     if (RT_HAS_EYE_ON_SURFACE && sphere->touches_eye != 0) {
         Mask from_eye = ray->from == RT_EYE;
         Reals inward = (Reals)2 * dot3(load3(sphere->center), ray->dir);

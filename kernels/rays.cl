@@ -30,7 +30,7 @@ Ray query_ray(const IndexLanes* fields) {
     ray.t_max = RT_AS_REALS(fields[3].all);
     ray.dir = field3(fields + 4);
     ray.from = fields[7].all;
-    ray.chord = RT_AS_REALS(fields[11].all);
+    ray.self_hit = RT_AS_REALS(fields[11].all);
     ray.dir_low = make3((Reals)0, (Reals)0, (Reals)0);
     ray.origin_low = ray.dir_low;
     return ray;

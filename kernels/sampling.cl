@@ -95,7 +95,9 @@ Position grid_position(Index grid, Indices k) {
 
 // Sample k of pixel (x, y) in the unit square.
 Position unit_position(const LaunchParams* params, Indices x, Indices y, Indices k) {
-    if (!RT_HAS_SOBOL || params->grid != 0) return grid_position(params->grid, k);
+    if (!RT_HAS_SOBOL || params->sampling == RT_SAMPLES_GRID) {
+        return grid_position(params->grid, k);
+    }
     Uints pixel = RT_TO_UINTS(y) * 65536u + RT_TO_UINTS(x);
     Uints seed = hash_bits((Uints)(uint)params->seed);
     return sobol_position(hash_bits(pixel ^ seed), RT_TO_UINTS(k));

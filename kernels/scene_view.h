@@ -27,7 +27,9 @@ typedef struct {
     real3 dir_low;     // of eye rays: what rounding took from dir; else 0
     real3 origin_low;  // of others: from the origin to the point left; of eye rays 0
     Reals t_max;       // hits lie in (0, t_max]; a negative one switches the lane off
-    Reals chord;   // from a sphere: distance to where the ray leaves it; from a cone: -2 b there
+    // Known of its other hit with the curved surface that it leaves: a sphere's distance to it; of
+    // a cone -2 b, where a t^2 + 2 b t is what it solves.
+    Reals self_hit;
     Indices from;  // the primitive the origin lies on, or RT_NONE
 } Ray;
 

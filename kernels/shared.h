@@ -48,7 +48,7 @@ typedef struct {
     Packed3 p2;
     Real offset;     // bound on how far a barycentric hit point lies off the plane
     Packed3 normal;  // unit, made in double from the unrounded vertices
-    Real plane;      // dot(normal, p0), likewise; 0 where the eye lies in the plane
+    Real plane;      // signed distance of the plane from the eye: dot(normal, p0), likewise
 } Triangle;
 
 typedef struct {
@@ -100,7 +100,7 @@ typedef struct {
     Packed3 direction_dx;
     Index height;
     Packed3 direction_dy;
-    Index grid;  // a regular grid x grid of samples, or 0: Sobol
+    Index grid;  // samples along a side of RT_SAMPLES_GRID
     Packed3 origin_dx;
     Index max_bounces;
     Packed3 origin_dy;
@@ -119,11 +119,11 @@ typedef struct {
     Index eye_on_surface;   // 1: the eye of a perspective camera lies on a sphere, a cone or in a
                             // plane
     Packed3 direction_low;  // what rounding took from the direction, and from its steps
-    Index pad0;
+    Index sampling;         // RT_SAMPLES_...
     Packed3 direction_dx_low;
-    Index pad1;
+    Index pad0;
     Packed3 direction_dy_low;
-    Index pad2;
+    Index pad1;
 } LaunchParams;
 
 // The pixels of one launch: picture columns x.., rows y.. counted from the top; its first pixel
@@ -141,11 +141,11 @@ typedef struct {
 // A ray to trace by itself, outside a picture (kernels/rays.cl).
 typedef struct {
     Packed3 origin;
-    Real t_max;    // whether anything lies in (0, t_max] is asked, too, where it is finite
-    Packed3 dir;   // unit
-    Index from;    // the primitive the origin lies on, or RT_NONE
-    Packed3 next;  // unit: trace on from the hit in this direction; 0: do not
-    Real chord;    // of the primitive it leaves (kernels/scene_view.h)
+    Real t_max;     // whether anything lies in (0, t_max] is asked, too, where it is finite
+    Packed3 dir;    // unit
+    Index from;     // the primitive the origin lies on, or RT_NONE
+    Packed3 next;   // unit: trace on from the hit in this direction; 0: do not
+    Real self_hit;  // of the primitive it leaves (Ray in kernels/scene_view.h)
 } RayQuery;
 
 typedef struct {
@@ -185,6 +185,9 @@ enum { RT_TREE_STACK = 16 };
 
 // Samples of a pixel in a packet of neighboring pixels, at most (kernels/packet.cl).
 enum { RT_SAMPLES_TOGETHER = 4 };
+
+// How samples lie in a pixel (kernels/sampling.cl).
+enum { RT_SAMPLES_GRID = 0, RT_SAMPLES_SOBOL = 1 };
 
 // Reconstruction filters (kernels/sampling.cl).
 enum { RT_FILTER_BOX = 0, RT_FILTER_TENT = 1, RT_FILTER_GAUSSIAN = 2, RT_FILTER_MITCHELL = 3 };

@@ -19,8 +19,8 @@ typedef struct {
     real3 geometric;  // geometric normal, unit, on the shading normal's side
     Reals offset;     // bound on the distance between point and surface
     // Of a sphere, and what stands for it on a cone: the length of the gradient of the terms that
-    // vanish on it. Negative where the geometric normal points inwards; 0 on triangles.
-    Reals diameter;
+    // vanish on it. Positive where the geometric normal points outwards; 0 on triangles.
+    Reals signed_diameter;
     Indices material;
 } Surface;
 
@@ -58,7 +58,7 @@ Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
             add_scaled(scale3((Reals)4, abs3(ray->origin)), (Reals)6, abs3(surface.point));
         surface.offset = (Real)RT_ROUNDOFF * dot3(abs3(surface.normal), error);
     }
-    surface.diameter = (Reals)((Real)2 * sphere->radius);
+    surface.signed_diameter = (Reals)((Real)2 * sphere->radius);
     surface.material = (Indices)sphere->material;
     return surface;
 }
@@ -87,7 +87,7 @@ Surface cone_surface(const Ray* ray, Reals t, __global const Cone* cone) {
     Reals extent =
         (Real)8 * fma(fabs((Reals)cone->slope), (Reals)cone->length, (Reals)cone->base_radius);
     surface.offset = (Real)RT_ROUNDOFF * (dot3(abs3(surface.normal), size) + extent);
-    surface.diameter =
+    surface.signed_diameter =
         (Real)2 * radius * sqrt(fma((Reals)cone->slope, (Reals)cone->slope, (Reals)1));
     surface.material = (Indices)cone->material;
     return surface;
@@ -132,7 +132,7 @@ Surface triangle_surface(const Ray* ray, const Hit* hit, __global const Triangle
     }
     surface.normal = normal;
     surface.geometric = normal;
-    surface.diameter = (Reals)0;
+    surface.signed_diameter = (Reals)0;
     surface.material = (Indices)triangle->material;
     if (RT_HAS_VERTEX_NORMALS && triangle->smooth != RT_NONE) {
         __global const VertexNormals* normals = &vertex_normals[triangle->smooth];

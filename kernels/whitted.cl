@@ -80,7 +80,7 @@ Ray select_ray(Mask mask, Ray yes, Ray no) {
     ray.dir_low = select3(mask, yes.dir_low, no.dir_low);
     ray.origin_low = select3(mask, yes.origin_low, no.origin_low);
     ray.t_max = mask ? yes.t_max : no.t_max;
-    ray.chord = mask ? yes.chord : no.chord;
+    ray.self_hit = mask ? yes.self_hit : no.self_hit;
     ray.from = mask ? yes.from : no.from;
     return ray;
 }
@@ -138,7 +138,7 @@ real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* pa
     Mask turned = (material.two_sided != 0) & inside;
     surface.normal = select3(turned, negate3(surface.normal), surface.normal);
     surface.geometric = select3(turned, negate3(surface.geometric), surface.geometric);
-    surface.diameter = turned ? -surface.diameter : surface.diameter;
+    surface.signed_diameter = turned ? -surface.signed_diameter : surface.signed_diameter;
     real3 to_eye = negate3(path->ray.dir);
     real3 local_light = shade(scene, &surface, &material, to_eye, hit->prim, path->live, counts);
     color = select3(path->live, add3(color, mul3(path->throughput, local_light)), color);

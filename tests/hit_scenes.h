@@ -96,7 +96,7 @@ ProbeRay<T> some_ray(const FlatScene<T>& scene, Random& random) {
         const auto& sphere = scene.spheres[std::size_t(ray.from)];
         const glm::dvec3 normal = random.unit_vector();
         origin = in_double(sphere.center) + double(sphere.radius) * normal;
-        ray.chord = static_cast<T>(-2 * double(sphere.radius) * glm::dot(normal, dir));
+        ray.self_hit = static_cast<T>(-2 * double(sphere.radius) * glm::dot(normal, dir));
     }
     const auto cone_index = ray.from - scene.params.sphere_count;
     if (cone_index >= 0 && cone_index < scene.params.cone_count) {  // and so does one from a cone

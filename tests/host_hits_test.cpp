@@ -26,7 +26,7 @@ using Answer = typename Flat<T>::RayAnswer;
 
 template <typename T>
 Query<T> query_of(const ProbeRay<T>& ray) {
-    return {ray.origin, ray.t_max, ray.dir, ray.from, {}, ray.chord};
+    return {ray.origin, ray.t_max, ray.dir, ray.from, {}, ray.self_hit};
 }
 
 /// Rays in the author's numbering; every other one is traced on from where it hits.

@@ -76,7 +76,7 @@ struct ConeCases {
     }
     void add_leaving(const ProbeRay<T>& ray, const Cone<T>& cone) {
         add(ray, cone, true);
-        rays.back().chord = static_cast<T>(-2 * ExactCone<T>(ray, cone, true).b);
+        rays.back().self_hit = static_cast<T>(-2 * ExactCone<T>(ray, cone, true).b);
     }
     std::vector<T> device() const {
         return run<T, T>("intersect_cone", rays.size(), rays, cones, leaving);
@@ -256,7 +256,7 @@ TYPED_TEST(IntersectCone, LeavingASmallOneFarAwayKeepsTheDigitsOfItsChord) {
         const Quad a = dot(c, c), b = dot(cross(w, axis), c);
         if (b > Quad(-0.1) || a < Quad(0.1)) continue;
         ray.origin = {TypeParam(p.x), TypeParam(p.y), TypeParam(p.z)};
-        ray.chord = static_cast<TypeParam>(-2 * b);
+        ray.self_hit = static_cast<TypeParam>(-2 * b);
         cases.add(ray, cone, true);
         expected.push_back(-2 * b / a);
     }

@@ -85,6 +85,7 @@ Samples<T> random_samples(int filter, Word seed) {
     using Index = typename Flat<T>::Index;
     typename Flat<T>::LaunchParams params{};
     params.width = params.height = 65536;
+    params.sampling = f32::RT_SAMPLES_SOBOL;
     params.samples = 16;
     params.filter = filter;
     params.seed = static_cast<decltype(params.seed)>(seed);
@@ -119,6 +120,7 @@ TYPED_TEST(SobolSample, DiffersFromPixelToPixel) {
     using Index = typename Flat<TypeParam>::Index;
     typename Flat<TypeParam>::LaunchParams params{};
     params.width = params.height = 32;
+    params.sampling = f32::RT_SAMPLES_SOBOL;
     params.samples = 1;
     std::vector<Index> x, y, k(1024, 0);
     for (Index i = 0; i < 1024; ++i) {

@@ -120,9 +120,9 @@ TYPED_TEST(IntersectSphere, BehindOrPastItIsNoHit) {
 TYPED_TEST(IntersectSphere, LeavingItRunsAlongTheChord) {
     SphereCases<TypeParam> cases;
     auto ray = make_ray<TypeParam>({3, 4, 0}, {-1, 0, 0});
-    ray.chord = 6;
+    ray.self_hit = 6;
     cases.add(ray, make_sphere<TypeParam>({0, 0, 0}, 5), true);
-    ray.chord = -6;
+    ray.self_hit = -6;
     cases.add(ray, make_sphere<TypeParam>({0, 0, 0}, 5), true);
     EXPECT_EQ(cases.device(), (std::vector<TypeParam>{6, -6}));
 }

@@ -64,11 +64,13 @@ long double exact_weight(std::int64_t filter, long double distance) {
     return filter == 2 ? std::exp(-2 * x * x) - std::exp(-4.5L) : 2 * cubic(x);
 }
 
+/// Sobol samples where `grid` is 0.
 template <typename T>
-typename Flat<T>::LaunchParams frame_with(int grid, int samples, int filter) {
+typename Flat<T>::LaunchParams params_with(int grid, int samples, int filter) {
     typename Flat<T>::LaunchParams params{};
     params.width = 640;
     params.height = 480;
+    params.sampling = grid == 0 ? f32::RT_SAMPLES_SOBOL : f32::RT_SAMPLES_GRID;
     params.grid = grid;
     params.samples = samples;
     params.filter = filter;
@@ -195,7 +197,7 @@ TYPED_TEST(SamplePosition, StaysInTheFootprintAndWeighsByTheFilter) {
     Random random(5);
     for (const auto& [grid, samples] : {std::pair{3, 9}, std::pair{0, 16}}) {
         for (const int filter : {0, 1, 2, 3}) {
-            const auto params = frame_with<T>(grid, samples, filter);
+            const auto params = params_with<T>(grid, samples, filter);
             std::vector<Index> x, y, k;
             for (int i = 0; i < 5000; ++i) {
                 x.push_back(static_cast<Index>(random.uniform(0, 65536)));

@@ -67,7 +67,7 @@ TYPED_TEST(IntersectPrimitive, CountsSpheresFirstAndSkipsTheTriangleItLeaves) {
     rays[2].from = 1;
     rays[3].from = 0;
     rays[3].origin = {0, 0, -4};
-    rays[3].chord = 2;
+    rays[3].self_hit = 2;
     const std::vector<Index<TypeParam>> prims{0, 1, 1, 0};
     const auto hits = run<TypeParam, Hit<TypeParam>>("intersect_primitive", 4, scene, rays, prims);
     EXPECT_EQ(hits[0].t, 4);

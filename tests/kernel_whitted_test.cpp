@@ -211,7 +211,9 @@ TYPED_TEST(TracePixel, IsTheWeighedMeanOfItsSamples) {
     auto scene = mirror_crowd<T>();
     for (const int filter : {0, 1, 2, 3}) {
         scene.params.filter = filter;
-        scene.params.grid = filter % 2 == 0 ? 0 : 4;
+        const bool is_sobol = filter % 2 == 0;
+        scene.params.sampling = is_sobol ? f32::RT_SAMPLES_SOBOL : f32::RT_SAMPLES_GRID;
+        scene.params.grid = is_sobol ? 0 : 4;
         scene.params.samples = 16;
         std::vector<Index<T>> x, y;
         for (Index<T> i = 0; i < 400; ++i) {

@@ -12,7 +12,7 @@ typedef struct {
     Real t_max;
     Packed3 dir;
     Index from;
-    Real chord;
+    Real self_hit;
     Packed3 dir_low, origin_low;
 } ProbeRay;
 
@@ -57,7 +57,7 @@ Ray get_ray(__global const ProbeRay* rays, uint at, uint count) {
     ray.origin_low = REAL3_OF(rays, origin_low);
     ray.t_max = REALS_OF(rays, t_max);
     ray.from = INDICES_OF(rays, from);
-    ray.chord = REALS_OF(rays, chord);
+    ray.self_hit = REALS_OF(rays, self_hit);
     return ray;
 }
 
@@ -68,7 +68,7 @@ void put_ray(__global ProbeRay* rays, Ray ray, uint at, uint count) {
     PUT_REAL3_OF(rays, origin_low, ray.origin_low);
     PUT_REALS_OF(rays, t_max, ray.t_max);
     PUT_INDICES_OF(rays, from, ray.from);
-    PUT_REALS_OF(rays, chord, ray.chord);
+    PUT_REALS_OF(rays, self_hit, ray.self_hit);
 }
 
 Hit get_hit(__global const ProbeHit* hits, uint at, uint count) {
@@ -97,7 +97,7 @@ Surface get_surface(__global const ProbeSurface* surfaces, uint at, uint count) 
     surface.point_low = REAL3_OF(surfaces, point_low);
     surface.offset = REALS_OF(surfaces, offset);
     surface.material = INDICES_OF(surfaces, material);
-    surface.diameter = REALS_OF(surfaces, diameter);
+    surface.signed_diameter = REALS_OF(surfaces, diameter);
     return surface;
 }
 
@@ -108,7 +108,7 @@ void put_surface(__global ProbeSurface* surfaces, Surface surface, uint at, uint
     PUT_REAL3_OF(surfaces, point_low, surface.point_low);
     PUT_REALS_OF(surfaces, offset, surface.offset);
     PUT_INDICES_OF(surfaces, material, surface.material);
-    PUT_REALS_OF(surfaces, diameter, surface.diameter);
+    PUT_REALS_OF(surfaces, diameter, surface.signed_diameter);
 }
 
 // What lanes hold before they are met one by one.

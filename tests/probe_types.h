@@ -24,7 +24,7 @@ struct ProbeRay {
     T t_max;
     Packed3<T> dir;
     Index<T> from;
-    T chord;
+    T self_hit;
     Packed3<T> dir_low{}, origin_low{};
 };
 

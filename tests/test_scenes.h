@@ -44,7 +44,7 @@ std::vector<ProbeRay<T>> rays_about(Random& random, std::size_t count) {
         auto ray = make_ray<T>(random.in_cube(1.5), random.unit_vector());
         ray.t_max = static_cast<T>(random.uniform(0.1, 6));
         ray.from = static_cast<Index<T>>(random.index(30) - 4);
-        ray.chord = static_cast<T>(random.uniform(-2, 4));
+        ray.self_hit = static_cast<T>(random.uniform(-2, 4));
         return ray;
     });
 }

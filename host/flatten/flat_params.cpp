@@ -32,7 +32,9 @@ glm::dvec2 half_pixel(const Scene& scene, const Scene::Window& window) {
 /// An adaptive mode begins with one sample a pixel.
 template <typename LaunchParams>
 void set_sampling(const Scene& scene, LaunchParams& params) {
-    params.grid = scene.aa.pattern == AaMode::Pattern::sobol ? 0 : scene.aa.count;
+    const bool is_sobol = scene.aa.pattern == AaMode::Pattern::sobol;
+    params.sampling = is_sobol ? f32::RT_SAMPLES_SOBOL : f32::RT_SAMPLES_GRID;
+    params.grid = is_sobol ? 0 : scene.aa.count;
     params.samples = scene.aa.samples();
     params.seed = scene.sampling_seed;
     switch (scene.filter) {

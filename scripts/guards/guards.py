@@ -97,7 +97,7 @@ GUARDS = [
          "return make3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);"),
     ], [("kernel_cone_test", "Cross3.*")]),
     Guard("a ray from a cone carries its chord", [
-        (K + "cone.cl", "leaving ? chord : -(b", "leaving ? (Reals)-2 * b : -(b"),
+        (K + "cone.cl", "leaving ? self_hit : -(b", "leaving ? (Reals)-2 * b : -(b"),
     ], [("kernel_cone_test", "IntersectCone.Leaving*")]),
     Guard("refraction by the tangential part of the direction", [
         (K + "whitted.cl", "(Reals)1 - eta * eta * dot3(along, along)",
