@@ -200,6 +200,23 @@ class Converge(FiguresTest):
         validator("converge").validate(self.result)
         self.assertLessEqual(max(map(len, self.table.splitlines())), 80)
 
+    def test_scalar_threads_trace_one_ray_at_a_time_to_the_same_bits(self):
+        result = json.loads(run("converge", SCENE, "--size", "16x12", "--reference-samples", "256", "-q",
+                                "--devices", "threads", "--aa", "none,grid:2", "--scalar",
+                                "--json").stdout)
+        hashes = {}
+        for point in result["points"]:
+            if point["precision"] == "float":
+                key = (point["device"], point["aa"])
+                hashes[key] = {(r["image"]["hash"], r["device"]["lanes"] == 1) for r in point["repeats"]}
+        self.assertEqual(len(hashes), 4)
+        for aa in ("none", "grid:2"):
+            (scalar_hash, is_scalar), = hashes["threads scalar", aa]
+            (packet_hash, are_scalar), = hashes["threads", aa]
+            self.assertEqual((scalar_hash, is_scalar, are_scalar), (packet_hash, True, False))
+        self.assertEqual({p["precision"] for p in result["points"] if p["device"] == "threads scalar"},
+                         {"float"})
+
     def test_reference_is_kept(self):
         self.assertTrue(self.result["reference"]["from_cache"])
         self.assertTrue(pathlib.Path(self.result["reference"]["cache_path"]).exists())

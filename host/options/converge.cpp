@@ -44,6 +44,8 @@ void add_sweep(const CommandLine& verb, ConvergeOptions& converge) {
     add_device_list(verb, converge.devices);
     add_count(verb, "--threads", converge.threads, 1, 4096,
               "threads of 'threads' (default: all cores)");
+    verb.flag("--scalar", converge.scalar,
+              "also threads one ray at a time, without vectors (float)");
     add_precisions(verb, converge.precisions);
     add_choice<std::vector<bool>>(verb, "--math", converge.fast_math,
                                   {{"strict", {false}}, {"fast", {true}}, {"both", {false, true}}},

@@ -16,7 +16,8 @@ struct ConvergeOptions {
     std::optional<PictureSize> size;  ///< default: the scene's
     std::vector<AaMode> aa;
     std::vector<std::string> devices{"all"};
-    int threads = 0;  ///< of the pthreads renderer; 0: all cores
+    int threads = 0;      ///< of the pthreads renderer; 0: all cores
+    bool scalar = false;  ///< threads also one ray at a time, in float
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
     std::vector<bool> fast_math{false};
     std::vector<int> max_bounces;  ///< empty: the scene's

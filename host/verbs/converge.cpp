@@ -29,6 +29,19 @@ namespace rt {
 
 namespace {
 
+/// What is named, and threads once more without vectors where that is asked for.
+std::vector<ListedDevice> swept_devices(const ConvergeOptions& options) {
+    std::vector<ListedDevice> devices = listed_devices(options.devices);
+    for (std::size_t i = options.scalar ? devices.size() : 0; i-- > 0;) {
+        if (!devices[i].is_threads) continue;
+        ListedDevice scalar = devices[i];
+        scalar.spec += " scalar";
+        scalar.is_scalar = true;
+        devices.insert(devices.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(scalar));
+    }
+    return devices;
+}
+
 /// The points of one device at one precision and math, in the order of the sweep.
 void add_points(const ConvergeOptions& options, const std::vector<int>& bounces,
                 const ListedDevice& device, const ConvergeCase& of,
@@ -46,8 +59,8 @@ void add_points(const ConvergeOptions& options, const std::vector<int>& bounces,
     }
 }
 
-/// Devices without double have no points in it; threads have none in fast math, which is the
-/// OpenCL compiler's.
+/// Devices without double have no points in it, nor have scalar threads, which are there to show
+/// what vectors give; threads have none in fast math, which is the OpenCL compiler's.
 std::vector<ConvergePoint> planned_points(const ConvergeOptions& options,
                                           const std::vector<int>& bounces,
                                           const std::vector<ListedDevice>& devices) {
@@ -58,7 +71,7 @@ std::vector<ConvergePoint> planned_points(const ConvergeOptions& options,
                 ConvergeCase of;
                 of.double_precision = precision == Precision::float64;
                 of.fast_math = fast_math;
-                if (of.double_precision && !device.has_double) continue;
+                if (of.double_precision && (!device.has_double || device.is_scalar)) continue;
                 if (fast_math && device.is_threads) continue;
                 add_points(options, bounces, device, of, points);
             }
@@ -71,15 +84,17 @@ TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
                      const std::vector<ListedDevice>& devices) {
     TimedCase timed;
     timed.path = options.scene;
-    timed.device = std::find_if(devices.begin(), devices.end(), [&](const ListedDevice& device) {
-                       return device.spec == asked.device;
-                   })->choice;
+    const ListedDevice& device =
+        *std::find_if(devices.begin(), devices.end(),
+                      [&](const ListedDevice& one) { return one.spec == asked.device; });
+    timed.device = device.choice;
     timed.settings = timed_settings();
+    if (device.is_scalar) timed.settings.lanes = 1;
     timed.settings.aa = asked.aa;
     timed.settings.max_bounces = asked.max_bounces;
     timed.settings.precision = asked.double_precision ? Precision::float64 : Precision::float32;
     timed.settings.fast_math = asked.fast_math;
-    if (asked.device == "threads") timed.settings.threads = options.threads;
+    if (device.is_threads && device.threads == 0) timed.settings.threads = options.threads;
     timed.judge = judge_estimate;
     return timed;
 }
@@ -139,7 +154,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     result.height = scene.height;
     std::vector<int> bounces = options.max_bounces;
     if (bounces.empty()) bounces.push_back(scene.max_bounces);
-    const std::vector<ListedDevice> devices = listed_devices(options.devices);
+    const std::vector<ListedDevice> devices = swept_devices(options);
     result.points = planned_points(options, bounces, devices);
     if (result.points.empty()) {
         throw Error(ExitCode::usage,

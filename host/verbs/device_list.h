@@ -14,6 +14,7 @@ struct ListedDevice {
     DeviceChoice choice;
     std::string name;  ///< "threads", or the OpenCL device's own name
     bool is_threads = false;
+    bool is_scalar = false;                 ///< threads that trace one ray at a time
     int threads = 0;                        ///< from threads:N; 0 when not given
     bool has_double = true;                 ///< whether it can render in double
     int float_lanes = 0, double_lanes = 0;  ///< of a packet, by default; 0: threads
