@@ -51,7 +51,9 @@ TEST(SecondsSinceProcessStart, CountWhatWasComputedAndWaitedFor) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const double waited = rt::seconds_since_process_start() - before;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began;
-    EXPECT_GE(waited, 0.05 - 0.02);
+    // Unless other tests in this process computed on several threads, for longer than has passed.
+    const bool counts_waiting = rt::processor_seconds() < 0.2;
+    EXPECT_GE(waited, counts_waiting ? 0.05 - 0.02 : 0);
     EXPECT_LE(waited, passed.count() + 0.01);
     EXPECT_GE(rt::seconds_since_process_start(), rt::processor_seconds() - 0.01);
 }
