@@ -141,6 +141,17 @@ class Fails(WrongDriver):
         self.assertEqual(got["image"]["hash"], right["image"]["hash"])
         self.assertEqual(got["rays"], right["rays"])
 
+    def test_in_a_batch_it_is_not_asked_again(self):
+        right = self.figures({}, "threads", *self.TILES)
+        result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "4"}, *self.ARGUMENTS, "pocl", SCENE,
+                               *self.TILES)
+        first, second = map(json.loads, result.stdout.splitlines())
+        for got in (first, second):
+            self.assertEqual(got["image"]["hash"], right["image"]["hash"])
+            self.assertEqual(got["device"]["name"], "threads")
+        self.assertIn("fallback_from", first["device"])
+        self.assertNotIn("fallback_from", second["device"])
+
     def test_is_an_error_without_fallback(self):
         result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "4"}, *self.ARGUMENTS, "pocl", "--no-fallback")
         self.assertEqual(result.returncode, 5, result.stderr)

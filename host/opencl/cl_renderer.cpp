@@ -15,6 +15,7 @@
 #include "host/opencl/cl_program.h"
 #include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
+#include "host/opencl/open_devices.h"
 #include "host/pocl/pocl_cache.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"
@@ -168,7 +169,8 @@ class ClRenderer : public Renderer<T> {
     void open() {
         const Stopwatch watch;
         const cl::Device device = handle_of(device_);
-        context_ = cl::Context(device);
+        OpenDevices* const kept = options_.open_devices;
+        context_ = kept != nullptr ? kept->context(device_) : cl::Context(device);
         queue_ = cl::CommandQueue(context_, device, CL_QUEUE_PROFILING_ENABLE);
         reads_ = cl::CommandQueue(context_, device);
         times_.open = watch.seconds();
@@ -211,8 +213,10 @@ class ClRenderer : public Renderer<T> {
         const bool is_pocl = device_.platform == pocl_platform;
         const auto start = std::filesystem::file_time_type::clock::now();
         const Stopwatch watch;
+        OpenDevices* const kept = options.open_devices;
         const cl::Program program =
-            build_program(context_, device_, render_kernels, program_options);
+            kept != nullptr ? kept->program(device_, render_kernels, program_options)
+                            : build_program(context_, device_, render_kernels, program_options);
         render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
         set_scene_arguments(render_, params_);
         if (launch_samples_) {

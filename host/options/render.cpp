@@ -166,24 +166,49 @@ void add_report_options(const CommandLine& verb, RenderOptions& render) {
     verb.flag("-v,--verbose", render.verbose, "say more");
 }
 
+/// One scene, or a batch.
+void settle_scenes(RenderOptions& render) {
+    if (!render.is_batch()) {
+        if (render.scenes.empty()) {
+            throw Error(ExitCode::usage, "SCENE is required; see 'mirrorball render --help'");
+        }
+        render.scene = render.scenes.front();
+        return;
+    }
+    if (!render.reference.empty()) {
+        throw Error(ExitCode::usage, "--reference is for one scene");
+    }
+    if (!render.output.empty() && render.output.find("%s") == std::string::npos) {
+        throw Error(ExitCode::usage,
+                    fmt::format("-o '{}' is one file for several scenes; write %s for a scene's "
+                                "name, as in out/%s.png",
+                                render.output));
+    }
+}
+
 }  // namespace
 
 void add_render(const CommandLine& program, Options& options) {
     options.render.dumb_terminal = environment("TERM") == "dumb";
-    const CommandLine verb = program.verb("render", "render one picture");
-    verb.argument("SCENE", options.render.scene, "scene file (.json, .nff, .obj, .ply)");
+    const CommandLine verb = program.verb("render", "render a picture, or several");
+    verb.arguments("SCENE", options.render.scenes, "scene files (.json, .nff, .obj, .ply)", false);
     verb.option("-o,--output", "FILE",
-                "picture file: .png, .exr, .pfm, .tif, .jpg .. (default: none)",
+                "picture file: .png, .exr, .pfm, .tif, .jpg .. (default: none); of several scenes "
+                "%s is a scene's name: out/%s.png",
                 [&](const std::string& text) {
                     if (text.empty()) refuse("-o", text, "name a picture file");
                     options.render.output = text;
                 });
+    verb.option("--batch", "FILE|-",
+                "also the scenes that a file or stdin names, a line each: SCENE or SCENE OUTPUT",
+                [&](const std::string& text) { options.render.batch = text; });
     add_picture_options(verb, options.render);
     add_light_options(verb, options.render.light);
     add_device_options(verb, options.render);
     add_report_options(verb, options.render);
     verb.when_chosen([&options, verb] {
         if (!verb.given("--device")) options.render.device = device_from_environment();
+        settle_scenes(options.render);
         options.verb = Verb::render;
     });
 }

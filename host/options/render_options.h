@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "host/image/encoding.h"
 #include "host/picture/render_settings.h"
@@ -15,8 +16,10 @@ enum class ProgressMode { automatic, bar, plain, json, none };
 /// `mirrorball render`; what is not given is the scene's.
 struct RenderOptions : RenderSettings {
     std::string scene;
-    std::string output;  ///< empty: render, write nothing
-    std::string device;  ///< a list with commas; empty: the best there is
+    std::string output;  ///< empty: render, write nothing. Of several scenes %s is the name
+    std::vector<std::string> scenes;  ///< all of them, where there are several
+    std::string batch;                ///< a file that names scenes, "-": stdin; empty: none
+    std::string device;               ///< a list with commas; empty: the best there is
     LightOverrides light;
     std::string reference;  ///< empty: none
     Encoding encoding = Encoding::display;
@@ -24,6 +27,8 @@ struct RenderOptions : RenderSettings {
     ProgressMode progress = ProgressMode::automatic;
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar
+
+    bool is_batch() const { return !batch.empty() || scenes.size() > 1; }
 };
 
 }  // namespace rt

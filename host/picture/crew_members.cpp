@@ -50,12 +50,14 @@ CrewMember<T> threads_member(const SharedScene<T>& scene, const ThreadsOptions& 
 template <typename T>
 CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& settings,
                             const ClDevice& device, bool refines, bool is_alone,
+                            const std::shared_ptr<OpenDevices>& open,
                             const std::function<void()>& loaded) {
-    const ClOptions options = cl_options(settings, refines, is_alone);
+    ClOptions options = cl_options(settings, refines, is_alone);
+    options.open_devices = open.get();
     const ClTiles tiles =
         cl_tiles<T>(scene->params, device, options, static_cast<int>(scene->params.width));
     CrewMember<T> member{device.name, tiles.best, tiles.most_pixels, {}, {}};
-    member.make = [scene, device, options, loaded] {
+    member.make = [scene, device, options, open, loaded] {
         auto renderer = make_cl_renderer<T>(*scene, device, options);
         if (loaded) loaded();
         return renderer;
@@ -72,9 +74,12 @@ CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& s
 template CrewMember<float> threads_member(const SharedScene<float>&, const ThreadsOptions&);
 template CrewMember<double> threads_member(const SharedScene<double>&, const ThreadsOptions&);
 template CrewMember<float> device_member(const SharedScene<float>&, const RenderSettings&,
-                                         const ClDevice&, bool, bool, const std::function<void()>&);
+                                         const ClDevice&, bool, bool,
+                                         const std::shared_ptr<OpenDevices>&,
+                                         const std::function<void()>&);
 template CrewMember<double> device_member(const SharedScene<double>&, const RenderSettings&,
                                           const ClDevice&, bool, bool,
+                                          const std::shared_ptr<OpenDevices>&,
                                           const std::function<void()>&);
 
 }  // namespace rt

@@ -12,6 +12,8 @@
 
 namespace rt {
 
+class OpenDevices;
+
 /// A scene ready to render, held by every renderer of it.
 template <typename T>
 using SharedScene = std::shared_ptr<const FlatScene<T>>;
@@ -23,11 +25,12 @@ ThreadsOptions threads_options(const RenderSettings& settings, int threads);
 template <typename T>
 CrewMember<T> threads_member(const SharedScene<T>& scene, const ThreadsOptions& options);
 
-/// An OpenCL device, made by opening it, compiling and uploading, and tested by self_test. `loaded`
-/// is called when it is made: drivers replace signal handlers.
+/// An OpenCL device, made by opening it (or where `open` has it open), compiling and uploading, and
+/// tested by self_test. `loaded` is called when it is made: drivers replace signal handlers.
 template <typename T>
 CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& settings,
                             const ClDevice& device, bool refines, bool is_alone,
+                            const std::shared_ptr<OpenDevices>& open,
                             const std::function<void()>& loaded);
 
 }  // namespace rt

@@ -14,6 +14,7 @@
 #include "host/memory_limit.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/picture/crew_members.h"
+#include "host/picture/render_cache.h"
 #include "host/picture/tile_check.h"
 #include "host/render/picture_loop.h"
 #include "host/render/stopwatch.h"
@@ -59,20 +60,28 @@ template <typename T>
 class Job {
    public:
     Job(const Scene& scene, const RenderSettings& settings, const RenderEvents& events,
-        const StopFlag& stop)
+        const StopFlag& stop, RenderCache* cache)
         : settings_(settings),
           events_(events),
           stop_(stop),
+          cache_(cache),
           region_(chosen_region(scene, settings)),
           rendered_(region_to_render(scene.aa, region_, scene.width, scene.height)) {
         const Stopwatch watch;
-        auto figures = std::async(scene_stats, std::cref(scene));
-        FlattenOptions flatten_options;
-        flatten_options.hierarchies = settings.hierarchies;
-        flatten_options.caster_lists = settings.caster_lists;
-        scene_ = std::make_shared<const FlatScene<T>>(flatten<T>(scene, flatten_options));
-        stats_.phases.flatten = watch.seconds();
-        stats_.scene = figures.get();
+        if (cache == nullptr) {
+            auto figures = std::async(scene_stats, std::cref(scene));
+            scene_ = flattened(scene);
+            stats_.phases.flatten = watch.seconds();
+            stats_.scene = figures.get();
+        } else {
+            stats_.scene = scene_stats(scene);
+            auto& kept = std::get<RenderCache::Flattened<T>>(cache->scenes);
+            if (!kept.scene || kept.hash != stats_.scene.hash) {
+                kept = {stats_.scene.hash, flattened(scene)};
+            }
+            scene_ = kept.scene;
+            stats_.phases.flatten = watch.seconds();
+        }
         stats_.scene.triangles = scene_->triangles.size();
         stats_.scene.smooth_triangles = scene_->vertex_normals.size();
         stats_.scene.bytes = scene_->bytes();
@@ -107,6 +116,13 @@ class Job {
     }
 
    private:
+    SharedScene<T> flattened(const Scene& scene) const {
+        FlattenOptions options;
+        options.hierarchies = settings_.hierarchies;
+        options.caster_lists = settings_.caster_lists;
+        return std::make_shared<const FlatScene<T>>(flatten<T>(scene, options));
+    }
+
     void say(const std::string& line) const {
         if (events_.message) events_.message(line);
     }
@@ -147,9 +163,9 @@ class Job {
         std::vector<CrewMember<T>> members;
         for (const DeviceChoice& choice : devices) {
             if (!choice.use_threads) {
-                members.push_back(device_member<T>(scene_, settings_, choice.device,
-                                                   stats_.aa.refines(), is_alone,
-                                                   events_.driver_loaded));
+                members.push_back(device_member<T>(
+                    scene_, settings_, choice.device, stats_.aa.refines(), is_alone,
+                    cache_ == nullptr ? nullptr : cache_->devices, events_.driver_loaded));
                 continue;
             }
             ThreadsOptions options = threads_options(settings_, choice.threads);
@@ -274,8 +290,9 @@ class Job {
     const RenderSettings& settings_;
     const RenderEvents& events_;
     const StopFlag& stop_;
-    const Rect region_;    ///< asked for
-    const Rect rendered_;  ///< that, and what it takes to refine it
+    RenderCache* const cache_;  ///< may be null
+    const Rect region_;         ///< asked for
+    const Rect rendered_;       ///< that, and what it takes to refine it
     SharedScene<T> scene_;
     Film<T> film_{0, 0};
     PictureSize tile_{};
@@ -286,8 +303,8 @@ class Job {
 template <typename T>
 RenderedPicture render_on(const Scene& scene, const RenderSettings& settings,
                           const std::function<Devices()>& devices, const RenderEvents& events,
-                          const StopFlag& stop) {
-    Job<T> job(scene, settings, events, stop);
+                          const StopFlag& stop, RenderCache* cache) {
+    Job<T> job(scene, settings, events, stop, cache);
     const Stopwatch watch;
     const Devices chosen = devices();
     return job.run(chosen, watch.seconds());
@@ -295,11 +312,11 @@ RenderedPicture render_on(const Scene& scene, const RenderSettings& settings,
 
 RenderedPicture render_on(const Scene& scene, const RenderSettings& settings,
                           const std::function<Devices()>& devices, const RenderEvents& events,
-                          const StopFlag& stop) {
+                          const StopFlag& stop, RenderCache* cache) {
     if (settings.precision == Precision::float64) {
-        return render_on<double>(scene, settings, devices, events, stop);
+        return render_on<double>(scene, settings, devices, events, stop, cache);
     }
-    return render_on<float>(scene, settings, devices, events, stop);
+    return render_on<float>(scene, settings, devices, events, stop, cache);
 }
 
 }  // namespace
@@ -308,14 +325,14 @@ RenderedPicture render_picture(const Scene& scene, const RenderSettings& setting
                                std::future<Devices> devices, const RenderEvents& events,
                                const StopFlag& stop) {
     return render_on(
-        scene, settings, [&] { return devices.get(); }, events, stop);
+        scene, settings, [&] { return devices.get(); }, events, stop, nullptr);
 }
 
 RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
-                               const DeviceChoice& device, const RenderEvents& events,
-                               const StopFlag& stop) {
+                               const Devices& devices, const RenderEvents& events,
+                               const StopFlag& stop, RenderCache* cache) {
     return render_on(
-        scene, settings, [&] { return Devices{device}; }, events, stop);
+        scene, settings, [&] { return devices; }, events, stop, cache);
 }
 
 }  // namespace rt

@@ -15,6 +15,8 @@
 
 namespace rt {
 
+struct RenderCache;
+
 struct RenderedPicture {
     Picture picture;  ///< the region, row 0 at the top; finished tiles only when stopped early
     RenderStats stats;
@@ -38,9 +40,10 @@ RenderedPicture render_picture(const Scene& scene, const RenderSettings& setting
                                std::future<std::vector<DeviceChoice>> devices,
                                const RenderEvents& events, const StopFlag& stop);
 
-/// On one device that was chosen before.
+/// On devices that were chosen before. The cache serves one picture at a time; null: nothing is
+/// kept.
 RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
-                               const DeviceChoice& device, const RenderEvents& events,
-                               const StopFlag& stop);
+                               const std::vector<DeviceChoice>& devices, const RenderEvents& events,
+                               const StopFlag& stop, RenderCache* cache = nullptr);
 
 }  // namespace rt

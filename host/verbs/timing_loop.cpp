@@ -93,7 +93,7 @@ RenderedPicture render_quietly(const Scene& scene, const RenderSettings& setting
     RenderEvents events;
     events.started = [](const TileQueue&) { install_stop_signals(); };
     events.driver_loaded = restore_stop_signals;
-    return render_picture(scene, settings, device, events, stop_flag());
+    return render_picture(scene, settings, std::vector{device}, events, stop_flag());
 }
 
 DeviceChoice threads_device() {

@@ -83,11 +83,11 @@ class CliTest(unittest.TestCase):
                                        SCENE=scene_path("single-sphere"))),
             stdin=subprocess.DEVNULL, timeout=TIME_LIMIT, check=False)
 
-    def start(self, *arguments, env=None):
+    def start(self, *arguments, env=None, stdin=subprocess.DEVNULL):
         """Starts the program and leaves it running; it is killed at the end of the test."""
         process = subprocess.Popen(
             [SETTINGS["program"], *map(str, arguments)], cwd=self.folder, text=True,
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
             env=clean_environment(env or {}))
         self.addCleanup(self._finish, process)
         return process

@@ -24,7 +24,7 @@ class Help(CliTest):
             "--device", "--size", "--aa", "--max-bounces", "--precision", "--math", "--launch",
             "--schedule", "--threads", "--features", "--hierarchies",
             "--caster-lists", "--crop", "--reference", "--encoding",
-            "--stats", "--progress", "--no-fallback", "--output", "--light-scale", "--ambient"])
+            "--stats", "--progress", "--no-fallback", "--output", "--batch", "--light-scale", "--ambient"])
 
     def test_devices_help(self):
         self.assert_helps("devices", "--help", words=["--json"])
@@ -48,10 +48,6 @@ class WrongCommand(CliTest):
 
     def test_scene_without_action(self):
         self.assert_refused(self.run_cli("scene"), 2, "--help")
-
-    def test_two_scenes(self):
-        scene = scene_path("empty")
-        self.assert_refused(self.run_cli("render", scene, scene), 2, scene)
 
 
 class WrongOption(CliTest):

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <tuple>
+
+#include "host/picture/crew_members.h"
+
+namespace rt {
+
+/// What stays from picture to picture with the same settings: open devices, their programs, and the
+/// last scene as it was flattened.
+struct RenderCache {
+    template <typename T>
+    struct Flattened {
+        std::uint64_t hash = 0;  ///< scene_hash of its scene
+        SharedScene<T> scene;    ///< null: none yet
+    };
+
+    RenderCache();
+
+    std::shared_ptr<OpenDevices> devices;
+    std::tuple<Flattened<float>, Flattened<double>> scenes;
+};
+
+}  // namespace rt

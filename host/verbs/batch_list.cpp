@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/batch_list.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+#include "host/error.h"
+#include "host/stop_signal.h"
+
+namespace rt {
+
+std::optional<BatchItem> parse_batch_line(const std::string& line) {
+    std::istringstream words(line);
+    BatchItem item;
+    if (!(words >> std::quoted(item.scene)) || item.scene.starts_with("#")) return std::nullopt;
+    words >> std::quoted(item.output);
+    std::string more;
+    if (words >> more) {
+        throw Error(ExitCode::usage,
+                    fmt::format("'{}' after SCENE and OUTPUT; put names with blanks in double "
+                                "quotes",
+                                more));
+    }
+    return item;
+}
+
+std::string batch_output(const std::string& pattern, const std::string& scene) {
+    const std::string name = std::filesystem::path(scene).stem().string();
+    std::string output;
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+        const bool is_name = pattern.compare(i, 2, "%s") == 0;
+        output += is_name ? name : std::string(1, pattern[i]);
+        if (is_name) ++i;
+    }
+    return output;
+}
+
+LineReader::LineReader(const std::string& path)
+    : file_(path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (file_) return;
+    throw Error(ExitCode::input,
+                fmt::format("{}: cannot open the list of scenes: {}", path, std::strerror(errno)));
+}
+
+/// Whether there was more.
+bool LineReader::read_more() {
+    pollfd ready{file_.number(), POLLIN, 0};
+    if (poll(&ready, 1, -1) < 0) return false;  // a signal, which read would sleep through
+    char chunk[4096];
+    const ssize_t size = read(file_.number(), chunk, sizeof chunk);
+    if (size > 0) text_.append(chunk, static_cast<std::size_t>(size));
+    return size > 0;
+}
+
+std::optional<std::string> LineReader::next() {
+    std::size_t end = text_.find('\n');
+    while (end == std::string::npos && !at_end_) {
+        at_end_ = !read_more();
+        end = text_.find('\n');
+    }
+    if (text_.empty() || stop_flag() != 0) return std::nullopt;
+    std::string line = text_.substr(0, end);
+    text_.erase(0, end == std::string::npos ? end : end + 1);
+    return line;
+}
+
+BatchList::BatchList(const RenderOptions& options) : options_(options) {
+    if (!options.batch.empty()) lines_.emplace(options.batch);
+}
+
+bool BatchList::take(BatchItem& item) {
+    if (given_ < options_.scenes.size()) {
+        item = {"", options_.scenes[given_++], ""};
+        return true;
+    }
+    while (lines_) {
+        const std::optional<std::string> line = lines_->next();
+        if (!line) break;
+        item.where =
+            fmt::format("{}:{}: ", options_.batch == "-" ? "stdin" : options_.batch, ++line_);
+        const std::optional<BatchItem> parsed = parse_batch_line(*line);
+        if (!parsed) continue;
+        item.scene = parsed->scene;
+        item.output = parsed->output;
+        return true;
+    }
+    return false;
+}
+
+bool BatchList::next(BatchItem& item) {
+    item = {};
+    if (!take(item)) return false;
+    if (item.output.empty()) item.output = batch_output(options_.output, item.scene);
+    if (item.output.empty()) return true;
+    const auto path = std::filesystem::absolute(item.output).lexically_normal().string();
+    if (!outputs_.insert(path).second) {
+        throw Error(ExitCode::usage,
+                    item.output + " is another scene's already; give each a file of its own");
+    }
+    return true;
+}
+
+}  // namespace rt

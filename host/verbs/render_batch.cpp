@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/render_batch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <future>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/console.h"
+#include "host/counted.h"
+#include "host/error.h"
+#include "host/image/output_path.h"
+#include "host/image/picture_io.h"
+#include "host/opencl/device_spec.h"
+#include "host/picture/render_cache.h"
+#include "host/print/stats_json.h"
+#include "host/render/stopwatch.h"
+#include "host/stop_signal.h"
+#include "host/verbs/batch_list.h"
+#include "host/verbs/render_steps.h"
+
+namespace rt {
+
+namespace {
+
+/// Results can go nowhere any more.
+struct ResultsLost : Error {
+    using Error::Error;
+};
+
+/// JSON of a batch: a line each.
+void print_batch_results(const RenderStats& stats, const RenderOptions& options) {
+    try {
+        if (options.stats == StatsFormat::json) {
+            print_result(stats_json(stats).dump() + "\n");
+        } else {
+            print_results(stats, options);
+        }
+        flush_results();
+    } catch (const Error& error) {
+        throw ResultsLost(error.exit_code(), error.what());
+    }
+}
+
+/// Writes a picture and says how it went. Returns the exit status it means.
+int finish_picture(RenderedPicture rendered, const RenderOptions& options, const Stopwatch& total) {
+    const Stopwatch writing;
+    const std::string path = save_picture(rendered, options);
+    rendered.stats.phases.write = writing.seconds();
+    rendered.stats.phases.total = total.seconds();
+    print_batch_results(rendered.stats, options);
+    return verdict(rendered, path);
+}
+
+/// Renders a picture while the one before it is written.
+class Batch {
+   public:
+    explicit Batch(const RenderOptions& options)
+        : options_(options),
+          list_(options),
+          devices_(find_devices(options.device, options.threads, restore_stop_signals).get()) {
+        if (!options.output.empty()) check_picture_path(batch_output(options.output, "scene"));
+    }
+
+    int run() {
+        while (stop_flag() == 0) {
+            BatchItem item;
+            bool is_there = true;
+            const bool is_right = attempt(item, [&] { is_there = list_.next(item); });
+            if (!is_there) break;
+            if (is_right) attempt(item, [&] { start(item); });
+        }
+        settle();
+        return sum_up();
+    }
+
+   private:
+    /// Whether it went well; what it threw is noted, and ends nothing but where results are lost.
+    template <typename Work>
+    bool attempt(const BatchItem& item, const Work& work) {
+        try {
+            work();
+            return true;
+        } catch (const ResultsLost&) {
+            throw;
+        } catch (const Error& error) {
+            note(item, error);
+        } catch (const std::bad_alloc&) {
+            note(item, Error(ExitCode::limit, "out of memory; render a smaller picture or scene"));
+        }
+        return false;
+    }
+
+    void start(const BatchItem& item) {
+        const Stopwatch total;
+        RenderOptions options = options_;
+        options.scene = item.scene;
+        options.output = item.output;
+        if (!options.output.empty()) {
+            check_picture_path(options.output);
+            check_output_is_no_input(options.output, {options.scene});
+        }
+        Stopwatch watch;
+        const Scene scene = scene_to_render(options);
+        const double load_seconds = watch.lap();
+        RenderedPicture rendered = render(scene, options);
+        rendered.stats.scene.path = options.scene;
+        rendered.stats.phases.load = load_seconds;
+        settle();
+        written_ = item;
+        writing_ = std::async(std::launch::async, finish_picture, std::move(rendered),
+                              std::move(options), total);
+    }
+
+    /// A device that has failed is not asked again.
+    RenderedPicture render(const Scene& scene, const RenderOptions& options) {
+        const RenderConsole console(options);
+        RenderedPicture rendered =
+            render_picture(scene, options, devices_, console.events(), stop_flag(), &cache_);
+        if (!rendered.stats.device.fallback_from.empty()) {
+            devices_ = {DeviceChoice{true, 0, {}, ""}};
+        }
+        for (DeviceChoice& device : devices_) device.note.clear();
+        return rendered;
+    }
+
+    /// Waits for the picture that is being written.
+    void settle() {
+        if (!writing_.valid()) return;
+        attempt(written_, [&] { count(written_, writing_.get()); });
+    }
+
+    void note(const BatchItem& item, const Error& error) {
+        print_message(fmt::format("mirrorball: {}{}\n", item.where, error.what()));
+        count(item, static_cast<int>(error.exit_code()));
+    }
+
+    void count(const BatchItem& item, int status) {
+        ++pictures_;
+        if (status == 0) return;
+        worst_ = std::max(worst_, status);
+        failed_.push_back(
+            fmt::format("{} ({})", item.scene.empty() ? item.where : item.scene, status));
+    }
+
+    int sum_up() const {
+        if (stop_flag() != 0) {
+            print_message(fmt::format("mirrorball: {} after {}\n", stop_reason(),
+                                      counted(pictures_, "picture")));
+            return 128 + stop_flag();
+        }
+        if (pictures_ == 0) throw Error(ExitCode::usage, "no scene in the list");
+        if (failed_.empty()) return 0;
+        std::string text =
+            fmt::format("mirrorball: {} of {} failed, with exit codes:", failed_.size(),
+                        counted(pictures_, "picture"));
+        constexpr std::size_t most_named = 20;
+        for (std::size_t i = 0; i < std::min(failed_.size(), most_named); ++i) {
+            text += (i == 0 ? " " : ", ") + failed_[i];
+        }
+        print_message(text + (failed_.size() > most_named ? ", ...\n" : "\n"));
+        return worst_;
+    }
+
+    const RenderOptions& options_;
+    BatchList list_;
+    std::vector<DeviceChoice> devices_;
+    RenderCache cache_;
+    std::future<int> writing_;
+    BatchItem written_;
+    std::size_t pictures_ = 0;
+    std::vector<std::string> failed_;
+    int worst_ = 0;
+};
+
+}  // namespace
+
+int render_batch(const RenderOptions& options) { return Batch(options).run(); }
+
+}  // namespace rt

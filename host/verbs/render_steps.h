@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/options/render_options.h"
+#include "host/picture/render_picture.h"
+#include "host/verbs/progress.h"
+
+// What rendering one scene and a batch of them have in common. All of it throws Error.
+namespace rt {
+
+/// options.scene as it is to be rendered; what its reader left out goes to stderr.
+Scene scene_to_render(const RenderOptions& options);
+
+/// Shows on stderr what a render tells of. The options must outlive it.
+class RenderConsole {
+   public:
+    explicit RenderConsole(const RenderOptions& options);
+    RenderConsole(const RenderConsole&) = delete;
+    RenderConsole& operator=(const RenderConsole&) = delete;
+
+    const RenderEvents& events() const { return events_; }
+
+   private:
+    std::optional<ProgressReporter> progress_;
+    RenderEvents events_;
+};
+
+/// Writes the picture to options.output, an unfinished one next to it: what is there may be
+/// finished. Returns the name it got; "" where none is asked for.
+std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options);
+
+/// What options.stats asks for: the summary line on stderr, or figures on stdout.
+void print_results(const RenderStats& stats, const RenderOptions& options);
+
+/// Says on stderr what is wrong with a picture that was saved as `path`. Returns the exit status it
+/// means.
+int verdict(const RenderedPicture& rendered, const std::string& path);
+
+}  // namespace rt

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Several scenes by one command: the pictures of one each, errors that stop nothing but their own."""
+import json
+import signal
+import subprocess
+
+from harness import CliTest, scene_path
+
+SMALL = ["--size", "32", "--device", "threads"]
+
+
+class BatchTest(CliTest):
+    def bytes_of(self, name):
+        return (self.folder / name).read_bytes()
+
+
+class SeveralScenes(BatchTest):
+    def test_pictures_are_those_of_a_command_each(self):
+        scenes = ["single-sphere", "glass", "cones", "glass"]
+        for scene in scenes:
+            self.assertEqual(self.run_cli("render", scene_path(scene), "-o", f"alone-{scene}.png",
+                                          *SMALL).returncode, 0)
+        for device in ["threads", "pocl"]:
+            result = self.run_cli("render", *map(scene_path, scenes[:3]), "-o", f"{device}-%s.png",
+                                  "--size", "32", "--device", device)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(len(result.stderr.splitlines()), 3)
+            for scene in scenes[:3]:
+                self.assertEqual(self.bytes_of(f"{device}-{scene}.png"),
+                                 self.bytes_of(f"alone-{scene}.png"))
+
+    def test_a_bad_scene_stops_no_other(self):
+        self.write_text("bad.json", "{")
+        result = self.run_cli("render", "nowhere.json", scene_path("cones"),
+                              "bad.json", "-o", "%s.png", *SMALL)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("nowhere.json", result.stderr.splitlines()[0])
+        self.assertEqual(result.stderr.splitlines()[-1],
+                         "mirrorball: 2 of 3 pictures failed, with exit codes: nowhere.json (3), "
+                         "bad.json (3)")
+        self.assertEqual([name for name in self.files() if name.endswith(".png")], ["cones.png"])
+
+    def test_the_worst_exit_code_is_told(self):
+        result = self.run_cli("render", "nowhere.json", scene_path("cones"), "--batch",
+                              self.write_text("list", f"{scene_path('glass')} missing/x.png\n"),
+                              *SMALL, "-q")
+        self.assertEqual(result.returncode, 4)
+
+    def test_one_file_for_several_scenes_is_refused(self):
+        scene = scene_path("cones")
+        self.assert_refused(self.run_cli("render", scene, scene, "-o", "out.png"), 2, "%s")
+        self.assert_refused(self.run_cli("render", scene, scene, "-o", "%s.gif"), 2, ".gif")
+        self.assert_refused(self.run_cli("render", scene, scene, "-o", "nowhere/%s.png"), 4,
+                            "nowhere")
+        self.assert_refused(self.run_cli("render", scene, scene, "--reference", "a.png"), 2,
+                            "--reference")
+        self.assertEqual(self.files(), [])
+
+    def test_two_scenes_of_one_name_do_not_overwrite(self):
+        result = self.run_cli("render", scene_path("cones"), scene_path("cones"), "-o", "%s.png",
+                              *SMALL)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("cones.png is another scene's already", result.stderr)
+        self.assertEqual(self.files(), ["cones.png"])
+
+
+class List(BatchTest):
+    def test_lines_name_scenes_and_pictures(self):
+        text = (f"# two\n\n{scene_path('cones')}\n  {scene_path('cones')}  \"with blank.png\"\n"
+                f"{scene_path('cones')} a.png b.png")
+        result = self.run_cli("render", "--batch", self.write_text("list", text), "-o", "%s.png",
+                              *SMALL)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("list:5: 'b.png' after SCENE and OUTPUT", result.stderr)
+        self.assertEqual(self.files(), ["cones.png", "list", "with blank.png"])
+        self.assertEqual(self.bytes_of("cones.png"), self.bytes_of("with blank.png"))
+
+    def test_no_scene_at_all(self):
+        self.assert_refused(self.run_cli("render", "--batch", self.write_text("list", "# none\n")),
+                            2, "no scene")
+        self.assert_refused(self.run_cli("render", "--batch", "nowhere"), 3, "nowhere")
+
+    def test_json_has_a_line_for_each_picture_as_it_is_done(self):
+        process = self.start("render", "--batch", "-", "--stats=json", *SMALL,
+                             stdin=subprocess.PIPE)
+        for scene in ["cones", "glass"]:
+            process.stdin.write(scene_path(scene) + "\n")
+            process.stdin.flush()
+            self.assertEqual(json.loads(process.stdout.readline())["scene"]["path"],
+                             scene_path(scene))
+        process.stdin.close()
+        process.stdin = None
+        self.assertEqual(process.wait(timeout=30), 0)
+
+    def test_a_signal_ends_the_wait_for_the_next_scene(self):
+        process = self.start("render", "--batch", "-", "--stats=json", *SMALL,
+                             stdin=subprocess.PIPE)
+        process.stdin.write(scene_path("cones") + "\n")
+        process.stdin.flush()
+        process.stdout.readline()
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=30), 143)
+        self.assertIn("terminated (SIGTERM) after 1 picture", process.stderr.read())
