@@ -196,6 +196,14 @@ class Wrong(WrongDriver):
         self.assertEqual(json.loads(result.stdout)["image"]["hash"], self.right_hash())
         self.render(self.LEFT_EDGE, 5, "--no-fallback", *arguments)
 
+    def test_by_rays_that_cannot_be(self):
+        shim = {"CL_SHIM_OLD": "counts->shadow += lit & 1;", "CL_SHIM_NEW": "counts->shadow += 9;"}
+        result = self.render(shim, 0)
+        self.assertIn("counts rays that cannot be", result.stderr)
+        figures = json.loads(result.stdout)
+        self.assertEqual(figures["rays"], json.loads(self.render({}, 0).stdout)["rays"])
+        self.render(shim, 5, "--no-fallback")
+
 
 class Math(WrongDriver):
     def options(self, *arguments):

@@ -110,7 +110,7 @@ class Job {
         crew.open();
         render_with(crew);
         note_devices(crew, devices);
-        if (has_opencl(devices)) check_again();
+        if (has_opencl(devices) && stats_.complete()) check_again();
         stats_.phases.renderer.open += wait_seconds;
         return finished_picture();
     }
@@ -250,18 +250,27 @@ class Job {
         stats_.device.lanes = packet_lanes<T>(settings_.lanes, device);
     }
 
-    /// Traces a share of a device's tiles again, where that was asked for; all of the picture when
-    /// one is wrong.
-    void check_again() {
-        if (settings_.check <= 0 || !stats_.complete() || settings_.fast_math) return;
+    /// What is wrong with what devices have rendered: their count of rays, or a share of the tiles,
+    /// where that was asked for. Empty when nothing.
+    std::string what_is_wrong() {
+        const std::string rays = impossible_rays(stats_.rays, stats_.scene.lights,
+                                                 stats_.max_bounces, scene_->features.glass);
+        if (!rays.empty()) return "counts rays that cannot be: " + rays;
+        if (settings_.check <= 0 || settings_.fast_math) return "";
         const TileCheck check = check_tiles(*scene_, stats_.aa, settings_.isa,
                                             make_tiles(region_, tile_.width, tile_.height),
                                             settings_.check, region_, film_);
         stats_.tiles_checked = check.tiles;
-        if (check.wrong_tiles == 0) return;
-        const std::string what =
-            fmt::format("{}: {} of {} tiles that threads traced again are different",
-                        stats_.device.name, check.wrong_tiles, check.tiles);
+        if (check.wrong_tiles == 0) return "";
+        return fmt::format("{} of {} tiles that threads traced again are different",
+                           check.wrong_tiles, check.tiles);
+    }
+
+    /// Renders all of the picture again on threads when devices were wrong.
+    void check_again() {
+        const std::string wrong = what_is_wrong();
+        if (wrong.empty()) return;
+        const std::string what = stats_.device.name + ": " + wrong;
         if (settings_.no_fallback) throw Error(ExitCode::device, what);
         say(what + "; rendering on threads instead");
         const std::string failed = stats_.device.name;

@@ -95,6 +95,21 @@ TileCheck check_tiles(const FlatScene<T>& scene, const AaMode& aa, const std::st
     return check;
 }
 
+std::string impossible_rays(const RayCounts& rays, std::size_t lights, int max_bounces,
+                            bool has_glass) {
+    const double bounces = max_bounces;
+    const double most = has_glass ? std::exp2(bounces + 1) - 2 : bounces;
+    const std::uint64_t secondary = rays.mirror + rays.transmitted;
+    if (static_cast<double>(secondary) > most * static_cast<double>(rays.primary)) {
+        return fmt::format("{} mirror and refracted rays of {} eye rays", secondary, rays.primary);
+    }
+    const double surfaces = static_cast<double>(rays.primary) + static_cast<double>(secondary);
+    if (static_cast<double>(rays.shadow) > surfaces * static_cast<double>(lights)) {
+        return fmt::format("{} shadow rays of {} others", rays.shadow, rays.primary + secondary);
+    }
+    return "";
+}
+
 template void self_test(Renderer<float>&, const std::string&, const FlatScene<float>&,
                         const std::string&);
 template void self_test(Renderer<double>&, const std::string&, const FlatScene<double>&,

@@ -17,6 +17,12 @@ template <typename T>
 void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
                const std::string& isa);
 
+/// Rays that no scene of so many lights needs after so many bounces: what a device has counted
+/// wrongly; empty when nothing. A path has at most a ray a bounce, with glass a binary tree; every
+/// surface at most a shadow ray a light. Interrupted pictures may have counted more.
+std::string impossible_rays(const RayCounts& rays, std::size_t lights, int max_bounces,
+                            bool has_glass);
+
 /// What of a finished picture was traced again on threads.
 struct TileCheck {
     std::size_t tiles = 0;
