@@ -165,6 +165,23 @@ TYPED_TEST(TraceTree, AddsUpAPaneByHand) {
         EXPECT_EQ(counts[0].transmitted, transmitted) << max_bounces;
     }
 }
+TYPED_TEST(TraceTree, ReflectsWithBothWeightsBeyondTheCriticalAngle) {
+    using T = TypeParam;
+    // From inside of index 1.5, where total reflection begins at 41.8 degrees.
+    auto scene = unlit<T>(0.125, 0.5, 1.5, 1);
+    scene.triangles = {make_triangle<T>({-9, -9, -1}, {0, 9, -1}, {9, -9, -1})};
+    count_primitives(scene);
+    scene.params.max_bounces = 4;
+    for (const double degrees : {41.0, 43.0, 60.0, 75.0}) {
+        const double angle = degrees * std::numbers::pi / 180;
+        const std::vector<ProbeRay<T>> ray{
+            make_ray<T>({0, 0, 0}, {std::sin(angle), 0, -std::cos(angle)})};
+        const auto [colors, counts] = trace_paths(scene, ray);
+        EXPECT_EQ(colors[0].x, T(0.625)) << degrees;
+        EXPECT_EQ(counts[0].mirror, 1u) << degrees;
+        EXPECT_EQ(counts[0].transmitted, degrees < 41.8 ? 1u : 0u) << degrees;
+    }
+}
 TYPED_TEST(TraceTree, SeesTheBackgroundExactlyThroughIndexOne) {
     using T = TypeParam;
     Random random(4);

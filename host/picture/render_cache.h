@@ -14,11 +14,15 @@ namespace rt {
 struct RenderCache {
     template <typename T>
     struct Flattened {
-        std::uint64_t hash = 0;  ///< scene_hash of its scene
-        SharedScene<T> scene;    ///< null: none yet
+        std::uint64_t key = 0;  ///< flat_key of its scene
+        SharedScene<T> scene;   ///< null: none yet
     };
 
     RenderCache();
+
+    /// Of all in a scene that flattening reads; `hash` is its scene_hash, which leaves out the
+    /// settings.
+    static std::uint64_t flat_key(const Scene& scene, std::uint64_t hash);
 
     std::shared_ptr<OpenDevices> devices;
     std::tuple<Flattened<float>, Flattened<double>> scenes;

@@ -76,9 +76,8 @@ class Job {
         } else {
             stats_.scene = scene_stats(scene);
             auto& kept = std::get<RenderCache::Flattened<T>>(cache->scenes);
-            if (!kept.scene || kept.hash != stats_.scene.hash) {
-                kept = {stats_.scene.hash, flattened(scene)};
-            }
+            const std::uint64_t key = RenderCache::flat_key(scene, stats_.scene.hash);
+            if (!kept.scene || kept.key != key) kept = {key, flattened(scene)};
             scene_ = kept.scene;
             stats_.phases.flatten = watch.seconds();
         }

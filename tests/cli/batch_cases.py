@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Several scenes by one command: the pictures of one each, errors that stop nothing but their own."""
 import json
+import pathlib
 import signal
 import subprocess
 
@@ -28,6 +29,24 @@ class SeveralScenes(BatchTest):
             for scene in scenes[:3]:
                 self.assertEqual(self.bytes_of(f"{device}-{scene}.png"),
                                  self.bytes_of(f"alone-{scene}.png"))
+
+    def test_what_differs_in_settings_alone_is_not_mistaken_for_the_scene_before(self):
+        changes = [{}, {"width": 24}, {"aa": "grid:3"}, {"aa": "sobol:4"}, {"max_bounces": 1}]
+        lines = pathlib.Path(scene_path("glass")).read_text().splitlines()
+        scene = json.loads("".join(line for line in lines if not line.startswith("//")))
+        names = []
+        for i, image in enumerate(changes):
+            max_bounces = image.pop("max_bounces", 8)
+            scene.update({"image": {"width": 32, "height": 24, "aa": "grid:2", **image},
+                          "max_bounces": max_bounces})
+            names.append(self.write_text(f"{i}.json", json.dumps(scene)))
+        result = self.run_cli("render", *names, "-o", "%s.png", "--device", "threads")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for name in names:
+            alone = self.run_cli("render", name, "-o", "alone.png", "--device", "threads")
+            self.assertEqual(alone.returncode, 0, alone.stderr)
+            self.assertEqual(self.bytes_of("alone.png"),
+                             self.bytes_of(pathlib.Path(name).stem + ".png"), name)
 
     def test_a_bad_scene_stops_no_other(self):
         self.write_text("bad.json", "{")
