@@ -85,6 +85,7 @@ void load_meshes(const std::vector<MeshRequest>& requests, const SceneFolder& fo
             continue;
         }
         add_model(std::move(model), request, scene);
+        scene.model_files.push_back(opened.path);
     }
 }
 

@@ -121,6 +121,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     /// What the reader left out, a sentence each: for the user to see, without effect otherwise.
     std::vector<std::string> notes;
+    std::vector<std::string> model_files;  ///< that the reader read besides its own file
 };
 
 /// The triangles of the scene, those of its meshes included.

@@ -111,8 +111,8 @@ void add(Hasher& hasher, const Scene::Mesh& mesh) {
 
 std::uint64_t scene_hash(const Scene& scene) {
     const auto& [name, camera, width, height, aa, filter, sampling_seed, max_bounces, background,
-                 ambient_light, lights, materials, spheres, cones, triangles, meshes, notes] =
-        scene;
+                 ambient_light, lights, materials, spheres, cones, triangles, meshes, notes,
+                 model_files] = scene;
     Hasher hasher;
     add(hasher, camera);
     add(hasher, background);

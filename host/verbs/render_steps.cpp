@@ -63,6 +63,7 @@ std::string share_done(const RenderStats& stats) {
 
 Scene scene_to_render(const RenderOptions& options) {
     Scene scene = load_scene(options.scene, options.light);
+    check_output_is_no_input(options.output, scene.model_files);
     if (!options.quiet) print_notes(scene.notes);
     apply_overrides(scene, options);
     return scene;

@@ -106,6 +106,13 @@ class OverInputs(CliTest):
         for name in ["symbolic.png", "hard.pfm"]:
             self.refuse("render", "scene.json", "-o", name, files=["scene.json"])
 
+    def test_model_of_a_scene(self):
+        shutil.copy(SETTINGS["scenes"] / "torus.ply", self.folder)
+        os.symlink("torus.ply", self.folder / "out.png")
+        self.write_scene(materials={"grey": {"diffuse": 0.5}},
+                         meshes=[{"file": "torus.ply", "material": "grey"}])
+        self.refuse("render", "scene.json", "-o", "out.png", files=["torus.ply"])
+
     def test_reference_and_compared_pictures(self):
         self.render(SCENE, "--size", "8", "--device", "threads", "-o", "a.png")
         self.refuse("render", scene_path(SCENE), "--reference", "a.png", "-o", "./a.png",
