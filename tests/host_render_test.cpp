@@ -44,6 +44,12 @@ TEST(MakeTiles, CoverEveryPixelOnce) {
     EXPECT_EQ(*pixels.rbegin(), std::make_pair(102, 41));
 }
 
+TEST(MakeTiles, CoverAColumnAndARowOfOnePixel) {
+    std::int64_t pixels = 0;
+    for (const Rect& tile : make_tiles({0, 0, 27, 15}, 13, 7)) pixels += tile.pixels();
+    EXPECT_EQ(pixels, 27 * 15);
+}
+
 TEST(TileQueue, HandsOutEveryTileOnceToManyThreads) {
     static const StopFlag go = 0;
     TileQueue queue(make_tiles({0, 0, 640, 480}, 8, 8), go);

@@ -61,6 +61,7 @@ class Bench(WrongDriver):
     def test_a_picture_far_from_the_reference_is_wrong(self):
         threads, [(verdict, why)], said = self.verdicts(brighter("1.5"), 1)
         self.assertEqual((threads, verdict), ({"right"}, "wrong"))
+        self.assertIn("off by more than 1/255", why)  # the judge's word, which comes before the bits'
         self.assertIn(why, said)
 
     def test_a_picture_that_is_off_in_a_bit_is_wrong(self):

@@ -8,6 +8,7 @@
 
 #include "host/error.h"
 #include "host/options/guess.h"
+#include "host/options/verb_texts.h"
 
 namespace rt {
 
@@ -17,6 +18,26 @@ CLI::App& app_of(void* app) { return *static_cast<CLI::App*>(app); }
 
 std::vector<CLI::App*> verbs_of(CLI::App& app) {
     return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+VerbText text_of(const CLI::App& verb) {
+    VerbText text{verb.get_name(), verb.get_description(), {}, {}};
+    for (const CLI::Option* option : verb.get_options()) {
+        OptionText one;
+        for (const std::string& name : option->get_snames()) one.names.push_back("-" + name);
+        for (const std::string& name : option->get_lnames()) one.names.push_back("--" + name);
+        one.is_word = one.names.empty();
+        const bool may_repeat = option->get_items_expected_max() > 1;
+        if (one.is_word) one.names.push_back(option->get_name() + (may_repeat ? "..." : ""));
+        if (!one.is_word && option->get_items_expected_max() > 0)
+            one.type = option->get_type_name();
+        one.help = option->get_description();
+        text.options.push_back(std::move(one));
+    }
+    for (const CLI::App* one : verb.get_subcommands([](const CLI::App*) { return true; })) {
+        text.verbs.push_back(text_of(*one));
+    }
+    return text;
 }
 
 }  // namespace
@@ -35,6 +56,11 @@ struct CommandLineParser {
 
     explicit CommandLineParser(const CommandLineTexts& texts) : app(texts.about, texts.program) {
         app.set_version_flag("--version", texts.version);
+        app.add_flag("--man")->description("Print the manual page, as roff");
+        app.add_option("--completions")
+            ->description("Print completions for a shell")
+
+            ->type_name("bash|zsh|fish");
         app.require_subcommand(1);
         place = texts.program;
     }
@@ -102,7 +128,18 @@ struct CommandLineParser {
         return result;
     }
 
+    /// What belongs to an installation, by the option that stands first; empty for another.
+    std::string installed_text(const std::vector<std::string>& words) {
+        const VerbText program = text_of(app);
+        if (words.size() == 1 && words[0] == "--man") return man_page(program, app.version());
+        if (words.size() != 2 || words[0] != "--completions") return "";
+        const std::string text = completions(program, words[1]);
+        if (text.empty()) refuse_line("--completions '" + words[1] + "': give bash, zsh or fish");
+        return text;
+    }
+
     std::string read(const std::vector<std::string>& words) {
+        if (const std::string text = installed_text(words); !text.empty()) return text;
         try {
             std::vector<std::string> last_first = joined(words);
             std::reverse(last_first.begin(), last_first.end());

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+# What `cmake --install` and `cpack` put where. The program finds its modules from where it lies itself,
+# so that the whole prefix can be moved.
+include(GNUInstallDirs)
+
+set(module_folder ${CMAKE_INSTALL_LIBDIR}/mirrorball)
+file(RELATIVE_PATH modules_from_program /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${module_folder})
+set_source_files_properties(host/image/module_loader.cpp PROPERTIES
+    COMPILE_DEFINITIONS "MIRRORBALL_MODULE_DIR=\"${modules_from_program}\"")
+
+install(TARGETS mirrorball RUNTIME)
+install(TARGETS mirrorball_exr mirrorball_oiio LIBRARY DESTINATION ${module_folder})
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball)
+install(FILES docs/bench.schema.json docs/compare.schema.json docs/converge.schema.json
+    docs/results.schema.json docs/stress.schema.json
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball/schemas)
+install(FILES README.md docs/scene-format.md docs/results-format.md docs/numerics.md
+    DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+configure_file(cmake/debian_changelog.in changelog.Debian)
+install(CODE "
+    function(write_text file)
+        execute_process(COMMAND \${ARGN} OUTPUT_FILE \${file} COMMAND_ERROR_IS_FATAL ANY)
+    endfunction()
+    set(program ${CMAKE_BINARY_DIR}/mirrorball)
+    set(texts ${CMAKE_BINARY_DIR}/texts)
+    file(MAKE_DIRECTORY \${texts})
+    write_text(\${texts}/mirrorball.1 \${program} --man)
+    write_text(\${texts}/mirrorball.1.gz gzip -9nc \${texts}/mirrorball.1)
+    write_text(\${texts}/changelog.gz gzip -9nc ${CMAKE_SOURCE_DIR}/CHANGELOG.md)
+    write_text(\${texts}/changelog.Debian.gz gzip -9nc ${CMAKE_BINARY_DIR}/changelog.Debian)
+    write_text(\${texts}/mirrorball \${program} --completions bash)
+    write_text(\${texts}/_mirrorball \${program} --completions zsh)
+    write_text(\${texts}/mirrorball.fish \${program} --completions fish)")
+set(texts ${CMAKE_BINARY_DIR}/texts)
+install(FILES ${texts}/mirrorball.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${texts}/changelog.gz ${texts}/changelog.Debian.gz
+    DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${texts}/mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${texts}/_mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${texts}/mirrorball.fish
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
+# A package for Debian 12. Dependencies by hand: OpenEXR, OpenImageIO and PoCL serve those who use them,
+# where dpkg-shlibdeps would ask for the libraries of every module.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGE_CONTACT "mirrorball maintainers <maintainers@mirrorball.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "OpenCL ray tracer that measures its own speed and error")
+set(CPACK_PACKAGE_DESCRIPTION
+    "Renders spheres, cones, triangles and meshes with Phong light,
+ mirrors and glass on OpenCL devices and on POSIX threads, bit for bit
+ the same, and reports error against run time.")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS
+    "libc6 (>= 2.36), libgcc-s1, libstdc++6 (>= 12), libfmt9, libpng16-16, ocl-icd-libopencl1 | libopencl1")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenexr-3-1-30, libopenimageio2.4, pocl-opencl-icd")
+include(CPack)

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "host/options/verb_texts.h"
+
+namespace rt {
+
+namespace {
+
+/// Text as roff takes it for text.
+std::string roff(const std::string& text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '\\') {
+            escaped += "\\e";
+        } else if (c == '-') {
+            escaped += "\\-";
+        } else if (c == ',') {
+            escaped += ",\\:";  // lists may break there
+        } else {
+            escaped += c;
+        }
+    }
+    return escaped.starts_with('.') || escaped.starts_with('\'') ? "\\&" + escaped : escaped;
+}
+
+std::string option_roff(const OptionText& option) {
+    std::string text = ".TP\n";
+    for (std::size_t i = 0; i < option.names.size(); ++i) {
+        const char font = option.is_word ? 'I' : 'B';
+        text += fmt::format("{}\\f{}{}\\fR", i == 0 ? "" : ", ", font, roff(option.names[i]));
+    }
+    if (!option.type.empty()) text += " \\fI" + roff(option.type) + "\\fR";
+    return text + "\n" + roff(option.help) + "\n";
+}
+
+std::string synopsis(const std::string& name, const VerbText& verb) {
+    std::string text = fmt::format(".B {}\n", roff(name));
+    text += "[\\fIoptions\\fR]";
+    for (const OptionText& option : verb.options) {
+        if (option.is_word) text += " \\fI" + roff(option.names.front()) + "\\fR";
+    }
+    return text + "\n.br\n";
+}
+
+std::string synopses(const std::string& name, const VerbText& verb) {
+    if (verb.verbs.empty()) return synopsis(name, verb);
+    std::string text;
+    for (const VerbText& one : verb.verbs) text += synopses(name + " " + one.name, one);
+    return text;
+}
+
+std::string sections(const std::string& name, const VerbText& verb) {
+    std::string text;
+    if (!verb.options.empty()) {
+        text += fmt::format(".SS {}\n{}\n", roff(name), roff(verb.help));
+        for (const OptionText& option : verb.options) text += option_roff(option);
+    }
+    for (const VerbText& one : verb.verbs) text += sections(name + " " + one.name, one);
+    return text;
+}
+
+constexpr const char* exit_statuses = R"(.SH EXIT STATUS
+.TP
+0
+done
+.TP
+1
+compared, and it differs
+.TP
+2
+wrong usage
+.TP
+3
+input refused
+.TP
+4
+output not written
+.TP
+5
+no usable device, or it failed and \-\-no\-fallback
+.TP
+6
+pixels that are not finite
+.TP
+7
+over a limit of memory or size
+.TP
+70
+a bug of the program's
+.TP
+129, 130, 143, 152
+stopped by a signal; the picture so far is saved beside the output
+)";
+
+}  // namespace
+
+std::string man_page(const VerbText& program, const std::string& version) {
+    std::string text = fmt::format(".TH MIRRORBALL 1 \"\" \"{} {}\" \"User Commands\"\n",
+                                   roff(program.name), roff(version));
+    text += fmt::format(".SH NAME\n{} \\- {}\n", roff(program.name), roff(program.help));
+    text += ".SH SYNOPSIS\n" + synopses(program.name, program);
+    text += ".SH OPTIONS\n" + sections(program.name, program);
+    return text + exit_statuses +
+           ".SH ENVIRONMENT\n.TP\n.B MIRRORBALL_DEVICE\nwhat \\fB\\-\\-device\\fR means when it is "
+           "not given\n";
+}
+
+}  // namespace rt
