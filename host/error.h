@@ -20,7 +20,8 @@ enum class ExitCode : int {
 };
 
 /// The one exception of the program: what is wrong, where, and what to do, in one line
-/// (several lines when several mistakes are reported together). Caught only in main.
+/// (several lines when several mistakes are reported together). Caught in main, where one device
+/// stands in for another, and between the pictures of a batch.
 class Error : public std::runtime_error {
    public:
     Error(ExitCode exit_code, const std::string& message)
