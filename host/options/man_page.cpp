@@ -89,7 +89,7 @@ over a limit of memory or size
 70
 a bug of the program's
 .TP
-129, 130, 143, 152
+129, 130, 138, 143, 152
 stopped by a signal; the picture so far is saved beside the output
 )";
 

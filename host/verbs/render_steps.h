@@ -11,8 +11,8 @@
 // What rendering one scene and a batch of them have in common. All of it throws Error.
 namespace rt {
 
-/// options.scene as it is to be rendered; what its reader left out goes to stderr. Refuses an output
-/// that is one of its models.
+/// options.scene as it is to be rendered; what its reader left out goes to stderr. Refuses an
+/// output that is one of its models.
 Scene scene_to_render(const RenderOptions& options);
 
 /// Shows on stderr what a render tells of. The options must outlive it.
