@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "host/error.h"
@@ -27,6 +29,16 @@ bool is_finite_pixel(const Picture& picture, std::size_t pixel) {
     return std::all_of(first, first + picture.channels, [](float v) { return std::isfinite(v); });
 }
 
+/// A few instructions a value, where pixels are looked at one by one only if this is false.
+bool is_all_finite(const Picture& picture) {
+    constexpr std::uint32_t exponent = 0x7f800000;
+    bool any = false;
+    for (const float value : picture.pixels) {
+        any |= (std::bit_cast<std::uint32_t>(value) & exponent) == exponent;
+    }
+    return !any;
+}
+
 /// Levels of an 8-bit picture. Twice the rounding of a value below 1 to float on top: pictures that
 /// were stored with 8 bits, one level apart, are not over 1/255.
 constexpr double levels(int count) { return count / 255.0 + 0x1p-23; }
@@ -38,6 +50,7 @@ std::size_t pixel_count(const Picture& picture) {
 }  // namespace
 
 std::size_t count_non_finite(const Picture& picture) {
+    if (is_all_finite(picture)) return 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < pixel_count(picture); ++i) count += !is_finite_pixel(picture, i);
     return count;
@@ -67,9 +80,11 @@ ImageError image_error(const Picture& picture, const Picture& reference) {
     const auto channels = static_cast<std::size_t>(picture.channels);
     const std::size_t pixels = pixel_count(picture);
     double squares = 0, sum = 0, relative_squares = 0;
+    const bool all_finite = is_all_finite(picture) && is_all_finite(reference);
     for (std::size_t i = 0; i < pixels; ++i) {
         const float* a = &picture.pixels[i * channels];
         const float* b = &reference.pixels[i * channels];
+        if (all_finite && std::equal(a, a + channels, b)) continue;
         const double largest = pixel_difference(a, b, picture.channels);
         if (std::isnan(largest)) {
             ++error.non_finite;
