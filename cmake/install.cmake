@@ -14,7 +14,7 @@ install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball)
 install(FILES docs/bench.schema.json docs/compare.schema.json docs/converge.schema.json
     docs/results.schema.json docs/stress.schema.json
     DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball/schemas)
-install(FILES README.md docs/scene-format.md docs/results-format.md docs/numerics.md
+install(FILES README.md docs/many-machines.md docs/scene-format.md docs/results-format.md docs/numerics.md
     DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 configure_file(cmake/debian_changelog.in changelog.Debian)
@@ -56,6 +56,6 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-    "libc6 (>= 2.36), libgcc-s1, libstdc++6 (>= 12), libfmt9, libpng16-16, ocl-icd-libopencl1 | libopencl1")
+    "libc6 (>= 2.36), libgcc-s1, libstdc++6 (>= 12), libfmt9, libpng16-16, zlib1g, ocl-icd-libopencl1 | libopencl1")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenexr-3-1-30, libopenimageio2.4, pocl-opencl-icd")
 include(CPack)

@@ -16,6 +16,7 @@ enum class ExitCode : int {
     device = 5,
     non_finite = 6,
     limit = 7,
+    incomplete = 8,
     bug = 70,
 };
 

@@ -22,6 +22,8 @@ int run(int argc, char** argv, double seconds_before_main) {
     switch (options.verb) {
         case rt::Verb::render:
             return rt::run_render(options.render, seconds_before_main);
+        case rt::Verb::merge:
+            return rt::run_merge(options.merge);
         case rt::Verb::compare:
             return rt::run_compare(options.compare);
         case rt::Verb::bench:

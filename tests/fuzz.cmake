@@ -23,6 +23,7 @@ endforeach()
 add_fuzz_target(fuzz_nff_scene mirrorball_threads
     ${CMAKE_SOURCE_DIR}/tests/scenes_nff ${CMAKE_SOURCE_DIR}/tests/scenes_bad)
 add_fuzz_target(fuzz_png_picture mirrorball_image ${CMAKE_SOURCE_DIR}/tests/pictures)
+add_fuzz_target(fuzz_journal mirrorball_journal ${CMAKE_SOURCE_DIR}/tests/journals)
 add_fuzz_target(fuzz_exr_picture OpenEXR::OpenEXR ${CMAKE_SOURCE_DIR}/tests/pictures)
 target_sources(fuzz_exr_picture PRIVATE
     ${CMAKE_SOURCE_DIR}/host/image/exr_limits.cpp

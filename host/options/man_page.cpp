@@ -86,6 +86,9 @@ pixels that are not finite
 7
 over a limit of memory or size
 .TP
+8
+incomplete: parts of the picture are missing
+.TP
 70
 a bug of the program's
 .TP

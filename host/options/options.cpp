@@ -15,6 +15,7 @@ Options parse_options(int argc, const char* const* argv) {
         fmt::format("mirrorball {} ({})", version, git_revision)};
     const auto describe = [&options](const CommandLine& program) {
         add_render(program, options);
+        add_merge(program, options);
         add_compare(program, options);
         add_bench(program, options);
         add_converge(program, options);

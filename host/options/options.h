@@ -6,6 +6,7 @@
 #include "host/options/bench_options.h"
 #include "host/options/compare_options.h"
 #include "host/options/converge_options.h"
+#include "host/options/merge_options.h"
 #include "host/options/render_options.h"
 #include "host/options/report_options.h"
 #include "host/options/stress_options.h"
@@ -26,11 +27,12 @@ struct SceneOptions {
     bool json = false;
 };
 
-enum class Verb { none, render, bench, converge, devices, scene, compare, report, stress };
+enum class Verb { none, render, merge, bench, converge, devices, scene, compare, report, stress };
 
 struct Options {
     Verb verb = Verb::none;
     RenderOptions render;
+    MergeOptions merge;
     BenchOptions bench;
     ConvergeOptions converge;
     CompareOptions compare;
@@ -41,7 +43,8 @@ struct Options {
 
     /// -q, of whichever verb.
     bool quiet() const {
-        return render.quiet || bench.quiet || converge.quiet || report.quiet || stress.quiet;
+        return render.quiet || merge.quiet || bench.quiet || converge.quiet || report.quiet ||
+               stress.quiet;
     }
 
     std::string text;  ///< help or version, to be printed instead of doing anything

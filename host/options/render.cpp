@@ -93,6 +93,20 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                 [&](const std::string& text) {
                     render.max_bounces = parse_count("--max-bounces", text, 0, most_bounces);
                 });
+    verb.option("--shard", "I/N",
+                "render some of N shares alone, into a part (-o FILE.mbj) for `mirrorball merge`: "
+                "7/64 or 7,9,20-25/64, numbers from 0",
+                [&](const std::string& text) {
+                    render.shares = parse_shares(text);
+                    if (!render.shares) {
+                        refuse("--shard", text,
+                               "give numbers from 0 to N - 1, and N: 7/64 or 7,9,20-25/64");
+                    }
+                });
+    verb.flag("--fresh", render.fresh,
+              "ignore what an interrupted render left in FILE.mbj beside the output");
+    verb.flag("--resume", render.resume,
+              "keep what is finished in FILE.mbj from the start, not after 2 s only");
     verb.option("--encoding", "display|srgb|linear",
                 "how 8-bit files store linear light (default display: value x 255)",
                 [&](const std::string& text) { render.encoding = parse_encoding(text); });
@@ -166,6 +180,26 @@ void add_report_options(const CommandLine& verb, RenderOptions& render) {
     verb.flag("-v,--verbose", render.verbose, "say more");
 }
 
+void settle_journal(RenderOptions& render) {
+    if (render.fresh && render.resume) {
+        throw Error(ExitCode::usage, "--fresh and --resume exclude each other");
+    }
+    if (render.resume) render.journal_delay = 0;
+    if (!render.shares) return;
+    if (render.is_batch()) throw Error(ExitCode::usage, "--shard is for one scene");
+    if (!render.reference.empty()) {
+        throw Error(ExitCode::usage, "--reference is for whole pictures, not for --shard");
+    }
+    if (render.fast_math || render.schedule != Schedule::tiles) {
+        throw Error(ExitCode::usage,
+                    "--shard needs --math strict and --schedule tiles: the parts of a picture "
+                    "must have the bits of the whole");
+    }
+    if (!render.output.ends_with(".mbj")) {
+        throw Error(ExitCode::usage, "--shard writes a part of a picture: give -o FILE.mbj");
+    }
+}
+
 /// One scene, or a batch.
 void settle_scenes(RenderOptions& render) {
     if (!render.is_batch()) {
@@ -209,6 +243,7 @@ void add_render(const CommandLine& program, Options& options) {
     verb.when_chosen([&options, verb] {
         if (!verb.given("--device")) options.render.device = device_from_environment();
         settle_scenes(options.render);
+        settle_journal(options.render);
         options.verb = Verb::render;
     });
 }

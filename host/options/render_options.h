@@ -25,6 +25,7 @@ struct RenderOptions : RenderSettings {
     Encoding encoding = Encoding::display;
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;
+    bool resume = false;  ///< was asked for by name
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar
 

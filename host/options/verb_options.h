@@ -9,6 +9,7 @@ namespace rt {
 // One function per verb, one file per function: adds the verb to the command line and says where
 // its options go.
 void add_render(const CommandLine& program, Options& options);
+void add_merge(const CommandLine& program, Options& options);
 void add_compare(const CommandLine& program, Options& options);
 void add_bench(const CommandLine& program, Options& options);
 void add_converge(const CommandLine& program, Options& options);

@@ -14,6 +14,7 @@
 #include "host/memory_limit.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/picture/crew_members.h"
+#include "host/picture/picture_journal.h"
 #include "host/picture/render_cache.h"
 #include "host/picture/tile_check.h"
 #include "host/render/picture_loop.h"
@@ -105,9 +106,17 @@ class Job {
             say_ignored_settings(choice);
             if (!choice.note.empty()) say(choice.note);
         }
+        journal_.emplace(settings_, stats_, *scene_, rendered_,
+                         [this](const std::string& line) { say(line); });
+        stats_.resumed = journal_->share_known();
+        if (journal_->is_finished()) {
+            film_ = part_of(journal_->take_film(), rendered_, region_);
+            note_devices(devices);
+            return finished_picture();
+        }
         Crew<T> crew = make_crew(devices);
         crew.open();
-        render_with(crew);
+        render_with(crew, joined_names(devices));
         note_devices(crew, devices);
         if (has_opencl(devices) && stats_.complete()) check_again();
         stats_.phases.renderer.open += wait_seconds;
@@ -179,29 +188,42 @@ class Job {
                        [this](const std::string& line) { say(line); });
     }
 
-    /// Renders the region; a device that failed is left out of what follows.
-    void render_with(Crew<T>& crew) {
+    static std::string joined_names(const Devices& devices) {
+        std::string names;
+        for (const DeviceChoice& choice : devices) {
+            names += (names.empty() ? "" : " + ") +
+                     (choice.use_threads ? "threads" : choice.device.name);
+        }
+        return names;
+    }
+
+    /// Renders the region; a device that failed is left out of what follows. `names`: who renders.
+    void render_with(Crew<T>& crew, const std::string& names) {
         check_memory(
             static_cast<std::uint64_t>(rendered_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
             fmt::format("the film of {}x{} pixels, with its file", rendered_.width,
                         rendered_.height),
             "make it smaller with --size, or render parts with --crop");
-        film_ = Film<T>(rendered_.width, rendered_.height);
+        film_ = journal_->take_film();
         tile_ = tile_size(crew);
-        TileQueue queue(make_tiles(rendered_, tile_.width, tile_.height), stop_);
+        journal_->begin(film_, names);
+        TileQueue queue(journal_->tiles(tile_.width, tile_.height), stop_, journal_->tile_events());
         if (events_.started) events_.started(queue);
         try {
-            stats_.refined = render_all<T>(crew, stats_.aa, queue, rendered_, film_);
+            stats_.refined =
+                render_all<T>(crew, stats_.aa, queue, rendered_, film_, journal_->refine_events());
         } catch (...) {
             if (events_.ended) events_.ended();
+            journal_->end(false);
             throw;
         }
         if (events_.ended) events_.ended();
-        if (region_ != rendered_) film_ = part_of(film_, rendered_, region_);
         stats_.phases.renderer = crew.times();
         stats_.rays = queue.rays();
         stats_.tiles = queue.tiles().size();
         stats_.tiles_finished = queue.tiles_finished();
+        journal_->end(stats_.complete());
+        if (region_ != rendered_) film_ = part_of(film_, rendered_, region_);
     }
 
     /// The tile asked for, cut down to the region and to what the renderer takes.
@@ -220,10 +242,14 @@ class Job {
         if (crew.uses_spare()) {
             note_threads(threads_beside_others());
             stats_.device.fallback_from = shares.front().name;
-        } else if (devices.size() > 1) {
-            for (const DeviceShare& share : shares) {
-                stats_.device.name += (stats_.device.name.empty() ? "" : " + ") + share.name;
-            }
+        } else {
+            note_devices(devices);
+        }
+    }
+
+    void note_devices(const Devices& devices) {
+        if (devices.size() > 1) {
+            stats_.device.name = joined_names(devices);
         } else if (devices.front().use_threads) {
             note_threads(threads_options(settings_, devices.front().threads));
         } else {
@@ -257,7 +283,7 @@ class Job {
         if (!rays.empty()) return "counts rays that cannot be: " + rays;
         if (settings_.check <= 0 || settings_.fast_math) return "";
         const TileCheck check = check_tiles(*scene_, stats_.aa, settings_.isa,
-                                            make_tiles(region_, tile_.width, tile_.height),
+                                            journal_->final_tiles(tile_.width, tile_.height),
                                             settings_.check, region_, film_);
         stats_.tiles_checked = check.tiles;
         if (check.wrong_tiles == 0) return "";
@@ -275,7 +301,9 @@ class Job {
         const std::string failed = stats_.device.name;
         Crew<T> threads({threads_member<T>(scene_, threads_beside_others())}, {}, {});
         threads.open();
-        render_with(threads);
+        journal_->start_again();
+        stats_.resumed = 0;
+        render_with(threads, "threads");
         note_threads(threads_beside_others());
         stats_.device.fallback_from = failed;
     }
@@ -292,6 +320,7 @@ class Job {
         }
         stats_.non_finite = count_non_finite(rendered.picture);
         rendered.stats = stats_;
+        rendered.journal = journal_->file();
         return rendered;
     }
 
@@ -302,6 +331,7 @@ class Job {
     const Rect region_;         ///< asked for
     const Rect rendered_;       ///< that, and what it takes to refine it
     SharedScene<T> scene_;
+    std::optional<PictureJournal<T>> journal_;
     Film<T> film_{0, 0};
     PictureSize tile_{};
     RenderStats stats_;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,13 @@
 namespace rt {
 
 struct RenderCache;
+class JournalFile;
 
 struct RenderedPicture {
     Picture picture;  ///< the region, row 0 at the top; finished tiles only when stopped early
     RenderStats stats;
+    std::shared_ptr<JournalFile>
+        journal;  ///< locked, to be removed with the picture saved; or null
 };
 
 /// What the caller of render_picture hears of, on its own thread. Each may be empty.
@@ -35,7 +39,7 @@ struct RenderEvents {
 /// Flattens the scene and renders it on the devices, which share its tiles. A device that fails
 /// leaves the tiles it has finished to the picture, and the others or threads (unless
 /// settings.no_fallback) do the rest; an event says so. The stop flag ends it early, with the tiles
-/// finished so far. Throws Error.
+/// finished so far. With settings.journal it goes on with what is there. Throws Error.
 RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
                                std::future<std::vector<DeviceChoice>> devices,
                                const RenderEvents& events, const StopFlag& stop);

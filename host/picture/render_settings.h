@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/flatten/features.h"
+#include "host/journal/shares.h"
 #include "host/render/launch.h"
 #include "host/render/rect.h"
 #include "host/render/schedule.h"
@@ -42,7 +43,13 @@ struct RenderSettings {
     bool caster_lists = true;
     bool no_fallback = false;  ///< fail when the device fails, instead of using threads
     bool self_test = true;     ///< compare a few of a device's pixels with threads' beforehand
-    double check = 0;          ///< share of the tiles to trace again on threads and compare, 0 to 1
+    /// Where finished tiles are kept, so that the same render goes on after it was interrupted;
+    /// empty: nowhere. Pictures by fast arithmetic or by sample buffers are not kept.
+    std::string journal;
+    double journal_delay = 2;      ///< seconds of tracing that are not worth keeping
+    bool fresh = false;            ///< ignore the journal that is there
+    std::optional<Shares> shares;  ///< render these alone, into the journal, which is the result
+    double check = 0;  ///< share of the tiles to trace again on threads and compare, 0 to 1
 };
 
 /// Gives the scene what the settings override: size, AA, filter, bounces. Throws Error

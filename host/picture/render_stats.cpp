@@ -42,6 +42,14 @@ double seconds_since_process_start() {
     return std::max(processor_seconds(), since_tick - tick);
 }
 
+std::string settings_text(const RenderStats& stats) {
+    return fmt::format("{}x{}+{}+{} of {}x{}, {}, {} filter, {} bounces, {}, {} math",
+                       stats.region.width, stats.region.height, stats.region.x, stats.region.y,
+                       stats.width, stats.height, to_string(stats.aa), to_string(stats.filter),
+                       stats.max_bounces, stats.double_precision ? "double" : "float",
+                       stats.fast_math ? "fast" : "strict");
+}
+
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 const char* to_string(BuildCache cache) {

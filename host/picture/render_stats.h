@@ -82,6 +82,7 @@ struct RenderStats {
     bool caster_lists = true;
     RayCounts rays;
     std::size_t tiles = 0, tiles_finished = 0;
+    double resumed = 0;             ///< share of the film's pixels that a journal had, 0 to 1
     std::size_t tiles_checked = 0;  ///< traced again on threads
     bool refined = true;            ///< false when stopped before an adaptive mode came to its end
     std::uint64_t image_hash = 0;
@@ -103,6 +104,9 @@ struct RenderStats {
 /// Seconds since the system started this process: what its one thread has computed since, as long
 /// as it has not waited; else up to 0.01 s less than passed, the step of the system's own record.
 double seconds_since_process_start();
+
+/// All that says what was rendered but for the scene, for the metadata of pictures.
+std::string settings_text(const RenderStats& stats);
 
 /// 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);

@@ -121,6 +121,10 @@ std::string stats_text(const RenderStats& stats) {
         text += fmt::format("        instead of {}, which failed\n", stats.device.fallback_from);
     }
     for (const DeviceShare& share : stats.shares) text += "        " + share_text(share) + "\n";
+    if (stats.resumed > 0) {
+        text +=
+            fmt::format("        {:.0f} % of the first pass from a journal\n", 100 * stats.resumed);
+    }
     if (stats.tiles_checked > 0) {
         text += fmt::format("        {} traced again on threads: the same\n",
                             counted(stats.tiles_checked, "tile"));

@@ -2,6 +2,7 @@
 #include "host/render/picture_loop.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 #include "host/render/adaptive.h"
@@ -18,7 +19,8 @@ constexpr std::int64_t first_samples = 1 << 17, most_samples = 1 << 24;
 /// Whether all were refined.
 template <typename T>
 bool refine_all(Renderer<T>& renderer, const Refinement& refinement, LaunchPacer& pacer,
-                TileQueue& queue, const Rect& region, Film<T>& film) {
+                TileQueue& queue, const Rect& region, Film<T>& film,
+                const std::function<void(std::span<const std::int32_t>)>& refined) {
     const std::int64_t samples = refinement.grid * refinement.grid;
     std::span<const std::int32_t> pixels(refinement.pixels);
     while (!pixels.empty() && !queue.stopped()) {
@@ -28,6 +30,8 @@ bool refine_all(Renderer<T>& renderer, const Refinement& refinement, LaunchPacer
         const Stopwatch watch;
         renderer.refine(pixels.first(count), refinement.grid, queue, region, film);
         pacer.note(static_cast<std::int64_t>(count) * samples, watch.seconds());
+        if (queue.stopped()) return false;  // a device may have left some to others
+        refined(pixels.first(count));
         pixels = pixels.subspan(count);
     }
     return pixels.empty();
@@ -46,21 +50,30 @@ Rect region_to_render(const AaMode& aa, const Rect& wanted, int picture_width, i
 
 template <typename T>
 bool render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const Rect& region,
-                Film<T>& film) {
+                Film<T>& film, const RefineEvents<T>& events) {
     renderer.render(queue, region, film);
     if (queue.tiles_finished() < queue.tiles().size()) return false;
     if (!aa.refines()) return true;
     std::vector<std::uint8_t> levels(static_cast<std::size_t>(region.pixels()), 1);
     LaunchPacer pacer(first_samples, most_samples);
     for (int pass = 0; pass < refine_passes; ++pass) {
-        for (const Refinement& refinement : plan_refinement(film, aa.threshold, levels)) {
-            if (!refine_all(renderer, refinement, pacer, queue, region, film)) return false;
+        const auto refined = [&](std::span<const std::int32_t> pixels) {
+            if (events.refined) events.refined(pass, pixels);
+        };
+        std::vector<Refinement> plan = plan_refinement(film, aa.threshold, levels);
+        if (events.planned) events.planned(pass, plan, film);
+        for (const Refinement& refinement : plan) {
+            if (!refine_all(renderer, refinement, pacer, queue, region, film, refined)) {
+                return false;
+            }
         }
     }
     return true;
 }
 
-template bool render_all(Renderer<float>&, const AaMode&, TileQueue&, const Rect&, Film<float>&);
-template bool render_all(Renderer<double>&, const AaMode&, TileQueue&, const Rect&, Film<double>&);
+template bool render_all(Renderer<float>&, const AaMode&, TileQueue&, const Rect&, Film<float>&,
+                         const RefineEvents<float>&);
+template bool render_all(Renderer<double>&, const AaMode&, TileQueue&, const Rect&, Film<double>&,
+                         const RefineEvents<double>&);
 
 }  // namespace rt

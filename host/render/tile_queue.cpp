@@ -35,8 +35,8 @@ TileRun side_by_side(const std::vector<Rect>& tiles, std::size_t first,
 
 }  // namespace
 
-TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop)
-    : tiles_(std::move(tiles)), stop_(stop) {
+TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop, TileEvents events)
+    : tiles_(std::move(tiles)), stop_(stop), events_(std::move(events)) {
     for (const Rect& tile : tiles_) pixels_ += tile.pixels();
 }
 
@@ -86,6 +86,7 @@ TileRun TileQueue::longest_run(std::size_t first,
 }
 
 void TileQueue::finish(const TileRun& run) {
+    if (events_.finished) events_.finished(run.whole);
     pixels_finished_ += run.whole.pixels();
     tiles_finished_ += run.tiles;
 }
@@ -98,6 +99,7 @@ void TileQueue::give_back(const TileRun& run) {
 
 void TileQueue::take_back(const std::vector<TileRun>& runs, const RayCounts& rays) {
     for (const TileRun& run : runs) {
+        if (events_.lost) events_.lost(run.whole);
         pixels_finished_ -= run.whole.pixels();
         tiles_finished_ -= run.tiles;
         give_back(run);

@@ -28,11 +28,17 @@ struct TileRun {
 using StopFlag = std::atomic<int>;
 static_assert(StopFlag::is_always_lock_free);  // else no signal handler may set it
 
+/// What the owner of a queue hears of, from any thread; each may be empty.
+struct TileEvents {
+    std::function<void(const Rect&)> finished;  ///< its pixels are in the film
+    std::function<void(const Rect&)> lost;      ///< and these are no more, before others take them
+};
+
 /// The shared state of a picture in the making: hands out tiles until none is left or the stop flag
 /// is set, and keeps count of what is finished. Every member may be called from any thread.
 class TileQueue {
    public:
-    TileQueue(std::vector<Rect> tiles, const StopFlag& stop);
+    TileQueue(std::vector<Rect> tiles, const StopFlag& stop, TileEvents events = {});
 
     /// The next tile; empty when there is none or the work was stopped. A renderer finishes every
     /// tile it has taken, or gives it back.
@@ -66,6 +72,7 @@ class TileQueue {
 
     const std::vector<Rect> tiles_;
     const StopFlag& stop_;
+    const TileEvents events_;
     std::int64_t pixels_ = 0;
     std::atomic<std::size_t> next_ = 0;
     std::mutex returned_mutex_;

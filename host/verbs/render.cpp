@@ -44,12 +44,11 @@ void say_unsaved(const RenderOptions& options) {
     print_message("mirrorball: without -o FILE the picture is not saved\n");
 }
 
-int render_scene(const RenderOptions& options, double seconds_before_main) {
+int render_scene(RenderOptions options, double seconds_before_main) {
     const Stopwatch total;
-    if (!options.output.empty()) {
-        check_picture_path(options.output);
-        check_output_is_no_input(options.output, {options.scene, options.reference});
-    }
+    check_output(options);
+    check_output_is_no_input(options.output, {options.scene, options.reference});
+    choose_journal(options);
     auto devices = find_devices(options.device, options.threads, restore_stop_signals);
     Stopwatch watch;
     const Scene scene = scene_to_render(options);

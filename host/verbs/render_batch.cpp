@@ -99,10 +99,9 @@ class Batch {
         RenderOptions options = options_;
         options.scene = item.scene;
         options.output = item.output;
-        if (!options.output.empty()) {
-            check_picture_path(options.output);
-            check_output_is_no_input(options.output, {options.scene});
-        }
+        check_output(options);
+        check_output_is_no_input(options.output, {options.scene});
+        choose_journal(options);
         Stopwatch watch;
         const Scene scene = scene_to_render(options);
         const double load_seconds = watch.lap();

@@ -10,6 +10,7 @@
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
+#include "host/journal/journal_file.h"
 #include "host/print/stats_json.h"
 #include "host/print/stats_text.h"
 #include "host/scene/scene_file.h"
@@ -20,39 +21,6 @@ namespace rt {
 
 namespace {
 
-/// What belongs to the picture, and nothing that changes from run to run or device to device, but
-/// that a device failed.
-PictureMetadata picture_metadata(const RenderStats& stats) {
-    PictureMetadata metadata{
-        {"mirrorball:Scene", stats.scene.name},
-        {"mirrorball:SceneHash", hash_text(stats.scene.hash)},
-        {"mirrorball:Settings",
-         fmt::format("{}x{}+{}+{} of {}x{}, {}, {} filter, {} bounces, {}, {} math",
-                     stats.region.width, stats.region.height, stats.region.x, stats.region.y,
-                     stats.width, stats.height, to_string(stats.aa), to_string(stats.filter),
-                     stats.max_bounces, stats.double_precision ? "double" : "float",
-                     stats.fast_math ? "fast" : "strict")},
-        {"mirrorball:ImageHash", hash_text(stats.image_hash)},
-        {"mirrorball:Version", version}};
-    if (!stats.device.fallback_from.empty()) {
-        metadata.push_back({"mirrorball:FallbackFrom", stats.device.fallback_from});
-    }
-    return metadata;
-}
-
-/// Says what is wrong with the values of a picture; whether anything is.
-bool report_non_finite(const RenderedPicture& rendered) {
-    const std::size_t count = rendered.stats.non_finite;
-    if (count == 0) return false;
-    const auto [x, y] = first_non_finite(rendered.picture);
-    print_message(
-        fmt::format("mirrorball: {} pixel{} not finite, the first at {},{}; look for "
-                    "very large numbers in the scene\n",
-                    count, count == 1 ? " is" : "s are", rendered.stats.region.x + x,
-                    rendered.stats.region.y + y));
-    return true;
-}
-
 /// What there is of a picture that was stopped.
 std::string share_done(const RenderStats& stats) {
     return fmt::format("{} of {} tiles{}", stats.tiles_finished, stats.tiles,
@@ -60,6 +28,41 @@ std::string share_done(const RenderStats& stats) {
 }
 
 }  // namespace
+
+PictureMetadata picture_metadata(const std::string& scene, const std::string& scene_hash,
+                                 const std::string& settings, const std::string& image_hash) {
+    return {{"mirrorball:Scene", scene},
+            {"mirrorball:SceneHash", scene_hash},
+            {"mirrorball:Settings", settings},
+            {"mirrorball:ImageHash", image_hash},
+            {"mirrorball:Version", version}};
+}
+
+bool report_non_finite(const Picture& picture, const Rect& region) {
+    const std::size_t count = count_non_finite(picture);
+    if (count == 0) return false;
+    const auto [x, y] = first_non_finite(picture);
+    print_message(
+        fmt::format("mirrorball: {} pixel{} not finite, the first at {},{}; look for "
+                    "very large numbers in the scene\n",
+                    count, count == 1 ? " is" : "s are", region.x + x, region.y + y));
+    return true;
+}
+
+void check_output(const RenderOptions& options) {
+    if (options.output.empty()) return;
+    if (options.shares) return check_output_path(options.output);
+    check_picture_path(options.output);
+}
+
+void choose_journal(RenderOptions& options) {
+    if (options.output.empty()) return;
+    if (options.shares) {
+        options.journal = options.output;
+    } else if (!find_output_destination(options.output).in_place) {
+        options.journal = options.output + ".mbj";
+    }
+}
 
 Scene scene_to_render(const RenderOptions& options) {
     Scene scene = load_scene(options.scene, options.light);
@@ -70,15 +73,20 @@ Scene scene_to_render(const RenderOptions& options) {
 }
 
 std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options) {
-    if (options.output.empty()) return "";
+    if (options.output.empty() || options.shares) return options.output;
     const RenderStats& stats = rendered.stats;
-    PictureMetadata metadata = picture_metadata(stats);
+    PictureMetadata metadata = picture_metadata(stats.scene.name, hash_text(stats.scene.hash),
+                                                settings_text(stats), hash_text(stats.image_hash));
+    if (!stats.device.fallback_from.empty()) {
+        metadata.push_back({"mirrorball:FallbackFrom", stats.device.fallback_from});
+    }
     std::string path = options.output;
     if (!stats.complete()) {
         path = partial_path(path);
         metadata.emplace_back("mirrorball:Partial", share_done(stats));
     }
     write_picture(path, rendered.picture, options.encoding, metadata);
+    if (rendered.journal && stats.complete()) rendered.journal->remove();
     return path;
 }
 
@@ -108,10 +116,13 @@ void print_results(const RenderStats& stats, const RenderOptions& options) {
 
 int verdict(const RenderedPicture& rendered, const std::string& output) {
     const RenderStats& stats = rendered.stats;
-    const bool non_finite = report_non_finite(rendered);
+    const bool non_finite = report_non_finite(rendered.picture, stats.region);
     if (!stats.complete()) {
-        print_message(fmt::format("mirrorball: {} after {}{}\n", stop_reason(), share_done(stats),
-                                  output.empty() ? "" : "; what was finished is in " + output));
+        const bool can_go_on = rendered.journal != nullptr && rendered.journal->exists() &&
+                               rendered.journal->failure().empty();
+        print_message(fmt::format("mirrorball: {} after {}{}{}\n", stop_reason(), share_done(stats),
+                                  output.empty() ? "" : "; what was finished is in " + output,
+                                  can_go_on ? "; the same command goes on from there" : ""));
         return 128 + stop_flag();
     }
     return static_cast<int>(non_finite ? ExitCode::non_finite : ExitCode::done);

@@ -11,6 +11,19 @@
 // What rendering one scene and a batch of them have in common. All of it throws Error.
 namespace rt {
 
+/// What belongs to a picture, and nothing that changes from run to run or device to device.
+PictureMetadata picture_metadata(const std::string& scene, const std::string& scene_hash,
+                                 const std::string& settings, const std::string& image_hash);
+
+/// Says on stderr what is wrong with the values of a picture of that region; whether anything is.
+bool report_non_finite(const Picture& picture, const Rect& region);
+
+/// Refuses, before anything is computed, an output that could not be written.
+void check_output(const RenderOptions& options);
+
+/// Where finished tiles are kept: beside the output, or in it where it is of shares.
+void choose_journal(RenderOptions& options);
+
 /// options.scene as it is to be rendered; what its reader left out goes to stderr. Refuses an
 /// output that is one of its models.
 Scene scene_to_render(const RenderOptions& options);
@@ -30,7 +43,8 @@ class RenderConsole {
 };
 
 /// Writes the picture to options.output, an unfinished one next to it: what is there may be
-/// finished. Returns the name it got; "" where none is asked for.
+/// finished. The journal of a finished one goes. Shares are written already. Returns the name it
+/// got; "" where none is asked for.
 std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options);
 
 /// What options.stats asks for: the summary line on stderr, or figures on stdout.

@@ -122,6 +122,10 @@ class CliTest(unittest.TestCase):
     def write_scene(self, file="scene.json", **keys):
         return self.write_text(file, json.dumps({"camera": CAMERA, **keys}))
 
+    def pictures(self):
+        """All files but journals: an interrupted render leaves one if it took over two seconds."""
+        return [name for name in self.files() if not name.endswith(".mbj")]
+
     def files(self):
         return sorted(p.name for p in self.folder.iterdir())
 

@@ -49,7 +49,7 @@ class Interrupted(CliTest):
         self.assertIsNotNone(message, lines)
         self.assertGreater(int(message[1]), 0)
         self.assertLess(int(message[1]), int(message[2]))
-        self.assertEqual(self.files(), [partial])
+        self.assertEqual(self.pictures(), [partial])
 
     def assert_has_light_and_gaps(self, name):
         _, _, values = read_pfm(self.folder / name)
@@ -69,7 +69,7 @@ class Interrupted(CliTest):
         self.assertEqual(process.returncode, 143, stderr)
         self.assertRegex(stderr, r"after (\d+) of \1 tiles, not all refined")
         self.assertFalse(json.loads(stdout)["complete"])
-        self.assertEqual(self.files(), ["out.partial.pfm"])
+        self.assertEqual(self.pictures(), ["out.partial.pfm"])
 
     def test_threads_sigint(self):
         self.assert_stopped("threads", signal.SIGINT, "out.pfm")
@@ -86,7 +86,7 @@ class Interrupted(CliTest):
         code, lines = self.stop(process, signal.SIGINT)
         self.assertEqual(code, 130, lines)
         self.assertEqual((self.folder / "out.png").read_text(), "finished yesterday")
-        self.assertEqual(self.files(), ["out.partial.png", "out.png"])
+        self.assertEqual(self.pictures(), ["out.partial.png", "out.png"])
 
     def test_pocl_sigint(self):
         self.assert_stopped("pocl", signal.SIGINT, "out.pfm")
@@ -102,7 +102,7 @@ class Interrupted(CliTest):
             code, lines = self.stop(process, signal.SIGINT)
             self.assertEqual(code, 130, lines)
             self.assertRegex(lines[-1], r"interrupted \(Ctrl-C\) after \d+ of \d+ tiles$")
-            self.assertEqual(self.files(), [])
+            self.assertEqual(self.pictures(), [])
 
     def test_batch_systems_signals(self):
         for number in [signal.SIGXCPU, signal.SIGUSR1]:
@@ -144,7 +144,7 @@ class Interrupted(CliTest):
             process.communicate(timeout=20)
             self.assertLess(time.monotonic() - sent, 1)
             self.assertEqual(process.returncode, -second)
-            self.assertEqual(self.files(), [])
+            self.assertEqual(self.pictures(), [])
 
     def test_quiet_says_nothing_while_it_stops(self):
         process = self.start_and_wait_until_tiles_are_done("threads", "out.pfm", "-q")
@@ -179,7 +179,7 @@ class Interrupted(CliTest):
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=20)
         self.assertIn(process.returncode, [130, -signal.SIGINT])
-        for name in self.files():
+        for name in self.pictures():
             self.assertEqual(name, "out.partial.png")
             png_chunks((self.folder / name).read_bytes())
 

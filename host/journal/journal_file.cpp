@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/journal/journal_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "host/error.h"
+
+namespace rt {
+
+namespace {
+
+/// Who wrote last.
+std::string last_writer(const std::string& path, std::uint64_t size) {
+    try {
+        std::ifstream stream(path, std::ios::binary);
+        JournalReader reader(stream, size);
+        JournalWriterInfo last;
+        while (const auto record = reader.next()) {
+            if (record->kind == RecordKind::writer) last = record->writer;
+        }
+        if (last.process > 0) return fmt::format("process {} on {}", last.process, last.host);
+    } catch (const Error&) {
+    }
+    return "another process";
+}
+
+bool is_start_of_magic(std::string_view bytes) {
+    return bytes.size() < journal_magic.size() && journal_magic.starts_with(bytes);
+}
+
+}  // namespace
+
+JournalFile::JournalFile(std::string path) : path_(std::move(path)) { open_existing(); }
+
+void JournalFile::open_existing() {
+    struct stat status {};
+    if (::lstat(path_.c_str(), &status) != 0) return;
+    found_ = Found::something_else;
+    if (!S_ISREG(status.st_mode)) return;
+    FileDescriptor file(::open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
+    if (!file || ::fstat(file.number(), &status) != 0) return;
+    if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        const auto size = static_cast<std::uint64_t>(status.st_size);
+        throw Error(ExitCode::output, fmt::format("{}: {} is rendering this picture; wait for it, "
+                                                  "or name another output",
+                                                  path_, last_writer(path_, size)));
+    }
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    char magic[journal_magic.size()];
+    const ssize_t got = ::pread(file.number(), magic, sizeof(magic), 0);
+    const std::string_view bytes(magic, got > 0 ? static_cast<std::size_t>(got) : 0);
+    if (is_start_of_magic(bytes)) {
+        found_ = Found::nothing;  // its process ended before the first record
+    } else if (bytes.starts_with(journal_magic.substr(0, 6))) {
+        std::ifstream stream(path_, std::ios::binary);
+        try {
+            const JournalReader reader(stream, size);
+            found_ = Found::journal;
+        } catch (const Error& error) {
+            found_ = Found::damaged;
+            damage_ = error.what();
+        }
+    } else {
+        return;
+    }
+    file_ = std::move(file);
+    end_ = size;
+}
+
+void JournalFile::read(const std::function<void(JournalReader&)>& read) {
+    std::ifstream stream(path_, std::ios::binary);
+    JournalReader reader(stream, end_);
+    read(reader);
+    end_ = reader.good_bytes();
+}
+
+void JournalFile::begin_anew(std::function<std::vector<std::byte>()> start) {
+    start_ = std::move(start);
+    end_ = 0;
+}
+
+void JournalFile::fail(const char* what, int error) {
+    failure_ =
+        fmt::format("{}: cannot {}: {}", path_, what, std::generic_category().message(error));
+}
+
+bool JournalFile::create() {
+    file_ = FileDescriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (!file_) {
+        fail("create", errno);
+        return false;
+    }
+    ::flock(file_.number(), LOCK_EX | LOCK_NB);
+    return true;
+}
+
+bool JournalFile::write_all(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written =
+            ::pwrite(file_.number(), bytes.data(), bytes.size(), static_cast<off_t>(end_));
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) {
+            fail("write", written < 0 ? errno : EIO);
+            return false;
+        }
+        end_ += static_cast<std::uint64_t>(written);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+void JournalFile::append(std::span<const std::byte> records) {
+    if (!failure_.empty()) return;
+    if (!file_ && !create()) return;
+    const std::uint64_t before = end_;
+    if (::ftruncate(file_.number(), static_cast<off_t>(end_)) != 0) return fail("cut", errno);
+    if (!write_all(start_ ? start_() : std::vector<std::byte>()) || !write_all(records)) {
+        // What is there stays good for the next time.
+        if (::ftruncate(file_.number(), static_cast<off_t>(before)) != 0) return;
+        return;
+    }
+    start_ = {};
+    if (::fdatasync(file_.number()) != 0 && errno != EINVAL && errno != ENOTSUP) {
+        fail("write", errno);
+    }
+}
+
+void JournalFile::remove() {
+    if (!file_) return;
+    ::unlink(path_.c_str());
+    file_ = FileDescriptor();
+}
+
+}  // namespace rt

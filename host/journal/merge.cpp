@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/journal/merge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <type_traits>
+#include <utility>
+
+#include "host/error.h"
+#include "host/image/input_file.h"
+#include "host/journal/journal_reader.h"
+
+namespace rt {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+    throw Error(ExitCode::input, path + ": " + what);
+}
+
+/// Calls read(reader, bytes) with a part, and names it in errors.
+template <typename Read>
+void read_part(const std::string& path, const Read& read) {
+    InputFile file = open_input_file(path);
+    try {
+        JournalReader reader(file.stream, file.size);
+        read(reader, file.size);
+    } catch (const Error& error) {
+        if (error.exit_code() != ExitCode::input) throw;
+        refuse(path, error.what());
+    }
+}
+
+void check_same_picture(const std::string& path, const JournalHeader& header,
+                        const std::string& first_path, const JournalHeader& first) {
+    if (header.key == first.key && header.film == first.film && header.region == first.region &&
+        header.double_precision == first.double_precision && header.refines == first.refines) {
+        return;
+    }
+    const auto what = [&]() -> std::string {
+        if (header.scene_hash != first.scene_hash) return "another scene";
+        if (header.settings != first.settings) return "other settings";
+        return "another version of mirrorball";
+    };
+    throw Error(ExitCode::input,
+                fmt::format("{}: is of {} than {} ({}, {}; {}, {})", path, what(), first_path,
+                            header.scene, header.settings, first.scene, first.settings));
+}
+
+template <typename T>
+class Merger {
+   public:
+    explicit Merger(const JournalHeader& header)
+        : region_(header.region),
+          film_(region_.width, region_.height),
+          owner_(static_cast<std::size_t>(region_.pixels()), -1) {}
+
+    void add(const std::string& path, JournalReader& reader, std::uint64_t bytes,
+             std::vector<std::string>& notes) {
+        const JournalHeader& header = reader.header();
+        const auto shares = parse_shares(header.shares);
+        if (!shares) refuse(path, "its header is damaged (shares); render it again");
+        const KnownPixels<T> known = read_known_pixels<T>(reader);
+        if (reader.good_bytes() < bytes) {
+            notes.push_back(fmt::format("{}: its last {} bytes are damaged and left out", path,
+                                        bytes - reader.good_bytes()));
+        }
+        parts_.push_back({path, known.writers});
+        if (header.refines && !known.is_finished) {
+            notes.push_back(path + ": is not finished, and adaptive: left out");
+            return;
+        }
+        const Film<T> film = part_of(known.refined_film(), header.film, region_);
+        const std::vector<std::uint8_t> own = share_needs(*shares, region_, region_, false);
+        for (std::size_t i = 0; i < owner_.size(); ++i) {
+            if (own[i] == 0 || known.is_rendered[index_in_film(header.film, i)] == 0) continue;
+            take_pixel(i, film);
+        }
+    }
+
+    /// Throws Error where parts differ.
+    void check() const {
+        if (differences_.empty()) return;
+        const auto& [pair, difference] = *differences_.begin();
+        const auto width = static_cast<std::size_t>(region_.width);
+        throw Error(
+            ExitCode::different,
+            fmt::format("{} and {} differ in {} pixels, the first at {},{}: render both shares "
+                        "again, one of the devices is wrong",
+                        described(pair.first), described(pair.second), difference.pixels,
+                        static_cast<std::size_t>(region_.x) + difference.first % width,
+                        static_cast<std::size_t>(region_.y) + difference.first / width));
+    }
+
+    MergedPicture result(const JournalHeader& header) {
+        MergedPicture merged;
+        merged.header = header;
+        merged.missing_pixels =
+            static_cast<std::size_t>(std::count(owner_.begin(), owner_.end(), -1));
+        if (merged.missing_pixels > 0) merged.missing = missing(parse_shares(header.shares)->of);
+        merged.image_hash = hash_of(film_);
+        merged.picture.width = film_.width;
+        merged.picture.height = film_.height;
+        merged.picture.pixels.assign(film_.rgb.begin(), film_.rgb.end());
+        return merged;
+    }
+
+   private:
+    struct Part {
+        std::string path;
+        std::vector<JournalWriterInfo> writers;
+    };
+    struct Difference {
+        std::size_t pixels = 0, first = 0;
+    };
+
+    std::size_t index_in_film(const Rect& film, std::size_t i) const {
+        const auto width = static_cast<std::size_t>(region_.width);
+        return (static_cast<std::size_t>(region_.y - film.y) + i / width) *
+                   static_cast<std::size_t>(film.width) +
+               static_cast<std::size_t>(region_.x - film.x) + i % width;
+    }
+
+    void take_pixel(std::size_t i, const Film<T>& film) {
+        const auto part = static_cast<int>(parts_.size()) - 1;
+        constexpr std::size_t bytes = 3 * sizeof(T);
+        if (owner_[i] < 0) {
+            owner_[i] = part;
+            std::memcpy(&film_.rgb[3 * i], &film.rgb[3 * i], bytes);
+        } else if (std::memcmp(&film_.rgb[3 * i], &film.rgb[3 * i], bytes) != 0) {
+            const auto added = differences_.insert({{owner_[i], part}, {0, i}}).first;
+            ++added->second.pixels;
+        }
+    }
+
+    std::string described(int number) const {
+        const Part& part = parts_[static_cast<std::size_t>(number)];
+        std::string who;
+        for (const JournalWriterInfo& writer : part.writers) {
+            const std::string one = fmt::format("{} on {}", writer.device, writer.host);
+            if (who.find(one) == who.npos) who += (who.empty() ? "" : ", ") + one;
+        }
+        return who.empty() ? part.path : fmt::format("{} ({})", part.path, who);
+    }
+
+    /// The shares, of so many, that have missing pixels.
+    Shares missing(int of) const {
+        Shares shares{{}, of};
+        const std::vector<Rect> blocks = share_blocks(region_);
+        const std::vector<int> share_of = block_shares(blocks.size(), of);
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            const Rect& block = blocks[b];
+            for (int y = block.y - region_.y; y < block.y - region_.y + block.height; ++y) {
+                const auto row =
+                    owner_.begin() + std::ptrdiff_t{y} * region_.width + (block.x - region_.x);
+                if (std::find(row, row + block.width, -1) == row + block.width) continue;
+                shares.numbers.push_back(share_of[b]);
+                break;
+            }
+        }
+        std::sort(shares.numbers.begin(), shares.numbers.end());
+        const auto end = std::unique(shares.numbers.begin(), shares.numbers.end());
+        shares.numbers.erase(end, shares.numbers.end());
+        return shares;
+    }
+
+    const Rect region_;
+    Film<T> film_;
+    std::vector<int> owner_;  ///< of each pixel the part that it is from; -1: none
+    std::vector<Part> parts_;
+    std::map<std::pair<int, int>, Difference> differences_;
+};
+
+template <typename T>
+MergedPicture merge(const std::vector<std::string>& paths, const JournalHeader& first) {
+    Merger<T> merger(first);
+    std::vector<std::string> notes;
+    for (const std::string& path : paths) {
+        read_part(path, [&](JournalReader& reader, std::uint64_t bytes) {
+            check_same_picture(path, reader.header(), paths.front(), first);
+            merger.add(path, reader, bytes, notes);
+        });
+    }
+    merger.check();
+    MergedPicture merged = merger.result(first);
+    merged.notes = std::move(notes);
+    return merged;
+}
+
+}  // namespace
+
+MergedPicture merge_journals(const std::vector<std::string>& parts) {
+    JournalHeader first;
+    read_part(parts.front(),
+              [&](JournalReader& reader, std::uint64_t) { first = reader.header(); });
+    check_picture_size(parts.front(), first.region.width, first.region.height, 3);
+    if (!parse_shares(first.shares)) {
+        refuse(parts.front(), "its header is damaged (shares); render it again");
+    }
+    return first.double_precision ? merge<double>(parts, first) : merge<float>(parts, first);
+}
+
+}  // namespace rt

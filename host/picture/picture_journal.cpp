@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/picture/picture_journal.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "host/error.h"
+#include "host/hash.h"
+#include "host/opencl/cl_program.h"
+#include "host/version.h"
+
+namespace rt {
+
+namespace {
+
+template <typename Row>
+void add_rows(Hasher& hasher, const std::vector<Row>& rows) {
+    hasher.add(rows.size());
+    hasher.add_bytes(std::as_bytes(std::span(rows)));
+}
+
+std::string host_name() {
+    char name[256] = "";
+    return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
+}
+
+}  // namespace
+
+template <typename T>
+PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderStats& stats,
+                                  const FlatScene<T>& scene, const Rect& film, Say say)
+    : settings_(settings),
+      scene_(scene),
+      aa_(stats.aa),
+      region_(stats.region),
+      film_rect_(film),
+      say_(std::move(say)) {
+    if (settings.shares) {
+        needs_ = share_needs(*settings.shares, region_, film, stats.aa.refines());
+    }
+    if (settings.journal.empty()) return;
+    if (settings.fast_math || settings.schedule != Schedule::tiles) return;
+    header_.width = stats.width;
+    header_.height = stats.height;
+    header_.region = region_;
+    header_.film = film;
+    header_.double_precision = sizeof(T) == sizeof(double);
+    header_.refines = stats.aa.refines();
+    header_.shares = to_string(settings.shares.value_or(Shares{}));
+    header_.scene = stats.scene.name;
+    header_.scene_hash = hash_text(stats.scene.hash);
+    header_.settings = settings_text(stats);
+    open();
+}
+
+/// Of all that the film's bits depend on: the flat scene, how it is sampled and refined, and the
+/// kernels. A tenth of a second for some million triangles.
+template <typename T>
+std::uint64_t PictureJournal<T>::key() const {
+    Hasher hasher;
+    hasher.add(std::string_view(render_kernels));
+    hasher.add(sizeof(T));
+#define RT_ADD_ROWS(type, name, text) add_rows(hasher, scene_.name);
+    RT_SCENE_ARRAYS(RT_ADD_ROWS)
+#undef RT_ADD_ROWS
+    hasher.add_bytes(std::as_bytes(std::span(&scene_.params, 1)));
+    hasher.add(std::string_view(to_string(aa_)));
+    hasher.add(aa_.threshold);
+    for (const Rect& rect : {film_rect_, region_}) {
+        for (const int number : {rect.x, rect.y, rect.width, rect.height}) hasher.add(number);
+    }
+    return hasher.value();
+}
+
+/// Finds out what is there, and goes on with it if it is of this picture.
+template <typename T>
+void PictureJournal<T>::open() {
+    file_ = std::make_shared<JournalFile>(settings_.journal);
+    const std::string& path = file_->path();
+    using Found = JournalFile::Found;
+    if (file_->found() == Found::something_else) {
+        if (settings_.shares) {
+            throw Error(ExitCode::output,
+                        path +
+                            ": holds something else than a journal, or cannot be written; "
+                            "name another file");
+        }
+        say_(path + " is no journal of ours; the picture is not kept while it is rendered");
+        file_.reset();
+        return;
+    }
+    if (file_->found() == Found::journal && !settings_.fresh) read();
+    const bool is_foreign = !settings_.fresh && !known_ && file_->found() != Found::nothing;
+    if (is_foreign && settings_.shares) {
+        throw Error(ExitCode::output,
+                    path +
+                        ": is of another picture, other shares or another version; name "
+                        "another file, or give --fresh to replace it");
+    }
+    if (is_foreign) {
+        say_(path + " is of another picture, other settings or another version; starting again");
+    }
+    if (!known_) start_again();
+}
+
+template <typename T>
+void PictureJournal<T>::read() {
+    file_->read([&](JournalReader& reader) {
+        if (reader.header().key != key() || reader.header().shares != header_.shares ||
+            reader.header().film != header_.film) {
+            return;
+        }
+        known_ = read_known_pixels<T>(reader);
+    });
+    if (!known_) return;
+    say_(fmt::format("going on with {}, which has {:.0f} % of the first pass{}", file_->path(),
+                     100 * known_->share_rendered(),
+                     known_->refined[0].pixels.empty() ? "" : " and some of what is refined"));
+}
+
+template <typename T>
+void PictureJournal<T>::start_again() {
+    keeper_.reset();
+    known_.reset();
+    if (!file_) return;
+    file_->begin_anew([this] {
+        std::vector<std::byte> start;
+        const auto magic = std::as_bytes(std::span(journal_magic));
+        start.insert(start.end(), magic.begin(), magic.end());
+        JournalHeader header = header_;
+        header.key = key();
+        append_header(start, header);
+        return start;
+    });
+}
+
+template <typename T>
+Film<T> PictureJournal<T>::take_film() {
+    if (!known_) return Film<T>(film_rect_.width, film_rect_.height);
+    if (is_finished()) return known_->refined_film();
+    return std::move(known_->film);
+}
+
+template <typename T>
+std::vector<Rect> PictureJournal<T>::tiles(int width, int height) const {
+    std::vector<Rect> cells = make_tiles(film_rect_, width, height);
+    if (!known_ && needs_.empty()) return cells;
+    std::vector<std::uint8_t> wanted = needs_;
+    if (wanted.empty()) wanted.assign(static_cast<std::size_t>(film_rect_.pixels()), 1);
+    if (known_) {
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            if (known_->is_rendered[i] != 0) wanted[i] = 0;
+        }
+    }
+    return wanted_tiles(cells, wanted, film_rect_);
+}
+
+template <typename T>
+std::vector<Rect> PictureJournal<T>::final_tiles(int width, int height) const {
+    const std::vector<Rect> cells = make_tiles(region_, width, height);
+    if (needs_.empty()) return cells;
+    std::vector<std::uint8_t> own = needs_;
+    for (std::uint8_t& need : own) need = need > refine_passes;
+    return wanted_tiles(cells, own, film_rect_);
+}
+
+template <typename T>
+void PictureJournal<T>::begin(const Film<T>& film, const std::string& device) {
+    if (!file_) return;
+    const JournalWriterInfo writer{host_name(), device, version, static_cast<int>(::getpid())};
+    const double delay = settings_.shares ? 0 : settings_.journal_delay;
+    keeper_ = std::make_unique<JournalKeeper<T>>(*file_, writer, film, film_rect_, delay);
+}
+
+template <typename T>
+TileEvents PictureJournal<T>::tile_events() {
+    if (!keeper_) return {};
+    return {[this](const Rect& tile) { keeper_->tile_finished(tile); },
+            [this](const Rect& tile) { keeper_->tile_lost(tile); }};
+}
+
+template <typename T>
+RefineEvents<T> PictureJournal<T>::refine_events() {
+    RefineEvents<T> events;
+    events.planned = [this](int pass, std::vector<Refinement>& plan, Film<T>& film) {
+        plan_pass(pass, plan, film);
+    };
+    if (keeper_) {
+        events.refined = [this](int pass, std::span<const std::int32_t> pixels) {
+            keeper_->refined(pass, pixels);
+        };
+    }
+    return events;
+}
+
+/// Takes out of the plan what the shares do not need, and what is known.
+template <typename T>
+void PictureJournal<T>::plan_pass(int pass, std::vector<Refinement>& plan, Film<T>& film) {
+    if (keeper_ && pass == 0) keeper_->first_pass_ended();
+    const auto keep_only = [&](const auto& is_wanted) {
+        for (Refinement& refinement : plan) {
+            std::erase_if(refinement.pixels, [&](std::int32_t pixel) { return !is_wanted(pixel); });
+        }
+    };
+    if (!needs_.empty()) {
+        keep_only([&](std::int32_t pixel) {
+            return needs_[static_cast<std::size_t>(pixel)] >= pass + 2;
+        });
+    }
+    if (!known_ || known_->refined[pass].pixels.empty()) return;
+    const RefinedPixels<T>& refined = known_->refined[pass];
+    std::vector<std::int32_t> place(static_cast<std::size_t>(film_rect_.pixels()), -1);
+    for (std::size_t i = 0; i < refined.pixels.size(); ++i) {
+        place[static_cast<std::size_t>(refined.pixels[i])] = static_cast<std::int32_t>(i);
+    }
+    keep_only([&](std::int32_t pixel) {
+        const std::int32_t at = place[static_cast<std::size_t>(pixel)];
+        if (at < 0) return true;
+        std::copy_n(refined.colors.begin() + std::ptrdiff_t{3} * at, 3,
+                    film.rgb.begin() + std::ptrdiff_t{3} * pixel);
+        return false;
+    });
+}
+
+template <typename T>
+void PictureJournal<T>::end(bool is_complete) {
+    if (!keeper_) return;
+    if (!is_complete) {
+        keeper_->close();
+    } else if (settings_.shares) {
+        keeper_->close_finished();
+    }
+    keeper_.reset();
+    if (file_->failure().empty()) return;
+    if (settings_.shares) throw Error(ExitCode::output, file_->failure());
+    say_(file_->failure() + "; the picture was not kept while it was rendered");
+}
+
+template class PictureJournal<float>;
+template class PictureJournal<double>;
+
+}  // namespace rt

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/flatten/flat_scene.h"
+#include "host/journal/journal_file.h"
+#include "host/journal/journal_keeper.h"
+#include "host/picture/render_settings.h"
+#include "host/picture/render_stats.h"
+#include "host/render/picture_loop.h"
+
+namespace rt {
+
+/// What of a picture is still to be rendered, where a journal has some of it or where shares of it
+/// are asked for; and the keeping of what is finished. Without either it is all of the picture.
+template <typename T>
+class PictureJournal {
+   public:
+    using Say = std::function<void(const std::string& line)>;
+
+    /// Opens settings.journal. `stats` tells the picture; `film` is the part that is rendered.
+    /// Throws Error: output where another process renders the same picture, or where the result of
+    /// shares would replace something else; usage for shares that cannot be kept.
+    PictureJournal(const RenderSettings& settings, const RenderStats& stats,
+                   const FlatScene<T>& scene, const Rect& film, Say say);
+
+    /// Whether all of it is there.
+    bool is_finished() const { return known_ && known_->is_finished; }
+
+    /// Of the film, what the journal has.
+    double share_known() const { return known_ ? known_->share_rendered() : 0; }
+
+    /// The film with all that is known of it; once.
+    Film<T> take_film();
+
+    /// The film's tiles that are to be rendered, cut from tiles of this size.
+    std::vector<Rect> tiles(int width, int height) const;
+
+    /// Tiles of the region that have their final pixels when all is rendered.
+    std::vector<Rect> final_tiles(int width, int height) const;
+
+    /// Keeps, from now on, what is finished of this film. `device`: who renders it.
+    void begin(const Film<T>& film, const std::string& device);
+    TileEvents tile_events();
+    RefineEvents<T> refine_events();
+
+    /// Ends it. Throws Error (ExitCode::output) when shares are not on disk.
+    void end(bool is_complete);
+
+    /// Forgets all that is known: it was wrong.
+    void start_again();
+
+    std::shared_ptr<JournalFile> file() const { return file_; }
+
+   private:
+    void open();
+    void read();
+    std::uint64_t key() const;
+    void plan_pass(int pass, std::vector<Refinement>& plan, Film<T>& film);
+
+    const RenderSettings& settings_;
+    const FlatScene<T>& scene_;
+    const AaMode aa_;
+    const Rect region_, film_rect_;
+    const Say say_;
+    JournalHeader header_;
+    std::vector<std::uint8_t> needs_;  ///< share_needs; empty: everything
+    std::shared_ptr<JournalFile> file_;
+    std::optional<KnownPixels<T>> known_;
+    std::unique_ptr<JournalKeeper<T>> keeper_;
+};
+
+}  // namespace rt

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/journal/merge.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "host/console.h"
+#include "host/counted.h"
+#include "host/error.h"
+#include "host/image/image_error.h"
+#include "host/image/output_path.h"
+#include "host/image/picture_io.h"
+#include "host/picture/render_stats.h"
+#include "host/verbs/render_steps.h"
+#include "host/verbs/verbs.h"
+
+namespace rt {
+
+namespace {
+
+std::string missing_text(const MergedPicture& merged) {
+    return fmt::format("{} missing; render --shard {}",
+                       merged.missing_pixels == 1
+                           ? "1 pixel is"
+                           : counted(merged.missing_pixels, "pixel") + " are",
+                       to_string(*merged.missing));
+}
+
+void write_merged(const MergedPicture& merged, const MergeOptions& options) {
+    const JournalHeader& header = merged.header;
+    PictureMetadata metadata = picture_metadata(header.scene, header.scene_hash, header.settings,
+                                                hash_text(merged.image_hash));
+    if (merged.missing) {
+        metadata.emplace_back("mirrorball:Partial",
+                              fmt::format("without shares {}", to_string(*merged.missing)));
+    }
+    write_picture(options.output, merged.picture, options.encoding, metadata);
+}
+
+}  // namespace
+
+int run_merge(const MergeOptions& options) {
+    if (!options.output.empty()) {
+        check_picture_path(options.output);
+        check_output_is_no_input(options.output, options.parts);
+    }
+    const MergedPicture merged = merge_journals(options.parts);
+    for (const std::string& note : merged.notes) print_message("mirrorball: " + note + "\n");
+    if (merged.missing && !options.allow_missing) {
+        throw Error(ExitCode::incomplete, missing_text(merged));
+    }
+    if (merged.missing) print_message("mirrorball: " + missing_text(merged) + "\n");
+    if (!options.output.empty()) write_merged(merged, options);
+    if (!options.quiet) {
+        print_message(fmt::format("{}: {} of {}, image {}\n", merged.header.scene,
+                                  counted(options.parts.size(), "part"), merged.header.settings,
+                                  hash_text(merged.image_hash)));
+    }
+    const bool is_finite = !report_non_finite(merged.picture, merged.header.region);
+    return static_cast<int>(is_finite ? ExitCode::done : ExitCode::non_finite);
+}
+
+}  // namespace rt

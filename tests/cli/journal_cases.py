@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Journals: renders that were interrupted go on, and shares of a picture are merged to the whole."""
+import random
+import signal
+import time
+
+from harness import CliTest, scene_path
+
+SMALL = ["--size", "90x70", "--device", "threads"]
+
+
+class JournalTest(CliTest):
+    def bytes_of(self, name):
+        return (self.folder / name).read_bytes()
+
+    def share(self, shares, part, *arguments, scene="cornell-box", expected=0):
+        result = self.run_cli("render", scene_path(scene), "--shard", shares, "-o", part,
+                              *arguments)
+        self.assertEqual(result.returncode, expected, result.stderr)
+        return result
+
+    def merge(self, *arguments, expected=0):
+        result = self.run_cli("merge", *arguments)
+        self.assertEqual(result.returncode, expected, result.stderr)
+        return result
+
+
+class Shares(JournalTest):
+    def assert_merges(self, count, *arguments, scene="cornell-box", ending="png"):
+        self.render(scene, "-o", f"whole.{ending}", *SMALL, *arguments)
+        parts = [f"{count}-{i}.mbj" for i in range(count)]
+        for i, part in enumerate(parts):
+            self.share(f"{i}/{count}", part, *SMALL, *arguments, scene=scene)
+        random.shuffle(parts)
+        result = self.merge(*parts, "-o", f"merged.{ending}")
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        self.assertEqual(self.bytes_of(f"merged.{ending}"), self.bytes_of(f"whole.{ending}"))
+        for part in parts:
+            (self.folder / part).unlink()
+
+    def test_of_every_mode_and_filter(self):
+        for count, mode in [(2, ["--aa", "none"]), (3, ["--aa", "grid:3", "--filter", "tent"]),
+                            (2, ["--aa", "sobol:8", "--filter", "gaussian"]),
+                            (3, ["--aa", "grid:4", "--filter", "mitchell"]),
+                            (7, ["--aa", "adaptive:0.05"]), (2, ["--precision", "double"])]:
+            with self.subTest(mode=mode):
+                self.assert_merges(count, *mode)
+
+    def test_of_one_and_of_64(self):
+        for count in [1, 64]:
+            self.assert_merges(count, "--aa", "adaptive:0.05")
+
+    def test_of_a_window_and_in_other_formats(self):
+        self.assert_merges(3, "--crop", "7,9,83,61", "--aa", "adaptive:0.05", ending="exr")
+        self.assert_merges(2, "--crop", "7,9,83,61", ending="pfm", scene="glass")
+
+    def test_from_several_devices(self):
+        self.render("cornell-box", "-o", "whole.png", *SMALL)
+        self.share("0/2", "a.mbj", "--size", "90x70", "--device", "pocl")
+        self.share("1/2", "b.mbj", "--size", "90x70", "--device", "pocl,threads")
+        self.share("0-1/2", "c.mbj", *SMALL)
+        self.merge("c.mbj", "b.mbj", "a.mbj", "-o", "merged.png")
+        self.assertEqual(self.bytes_of("merged.png"), self.bytes_of("whole.png"))
+
+    def test_that_are_missing_are_named(self):
+        for shares in ["0/9", "2/9", "4-8/9"]:
+            self.share(shares, shares.replace("/", "-") + ".mbj", *SMALL)
+        parts = [name for name in self.files() if name.endswith(".mbj")]
+        result = self.merge(*parts, "-o", "out.png", expected=8)
+        self.assertRegex(result.stderr, r"^mirrorball: \d+ pixels are missing; render --shard 1,3/9$")
+        self.assertNotIn("out.png", self.files())
+        result = self.merge(*parts, "-o", "out.png", "--allow-missing")
+        self.assertIn("out.png", self.files())
+        self.share("1,3/9", "rest.mbj", *SMALL)
+        self.merge(*parts, "rest.mbj", "-o", "out.png")
+        self.render("cornell-box", "-o", "whole.png", *SMALL)
+        self.assertEqual(self.bytes_of("out.png"), self.bytes_of("whole.png"))
+
+    def test_that_are_there_are_not_rendered_again(self):
+        self.share("0/2", "a.mbj", *SMALL)
+        before = self.bytes_of("a.mbj")
+        result = self.share("0/2", "a.mbj", *SMALL)
+        self.assertIn("going on with a.mbj", result.stderr)
+        self.assertIn("0.00 Mrays", result.stderr)
+        self.assertEqual(self.bytes_of("a.mbj"), before)
+
+    def test_do_not_replace_others(self):
+        self.share("0/2", "a.mbj", *SMALL)
+        before = self.bytes_of("a.mbj")
+        result = self.share("1/2", "a.mbj", *SMALL, expected=4)
+        self.assertIn("--fresh", result.stderr)
+        self.assertEqual(self.bytes_of("a.mbj"), before)
+        self.share("1/2", "a.mbj", *SMALL, "--fresh")
+        self.assertNotEqual(self.bytes_of("a.mbj"), before)
+        self.write_text("thesis.mbj", "precious")
+        self.share("1/2", "thesis.mbj", *SMALL, "--fresh", expected=4)
+        self.assertEqual(self.bytes_of("thesis.mbj"), b"precious")
+
+    def test_are_refused_where_they_make_no_sense(self):
+        scene = scene_path("cornell-box")
+        for arguments in [["--shard", "2/2", "-o", "a.mbj"], ["--shard", "x", "-o", "a.mbj"],
+                          ["--shard", "0/2", "-o", "a.png"], ["--shard", "0/2"],
+                          ["--shard", "0/2", "-o", "a.mbj", "--math", "fast"],
+                          ["--shard", "0/2", "-o", "a.mbj", "--schedule", "buffers", "--device",
+                           "threads"], ["--fresh", "--resume"],
+                          ["--shard", "0/2", "-o", "a.mbj", scene]]:
+            self.assert_refused(self.run_cli("render", scene, *arguments), 2)
+        self.assert_refused(self.run_cli("render", scene, "--shard", "0/2", "-o", "no/a.mbj"), 4)
+        self.assertEqual(self.files(), [])
+
+    def test_parts_that_are_none_are_refused(self):
+        self.share("0/2", "a.mbj", *SMALL)
+        self.share("1/2", "b.mbj", *SMALL, "--aa", "none")
+        self.share("1/2", "c.mbj", *SMALL, scene="glass")
+        (self.folder / "cut.mbj").write_bytes(self.bytes_of("a.mbj")[:100])
+        self.write_text("text.mbj", "no journal")
+        for part, words in [("b.mbj", "other settings"), ("c.mbj", "another scene"),
+                            ("cut.mbj", "damaged"), ("text.mbj", "no journal"),
+                            ("nowhere.mbj", "cannot read"), (".", "directory")]:
+            self.assert_refused(self.run_cli("merge", "a.mbj", part, "-o", "x.png"), 3, part, words)
+        self.assert_refused(self.run_cli("merge", "a.mbj", "-o", "a.mbj"), 2)
+        self.assert_refused(self.run_cli("merge"), 2)
+
+
+class Resume(JournalTest):
+    def interrupted(self, number, *arguments):
+        """Starts a render and ends it when its journal has something."""
+        process = self.start("render", *arguments, "-o", "out.png", "--resume")
+        journal = self.folder / "out.png.mbj"
+        size = journal.stat().st_size if journal.exists() else 0
+        while process.poll() is None and (
+                not journal.exists() or journal.stat().st_size <= size + 1000):
+            time.sleep(0.05)
+        self.assertIsNone(process.poll(), "was too fast to be interrupted")
+        process.send_signal(number)
+        return process.wait(), process.stderr.read()
+
+    def assert_goes_on(self, times, number, *arguments):
+        self.render(arguments[0], "-o", "whole.png", *arguments[1:])
+        for _ in range(times):
+            code, stderr = self.interrupted(number, *arguments)
+            if number != signal.SIGKILL:
+                self.assertEqual(code, 128 + number)
+                self.assertIn("the same command goes on from there", stderr)
+        result = self.run_cli("render", *arguments, "-o", "out.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"going on with out\.png\.mbj, which has [1-9]\d* %")
+        self.assertEqual(self.bytes_of("out.png"), self.bytes_of("whole.png"))
+        self.assertNotIn("out.png.mbj", self.files())
+
+    def test_after_kill(self):
+        self.assert_goes_on(2, signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
+                            "grid:40", "--device", "threads")
+
+    def test_after_sigterm_on_a_device(self):
+        self.assert_goes_on(1, signal.SIGTERM, scene_path("mirror-hall"), "--size", "300", "--aa",
+                            "grid:32", "--device", "pocl")
+
+    def test_while_refining(self):
+        self.assert_goes_on(1, signal.SIGKILL, scene_path("mirror-hall"), "--size", "800", "--aa",
+                            "adaptive:0.0001", "--precision", "double", "--device", "threads")
+
+    def test_two_processes_at_one_picture(self):
+        arguments = [scene_path("mirror-hall"), "--size", "300", "--aa", "grid:64", "--device",
+                     "threads", "-o", "out.png", "--resume"]
+        first = self.start("render", *arguments)
+        while "out.png.mbj" not in self.files():
+            time.sleep(0.05)
+        while not self.bytes_of("out.png.mbj"):
+            time.sleep(0.05)
+        second = self.run_cli("render", *arguments)
+        self.assertEqual(second.returncode, 4, second.stderr)
+        self.assertIn(f"process {first.pid} on ", second.stderr)
+
+    def test_a_full_disk_costs_the_journal_alone(self):
+        result = self.run_shell('ulimit -f 40; "$MIRRORBALL" render "$SCENE" --size 300 --aa '
+                                'grid:64 --device threads --resume -o out.png')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"out\.png\.mbj: cannot write: .*; the picture was not kept")
+        self.assertEqual(self.files(), ["out.png"])
+        result = self.run_shell('ulimit -f 1; "$MIRRORBALL" render "$SCENE" --size 300 '
+                                '--device threads --shard 0/2 -o part.mbj')
+        self.assertEqual(result.returncode, 4, result.stderr)
+
+    def test_fresh_ignores_it(self):
+        self.interrupted(signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
+                         "grid:40", "--device", "threads")
+        result = self.run_cli("render", scene_path("mirror-hall"), "--size", "300", "--aa",
+                              "grid:40", "--device", "threads", "--fresh", "-o", "out.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("going on", result.stderr)
+        self.assertEqual(self.files(), ["out.png"])
+
+    def test_stats_tell(self):
+        self.share("0/1", "out.png.mbj", *SMALL)
+        stats = self.stats_of("cornell-box", "-o", "out.png", *SMALL)
+        self.assertEqual(stats["resumed"], 1)
+        self.share("0/1", "out.png.mbj", *SMALL)
+        text = self.render("cornell-box", "-o", "out.png", *SMALL, "--stats").stdout
+        self.assertIn("100 % of the first pass from a journal", text)

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "host/error.h"
+#include "host/journal/journal_keeper.h"
+#include "host/journal/merge.h"
+#include "host/journal/shares.h"
+#include "host/picture/render_picture.h"
+#include "host/scene/scene_file.h"
+#include "tests/picture_files.h"
+#include "tests/test_random.h"
+
+namespace rt {
+namespace {
+
+constexpr StopFlag never_stopped{0};
+
+class Journals : public ScratchFolder {
+   protected:
+    std::string bytes_of(const std::string& name) const { return contents(path(name)); }
+    void put(const std::string& name, const std::string& bytes) const {
+        rt::put(path(name), bytes);
+    }
+};
+
+RenderSettings small(const std::string& aa, Precision precision = Precision::float32) {
+    RenderSettings settings;
+    settings.size = {61, 37};
+    settings.aa = parse_aa_mode(aa);
+    settings.precision = precision;
+    settings.tile = {16, 16};
+    return settings;
+}
+
+/// On threads; what is said goes to `said`.
+RenderStats render(const RenderSettings& settings, std::vector<std::string>* said = nullptr,
+                   const StopFlag& stop = never_stopped) {
+    static const Scene scene = load_scene(std::string(MIRRORBALL_SCENES_DIR) + "/cornell-box.json");
+    Scene changed = scene;
+    apply_overrides(changed, settings);
+    RenderEvents events;
+    events.message = [&](const std::string& line) {
+        if (said != nullptr) said->push_back(line);
+    };
+    const RenderedPicture rendered =
+        render_picture(changed, settings, {DeviceChoice{true, 0, {}, ""}}, events, stop);
+    return rendered.stats;
+}
+
+RenderStats render_shares(RenderSettings settings, const std::string& shares,
+                          const std::string& file) {
+    settings.shares = parse_shares(shares);
+    settings.journal = file;
+    return render(settings);
+}
+
+/// Where each record ends, the header's first.
+std::vector<std::size_t> record_ends(const std::string& bytes) {
+    std::vector<std::size_t> ends;
+    for (std::size_t at = journal_magic.size(); at + 12 <= bytes.size();) {
+        std::uint32_t length = 0;
+        std::memcpy(&length, &bytes[at + 4], 4);
+        at += 12 + length;
+        ends.push_back(at);
+    }
+    return ends;
+}
+
+TEST(ParseShares, ReadsNumbersAndRanges) {
+    EXPECT_EQ(parse_shares("7/64"), (Shares{{7}, 64}));
+    EXPECT_EQ(parse_shares("20-22,7,9,21/64"), (Shares{{7, 9, 20, 21, 22}, 64}));
+    EXPECT_EQ(to_string(Shares{{0}, 1}), "0/1");
+    EXPECT_EQ(to_string(Shares{{7, 9, 10, 20, 21, 22}, 64}), "7,9,10,20-22/64");
+    for (const char* text : {"", "/", "7", "7/", "/64", "64/64", "0/0", "-1/4", "3-1/4", "1,/4",
+                             "1,,2/4", "a/4", "1/4x", "1 /4", "0/100001", "1-2-3/8", "0/-3"}) {
+        EXPECT_FALSE(parse_shares(text)) << text;
+    }
+}
+
+TEST(BlockShares, AreEquallyManyAndApart) {
+    for (const int shares : {1, 2, 3, 7, 64}) {
+        const std::vector<int> share_of = block_shares(1000, shares);
+        int together = 0;
+        for (int share = 0; share < shares; ++share) {
+            const auto count = std::count(share_of.begin(), share_of.end(), share);
+            EXPECT_LE(std::abs(count - 1000 / shares), 1) << shares;
+        }
+        for (std::size_t i = 1; i < 1000; ++i) together += share_of[i] == share_of[i - 1];
+        EXPECT_LT(together, 1000 * 1.5 / shares + 20) << shares;
+    }
+}
+
+TEST(ShareBlocks, AreAboutAThousand) {
+    for (const int side : {500, 1000, 2000, 4000, 8000}) {
+        const std::size_t blocks = share_blocks({0, 0, side, side}).size();
+        EXPECT_GT(blocks, 250u) << side;
+        EXPECT_LE(blocks, 1024u) << side;
+    }
+    EXPECT_EQ(share_blocks({5, 6, 20, 10}).size(), 2u);
+}
+
+TEST(ShareNeeds, GrowByOnePixelAPass) {
+    const Rect region{0, 0, 64, 48};
+    const Shares shares{{1}, 3};
+    const auto needs = share_needs(shares, region, region, true);
+    const auto own = share_needs(shares, region, region, false);
+    const auto level_of_nearest = [&](int x, int y) {
+        int nearest = 99;
+        for (int v = 0; v < 48; ++v) {
+            for (int u = 0; u < 64; ++u) {
+                if (own[static_cast<std::size_t>(64 * v + u)] == 0) continue;
+                nearest = std::min(nearest, std::max(std::abs(u - x), std::abs(v - y)));
+            }
+        }
+        return std::max(refine_passes + 1 - nearest, 0);
+    };
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            ASSERT_EQ(needs[static_cast<std::size_t>(64 * y + x)], level_of_nearest(x, y))
+                << x << ' ' << y;
+        }
+    }
+}
+
+TEST(WantedTiles, CoverWhatIsWantedOnce) {
+    Random random(7);
+    const Rect film{3, 2, 50, 40};
+    std::vector<std::uint8_t> wanted(2000);
+    for (auto& value : wanted) value = random.uniform(0, 1) < 0.7;
+    std::vector<int> covered(2000);
+    for (const Rect& tile : wanted_tiles(make_tiles(film, 16, 16), wanted, film)) {
+        for (int y = tile.y - 2; y < tile.y - 2 + tile.height; ++y) {
+            for (int x = tile.x - 3; x < tile.x - 3 + tile.width; ++x) {
+                ++covered[static_cast<std::size_t>(50 * y + x)];
+            }
+        }
+    }
+    for (std::size_t i = 0; i < 2000; ++i) ASSERT_EQ(covered[i], wanted[i]) << i;
+    const std::vector<std::uint8_t> all(2000, 1);
+    EXPECT_EQ(wanted_tiles(make_tiles(film, 16, 16), all, film), make_tiles(film, 16, 16));
+}
+
+TEST_F(Journals, OfSharesMergeToTheWhole) {
+    for (const char* aa : {"none", "grid:3", "sobol:4", "adaptive:0.02"}) {
+        for (const Precision precision : {Precision::float32, Precision::float64}) {
+            const RenderSettings settings = small(aa, precision);
+            const std::uint64_t whole = render(settings).image_hash;
+            for (const int count : {1, 2, 7, 20}) {
+                std::vector<std::string> parts;
+                for (int i = count; i-- > 0;) {
+                    parts.push_back(path(std::to_string(i) + ".mbj"));
+                    std::filesystem::remove(parts.back());
+                    render_shares(settings, std::to_string(i) + "/" + std::to_string(count),
+                                  parts.back());
+                }
+                const MergedPicture merged = merge_journals(parts);
+                EXPECT_EQ(merged.image_hash, whole) << aa << ' ' << count;
+                EXPECT_EQ(merged.missing_pixels, 0u);
+                EXPECT_TRUE(merged.notes.empty());
+                EXPECT_EQ(merge_journals({parts.begin(), parts.begin() + 1}).missing.has_value(),
+                          count > 1);
+            }
+        }
+    }
+}
+
+/// Cut anywhere, or with any byte changed, it is gone on with or begun anew: the picture is the
+/// same.
+TEST_F(Journals, OfAnyLengthAreGoneOnWith) {
+    for (const char* aa : {"grid:2", "adaptive:0.02"}) {
+        RenderSettings settings = small(aa);
+        const std::uint64_t whole = render(settings).image_hash;
+        std::filesystem::remove(path("whole.mbj"));
+        render_shares(settings, "0/1", path("whole.mbj"));
+        const std::string bytes = bytes_of("whole.mbj");
+        const std::vector<std::size_t> ends = record_ends(bytes);
+        ASSERT_EQ(ends.back(), bytes.size());
+        ASSERT_GT(ends.size(), 12u) << aa;
+        std::vector<std::size_t> cuts = ends;
+        for (std::size_t cut = 0; cut <= 24; ++cut) cuts.push_back(cut);
+        for (std::size_t cut = 25; cut < ends.front() + 12; cut += 31) cuts.push_back(cut);
+        Random random(3);
+        for (int i = 0; i < 20; ++i) {
+            cuts.push_back(
+                static_cast<std::size_t>(random.uniform(0, static_cast<double>(bytes.size()))));
+        }
+        settings.journal = path("cut.mbj");
+        settings.journal_delay = 0;
+        for (const std::size_t cut : cuts) {
+            put("cut.mbj", bytes.substr(0, cut));
+            const RenderStats stats = render(settings);
+            ASSERT_EQ(stats.image_hash, whole) << aa << " cut at " << cut;
+            ASSERT_EQ(stats.resumed > 0, cut >= ends[2]) << cut;
+            ASSERT_EQ(stats.resumed == 1 && stats.rays.total() == 0, cut >= ends.back() - 12)
+                << cut;
+        }
+        for (int i = 0; i < 25; ++i) {
+            std::string wrong = bytes;
+            const auto at =
+                static_cast<std::size_t>(random.uniform(0, static_cast<double>(bytes.size())));
+            wrong[at] ^= 1;
+            put("cut.mbj", wrong);
+            ASSERT_EQ(render(settings).image_hash, whole) << aa << " wrong at " << at;
+        }
+    }
+}
+
+TEST_F(Journals, OfASharesRenderThatWasCutAreFinishedByIt) {
+    const RenderSettings settings = small("adaptive:0.02");
+    const std::uint64_t whole = render(settings).image_hash;
+    render_shares(settings, "1/2", path("b.mbj"));
+    render_shares(settings, "0/2", path("a.mbj"));
+    const std::string bytes = bytes_of("a.mbj");
+    for (const std::size_t end : record_ends(bytes)) {
+        put("a.mbj", bytes.substr(0, end));
+        if (end < bytes.size()) {
+            const MergedPicture merged = merge_journals({path("b.mbj"), path("a.mbj")});
+            EXPECT_EQ(merged.missing, (Shares{{0}, 2}));
+            EXPECT_EQ(merged.notes.size(), 1u);
+        }
+        render_shares(settings, "0/2", path("a.mbj"));
+        EXPECT_EQ(merge_journals({path("a.mbj"), path("b.mbj")}).image_hash, whole);
+    }
+}
+
+TEST_F(Journals, AreWrittenWhileThePictureIsMade) {
+    RenderSettings settings = small("grid:2");
+    settings.journal = path("p.mbj");
+    render(settings);
+    EXPECT_FALSE(std::filesystem::exists(settings.journal)) << "not worth it";
+    settings.journal_delay = 0;
+    StopFlag stop{2};
+    std::vector<std::string> said;
+    EXPECT_FALSE(render(settings, &said, stop).complete());
+    EXPECT_FALSE(std::filesystem::exists(settings.journal)) << "nothing to keep";
+    EXPECT_TRUE(said.empty()) << said.front();
+}
+
+TEST_F(Journals, OfOtherPicturesAreNotUsed) {
+    RenderSettings settings = small("grid:2");
+    render_shares(settings, "0/1", path("p.mbj"));
+    const std::string bytes = bytes_of("p.mbj");
+    settings.journal = path("p.mbj");
+    const auto resumed = [&](RenderSettings changed) {
+        put("p.mbj", bytes);
+        std::vector<std::string> said;
+        const RenderStats stats = render(changed, &said);
+        EXPECT_EQ(said.size(), 1u);
+        changed.journal.clear();
+        EXPECT_EQ(stats.image_hash, render(changed).image_hash);
+        return stats.resumed;
+    };
+    EXPECT_EQ(resumed(settings), 1);
+    RenderSettings other = settings;
+    other.aa = grid_aa(3);
+    EXPECT_EQ(resumed(other), 0);
+    other = settings;
+    other.size = {60, 37};
+    EXPECT_EQ(resumed(other), 0);
+    other = settings;
+    other.max_bounces = 1;
+    EXPECT_EQ(resumed(other), 0);
+    other = settings;
+    other.precision = Precision::float64;
+    EXPECT_EQ(resumed(other), 0);
+    other = settings;
+    other.crop = Rect{0, 0, 61, 36};
+    EXPECT_EQ(resumed(other), 0);
+    other = small("sobol:4");
+    other.journal = settings.journal;
+    EXPECT_EQ(resumed(other), 0);
+    put("p.mbj", bytes);
+    other = settings;
+    other.fresh = true;
+    EXPECT_EQ(render(other).resumed, 0);
+}
+
+TEST_F(Journals, ThatAreSomethingElseStay) {
+    RenderSettings settings = small("grid:2");
+    settings.journal = path("p.mbj");
+    settings.journal_delay = 0;
+    const std::string text = "my thesis";
+    put("p.mbj", text);
+    std::vector<std::string> said;
+    EXPECT_TRUE(render(settings, &said).complete());
+    EXPECT_EQ(said.size(), 1u);
+    EXPECT_EQ(bytes_of("p.mbj").size(), text.size());
+    settings.shares = Shares{{0}, 2};
+    settings.fresh = true;
+    EXPECT_THROW(render(settings), Error);
+    EXPECT_EQ(bytes_of("p.mbj").size(), text.size());
+}
+
+TEST_F(Journals, AreOfOneProcessAtATime) {
+    render_shares(small("grid:2"), "0/2", path("p.mbj"));
+    const JournalFile held(path("p.mbj"));
+    try {
+        const JournalFile second(path("p.mbj"));
+        FAIL() << "two processes at one journal";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::output);
+        EXPECT_NE(std::string(error.what()).find("process " + std::to_string(::getpid())),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+TEST_F(Journals, MergeRefusesWhatDiffers) {
+    const RenderSettings settings = small("grid:2");
+    render_shares(settings, "0/2", path("a.mbj"));
+    render_shares(settings, "0-1/2", path("b.mbj"));
+    EXPECT_EQ(merge_journals({path("a.mbj"), path("b.mbj")}).missing_pixels, 0u);
+    std::string bytes = bytes_of("a.mbj");
+    const std::vector<std::size_t> ends = record_ends(bytes);
+    const std::size_t body = ends[1] + 12, length = ends[2] - body;
+    bytes[body + length - 1] ^= 1;  // a driver that computes wrong
+    const std::uint32_t crc =
+        record_crc(RecordKind::tile, std::as_bytes(std::span(bytes)).subspan(body, length));
+    std::memcpy(&bytes[body - 4], &crc, 4);
+    put("a.mbj", bytes);
+    try {
+        merge_journals({path("a.mbj"), path("b.mbj")});
+        FAIL() << "wrong bits merged";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::different);
+        const std::string text = error.what();
+        EXPECT_NE(text.find("a.mbj (threads on "), text.npos) << text;
+        EXPECT_NE(text.find("b.mbj (threads on "), text.npos) << text;
+        EXPECT_NE(text.find("1 pixel"), text.npos) << text;
+    }
+    render_shares(small("grid:3"), "1/2", path("c.mbj"));
+    try {
+        merge_journals({path("b.mbj"), path("c.mbj")});
+        FAIL() << "two pictures merged";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::input);
+        EXPECT_NE(std::string(error.what()).find("c.mbj: is of other settings than"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+TEST_F(Journals, ForgetLostTiles) {
+    Film<float> film(4, 2);
+    for (std::size_t i = 0; i < film.rgb.size(); ++i) film.rgb[i] = static_cast<float>(i);
+    JournalHeader header;
+    header.width = 4;
+    header.height = 2;
+    header.region = header.film = {0, 0, 4, 2};
+    JournalFile file(path("f.mbj"));
+    file.begin_anew([&] {
+        const auto magic = std::as_bytes(std::span(journal_magic));
+        std::vector<std::byte> start(magic.begin(), magic.end());
+        append_header(start, header);
+        return start;
+    });
+    {
+        JournalKeeper<float> keeper(file, {"host", "device", "1", 1}, film, header.film, 0);
+        keeper.tile_finished({0, 0, 2, 2});
+        keeper.tile_finished({2, 0, 2, 1});
+        keeper.first_pass_ended();
+        keeper.tile_finished({2, 1, 2, 1});
+        keeper.tile_lost({2, 1, 2, 1});
+        keeper.tile_lost({0, 0, 2, 2});
+        keeper.close();
+    }
+    EXPECT_EQ(file.failure(), "");
+    std::ifstream stream(path("f.mbj"), std::ios::binary);
+    JournalReader reader(stream, bytes_of("f.mbj").size());
+    EXPECT_EQ(reader.header(), header);
+    const KnownPixels<float> known = read_known_pixels<float>(reader);
+    EXPECT_EQ(known.is_rendered, (std::vector<std::uint8_t>{0, 0, 1, 1, 0, 0, 0, 0}));
+    EXPECT_EQ(known.film.rgb[6], 6);
+    EXPECT_EQ(known.film.rgb[0], 0);
+    EXPECT_EQ(known.writers.front().device, "device");
+}
+
+}  // namespace
+}  // namespace rt
