@@ -13,11 +13,13 @@
 #include "host/picture/render_stats.h"
 #include "host/stop_signal.h"
 #include "host/verbs/verbs.h"
+#include "host/worker.h"
 
 namespace {
 
 int run(int argc, char** argv, double seconds_before_main) {
     const rt::Options options = rt::parse_options(argc, argv);
+    if (rt::become_worker(options.worker_link)) seconds_before_main += rt::seconds_before_worker();
     if (options.quiet()) rt::stop_quietly();
     switch (options.verb) {
         case rt::Verb::render:
@@ -54,6 +56,7 @@ int failed(rt::ExitCode code, const char* message) {
 [[noreturn]] void end_out_of_memory() {
     failed(rt::ExitCode::limit, "out of memory; render a smaller picture or scene");
     std::fflush(stdout);
+    rt::note_worker_end(static_cast<int>(rt::ExitCode::limit));
     _exit(static_cast<int>(rt::ExitCode::limit));
 }
 
@@ -80,6 +83,7 @@ int main(int argc, char** argv) {
     rt::open_missing_streams();
     rt::prepare_signals();
     const int status = run_and_catch(argc, argv, seconds_before_main);
+    rt::note_worker_end(status);
     // Without destructors: a driver may still be compiling for a picture that is finished.
     _exit(status);
 }

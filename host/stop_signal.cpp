@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <string_view>
@@ -24,6 +25,8 @@ struct StopSignal {
 
 StopFlag received = 0;
 std::atomic<bool> stops_quietly = false, is_working = false;
+std::atomic<pid_t> worker = 0, boss = 0;  ///< the processes to pass signals on to, and to heed
+std::atomic<int> passed_on = 0;           ///< the last signal that was
 std::array<StopSignal, 5> stop_signals{{{SIGINT, "interrupted (Ctrl-C)", true},
                                         {SIGTERM, "terminated (SIGTERM)", true},
                                         {SIGHUP, "hung up (SIGHUP)", true},
@@ -62,13 +65,20 @@ void end_by(const StopSignal& signal) {
     std::raise(signal.number);
 }
 
-void stop_setting_up(int number) {
+/// Limits of processor time are each process's own.
+bool is_meant(int number, const siginfo_t* info) {
+    return boss == 0 || number == SIGXCPU || (info->si_code <= 0 && info->si_pid == boss);
+}
+
+void stop_setting_up(int number, siginfo_t* info, void*) {
+    if (!is_meant(number, info)) return;
     const StopSignal& signal = of_number(number);
     write_line(signal.reason, "; nothing is saved");
     end_by(signal);
 }
 
-void stop_working(int number) {
+void stop_working(int number, siginfo_t* info, void*) {
+    if (!is_meant(number, info)) return;
     const int saved = errno;
     const StopSignal& signal = of_number(number);
     int none = 0;
@@ -81,11 +91,22 @@ void stop_working(int number) {
     errno = saved;
 }
 
-void handle_stop_signals(void (*handler)(int)) {
+void pass_on(int number, siginfo_t*, void*) {
+    passed_on = number;
+    ::kill(worker, number);
+}
+
+using Handler = void (*)(int, siginfo_t*, void*);
+
+void handle_stop_signals(Handler handler) {
     for (const StopSignal& signal : stop_signals) {
         struct sigaction action {};
-        action.sa_handler = signal.ignored ? SIG_IGN : handler;
-        action.sa_flags = SA_RESTART;
+        if (signal.ignored) {
+            action.sa_handler = SIG_IGN;
+        } else {
+            action.sa_sigaction = handler;
+        }
+        action.sa_flags = SA_RESTART | (signal.ignored ? 0 : SA_SIGINFO);
         sigaction(signal.number, &action, nullptr);
     }
 }
@@ -107,7 +128,9 @@ void prepare_signals() {
     restore_stop_signals();
 }
 
-void restore_stop_signals() { handle_stop_signals(is_working ? stop_working : stop_setting_up); }
+void restore_stop_signals() {
+    handle_stop_signals(worker != 0 ? pass_on : is_working ? stop_working : stop_setting_up);
+}
 
 void install_stop_signals() {
     is_working = true;
@@ -115,5 +138,25 @@ void install_stop_signals() {
 }
 
 void stop_quietly() { stops_quietly = true; }
+
+pid_t pass_stop_signals_to(const std::function<pid_t()>& start) {
+    sigset_t stops, before;
+    sigemptyset(&stops);
+    for (const StopSignal& signal : stop_signals) sigaddset(&stops, signal.number);
+    pthread_sigmask(SIG_BLOCK, &stops, &before);
+    worker = start();
+    passed_on = 0;
+    restore_stop_signals();
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    return worker;
+}
+
+void pass_stop_signals_to_nobody(bool has_ended_in_order) {
+    worker = 0;
+    restore_stop_signals();
+    if (passed_on != 0 && !has_ended_in_order) end_by(of_number(passed_on));
+}
+
+void heed_stop_signals_of(pid_t process) { boss = process; }
 
 }  // namespace rt

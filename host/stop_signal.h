@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/types.h>
+
+#include <functional>
 #include <string>
 
 #include "host/render/tile_queue.h"
@@ -30,5 +33,17 @@ void install_stop_signals();
 
 /// No line on stderr at the first stop signal.
 void stop_quietly();
+
+/// Has `start` start a process, and from then on passes stop signals on to it instead of heeding
+/// them. Returns what `start` does; 0: there is no process.
+pid_t pass_stop_signals_to(const std::function<pid_t()>& start);
+
+/// Ends that. Where one was passed on, and the process has not ended in order, ends this one by it,
+/// too.
+void pass_stop_signals_to_nobody(bool has_ended_in_order);
+
+/// Heeds stop signals of that process alone: a terminal and most batch systems send theirs to all
+/// processes of a job, and a second one means to quit at once.
+void heed_stop_signals_of(pid_t process);
 
 }  // namespace rt

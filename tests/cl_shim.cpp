@@ -7,13 +7,20 @@
 //   CL_SHIM_LOG                a file that gets the options of each build, a line each
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
 //   CL_SHIM_FAIL_READ          if not empty, nothing can be read or mapped once a launch failed
+//   CL_SHIM_DIE_IN             a function's name: its call goes wrong as CL_SHIM_DIE_BY says:
+//   abort,
+//                              segfault, exit, hang; calls before the CL_SHIM_DIE_AT-th do not,
+//                              nor those in the first CL_SHIM_DIE_AFTER seconds
+//   CL_SHIM_DIE_ONCE           a file that is made by then; where it is, nothing goes wrong
 // Nothing in mirrorball knows of it.
 #include <dlfcn.h>
+#include <unistd.h>
 
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -47,7 +54,54 @@ void replace(std::string& text) {
     text.replace(at, old.size(), setting("CL_SHIM_NEW"));
 }
 
+/// Called at the start of each function below.
+void die_in(const char* function) {
+    if (setting("CL_SHIM_DIE_IN") != function) return;
+    static std::atomic<int> calls = 0;
+    const std::string at = setting("CL_SHIM_DIE_AT"), once = setting("CL_SHIM_DIE_ONCE");
+    if (++calls < (at.empty() ? 1 : std::stoi(at))) return;
+    static const auto first = std::chrono::steady_clock::now();
+    const std::string after = setting("CL_SHIM_DIE_AFTER");
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - first;
+    if (!after.empty() && passed.count() < std::stod(after)) return;
+    if (!once.empty()) {
+        if (access(once.c_str(), F_OK) == 0) return;
+        std::ofstream(once) << function;
+    }
+    const std::string by = setting("CL_SHIM_DIE_BY");
+    if (by == "abort") std::abort();
+    if (by == "exit") std::exit(1);
+    if (by == "segfault") *static_cast<volatile int*>(nullptr) = 0;
+    while (by == "hang") pause();
+}
+
 }  // namespace
+
+extern "C" cl_int clGetPlatformIDs(cl_uint size, cl_platform_id* platforms, cl_uint* count) {
+    die_in("clGetPlatformIDs");
+    return real<decltype(clGetPlatformIDs)>("clGetPlatformIDs")(size, platforms, count);
+}
+
+extern "C" cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type type, cl_uint size,
+                                 cl_device_id* devices, cl_uint* count) {
+    die_in("clGetDeviceIDs");
+    return real<decltype(clGetDeviceIDs)>("clGetDeviceIDs")(platform, type, size, devices, count);
+}
+
+extern "C" cl_context clCreateContext(const cl_context_properties* properties, cl_uint count,
+                                      const cl_device_id* devices,
+                                      void(CL_CALLBACK* notify)(const char*, const void*,
+                                                                std::size_t, void*),
+                                      void* data, cl_int* error) {
+    die_in("clCreateContext");
+    return real<decltype(clCreateContext)>("clCreateContext")(properties, count, devices, notify,
+                                                              data, error);
+}
+
+extern "C" cl_int clFinish(cl_command_queue queue) {
+    die_in("clFinish");
+    return real<decltype(clFinish)>("clFinish")(queue);
+}
 
 extern "C" cl_program clCreateProgramWithSource(cl_context context, cl_uint count,
                                                 const char** strings, const std::size_t* lengths,
@@ -80,6 +134,7 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
                                          cl_uint dimensions, const std::size_t* offset,
                                          const std::size_t* size, const std::size_t* local,
                                          cl_uint count, const cl_event* waits, cl_event* event) {
+    die_in("clEnqueueNDRangeKernel");
     ++launches;
     if (has_failed()) return CL_OUT_OF_RESOURCES;
     return real<decltype(clEnqueueNDRangeKernel)>("clEnqueueNDRangeKernel")(
@@ -101,6 +156,7 @@ extern "C" void* clEnqueueMapBuffer(cl_command_queue queue, cl_mem buffer, cl_bo
 extern "C" cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices,
                                  const char* options, void(CL_CALLBACK* done)(cl_program, void*),
                                  void* user_data) {
+    die_in("clBuildProgram");
     if (const std::string log = setting("CL_SHIM_LOG"); !log.empty()) {
         std::ofstream(log, std::ios::app) << (options == nullptr ? "" : options) << '\n';
     }

@@ -158,6 +158,86 @@ class Fails(WrongDriver):
         self.assertEqual(result.returncode, 5, result.stderr)
 
 
+class Dies(WrongDriver):
+    """A driver that ends its process, or does nothing any more: the picture is whole all the same."""
+
+    ARGUMENTS = ["render", SCENE, "--size", "120", "--device", "pocl", "--deadline", "1"]
+    PLACES = {"clGetPlatformIDs": 1, "clGetDeviceIDs": 1, "clCreateContext": 1, "clBuildProgram": 1,
+              "clEnqueueNDRangeKernel": 2, "clFinish": 2}
+
+    @classmethod
+    def setUpClass(cls):
+        right = subprocess.run([str(BUILD / "mirrorball"), *cls.ARGUMENTS[:4], "--device",
+                                "threads"], text=True, capture_output=True, check=True)
+        cls.right = right.stderr.split()[-1]
+
+    def die(self, place, by, *arguments, **shim):
+        if "-o" not in arguments:
+            arguments += ("-o", str(self.folder / "out.png"))
+        return self.run_with({"CL_SHIM_DIE_IN": place, "CL_SHIM_DIE_BY": by, **shim},
+                             *self.ARGUMENTS, *arguments)
+
+    def test_costs_time_and_not_the_picture(self):
+        words = {"abort": "was ended by SIGABRT", "segfault": "was ended by SIGSEGV",
+                 "exit": "ended with exit code 1", "hang": "did nothing for 1 s"}
+        for place, call in self.PLACES.items():
+            for by, word in words.items():
+                if call > 1 and by in ["segfault", "exit"]:
+                    continue
+                with self.subTest(place=place, by=by):
+                    result = self.die(place, by, CL_SHIM_DIE_AT=str(call))
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    lines = result.stderr.splitlines()
+                    self.assertEqual(lines[-1].split()[-1], self.right)
+                    is_listing = place in ["clGetPlatformIDs", "clGetDeviceIDs"]
+                    self.assertEqual(len(lines), 2 if by == "hang" or is_listing else 3,
+                                     result.stderr)
+                    for line in lines[:-1]:
+                        self.assertIn(word, line)
+                    self.assertIn("rendering on threads instead", lines[-2])
+
+    def test_once_is_tried_once_more(self):
+        once = str(self.folder / "died")
+        result = self.die("clBuildProgram", "abort", "--stats=json", CL_SHIM_DIE_ONCE=once)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("with an empty kernel cache", result.stderr)
+        stats = json.loads(result.stdout)
+        self.assertIn("pthread", stats["device"]["name"])
+        self.assertEqual(stats["image"]["hash"], self.right)
+
+    def test_stats_say_whom_threads_stand_in_for(self):
+        stats = json.loads(self.die("clFinish", "segfault", "--stats=json").stdout)
+        self.assertEqual(stats["device"]["name"], "threads")
+        self.assertEqual(stats["device"]["fallback_from"], "--device pocl")
+
+    def test_late_is_gone_on_with(self):
+        """What it had finished is in the journal."""
+        picture = ["--aa", "grid:64", "--progress", "none", "-o", str(self.folder / "out.png")]
+        result = self.die("clEnqueueNDRangeKernel", "abort", *picture, "--resume", "--tile", "16",
+                          CL_SHIM_DIE_AFTER="1.5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"going on with .*out\.png\.mbj, which has [1-9]\d* %")
+        right = subprocess.run([str(BUILD / "mirrorball"), *self.ARGUMENTS[:4], *picture,
+                                "--device", "threads"], text=True, capture_output=True, check=True)
+        self.assertEqual(result.stderr.split()[-1], right.stderr.split()[-1])
+
+    def test_is_an_error_without_fallback(self):
+        result = self.die("clBuildProgram", "abort", "--no-fallback")
+        self.assertEqual(result.returncode, 5)
+        self.assertIn("was ended by SIGABRT", result.stderr.splitlines()[-1])
+
+    def test_takes_the_program_along_where_nobody_isolates_it(self):
+        self.assertEqual(self.die("clBuildProgram", "abort", "--isolate", "never").returncode, -6)
+
+    def test_devices_survives(self):
+        result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort"},
+                               "devices", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        answer = json.loads(result.stdout)
+        self.assertEqual(answer["devices"], [])
+        self.assertIn("crashes while listing its devices (Aborted)", answer["problems"][0])
+
+
 class Wrong(WrongDriver):
     """A device that computes other bits is found out."""
 

@@ -157,13 +157,6 @@ class DeviceFinder {
     std::vector<std::string> problems_;
 };
 
-bool needs_opencl(const std::string& list) {
-    for (const std::string& spec : specs_of(list)) {
-        if (spec == all_devices || !choose_without_opencl(spec)) return true;
-    }
-    return false;
-}
-
 /// A GPU before any other accelerator; CPUs never: threads run the same kernels there.
 DeviceChoice best_device(const std::vector<ClDevice>& devices) {
     DeviceChoice choice;
@@ -195,6 +188,13 @@ bool names_threads(const std::string& spec, DeviceChoice& choice) {
     }
     choice.threads = *count;
     return true;
+}
+
+bool needs_opencl(const std::string& list) {
+    for (const std::string& spec : specs_of(list)) {
+        if (spec == all_devices || !choose_without_opencl(spec)) return true;
+    }
+    return false;
 }
 
 bool is_auto(const std::string& spec) { return spec.empty() || spec == "auto"; }

@@ -30,6 +30,9 @@ bool is_auto(const std::string& spec);
 /// the choice and this machine shows no GPU. Throws as names_threads.
 std::optional<DeviceChoice> choose_without_opencl(const std::string& spec);
 
+/// Whether it takes OpenCL to find the devices of a list. Throws as names_threads.
+bool needs_opencl(const std::string& list);
+
 /// Throws Error (ExitCode::usage) unless the text is a spec or a list of them with commas, whatever
 /// devices there are.
 void check_device_list(const std::string& list);

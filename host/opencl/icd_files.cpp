@@ -9,10 +9,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+
+#include "host/opencl/cl_device.h"
 
 namespace rt {
 
@@ -43,15 +46,28 @@ std::string library_of(const fs::path& file) {
     return end == std::string::npos ? "" : line.substr(0, end + 1);
 }
 
-[[noreturn]] void load_in_child(const std::string& library, int answer) {
+// What a child says when it has come so far.
+constexpr char loaded = '\1', listed = '\2';
+
+[[noreturn]] void try_in_child(const fs::path& file, const std::string& library, int answer) {
+    const auto say = [&](const char* text, std::size_t length) {
+        [[maybe_unused]] const ssize_t ignored = write(answer, text, length);
+    };
     alarm(most_seconds);
     const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
-    if (dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL) != nullptr) _exit(0);
-    const char* const why = dlerror();
-    [[maybe_unused]] const ssize_t ignored = write(answer, why, std::strlen(why));
-    _exit(1);
+    if (dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL) == nullptr) {
+        const char* const why = dlerror();
+        say(why, std::strlen(why));
+        _exit(0);
+    }
+    say(&loaded, 1);
+    setenv("OCL_ICD_VENDORS", fs::absolute(file).c_str(), 1);
+    std::vector<std::string> problems;
+    list_cl_devices(problems);
+    say(&listed, 1);
+    _exit(0);
 }
 
 std::string answer_of(int pipe_end) {
@@ -63,36 +79,60 @@ std::string answer_of(int pipe_end) {
     return answer;
 }
 
-/// Why a library cannot be loaded; empty where it can, or where that cannot be tried.
-std::string why_not_loaded(const std::string& library) {
+struct Attempt {
+    std::string problem;  ///< empty where there is none, or where it cannot be tried
+    bool is_dangerous = false;
+};
+
+Attempt try_driver(const fs::path& file, const std::string& library) {
+    if (library.empty()) return {"cannot be loaded: it names no library"};
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) return "";
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) return {};
     const pid_t child = fork();
-    if (child == 0) load_in_child(library, ends[1]);
+    if (child == 0) try_in_child(file, library, ends[1]);
     close(ends[1]);
-    std::string why = child > 0 ? answer_of(ends[0]) : "";
+    const std::string answer = child > 0 ? answer_of(ends[0]) : "";
     close(ends[0]);
     int status = 0;
-    if (child < 0 || waitpid(child, &status, 0) != child) return "";
-    if (!WIFSIGNALED(status)) return why;
-    if (WTERMSIG(status) == SIGALRM) return fmt::format("still loading after {} s", most_seconds);
-    return fmt::format("it crashes while loading ({})", strsignal(WTERMSIG(status)));
+    if (child < 0 || waitpid(child, &status, 0) != child) return {};
+    const bool is_loaded = !answer.empty() && answer.front() == loaded;
+    const char* const doing = is_loaded ? "listing its devices" : "loading";
+    if (WIFSIGNALED(status)) {
+        if (WTERMSIG(status) == SIGALRM) {
+            return {fmt::format("hangs: still {} after {} s", doing, most_seconds), true};
+        }
+        return {fmt::format("crashes while {} ({})", doing, strsignal(WTERMSIG(status))), true};
+    }
+    if (!answer.empty() && answer.back() == listed) return {};
+    if (!answer.empty() && !is_loaded) return {"cannot be loaded: " + answer};
+    return {fmt::format("ends the process while {} (exit code {})", doing, WEXITSTATUS(status)),
+            true};
 }
 
 }  // namespace
 
-std::vector<std::string> broken_icd_files(const std::string& place) {
-    std::vector<std::string> lines;
+IcdFiles try_icd_files(const std::string& place) {
+    IcdFiles files;
     for (const fs::path& file : icd_files(place)) {
-        const std::string library = library_of(file);
-        const std::string why = library.empty() ? "it names no library" : why_not_loaded(library);
-        if (why.empty()) continue;
-        lines.push_back(
-            fmt::format("{}: its driver cannot be loaded: {}; reinstall the driver or "
-                        "remove the file",
-                        file.string(), why));
+        const Attempt attempt = try_driver(file, library_of(file));
+        if (attempt.problem.empty()) {
+            files.usable.push_back(file.string());
+            continue;
+        }
+        files.any_dangerous |= attempt.is_dangerous;
+        files.problems.push_back(
+            fmt::format("{}: its driver {}; reinstall the driver or remove the file", file.string(),
+                        attempt.problem));
     }
-    return lines;
+    return files;
+}
+
+UsableIcdFiles::UsableIcdFiles(const IcdFiles& files) {
+    for (std::size_t i = 0; i < files.usable.size(); ++i) {
+        std::error_code error;
+        fs::create_symlink(fs::absolute(files.usable[i]), fmt::format("{}/{:04}.icd", place(), i),
+                           error);
+    }
 }
 
 }  // namespace rt

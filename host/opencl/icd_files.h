@@ -4,11 +4,30 @@
 #include <string>
 #include <vector>
 
+#include "host/temporary_folder.h"
+
 namespace rt {
 
-/// A line for each .icd file whose driver cannot be loaded, which OpenCL passes over in silence.
-/// `place` is such a file, or a folder of them. Each driver is loaded in a child process: some
-/// crash or hang. Call it before OpenCL or any thread has started.
-std::vector<std::string> broken_icd_files(const std::string& place);
+/// What became of the drivers that .icd files name.
+struct IcdFiles {
+    std::vector<std::string> usable;    ///< files whose drivers load and list their devices
+    std::vector<std::string> problems;  ///< a line for each other
+    bool any_dangerous = false;         ///< one of those crashes or hangs whoever loads it
+};
+
+/// Tries each driver in a child process: OpenCL passes over those that cannot be loaded in silence,
+/// and some crash or hang. `place` is an .icd file, or a folder of them. Call it before OpenCL or
+/// any thread has started.
+IcdFiles try_icd_files(const std::string& place);
+
+/// A folder of the usable files alone, as long as this lives.
+class UsableIcdFiles {
+   public:
+    explicit UsableIcdFiles(const IcdFiles& files);
+    const std::string& place() const { return folder_.name(); }
+
+   private:
+    TemporaryFolder folder_;
+};
 
 }  // namespace rt

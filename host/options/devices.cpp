@@ -4,17 +4,12 @@
 
 namespace rt {
 
-namespace {
-
-/// As OpenCL's loader looks for its drivers.
 std::string icd_place() {
     for (const char* name : {"OCL_ICD_VENDORS", "OPENCL_VENDOR_PATH"}) {
         if (const std::string place = environment(name); !place.empty()) return place;
     }
     return "/etc/OpenCL/vendors";
 }
-
-}  // namespace
 
 void add_devices(const CommandLine& program, Options& options) {
     const CommandLine verb = program.verb("devices", "list usable devices, and why others are not");

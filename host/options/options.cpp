@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/options/parse.h"
 #include "host/options/verb_options.h"
 #include "host/version.h"
 
@@ -24,6 +25,9 @@ Options parse_options(int argc, const char* const* argv) {
         add_devices(program, options);
         add_scene(program, options);
     };
+    options.worker_link = environment("MIRRORBALL_WORKER");
+    options.render.command.assign(argv, argv + argc);
+    options.render.drivers = icd_place();
     options.text = read_command_line(texts, describe, argc, argv);
     return options;
 }

@@ -47,7 +47,8 @@ struct Options {
                stress.quiet;
     }
 
-    std::string text;  ///< help or version, to be printed instead of doing anything
+    std::string worker_link;  ///< not empty: this process may be a worker (host/worker.h)
+    std::string text;         ///< help or version, to be printed instead of doing anything
 };
 
 /// Reads the command line and the environment; nothing else in the program does. Throws Error

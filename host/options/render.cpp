@@ -154,6 +154,17 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
         "build bounding volume hierarchies: auto (where they are faster, default), on, off");
     add_choice<bool>(verb, "--caster-lists", render.caster_lists, {{"on", true}, {"off", false}},
                      "list the triangles that cast shadows, where there are few (default on)");
+    add_choice<bool>(verb, "--isolate", render.isolate, {{"auto", true}, {"never", false}},
+                     "load OpenCL drivers in a process of their own (default auto: yes)");
+    verb.option("--deadline", "S",
+                "seconds after which a driver that does nothing is taken for hung (default 10)",
+                [&](const std::string& text) {
+                    const auto seconds = parse_amounts(text);
+                    if (!seconds || seconds->size() != 1 || seconds->front() < 0.5) {
+                        refuse("--deadline", text, "give seconds, 0.5 or more");
+                    }
+                    render.deadline = seconds->front();
+                });
     verb.flag("--no-fallback", render.no_fallback,
               "fail when the device fails, instead of finishing on threads");
     verb.option(

@@ -25,7 +25,12 @@ struct RenderOptions : RenderSettings {
     Encoding encoding = Encoding::display;
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;
-    bool resume = false;  ///< was asked for by name
+    bool resume = false;               ///< was asked for by name
+    bool isolate = true;               ///< OpenCL in a process of its own
+    double deadline = 10;              ///< seconds after which a driver that does nothing is hung
+    std::string failed_device;         ///< that threads stand in for
+    std::string drivers;               ///< where OpenCL finds its .icd files
+    std::vector<std::string> command;  ///< the program's own, to be run again
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar
 

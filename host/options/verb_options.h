@@ -18,6 +18,9 @@ void add_report(const CommandLine& program, Options& options);
 void add_devices(const CommandLine& program, Options& options);
 void add_scene(const CommandLine& program, Options& options);
 
+/// Where OpenCL's loader looks for its drivers: a folder of .icd files, or one of them.
+std::string icd_place();
+
 /// --light-scale and --ambient, of every verb that reads scenes.
 void add_light_options(const CommandLine& verb, LightOverrides& light);
 

@@ -207,11 +207,11 @@ class Job {
         film_ = journal_->take_film();
         tile_ = tile_size(crew);
         journal_->begin(film_, names);
-        TileQueue queue(journal_->tiles(tile_.width, tile_.height), stop_, journal_->tile_events());
+        TileQueue queue(journal_->tiles(tile_.width, tile_.height), stop_, tile_events());
         if (events_.started) events_.started(queue);
         try {
             stats_.refined =
-                render_all<T>(crew, stats_.aa, queue, rendered_, film_, journal_->refine_events());
+                render_all<T>(crew, stats_.aa, queue, rendered_, film_, refine_events());
         } catch (...) {
             if (events_.ended) events_.ended();
             journal_->end(false);
@@ -224,6 +224,28 @@ class Job {
         stats_.tiles_finished = queue.tiles_finished();
         journal_->end(stats_.complete());
         if (region_ != rendered_) film_ = part_of(film_, rendered_, region_);
+    }
+
+    /// The journal's, and our caller hears that something was done.
+    TileEvents tile_events() {
+        TileEvents events = journal_->tile_events();
+        if (!events_.progressed) return events;
+        events.finished = [this, keep = events.finished](const Rect& tile) {
+            if (keep) keep(tile);
+            events_.progressed();
+        };
+        return events;
+    }
+
+    RefineEvents<T> refine_events() {
+        RefineEvents<T> events = journal_->refine_events();
+        if (!events_.progressed) return events;
+        events.refined = [this, keep = events.refined](int pass,
+                                                       std::span<const std::int32_t> pixels) {
+            if (keep) keep(pass, pixels);
+            events_.progressed();
+        };
+        return events;
     }
 
     /// The tile asked for, cut down to the region and to what the renderer takes.

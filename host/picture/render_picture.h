@@ -26,12 +26,14 @@ struct RenderedPicture {
         journal;  ///< locked, to be removed with the picture saved; or null
 };
 
-/// What the caller of render_picture hears of, on its own thread. Each may be empty.
+/// What the caller of render_picture hears of, on its own thread but where it says. Each may be
+/// empty.
 struct RenderEvents {
     std::function<void(const std::string& line)> message;  ///< what people should know
     std::function<void(const std::string& line)> detail;   ///< what they may want to know
     /// Tracing begins. The queue tells how far it is, to any thread, until `ended`.
     std::function<void(const TileQueue&)> started;
+    std::function<void()> progressed;  ///< a tile or some pixels are finished; on any thread
     std::function<void()> ended;
     std::function<void()> driver_loaded;  ///< it may have replaced signal handlers; on any thread
 };

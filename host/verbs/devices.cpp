@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "host/console.h"
@@ -96,21 +97,27 @@ std::string threads_text(int cores) {
     return text + "\n";
 }
 
+/// The devices of the drivers that are safe to load.
+std::vector<ClDevice> listed(IcdFiles& files) {
+    if (!files.any_dangerous) return list_cl_devices(files.problems);
+    if (files.usable.empty()) return {};
+    const UsableIcdFiles usable(files);
+    setenv("OCL_ICD_VENDORS", usable.place().c_str(), 1);
+    return list_cl_devices(files.problems);
+}
+
 }  // namespace
 
 int run_devices(const DevicesOptions& options) {
-    std::vector<std::string> problems = broken_icd_files(options.drivers);
     prepare_pocl(0);
+    IcdFiles files = try_icd_files(options.drivers);
+    std::vector<std::string>& problems = files.problems;
+    const std::vector<ClDevice> devices = listed(files);
     if (options.json) {
-        const std::vector<ClDevice> devices = list_cl_devices(problems);
         print_json(devices, problems);
         return 0;
     }
     print_lines({busy_text(load_of(load_average()))});
-    print_lines(problems);
-    flush_results();  // OpenCL is about to load the same drivers: one may end the program
-    problems.clear();
-    const std::vector<ClDevice> devices = list_cl_devices(problems);
     std::string text;
     for (const ClDevice& device : devices) text += device_text(device);
     text += threads_text(available_cores());

@@ -4,17 +4,21 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "host/console.h"
 #include "host/error.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
+#include "host/opencl/icd_files.h"
 #include "host/render/stopwatch.h"
 #include "host/stop_signal.h"
+#include "host/temporary_folder.h"
 #include "host/verbs/render_batch.h"
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
+#include "host/worker.h"
 
 namespace rt {
 
@@ -49,6 +53,7 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     check_output(options);
     check_output_is_no_input(options.output, {options.scene, options.reference});
     choose_journal(options);
+    watch_worker(true);
     auto devices = find_devices(options.device, options.threads, restore_stop_signals);
     Stopwatch watch;
     const Scene scene = scene_to_render(options);
@@ -59,7 +64,9 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     const RenderConsole console(options);
     RenderedPicture rendered =
         render_picture(scene, options, std::move(devices), console.events(), stop_flag());
+    watch_worker(false);
     RenderStats& stats = rendered.stats;
+    if (!options.failed_device.empty()) stats.device.fallback_from = options.failed_device;
     stats.scene.path = options.scene;
     stats.phases.start = seconds_before_main;
     stats.phases.load = load_seconds;
@@ -72,10 +79,54 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     return verdict(rendered, path);
 }
 
+/// By workers, which load the drivers. When the first one crashes another tries again, without
+/// drivers that do so when they list their devices, and with an empty kernel cache. Then, or when
+/// it hangs, threads go on here with what the journal has.
+int render_isolated(RenderOptions options, double seconds_before_main) {
+    const Stopwatch watch;
+    const auto work = [&](const std::vector<std::string>& changes) {
+        return run_worker(options.command, changes, options.deadline,
+                          seconds_before_main + watch.seconds());
+    };
+    const std::string name = options.device.empty() ? "OpenCL" : "--device " + options.device;
+    const auto say = [&](const WorkerEnd& end, const char* then) {
+        if (options.quiet) return;
+        print_message(
+            fmt::format("mirrorball: {}: the process of its driver {}; {}\n", name, end.how, then));
+    };
+    WorkerEnd end = work({});
+    if (!end.is_regular && !end.is_hung) {
+        const IcdFiles files = try_icd_files(options.drivers);
+        if (!files.any_dangerous) {
+            const TemporaryFolder cache;
+            say(end, "trying once more with an empty kernel cache");
+            end = work({"POCL_CACHE_DIR=" + cache.name()});
+        } else if (!files.usable.empty()) {
+            const UsableIcdFiles usable(files);
+            say(end, "trying once more with the other drivers");
+            const WorkerEnd second = work({"OCL_ICD_VENDORS=" + usable.place()});
+            const bool lacks_device =
+                second.is_regular && second.status == static_cast<int>(ExitCode::device);
+            if (!lacks_device) end = second;
+        }
+    }
+    if (end.is_regular) return end.status;
+    if (options.no_fallback) {
+        throw Error(ExitCode::device, name + ": the process of its driver " + end.how);
+    }
+    say(end, "rendering on threads instead");
+    options.failed_device = name;
+    options.device = "threads";
+    return render_scene(std::move(options), seconds_before_main + watch.seconds());
+}
+
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
     if (options.is_batch()) return render_batch(options);
+    if (options.isolate && !is_worker() && needs_opencl(options.device)) {
+        return render_isolated(options, seconds_before_main);
+    }
     return render_scene(options, seconds_before_main);
 }
 

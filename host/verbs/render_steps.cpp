@@ -16,6 +16,7 @@
 #include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
 #include "host/version.h"
+#include "host/worker.h"
 
 namespace rt {
 
@@ -100,6 +101,7 @@ RenderConsole::RenderConsole(const RenderOptions& options) {
         install_stop_signals();
         progress_.emplace(queue, progress_mode_for_stderr(options));
     };
+    events_.progressed = note_worker_progress;
     events_.ended = [this] { progress_.reset(); };
     events_.driver_loaded = restore_stop_signals;
 }

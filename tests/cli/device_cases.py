@@ -50,7 +50,8 @@ class PoclThreads(CliTest):
     def cores_of_threads(self, *options, **env):
         """The cores that each thread of a rendering process may run on."""
         process = self.start("render", scene_path("mirror-hall"), "--device", "pocl", "--size",
-                             "900", "--aa", "grid:64", "--progress", "json", *options, env=env)
+                             "900", "--aa", "grid:64", "--progress", "json", "--isolate", "never",
+                             *options, env=env)
         for line in process.stderr:
             if line.startswith("{") and json.loads(line)["fraction"] > 0:
                 break

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/worker.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "host/file_descriptor.h"
+#include "host/render/stopwatch.h"
+#include "host/stop_signal.h"
+
+namespace rt {
+
+namespace {
+
+// What a worker says, a byte each but for the end, which has the exit code after it.
+constexpr char watched = 'w', unwatched = 'u', progressed = 'p', ended = 'e';
+
+constexpr double poll_seconds = 0.2;
+
+/// Less than this is what waiting costs, in all of a deadline.
+constexpr double idle_seconds = 0.1;
+
+constexpr const char* link_name = "MIRRORBALL_WORKER";
+
+std::atomic<int> link_pipe = -1;
+double link_seconds = 0;
+
+void tell(std::string_view bytes) {
+    if (link_pipe < 0) return;
+    while (::write(link_pipe, bytes.data(), bytes.size()) < 0 && errno == EINTR) {
+    }
+}
+
+/// Of a process, as /proc has it.
+struct ProcessState {
+    char state = '?';              ///< T: stopped, D: waits for a disk
+    double processor_seconds = 0;  ///< of all its threads
+};
+
+ProcessState state_of(pid_t process) {
+    std::ifstream stream(fmt::format("/proc/{}/stat", process));
+    std::string text;
+    std::getline(stream, text);
+    const std::size_t name_end = text.rfind(')');
+    if (name_end == text.npos) return {};
+    std::istringstream fields(text.substr(name_end + 1));
+    ProcessState result;
+    fields >> result.state;
+    std::string skipped;
+    for (int i = 0; i < 10; ++i) fields >> skipped;
+    double user = 0, system = 0;
+    fields >> user >> system;
+    result.processor_seconds = (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+    return result;
+}
+
+/// Whether a process does nothing for too long.
+class Watchdog {
+   public:
+    Watchdog(pid_t process, double deadline) : process_(process), deadline_(deadline) {}
+
+    void hear(char byte) {
+        if (byte == watched || byte == unwatched) is_watched_ = byte == watched;
+        begin();
+    }
+
+    /// To be asked every poll_seconds or sooner. Time in which nobody ran does not count.
+    bool is_late() {
+        const double passed = std::min(watch_.lap(), 2 * poll_seconds);
+        if (!is_watched_) return false;
+        const ProcessState now = state_of(process_);
+        if (now.state == 'T' || now.state == 't' || now.state == 'D' ||
+            now.processor_seconds - processor_before_ >= idle_seconds) {
+            begin();
+            return false;
+        }
+        idle_ += passed;
+        return idle_ >= deadline_;
+    }
+
+   private:
+    void begin() {
+        idle_ = 0;
+        processor_before_ = state_of(process_).processor_seconds;
+    }
+
+    const pid_t process_;
+    const double deadline_;
+    Stopwatch watch_;
+    bool is_watched_ = false;
+    double idle_ = 0, processor_before_ = 0;
+};
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+    std::vector<char*> result;
+    for (std::string& text : texts) result.push_back(text.data());
+    result.push_back(nullptr);
+    return result;
+}
+
+std::vector<std::string> changed_environment(const std::vector<std::string>& changes) {
+    std::vector<std::string> variables = changes;
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        const std::string_view text = *variable;
+        const std::string_view name = text.substr(0, text.find('=') + 1);
+        const bool is_changed =
+            std::any_of(changes.begin(), changes.end(),
+                        [&](const std::string& change) { return change.starts_with(name); });
+        if (!is_changed) variables.emplace_back(text);
+    }
+    return variables;
+}
+
+/// 0 where none could be started.
+pid_t start(std::vector<std::string> command, const std::vector<std::string>& changes) {
+    std::vector<std::string> variables = changed_environment(changes);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+    pid_t process = 0;
+    const int error = ::posix_spawn(&process, "/proc/self/exe", nullptr, &attributes,
+                                    pointers(command).data(), pointers(variables).data());
+    posix_spawnattr_destroy(&attributes);
+    return error == 0 ? process : 0;
+}
+
+/// Listens to the worker until it is gone or late. The exit code that it told, if it did.
+std::optional<int> listen(int pipe, Watchdog& watchdog, bool& is_late) {
+    std::optional<int> status;
+    bool is_end_next = false;
+    for (;;) {
+        pollfd waited{pipe, POLLIN, 0};
+        const int ready = ::poll(&waited, 1, static_cast<int>(1000 * poll_seconds));
+        if (ready > 0) {
+            char bytes[256];
+            const ssize_t got = ::read(pipe, bytes, sizeof(bytes));
+            if (got == 0) return status;
+            for (ssize_t i = 0; i < got; ++i) {
+                if (is_end_next) {
+                    status = static_cast<unsigned char>(bytes[i]);
+                    is_end_next = false;
+                } else if (bytes[i] == ended) {
+                    is_end_next = true;
+                } else {
+                    watchdog.hear(bytes[i]);
+                }
+            }
+        }
+        if (watchdog.is_late()) {
+            is_late = true;
+            return status;
+        }
+    }
+}
+
+std::string name_of_signal(int number) {
+    const char* const name = ::sigabbrev_np(number);
+    return name != nullptr ? std::string("SIG") + name : "signal " + std::to_string(number);
+}
+
+}  // namespace
+
+WorkerEnd run_worker(const std::vector<std::string>& command,
+                     const std::vector<std::string>& changes, double deadline,
+                     double seconds_before) {
+    int ends[2];
+    WorkerEnd end;
+    end.how = "could not be started";
+    if (::pipe2(ends, O_CLOEXEC) != 0) return end;
+    const FileDescriptor ours(ends[0]);
+    FileDescriptor theirs(ends[1]);
+    ::fcntl(theirs.number(), F_SETFD, 0);
+    std::vector<std::string> all = changes;
+    all.push_back(
+        fmt::format("{}={},{},{:.6f}", link_name, theirs.number(), ::getpid(), seconds_before));
+    const Stopwatch watch;
+    const pid_t process = pass_stop_signals_to([&] { return start(command, all); });
+    theirs = FileDescriptor();
+    if (process == 0) return end;
+    Watchdog watchdog(process, deadline);
+    const std::optional<int> status = listen(ours.number(), watchdog, end.is_hung);
+    if (end.is_hung) ::kill(process, SIGKILL);
+    int wait_status = 0;
+    while (::waitpid(process, &wait_status, 0) < 0 && errno == EINTR) {
+    }
+    pass_stop_signals_to_nobody(status.has_value());
+    if (status) {
+        end.is_regular = true;
+        end.status = *status;
+    } else if (end.is_hung) {
+        end.how = fmt::format("did nothing for {:g} s", deadline);
+    } else if (WIFSIGNALED(wait_status)) {
+        end.how = "was ended by " + name_of_signal(WTERMSIG(wait_status));
+    } else {
+        end.how = fmt::format("ended with exit code {}", WEXITSTATUS(wait_status));
+    }
+    return end;
+}
+
+bool become_worker(const std::string& link) {
+    int pipe = -1;
+    pid_t parent = 0;
+    if (std::sscanf(link.c_str(), "%d,%d,%lf", &pipe, &parent, &link_seconds) != 3) return false;
+    ::unsetenv(link_name);
+    if (::fcntl(pipe, F_SETFD, FD_CLOEXEC) != 0) return false;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(1);  // it has gone already
+    link_pipe = pipe;
+    heed_stop_signals_of(parent);
+    return true;
+}
+
+bool is_worker() { return link_pipe >= 0; }
+
+double seconds_before_worker() { return link_pipe < 0 ? 0 : link_seconds; }
+
+void watch_worker(bool is_watched) { tell({is_watched ? &watched : &unwatched, 1}); }
+
+/// Ten times a second at most, so that the pipe is never full.
+void note_worker_progress() {
+    if (!is_worker()) return;
+    static const Stopwatch watch;
+    static std::atomic<std::int64_t> last = -1;
+    const auto now = static_cast<std::int64_t>(10 * watch.seconds());
+    if (last.exchange(now) != now) tell({&progressed, 1});
+}
+
+void note_worker_end(int status) {
+    const char bytes[2] = {ended, static_cast<char>(status)};
+    tell({bytes, 2});
+}
+
+}  // namespace rt
