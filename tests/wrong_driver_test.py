@@ -229,6 +229,13 @@ class Dies(WrongDriver):
     def test_takes_the_program_along_where_nobody_isolates_it(self):
         self.assertEqual(self.die("clBuildProgram", "abort", "--isolate", "never").returncode, -6)
 
+    def test_doctor_names_it(self):
+        result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "segfault"},
+                               "doctor")
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its process was ended by SIGSEGV")
+        self.assertRegex(result.stdout, r"ok +threads: ")
+
     def test_devices_survives(self):
         result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort"},
                                "devices", "--json")
@@ -249,6 +256,11 @@ class Wrong(WrongDriver):
 
     def right_hash(self):
         return json.loads(self.render({}, 0).stdout)["image"]["hash"]
+
+    def test_by_the_doctor(self):
+        result = self.run_with(brighter("1.000001"), "doctor")
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: renders a wrong picture")
 
     def test_by_its_self_test(self):
         result = self.render(brighter("1.000001"), 0)

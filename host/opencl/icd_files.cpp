@@ -15,8 +15,6 @@
 #include <fstream>
 #include <system_error>
 
-#include "host/opencl/cl_device.h"
-
 namespace rt {
 
 namespace {
@@ -133,6 +131,12 @@ UsableIcdFiles::UsableIcdFiles(const IcdFiles& files) {
         fs::create_symlink(fs::absolute(files.usable[i]), fmt::format("{}/{:04}.icd", place(), i),
                            error);
     }
+}
+
+std::vector<ClDevice> list_devices_of(IcdFiles& files, const UsableIcdFiles& usable) {
+    if (files.any_dangerous) setenv("OCL_ICD_VENDORS", usable.place().c_str(), 1);
+    if (files.any_dangerous && files.usable.empty()) return {};
+    return list_cl_devices(files.problems);
 }
 
 }  // namespace rt

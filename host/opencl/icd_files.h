@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/opencl/cl_device.h"
 #include "host/temporary_folder.h"
 
 namespace rt {
@@ -29,5 +30,9 @@ class UsableIcdFiles {
    private:
     TemporaryFolder folder_;
 };
+
+/// The devices of all drivers; where one is dangerous, of the usable ones alone, in this process
+/// and those that it starts from then on. Problems of listing are added to the files'.
+std::vector<ClDevice> list_devices_of(IcdFiles& files, const UsableIcdFiles& usable);
 
 }  // namespace rt

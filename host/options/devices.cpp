@@ -14,10 +14,7 @@ std::string icd_place() {
 void add_devices(const CommandLine& program, Options& options) {
     const CommandLine verb = program.verb("devices", "list usable devices, and why others are not");
     verb.flag("--json", options.devices.json, "as JSON on stdout");
-    verb.when_chosen([&] {
-        options.devices.drivers = icd_place();
-        options.verb = Verb::devices;
-    });
+    verb.when_chosen([&] { options.verb = Verb::devices; });
 }
 
 }  // namespace rt

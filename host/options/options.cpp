@@ -23,11 +23,13 @@ Options parse_options(int argc, const char* const* argv) {
         add_stress(program, options);
         add_report(program, options);
         add_devices(program, options);
+        add_doctor(program, options);
         add_scene(program, options);
     };
     options.worker_link = environment("MIRRORBALL_WORKER");
     options.render.command.assign(argv, argv + argc);
-    options.render.drivers = icd_place();
+    options.doctor.command = options.render.command;
+    options.render.drivers = options.devices.drivers = options.doctor.drivers = icd_place();
     options.text = read_command_line(texts, describe, argc, argv);
     return options;
 }

@@ -19,6 +19,14 @@ struct DevicesOptions {
     bool json = false;
 };
 
+/// `mirrorball doctor`
+struct DoctorOptions {
+    std::string drivers;               ///< as DevicesOptions'
+    std::string device;                ///< empty: everything, each device in its own process
+    std::vector<std::string> command;  ///< the program's own
+    bool json = false;
+};
+
 /// `mirrorball scene info|check`
 struct SceneOptions {
     std::string scene;
@@ -27,7 +35,19 @@ struct SceneOptions {
     bool json = false;
 };
 
-enum class Verb { none, render, merge, bench, converge, devices, scene, compare, report, stress };
+enum class Verb {
+    none,
+    render,
+    merge,
+    bench,
+    converge,
+    devices,
+    scene,
+    compare,
+    report,
+    stress,
+    doctor
+};
 
 struct Options {
     Verb verb = Verb::none;
@@ -39,6 +59,7 @@ struct Options {
     ReportOptions report;
     StressOptions stress;
     DevicesOptions devices;
+    DoctorOptions doctor;
     SceneOptions scene;
 
     /// -q, of whichever verb.

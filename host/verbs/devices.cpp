@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "host/console.h"
@@ -97,22 +96,13 @@ std::string threads_text(int cores) {
     return text + "\n";
 }
 
-/// The devices of the drivers that are safe to load.
-std::vector<ClDevice> listed(IcdFiles& files) {
-    if (!files.any_dangerous) return list_cl_devices(files.problems);
-    if (files.usable.empty()) return {};
-    const UsableIcdFiles usable(files);
-    setenv("OCL_ICD_VENDORS", usable.place().c_str(), 1);
-    return list_cl_devices(files.problems);
-}
-
 }  // namespace
 
 int run_devices(const DevicesOptions& options) {
     prepare_pocl(0);
     IcdFiles files = try_icd_files(options.drivers);
     std::vector<std::string>& problems = files.problems;
-    const std::vector<ClDevice> devices = listed(files);
+    const std::vector<ClDevice> devices = list_devices_of(files, UsableIcdFiles(files));
     if (options.json) {
         print_json(devices, problems);
         return 0;

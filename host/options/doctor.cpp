@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opencl/device_spec.h"
+#include "host/options/verb_options.h"
+
+namespace rt {
+
+void add_doctor(const CommandLine& program, Options& options) {
+    DoctorOptions& doctor = options.doctor;
+    const CommandLine verb = program.verb(
+        "doctor", "test what is installed: drivers, devices, caches, formats; say what to do");
+    verb.flag("--json", doctor.json, "as JSON on stdout");
+    verb.option("--device", "SPEC", "test this device alone, in this process",
+                [&](const std::string& text) {
+                    check_device_list(text);
+                    doctor.device = text;
+                });
+    verb.when_chosen([&options] { options.verb = Verb::doctor; });
+}
+
+}  // namespace rt

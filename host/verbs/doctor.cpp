@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/console.h"
+#include "host/error.h"
+#include "host/image/picture_io.h"
+#include "host/opencl/icd_files.h"
+#include "host/picture/render_picture.h"
+#include "host/pocl/pocl_cache.h"
+#include "host/pocl/pocl_environment.h"
+#include "host/print/stats_json.h"
+#include "host/render/native_kernels.h"
+#include "host/render/stopwatch.h"
+#include "host/temporary_folder.h"
+#include "host/verbs/default_scene.h"
+#include "host/verbs/verbs.h"
+#include "host/version.h"
+#include "host/worker.h"
+
+namespace rt {
+
+namespace {
+
+/// The paper's scene at 100 x 100, as every right device renders it (tests/cli/doctor_cases.py).
+constexpr PictureSize size{100, 100};
+constexpr std::uint64_t float_hash = 0x7263fc593b53fdc8, double_hash = 0x668173dac9fdc30f;
+
+constexpr double deadline = 30;  ///< seconds that a device may do nothing
+
+enum class State { fine, missing, broken };
+
+struct Finding {
+    State state = State::fine;
+    std::string what;     ///< "device 0"
+    std::string verdict;  ///< what is the matter, and what to do
+};
+
+const char* word_of(State state) {
+    switch (state) {
+        case State::fine:
+            return "ok";
+        case State::missing:
+            return "missing";
+        case State::broken:
+            break;
+    }
+    return "BROKEN";
+}
+
+/// Throws Error: different where the bits are wrong, else what rendering throws.
+void render_known_picture(const DeviceChoice& device, Precision precision) {
+    RenderSettings settings;
+    settings.size = size;
+    settings.precision = precision;
+    settings.no_fallback = true;
+    settings.self_test = false;
+    Scene scene = load_default_scene();
+    apply_overrides(scene, settings);
+    static const StopFlag never_stopped{0};
+    const RenderedPicture rendered = render_picture(scene, settings, {device}, {}, never_stopped);
+    const bool is_double = precision == Precision::float64;
+    if (rendered.stats.image_hash == (is_double ? double_hash : float_hash)) return;
+    throw Error(ExitCode::different,
+                fmt::format("computes other bits in {} than it should: image {}",
+                            is_double ? "double" : "float", hash_text(rendered.stats.image_hash)));
+}
+
+/// In this process.
+int test_device(const std::string& spec) {
+    const DeviceChoice device = find_devices(spec, 0, {}).get().front();
+    watch_worker(true);
+    render_known_picture(device, Precision::float32);
+    if (device.use_threads || device.device.has_double) {
+        render_known_picture(device, Precision::float64);
+    }
+    return 0;
+}
+
+/// In a process of its own.
+Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
+                       const std::string& name) {
+    const Stopwatch watch;
+    const WorkerEnd end =
+        run_worker({options.command.front(), "doctor", "--device", spec}, {}, deadline, 0);
+    Finding finding{State::broken, name, ""};
+    if (!end.is_regular) {
+        finding.verdict = "its process " + end.how + "; update its driver";
+    } else if (end.status == 0) {
+        finding.state = State::fine;
+        finding.verdict = fmt::format("renders the right picture ({:.2f} s)", watch.seconds());
+    } else if (end.status == static_cast<int>(ExitCode::different)) {
+        finding.verdict =
+            "renders a wrong picture (see above); clear its kernel cache, update its "
+            "driver";
+    } else {
+        finding.verdict = "cannot render (see above)";
+    }
+    return finding;
+}
+
+Finding test_format(const char* name, const char* ending) {
+    const TemporaryFolder folder;
+    try {
+        check_picture_path(folder.name() + "/picture" + ending);
+        return {State::fine, name, "can be written and read"};
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        const std::size_t colon = text.find(": ");
+        return {State::missing, name, colon == text.npos ? text : text.substr(colon + 2)};
+    }
+}
+
+Finding test_kernel_cache() {
+    const std::string why = why_pocl_cache_is_read_only();
+    if (why.empty()) return {State::fine, "kernel cache", "PoCL keeps what it compiles"};
+    return {State::broken, "kernel cache",
+            "PoCL cannot write it: " + why + "; set POCL_CACHE_DIR to a folder of yours"};
+}
+
+void examine_devices(const DoctorOptions& options, IcdFiles& files,
+                     std::vector<Finding>& findings) {
+    const UsableIcdFiles usable(files);
+    for (const ClDevice& device : list_devices_of(files, usable)) {
+        const std::string name = fmt::format("device {}, {}", device.index, device.name);
+        findings.push_back(device.unusable.empty()
+                               ? test_in_worker(options, std::to_string(device.index), name)
+                               : Finding{State::broken, name, device.unusable});
+    }
+    for (const std::string& problem : files.problems) {
+        findings.push_back({State::broken, "OpenCL", problem});
+    }
+    findings.push_back(test_kernel_cache());
+}
+
+std::vector<Finding> examine(const DoctorOptions& options) {
+    std::vector<Finding> findings;
+    const std::vector<std::string> isas = native_isas();
+    findings.push_back({isas.empty() ? State::broken : State::fine, "processor",
+                        isas.empty() ? "has no kernels here; render on an OpenCL device"
+                                     : fmt::format("kernels for {}", fmt::join(isas, ", "))});
+    prepare_pocl(0);
+    IcdFiles files = try_icd_files(options.drivers);
+    for (const std::string& file : files.usable) {
+        findings.push_back({State::fine, "driver", file});
+    }
+    for (const std::string& problem : files.problems) {
+        findings.push_back({State::broken, "driver", problem});
+    }
+    if (files.usable.empty()) {
+        findings.push_back({State::missing, "OpenCL",
+                            "no driver in " + options.drivers +
+                                "; install pocl-opencl-icd, or your GPU's driver"});
+    }
+    files.problems.clear();
+    findings.push_back(test_in_worker(options, "threads", "threads"));
+    if (!files.usable.empty()) examine_devices(options, files, findings);
+    findings.push_back(test_format("EXR pictures", ".exr"));
+    findings.push_back(test_format("TIFF, JPEG and other pictures", ".tif"));
+    return findings;
+}
+
+void print_findings(const std::vector<Finding>& findings, bool is_well) {
+    std::string text = fmt::format("mirrorball {} ({})\n", version, git_revision);
+    for (const Finding& finding : findings) {
+        text +=
+            fmt::format("{:<8} {}: {}\n", word_of(finding.state), finding.what, finding.verdict);
+    }
+    print_result(text + (is_well ? "all that is installed works\n" : "something is broken\n"));
+}
+
+void print_findings_json(const std::vector<Finding>& findings, bool is_well) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Finding& finding : findings) {
+        list.push_back(
+            {{"state", finding.state == State::broken ? "broken" : word_of(finding.state)},
+             {"what", finding.what},
+             {"verdict", finding.verdict}});
+    }
+    print_result(json_text({{"format", "mirrorball-doctor"},
+                            {"version", 1},
+                            {"program", fmt::format("{} ({})", version, git_revision)},
+                            {"well", is_well},
+                            {"findings", list}}));
+}
+
+}  // namespace
+
+int run_doctor(const DoctorOptions& options) {
+    if (!options.device.empty()) return test_device(options.device);
+    const std::vector<Finding> findings = examine(options);
+    bool is_well = true;
+    for (const Finding& finding : findings) is_well &= finding.state != State::broken;
+    if (options.json) {
+        print_findings_json(findings, is_well);
+    } else {
+        print_findings(findings, is_well);
+    }
+    return static_cast<int>(is_well ? ExitCode::done : ExitCode::device);
+}
+
+}  // namespace rt

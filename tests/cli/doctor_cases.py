@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""mirrorball doctor: what is installed works, or is named with what to do."""
+import json
+
+from harness import SETTINGS, CliTest, image_hash, scene_path
+
+
+class Doctor(CliTest):
+    def findings(self, code, **env):
+        result = self.run_cli("doctor", "--json", env=env)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        answer = json.loads(result.stdout)
+        self.assertEqual(answer["format"], "mirrorball-doctor")
+        self.assertIs(answer["well"], code == 0)
+        return {finding["what"]: finding for finding in answer["findings"]}
+
+    def test_finds_nothing_where_all_is_well(self):
+        findings = self.findings(0)
+        self.assertEqual({finding["state"] for finding in findings.values()}, {"ok"})
+        devices = [name for name in findings if name.startswith("device ")]
+        self.assertEqual(len(devices), 1)
+        for name in ["processor", "driver", "threads", "kernel cache", "EXR pictures"]:
+            self.assertIn(name, findings)
+        text = self.run_cli("doctor").stdout.splitlines()
+        self.assertEqual(text[-1], "all that is installed works")
+        self.assertEqual(len(text), len(findings) + 2)
+
+    def test_knows_the_picture(self):
+        """The bits that it holds devices to are those of `render`, which other tests hold to more."""
+        for precision, known in [("float", "7263fc593b53fdc8"), ("double", "668173dac9fdc30f")]:
+            result = self.run_cli("render", scene_path("cornell-box"), "--size", "100",
+                                  "--precision", precision, "--device", "threads")
+            self.assertEqual(image_hash(result.stderr), known)
+
+    def test_does_without_drivers(self):
+        findings = self.findings(0, OCL_ICD_VENDORS=SETTINGS["no-drivers"])
+        self.assertEqual(findings["OpenCL"]["state"], "missing")
+        self.assertIn("pocl-opencl-icd", findings["OpenCL"]["verdict"])
+        self.assertEqual(findings["threads"]["state"], "ok")
+
+    def test_names_broken_drivers(self):
+        self.write_text("gone.icd", "libno-such-driver.so.1\n")
+        findings = self.findings(5, OCL_ICD_VENDORS=str(self.folder))
+        self.assertEqual(findings["driver"]["state"], "broken")
+        self.assertIn("libno-such-driver.so.1", findings["driver"]["verdict"])
+
+    def test_names_a_kernel_cache_that_cannot_be_written(self):
+        findings = self.findings(5, POCL_CACHE_DIR="/proc/sys")
+        self.assertEqual(findings["kernel cache"]["state"], "broken")
+
+    def test_tests_one_device(self):
+        for spec in ["threads", "pocl"]:
+            self.assertEqual(self.run_cli("doctor", "--device", spec).returncode, 0)
+        self.assert_refused(self.run_cli("doctor", "--device", "17"), 5, "17", lines=2)
