@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stop_signal.h"
 
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <array>
@@ -10,7 +11,9 @@
 #include <string_view>
 
 #include "host/console.h"
+#include "host/error.h"
 #include "host/image/temporary_file.h"
+#include "host/worker.h"
 
 namespace rt {
 
@@ -27,11 +30,12 @@ StopFlag received = 0;
 std::atomic<bool> stops_quietly = false, is_working = false;
 std::atomic<pid_t> worker = 0, boss = 0;  ///< the processes to pass signals on to, and to heed
 std::atomic<int> passed_on = 0;           ///< the last signal that was
-std::array<StopSignal, 5> stop_signals{{{SIGINT, "interrupted (Ctrl-C)", true},
+std::array<StopSignal, 6> stop_signals{{{SIGINT, "interrupted (Ctrl-C)", true},
                                         {SIGTERM, "terminated (SIGTERM)", true},
                                         {SIGHUP, "hung up (SIGHUP)", true},
                                         {SIGXCPU, "out of CPU time (SIGXCPU)", false},
-                                        {SIGUSR1, "asked to stop (SIGUSR1)", false}}};
+                                        {SIGUSR1, "asked to stop (SIGUSR1)", false},
+                                        {SIGALRM, "out of time (--timeout)", false}}};
 
 const StopSignal& of_number(int number) {
     for (const StopSignal& signal : stop_signals) {
@@ -58,16 +62,26 @@ void write_line(std::string_view a, std::string_view b) {
 }
 
 /// As if there were no handler, but for batch systems' signals, whose default is a core dump.
-void end_by(const StopSignal& signal) {
+[[noreturn]] void end_by(const StopSignal& signal) {
     unlink_temporaries();
-    if (!signal.by_hand) _exit(128 + signal.number);
+    if (!signal.by_hand) {
+        const int status = exit_code_of_stop(signal.number);
+        note_worker_end(status);
+        _exit(status);
+    }
     std::signal(signal.number, SIG_DFL);
+    sigset_t own;
+    sigemptyset(&own);
+    sigaddset(&own, signal.number);
+    pthread_sigmask(SIG_UNBLOCK, &own, nullptr);  // its handler may be running
     std::raise(signal.number);
+    _exit(128 + signal.number);
 }
 
-/// Limits of processor time are each process's own.
+/// Limits of time are each process's own.
 bool is_meant(int number, const siginfo_t* info) {
-    return boss == 0 || number == SIGXCPU || (info->si_code <= 0 && info->si_pid == boss);
+    return boss == 0 || number == SIGXCPU || number == SIGALRM ||
+           (info->si_code <= 0 && info->si_pid == boss);
 }
 
 void stop_setting_up(int number, siginfo_t* info, void*) {
@@ -93,7 +107,7 @@ void stop_working(int number, siginfo_t* info, void*) {
 
 void pass_on(int number, siginfo_t*, void*) {
     passed_on = number;
-    ::kill(worker, number);
+    if (const pid_t to = worker; to > 0) ::kill(to, number);
 }
 
 using Handler = void (*)(int, siginfo_t*, void*);
@@ -137,9 +151,21 @@ void install_stop_signals() {
     restore_stop_signals();
 }
 
+void stop_after(double seconds) {
+    itimerval timer{};
+    timer.it_value.tv_sec = static_cast<time_t>(seconds);
+    timer.it_value.tv_usec =
+        static_cast<suseconds_t>(1e6 * (seconds - static_cast<double>(timer.it_value.tv_sec)));
+    ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+int exit_code_of_stop(int number) {
+    return number == SIGALRM ? static_cast<int>(ExitCode::incomplete) : 128 + number;
+}
+
 void stop_quietly() { stops_quietly = true; }
 
-pid_t pass_stop_signals_to(const std::function<pid_t()>& start) {
+void pass_stop_signals_to(const std::function<pid_t()>& start) {
     sigset_t stops, before;
     sigemptyset(&stops);
     for (const StopSignal& signal : stop_signals) sigaddset(&stops, signal.number);
@@ -148,14 +174,11 @@ pid_t pass_stop_signals_to(const std::function<pid_t()>& start) {
     passed_on = 0;
     restore_stop_signals();
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    return worker;
 }
 
-void pass_stop_signals_to_nobody(bool has_ended_in_order) {
-    worker = 0;
-    restore_stop_signals();
-    if (passed_on != 0 && !has_ended_in_order) end_by(of_number(passed_on));
-}
+int passed_stop_signal() { return passed_on; }
+
+void end_by_stop_signal(int number) { end_by(of_number(number)); }
 
 void heed_stop_signals_of(pid_t process) { boss = process; }
 

@@ -11,7 +11,7 @@
 namespace rt {
 
 /// The number of the signal that asked us to stop (SIGINT, SIGTERM, SIGHUP, or SIGXCPU and SIGUSR1,
-/// with which batch systems announce the end), or 0.
+/// with which batch systems announce the end; SIGALRM after stop_after), or 0.
 const StopFlag& stop_flag();
 
 /// What it was, for messages: "interrupted (Ctrl-C)", "terminated (SIGTERM)".
@@ -31,16 +31,24 @@ void restore_stop_signals();
 /// there before them.
 void install_stop_signals();
 
+/// Sends this process SIGALRM after so many seconds.
+void stop_after(double seconds);
+
+/// The exit code of a program that was stopped by a signal, by its number.
+int exit_code_of_stop(int number);
+
 /// No line on stderr at the first stop signal.
 void stop_quietly();
 
-/// Has `start` start a process, and from then on passes stop signals on to it instead of heeding
-/// them. Returns what `start` does; 0: there is no process.
-pid_t pass_stop_signals_to(const std::function<pid_t()>& start);
+/// Passes stop signals on to the process that `start` returns, from the moment that it is there,
+/// instead of heeding them. 0: to none; they are heeded again.
+void pass_stop_signals_to(const std::function<pid_t()>& start);
 
-/// Ends that. Where one was passed on, and the process has not ended in order, ends this one by it,
-/// too.
-void pass_stop_signals_to_nobody(bool has_ended_in_order);
+/// The last one that was passed on; 0: none.
+int passed_stop_signal();
+
+/// Ends this process as a stop signal would.
+[[noreturn]] void end_by_stop_signal(int number);
 
 /// Heeds stop signals of that process alone: a terminal and most batch systems send theirs to all
 /// processes of a job, and a second one means to quit at once.

@@ -15,9 +15,11 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include "host/file_descriptor.h"
 #include "host/render/stopwatch.h"
@@ -48,24 +50,40 @@ void tell(std::string_view bytes) {
 
 /// Of a process, as /proc has it.
 struct ProcessState {
-    char state = '?';              ///< T: stopped, D: waits for a disk
-    double processor_seconds = 0;  ///< of all its threads
+    bool is_busy = false;  ///< a thread runs, waits for a disk or a child, or is stopped
+    double processor_seconds = 0;
 };
 
-ProcessState state_of(pid_t process) {
-    std::ifstream stream(fmt::format("/proc/{}/stat", process));
+/// The fields of a stat file from the state on.
+std::istringstream fields_of(const std::string& file) {
+    std::ifstream stream(file);
     std::string text;
     std::getline(stream, text);
     const std::size_t name_end = text.rfind(')');
-    if (name_end == text.npos) return {};
-    std::istringstream fields(text.substr(name_end + 1));
+    return std::istringstream(name_end == text.npos ? "" : text.substr(name_end + 1));
+}
+
+ProcessState state_of(pid_t process) {
     ProcessState result;
-    fields >> result.state;
+    const std::string folder = fmt::format("/proc/{}/", process);
+    std::istringstream fields = fields_of(folder + "stat");
     std::string skipped;
-    for (int i = 0; i < 10; ++i) fields >> skipped;
-    double user = 0, system = 0;
-    fields >> user >> system;
-    result.processor_seconds = (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+    for (int i = 0; i < 11; ++i) fields >> skipped;
+    double ticks = 0, more = 0;
+    for (int i = 0; i < 4; ++i) {  // user and system, its own and of the children that have ended
+        if (fields >> more) ticks += more;
+    }
+    result.processor_seconds = ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
+    std::error_code error;
+    for (std::filesystem::directory_iterator task(folder + "task", error), end;
+         !error && task != end; task.increment(error)) {
+        char state = '?';
+        fields_of(task->path() / "stat") >> state;
+        std::string child;
+        std::ifstream(task->path() / "children") >> child;
+        result.is_busy |= std::string_view("RDTt").find(state) != std::string_view::npos;
+        result.is_busy |= !child.empty();
+    }
     return result;
 }
 
@@ -84,8 +102,7 @@ class Watchdog {
         const double passed = std::min(watch_.lap(), 2 * poll_seconds);
         if (!is_watched_) return false;
         const ProcessState now = state_of(process_);
-        if (now.state == 'T' || now.state == 't' || now.state == 'D' ||
-            now.processor_seconds - processor_before_ >= idle_seconds) {
+        if (now.is_busy || now.processor_seconds - processor_before_ >= idle_seconds) {
             begin();
             return false;
         }
@@ -142,31 +159,35 @@ pid_t start(std::vector<std::string> command, const std::vector<std::string>& ch
     return error == 0 ? process : 0;
 }
 
-/// Listens to the worker until it is gone or late. The exit code that it told, if it did.
-std::optional<int> listen(int pipe, Watchdog& watchdog, bool& is_late) {
-    std::optional<int> status;
+bool has_ended(pid_t process) {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == process;
+}
+
+/// Listens to the worker until it says that it ends, is gone, or is late. The exit code that it
+/// told, if it did.
+std::optional<int> listen(int pipe, pid_t process, Watchdog& watchdog, bool& is_late) {
     bool is_end_next = false;
     for (;;) {
+        const bool is_gone = has_ended(process);  // what it said last is in the pipe by then
         pollfd waited{pipe, POLLIN, 0};
-        const int ready = ::poll(&waited, 1, static_cast<int>(1000 * poll_seconds));
-        if (ready > 0) {
+        const int patience = is_gone ? 0 : static_cast<int>(1000 * poll_seconds);
+        if (::poll(&waited, 1, patience) > 0) {
             char bytes[256];
             const ssize_t got = ::read(pipe, bytes, sizeof(bytes));
-            if (got == 0) return status;
+            if (got == 0) return std::nullopt;
             for (ssize_t i = 0; i < got; ++i) {
-                if (is_end_next) {
-                    status = static_cast<unsigned char>(bytes[i]);
-                    is_end_next = false;
-                } else if (bytes[i] == ended) {
-                    is_end_next = true;
-                } else {
-                    watchdog.hear(bytes[i]);
-                }
+                if (is_end_next) return static_cast<unsigned char>(bytes[i]);
+                is_end_next = bytes[i] == ended;
+                if (!is_end_next) watchdog.hear(bytes[i]);
             }
+            continue;
         }
+        if (is_gone) return std::nullopt;
         if (watchdog.is_late()) {
             is_late = true;
-            return status;
+            return std::nullopt;
         }
     }
 }
@@ -192,16 +213,19 @@ WorkerEnd run_worker(const std::vector<std::string>& command,
     all.push_back(
         fmt::format("{}={},{},{:.6f}", link_name, theirs.number(), ::getpid(), seconds_before));
     const Stopwatch watch;
-    const pid_t process = pass_stop_signals_to([&] { return start(command, all); });
+    pid_t process = 0;
+    pass_stop_signals_to([&] { return process = start(command, all); });
     theirs = FileDescriptor();
     if (process == 0) return end;
     Watchdog watchdog(process, deadline);
-    const std::optional<int> status = listen(ours.number(), watchdog, end.is_hung);
+    const std::optional<int> status = listen(ours.number(), process, watchdog, end.is_hung);
     if (end.is_hung) ::kill(process, SIGKILL);
     int wait_status = 0;
     while (::waitpid(process, &wait_status, 0) < 0 && errno == EINTR) {
     }
-    pass_stop_signals_to_nobody(status.has_value());
+    const int passed = passed_stop_signal();
+    pass_stop_signals_to([] { return 0; });
+    if (!status) end.stop_signal = passed;
     if (status) {
         end.is_regular = true;
         end.status = *status;

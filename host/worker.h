@@ -13,6 +13,7 @@ struct WorkerEnd {
     bool is_regular = false;  ///< by its own main, with this status
     int status = 0;           ///< exit code
     bool is_hung = false;     ///< it was ended, since it did nothing
+    int stop_signal = 0;      ///< that it ended by, and this process should
     std::string how;          ///< otherwise: "was ended by SIGABRT", "did nothing for 10 s"
 };
 

@@ -221,6 +221,14 @@ class Dies(WrongDriver):
                                 "--device", "threads"], text=True, capture_output=True, check=True)
         self.assertEqual(result.stderr.split()[-1], right.stderr.split()[-1])
 
+    def test_late_is_gone_on_with_though_it_began_anew(self):
+        part = str(self.folder / "part.mbj")
+        result = self.die("clEnqueueNDRangeKernel", "abort", "--aa", "grid:64", "--progress", "none",
+                          "--shard", "0/1", "--fresh", "-o", part, "--tile", "16",
+                          CL_SHIM_DIE_AFTER="1.5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"going on with .*part\.mbj, which has [1-9]\d* %")
+
     def test_is_an_error_without_fallback(self):
         result = self.die("clBuildProgram", "abort", "--no-fallback")
         self.assertEqual(result.returncode, 5)
@@ -288,6 +296,35 @@ class Wrong(WrongDriver):
         self.assertIn("tiles that threads traced again are different", result.stderr)
         self.assertEqual(json.loads(result.stdout)["image"]["hash"], self.right_hash())
         self.render(self.LEFT_EDGE, 5, "--no-fallback", *arguments)
+
+    def hash_of(self, code, *arguments, shim=None):
+        result = self.run_with(shim or {}, *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result.stderr.split()[-1], result.stderr
+
+    def test_leaves_nothing_in_the_journal(self):
+        part = str(self.folder / "part.mbj")
+        share = ["render", SCENE, "--size", "100", "--shard", "0/1", "-o", part]
+        for more in [[], ["--aa", "adaptive:0.05"]]:
+            _, said = self.hash_of(5, *share, *more, "--device", "pocl", "--check", "50%", "--fresh",
+                                   "--no-fallback", shim=self.LEFT_EDGE)
+            self.assertIn("are different", said)
+            self.assertEqual(os.path.getsize(part), 0)
+            self.hash_of(0, *share, *more, "--device", "pocl")
+            right, _ = self.hash_of(0, "render", SCENE, "--size", "100", *more, "--device", "threads")
+            self.assertEqual(self.hash_of(0, "merge", part)[0], right)
+
+    def test_by_tracing_the_journals_tiles_again(self):
+        journal, picture = str(self.folder / "out.png.mbj"), str(self.folder / "out.png")
+        right = self.right_hash()
+        for device, code in [("threads", 0), ("pocl", 0)]:
+            self.hash_of(0, "render", SCENE, "--size", "100", "--shard", "0/1", "-o", journal,
+                         "--device", "pocl", shim=self.LEFT_EDGE)
+            found, said = self.hash_of(code, "render", SCENE, "--size", "100", "--device", device,
+                                       "-o", picture, "--check", "50%")
+            self.assertIn("the journal: ", said)
+            self.assertEqual(found, right)
+            self.assertFalse(os.path.exists(journal))
 
     def test_by_rays_that_cannot_be(self):
         shim = {"CL_SHIM_OLD": "counts->shadow += lit & 1;", "CL_SHIM_NEW": "counts->shadow += 9;"}

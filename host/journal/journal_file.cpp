@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "host/error.h"
+#include "host/printable.h"
 
 namespace rt {
 
@@ -27,7 +28,8 @@ std::string last_writer(const std::string& path, std::uint64_t size) {
         while (const auto record = reader.next()) {
             if (record->kind == RecordKind::writer) last = record->writer;
         }
-        if (last.process > 0) return fmt::format("process {} on {}", last.process, last.host);
+        if (last.process > 0)
+            return fmt::format("process {} on {}", last.process, printable(last.host));
     } catch (const Error&) {
     }
     return "another process";
@@ -47,8 +49,10 @@ void JournalFile::open_existing() {
     found_ = Found::something_else;
     if (!S_ISREG(status.st_mode)) return;
     FileDescriptor file(::open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
-    if (!file || ::fstat(file.number(), &status) != 0) return;
-    if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (!file) return;
+    const bool is_ours = lock(file);
+    if (::fstat(file.number(), &status) != 0) return;
+    if (!is_ours) {
         const auto size = static_cast<std::uint64_t>(status.st_size);
         throw Error(ExitCode::output, fmt::format("{}: {} is rendering this picture; wait for it, "
                                                   "or name another output",
@@ -76,6 +80,16 @@ void JournalFile::open_existing() {
     end_ = size;
 }
 
+/// Whether nobody else holds it, and it still is the file of that name. Where the file system knows
+/// no locks nobody does.
+bool JournalFile::lock(const FileDescriptor& file) const {
+    if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+    struct stat ours {
+    }, named{};
+    return ::fstat(file.number(), &ours) == 0 && ::lstat(path_.c_str(), &named) == 0 &&
+           ours.st_dev == named.st_dev && ours.st_ino == named.st_ino;
+}
+
 void JournalFile::read(const std::function<void(JournalReader&)>& read) {
     std::ifstream stream(path_, std::ios::binary);
     JournalReader reader(stream, end_);
@@ -99,8 +113,10 @@ bool JournalFile::create() {
         fail("create", errno);
         return false;
     }
-    ::flock(file_.number(), LOCK_EX | LOCK_NB);
-    return true;
+    if (lock(file_)) return true;
+    fail("lock", EWOULDBLOCK);
+    file_ = FileDescriptor();
+    return false;
 }
 
 bool JournalFile::write_all(std::span<const std::byte> bytes) {
@@ -131,6 +147,14 @@ void JournalFile::append(std::span<const std::byte> records) {
     start_ = {};
     if (::fdatasync(file_.number()) != 0 && errno != EINVAL && errno != ENOTSUP) {
         fail("write", errno);
+    }
+}
+
+void JournalFile::empty() {
+    if (!file_) return;
+    if (::ftruncate(file_.number(), 0) != 0 || ::fdatasync(file_.number()) != 0) {
+        fail("empty", errno);
+        ::unlink(path_.c_str());
     }
 }
 

@@ -41,14 +41,21 @@ class JournalFile {
     /// Appends whole records and has the disk keep them.
     void append(std::span<const std::byte> records);
 
+    /// Makes the file that is there empty at once; begin_anew says what is written next.
+    void empty();
+
     /// Removes the file.
     void remove();
+
+    /// Writes no more, and keeps why.
+    void give_up(const std::string& why) { failure_ = path_ + ": " + why; }
 
     /// Why it is no longer written; empty while all is well.
     const std::string& failure() const { return failure_; }
 
    private:
     void open_existing();
+    bool lock(const FileDescriptor& file) const;
     bool create();
     bool write_all(std::span<const std::byte> bytes);
     void fail(const char* what, int error);

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "host/error.h"
-#include "host/printable.h"
 
 static_assert(std::endian::native == std::endian::little, "journals are little-endian");
 
@@ -49,7 +48,7 @@ bool bool_of(const Json& json, const char* name) {
 std::string text_of(const Json& json, const char* name) {
     const Json& value = member(json, name);
     if (!value.is_string()) refuse_header(name);
-    return printable(value.get<std::string>());
+    return value.get<std::string>();
 }
 
 Json json_of(const Rect& rect) {

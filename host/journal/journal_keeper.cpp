@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <new>
 #include <system_error>
 
 namespace rt {
@@ -48,7 +49,11 @@ void JournalKeeper<T>::keep() {
     std::unique_lock lock(mutex_);
     while (!stopped_.wait_for(lock, period, [&] { return is_stopped_; })) {
         lock.unlock();
-        write();
+        try {
+            write();
+        } catch (const std::bad_alloc&) {
+            file_.give_up("out of memory");
+        }
         lock.lock();
     }
 }

@@ -33,7 +33,7 @@ class JournalKeeper {
     /// It is not any more: to be told before others may render it. From any thread.
     void tile_lost(const Rect& tile);
 
-    /// The first pass is over; pixels may change now.
+    /// Takes what is finished of the first pass out of the film: its pixels may change now.
     void first_pass_ended();
 
     /// Pixels of the film were refined in this pass.

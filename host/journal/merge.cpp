@@ -12,6 +12,7 @@
 #include "host/error.h"
 #include "host/image/input_file.h"
 #include "host/journal/journal_reader.h"
+#include "host/printable.h"
 
 namespace rt {
 
@@ -45,9 +46,10 @@ void check_same_picture(const std::string& path, const JournalHeader& header,
         if (header.settings != first.settings) return "other settings";
         return "another version of mirrorball";
     };
-    throw Error(ExitCode::input,
-                fmt::format("{}: is of {} than {} ({}, {}; {}, {})", path, what(), first_path,
-                            header.scene, header.settings, first.scene, first.settings));
+    throw Error(
+        ExitCode::input,
+        printable(fmt::format("{}: is of {} than {} ({}, {}; {}, {})", path, what(), first_path,
+                              header.scene, header.settings, first.scene, first.settings)));
 }
 
 template <typename T>
@@ -140,7 +142,7 @@ class Merger {
         const Part& part = parts_[static_cast<std::size_t>(number)];
         std::string who;
         for (const JournalWriterInfo& writer : part.writers) {
-            const std::string one = fmt::format("{} on {}", writer.device, writer.host);
+            const std::string one = printable(writer.device + " on " + writer.host);
             if (who.find(one) == who.npos) who += (who.empty() ? "" : ", ") + one;
         }
         return who.empty() ? part.path : fmt::format("{} ({})", part.path, who);

@@ -24,8 +24,14 @@ ClFilm<T>::~ClFilm() {
 
 template <typename T>
 void ClFilm<T>::read_back(const Rect& rect, const cl::CommandQueue& reads) {
-    if (is_shared_) return;
     const std::size_t pixel = 3 * sizeof(T), row = pixel * static_cast<std::size_t>(film_.width);
+    if (is_shared_) {
+        void* const mapped = reads.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_READ,
+                                                    row * static_cast<std::size_t>(rect.y),
+                                                    row * static_cast<std::size_t>(rect.height));
+        reads.enqueueUnmapMemObject(buffer_, mapped);
+        return;
+    }
     const std::array<std::size_t, 3> corner{pixel * static_cast<std::size_t>(rect.x),
                                             static_cast<std::size_t>(rect.y), 0};
     const std::array<std::size_t, 3> size{pixel * static_cast<std::size_t>(rect.width),

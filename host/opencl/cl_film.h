@@ -23,7 +23,6 @@ class ClFilm {
     const cl::Buffer& buffer() const { return buffer_; }
 
     /// Brings a rectangle of the film, finished on the device, back; waits for nothing else.
-    /// Without effect where the film's memory is shared.
     void read_back(const Rect& rect, const cl::CommandQueue& reads);
 
     /// Brings back what is in shared memory.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -51,6 +52,7 @@ constexpr char loaded = '\1', listed = '\2';
     const auto say = [&](const char* text, std::size_t length) {
         [[maybe_unused]] const ssize_t ignored = write(answer, text, length);
     };
+    std::signal(SIGALRM, SIG_DFL);
     alarm(most_seconds);
     const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
     dup2(nowhere, STDOUT_FILENO);
@@ -126,7 +128,7 @@ IcdFiles try_icd_files(const std::string& place) {
 }
 
 UsableIcdFiles::UsableIcdFiles(const IcdFiles& files) {
-    for (std::size_t i = 0; i < files.usable.size(); ++i) {
+    for (std::size_t i = 0; i < files.usable.size() && !place().empty(); ++i) {
         std::error_code error;
         fs::create_symlink(fs::absolute(files.usable[i]), fmt::format("{}/{:04}.icd", place(), i),
                            error);
@@ -135,7 +137,7 @@ UsableIcdFiles::UsableIcdFiles(const IcdFiles& files) {
 
 std::vector<ClDevice> list_devices_of(IcdFiles& files, const UsableIcdFiles& usable) {
     if (files.any_dangerous) setenv("OCL_ICD_VENDORS", usable.place().c_str(), 1);
-    if (files.any_dangerous && files.usable.empty()) return {};
+    if (files.any_dangerous && (files.usable.empty() || usable.place().empty())) return {};
     return list_cl_devices(files.problems);
 }
 

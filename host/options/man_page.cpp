@@ -87,7 +87,7 @@ pixels that are not finite
 over a limit of memory or size
 .TP
 8
-incomplete: parts of the picture are missing
+incomplete: parts of the picture are missing, or its time was over
 .TP
 70
 a bug of the program's

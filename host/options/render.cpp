@@ -103,6 +103,15 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                                "give numbers from 0 to N - 1, and N: 7/64 or 7,9,20-25/64");
                     }
                 });
+    verb.option("--timeout", "S", "give up after S seconds, and save what is finished",
+                [&](const std::string& text) {
+                    const auto seconds = parse_amounts(text);
+                    if (!seconds || seconds->size() != 1 || seconds->front() < 0.001 ||
+                        seconds->front() > 1e8) {
+                        refuse("--timeout", text, "give seconds, from 0.001 on");
+                    }
+                    render.timeout = seconds->front();
+                });
     verb.flag("--fresh", render.fresh,
               "ignore what an interrupted render left in FILE.mbj beside the output");
     verb.flag("--resume", render.resume,

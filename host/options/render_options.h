@@ -26,6 +26,7 @@ struct RenderOptions : RenderSettings {
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;
     bool resume = false;               ///< was asked for by name
+    double timeout = 0;                ///< seconds after which to give up; 0: never
     bool isolate = true;               ///< OpenCL in a process of its own
     double deadline = 10;              ///< seconds after which a driver that does nothing is hung
     std::string failed_device;         ///< that threads stand in for

@@ -31,12 +31,14 @@ std::string host_name() {
 
 template <typename T>
 PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderStats& stats,
-                                  const FlatScene<T>& scene, const Rect& film, Say say)
+                                  const FlatScene<T>& scene, const Rect& film,
+                                  std::string inexact_devices, Say say)
     : settings_(settings),
       scene_(scene),
       aa_(stats.aa),
       region_(stats.region),
       film_rect_(film),
+      inexact_devices_(std::move(inexact_devices)),
       say_(std::move(say)) {
     if (settings.shares) {
         needs_ = share_needs(*settings.shares, region_, film, stats.aa.refines());
@@ -57,11 +59,13 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
 }
 
 /// Of all that the film's bits depend on: the flat scene, how it is sampled and refined, and the
-/// kernels. A tenth of a second for some million triangles.
+/// program. A tenth of a second for some million triangles.
 template <typename T>
 std::uint64_t PictureJournal<T>::key() const {
     Hasher hasher;
+    hasher.add(std::string_view(version));
     hasher.add(std::string_view(render_kernels));
+    hasher.add(std::string_view(inexact_devices_));
     hasher.add(sizeof(T));
 #define RT_ADD_ROWS(type, name, text) add_rows(hasher, scene_.name);
     RT_SCENE_ARRAYS(RT_ADD_ROWS)
@@ -172,6 +176,7 @@ void PictureJournal<T>::begin(const Film<T>& film, const std::string& device) {
     if (!file_) return;
     const JournalWriterInfo writer{host_name(), device, version, static_cast<int>(::getpid())};
     const double delay = settings_.shares ? 0 : settings_.journal_delay;
+    if (settings_.shares) file_->append({});  // ours from now on
     keeper_ = std::make_unique<JournalKeeper<T>>(*file_, writer, film, film_rect_, delay);
 }
 
@@ -223,6 +228,17 @@ void PictureJournal<T>::plan_pass(int pass, std::vector<Refinement>& plan, Film<
                     film.rgb.begin() + std::ptrdiff_t{3} * pixel);
         return false;
     });
+}
+
+template <typename T>
+void PictureJournal<T>::hold() {
+    if (keeper_) keeper_->first_pass_ended();
+}
+
+template <typename T>
+void PictureJournal<T>::discard() {
+    start_again();
+    if (file_) file_->empty();
 }
 
 template <typename T>

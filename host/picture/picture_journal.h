@@ -23,11 +23,14 @@ class PictureJournal {
    public:
     using Say = std::function<void(const std::string& line)>;
 
-    /// Opens settings.journal. `stats` tells the picture; `film` is the part that is rendered.
-    /// Throws Error: output where another process renders the same picture, or where the result of
-    /// shares would replace something else; usage for shares that cannot be kept.
+    /// Opens settings.journal. `inexact_devices` names those that may compute bits of their own:
+    /// what they render is nobody else's to go on with. `stats` tells the picture; `film` is the
+    /// part that is rendered. Throws Error: output where another process renders the same picture,
+    /// or where the result of shares would replace something else; usage for shares that cannot be
+    /// kept.
     PictureJournal(const RenderSettings& settings, const RenderStats& stats,
-                   const FlatScene<T>& scene, const Rect& film, Say say);
+                   const FlatScene<T>& scene, const Rect& film, std::string inexact_devices,
+                   Say say);
 
     /// Whether all of it is there.
     bool is_finished() const { return known_ && known_->is_finished; }
@@ -49,17 +52,22 @@ class PictureJournal {
     TileEvents tile_events();
     RefineEvents<T> refine_events();
 
-    /// Ends it. Throws Error (ExitCode::output) when shares are not on disk.
+    /// The film is as it will be, and need not stay.
+    void hold();
+
+    /// Ends it, when what was rendered is known to be right. Throws Error (ExitCode::output) when
+    /// shares are not on disk.
     void end(bool is_complete);
 
-    /// Forgets all that is known: it was wrong.
-    void start_again();
+    /// Forgets all that was kept, here and on disk: it was wrong.
+    void discard();
 
     std::shared_ptr<JournalFile> file() const { return file_; }
 
    private:
     void open();
     void read();
+    void start_again();
     std::uint64_t key() const;
     void plan_pass(int pass, std::vector<Refinement>& plan, Film<T>& film);
 
@@ -67,6 +75,7 @@ class PictureJournal {
     const FlatScene<T>& scene_;
     const AaMode aa_;
     const Rect region_, film_rect_;
+    const std::string inexact_devices_;
     const Say say_;
     JournalHeader header_;
     std::vector<std::uint8_t> needs_;  ///< share_needs; empty: everything

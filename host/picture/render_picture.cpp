@@ -56,6 +56,9 @@ bool has_opencl(const Devices& devices) {
                        [](const DeviceChoice& choice) { return !choice.use_threads; });
 }
 
+/// Of a picture that was not rendered now, what is checked at once, pixels.
+constexpr PictureSize final_tile{32, 32};
+
 /// One flattened scene being rendered in the precision of T, with what is found out on the way.
 template <typename T>
 class Job {
@@ -106,19 +109,22 @@ class Job {
             say_ignored_settings(choice);
             if (!choice.note.empty()) say(choice.note);
         }
-        journal_.emplace(settings_, stats_, *scene_, rendered_,
+        journal_.emplace(settings_, stats_, *scene_, rendered_, inexact_names(devices),
                          [this](const std::string& line) { say(line); });
         stats_.resumed = journal_->share_known();
         if (journal_->is_finished()) {
             film_ = part_of(journal_->take_film(), rendered_, region_);
+            tile_ = final_tile;
             note_devices(devices);
+            check_again(devices);
             return finished_picture();
         }
         Crew<T> crew = make_crew(devices);
         crew.open();
         render_with(crew, joined_names(devices));
         note_devices(crew, devices);
-        if (has_opencl(devices) && stats_.complete()) check_again();
+        if (stats_.complete()) check_again(devices);
+        journal_->end(stats_.complete());
         stats_.phases.renderer.open += wait_seconds;
         return finished_picture();
     }
@@ -188,6 +194,16 @@ class Job {
                        [this](const std::string& line) { say(line); });
     }
 
+    /// Of devices whose bits may be their own.
+    static std::string inexact_names(const Devices& devices) {
+        std::string names;
+        for (const DeviceChoice& choice : devices) {
+            const bool is_exact = choice.use_threads || choice.device.rounds_correctly;
+            if (!is_exact) names += choice.device.name + "\n";
+        }
+        return names;
+    }
+
     static std::string joined_names(const Devices& devices) {
         std::string names;
         for (const DeviceChoice& choice : devices) {
@@ -222,7 +238,7 @@ class Job {
         stats_.rays = queue.rays();
         stats_.tiles = queue.tiles().size();
         stats_.tiles_finished = queue.tiles_finished();
-        journal_->end(stats_.complete());
+        journal_->hold();
         if (region_ != rendered_) film_ = part_of(film_, rendered_, region_);
     }
 
@@ -314,16 +330,20 @@ class Job {
     }
 
     /// Renders all of the picture again on threads when devices were wrong.
-    void check_again() {
+    void check_again(const Devices& devices) {
+        if (!has_opencl(devices) && stats_.resumed == 0) return;
         const std::string wrong = what_is_wrong();
         if (wrong.empty()) return;
-        const std::string what = stats_.device.name + ": " + wrong;
+        journal_->discard();
+        const std::string by = stats_.resumed == 0   ? stats_.device.name
+                               : has_opencl(devices) ? stats_.device.name + " or the journal"
+                                                     : "the journal";
+        const std::string what = by + ": " + wrong;
         if (settings_.no_fallback) throw Error(ExitCode::device, what);
         say(what + "; rendering on threads instead");
         const std::string failed = stats_.device.name;
         Crew<T> threads({threads_member<T>(scene_, threads_beside_others())}, {}, {});
         threads.open();
-        journal_->start_again();
         stats_.resumed = 0;
         render_with(threads, "threads");
         note_threads(threads_beside_others());

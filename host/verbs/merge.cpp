@@ -12,6 +12,7 @@
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/picture/render_stats.h"
+#include "host/printable.h"
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
 
@@ -53,9 +54,9 @@ int run_merge(const MergeOptions& options) {
     if (merged.missing) print_message("mirrorball: " + missing_text(merged) + "\n");
     if (!options.output.empty()) write_merged(merged, options);
     if (!options.quiet) {
-        print_message(fmt::format("{}: {} of {}, image {}\n", merged.header.scene,
-                                  counted(options.parts.size(), "part"), merged.header.settings,
-                                  hash_text(merged.image_hash)));
+        print_message(fmt::format("{}: {} of {}, image {}\n", printable(merged.header.scene),
+                                  counted(options.parts.size(), "part"),
+                                  printable(merged.header.settings), hash_text(merged.image_hash)));
     }
     const bool is_finite = !report_non_finite(merged.picture, merged.header.region);
     return static_cast<int>(is_finite ? ExitCode::done : ExitCode::non_finite);

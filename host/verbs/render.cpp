@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
+#include "host/journal/journal_file.h"
 #include "host/opencl/icd_files.h"
 #include "host/render/stopwatch.h"
 #include "host/stop_signal.h"
@@ -50,6 +52,7 @@ void say_unsaved(const RenderOptions& options) {
 
 int render_scene(RenderOptions options, double seconds_before_main) {
     const Stopwatch total;
+    if (options.timeout > 0) stop_after(options.timeout);
     check_output(options);
     check_output_is_no_input(options.output, {options.scene, options.reference});
     choose_journal(options);
@@ -79,53 +82,88 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     return verdict(rendered, path);
 }
 
-/// By workers, which load the drivers. When the first one crashes another tries again, without
-/// drivers that do so when they list their devices, and with an empty kernel cache. Then, or when
-/// it hangs, threads go on here with what the journal has.
-int render_isolated(RenderOptions options, double seconds_before_main) {
-    const Stopwatch watch;
-    const auto work = [&](const std::vector<std::string>& changes) {
-        return run_worker(options.command, changes, options.deadline,
-                          seconds_before_main + watch.seconds());
-    };
-    const std::string name = options.device.empty() ? "OpenCL" : "--device " + options.device;
-    const auto say = [&](const WorkerEnd& end, const char* then) {
-        if (options.quiet) return;
-        print_message(
-            fmt::format("mirrorball: {}: the process of its driver {}; {}\n", name, end.how, then));
-    };
-    WorkerEnd end = work({});
-    if (!end.is_regular && !end.is_hung) {
-        const IcdFiles files = try_icd_files(options.drivers);
-        if (!files.any_dangerous) {
-            const TemporaryFolder cache;
-            say(end, "trying once more with an empty kernel cache");
-            end = work({"POCL_CACHE_DIR=" + cache.name()});
-        } else if (!files.usable.empty()) {
-            const UsableIcdFiles usable(files);
-            say(end, "trying once more with the other drivers");
-            const WorkerEnd second = work({"OCL_ICD_VENDORS=" + usable.place()});
-            const bool lacks_device =
-                second.is_regular && second.status == static_cast<int>(ExitCode::device);
-            if (!lacks_device) end = second;
+/// Has workers, which load the drivers, render.
+class IsolatedRender {
+   public:
+    IsolatedRender(RenderOptions options, double seconds_before_main)
+        : options_(std::move(options)),
+          seconds_before_(seconds_before_main),
+          name_(options_.device.empty() ? "OpenCL" : "--device " + options_.device) {}
+
+    /// When the first worker crashes another tries again. Then, or when it hangs, threads go on
+    /// here with what the journal has.
+    int run() {
+        if (options_.fresh) remove_journal();
+        WorkerEnd end = work({});
+        if (!end.is_regular && !end.is_hung && end.stop_signal == 0) end = try_again(end);
+        if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
+        if (end.is_regular) return end.status;
+        if (options_.no_fallback) {
+            throw Error(ExitCode::device, name_ + ": the process of its driver " + end.how);
         }
+        say(end, "rendering on threads instead");
+        if (options_.timeout > 0) {
+            options_.timeout = std::max(options_.timeout - watch_.seconds(), 0.001);
+        }
+        options_.failed_device = name_;
+        options_.device = "threads";
+        return render_scene(options_, seconds_before_ + watch_.seconds());
     }
-    if (end.is_regular) return end.status;
-    if (options.no_fallback) {
-        throw Error(ExitCode::device, name + ": the process of its driver " + end.how);
+
+   private:
+    /// Once, before what a worker leaves there is to be gone on with.
+    void remove_journal() {
+        RenderOptions chosen = options_;
+        choose_journal(chosen);
+        if (!chosen.journal.empty()) {
+            JournalFile file(chosen.journal);
+            if (file.found() != JournalFile::Found::something_else) file.remove();
+        }
+        options_.fresh = false;
+        std::erase(options_.command, "--fresh");
     }
-    say(end, "rendering on threads instead");
-    options.failed_device = name;
-    options.device = "threads";
-    return render_scene(std::move(options), seconds_before_main + watch.seconds());
-}
+
+    WorkerEnd work(const std::vector<std::string>& changes) const {
+        return run_worker(options_.command, changes, options_.deadline,
+                          seconds_before_ + watch_.seconds());
+    }
+
+    /// Without drivers that crash when they list their devices, else with an empty kernel cache.
+    WorkerEnd try_again(const WorkerEnd& first) const {
+        const IcdFiles files = try_icd_files(options_.drivers);
+        const TemporaryFolder cache;
+        const UsableIcdFiles usable(files);
+        if (cache.name().empty() || usable.place().empty()) return first;
+        if (!files.any_dangerous) {
+            say(first, "trying once more with an empty kernel cache");
+            return work({"POCL_CACHE_DIR=" + cache.name()});
+        }
+        if (files.usable.empty()) return first;
+        say(first, "trying once more with the other drivers");
+        const WorkerEnd second = work({"OCL_ICD_VENDORS=" + usable.place()});
+        const bool lacks_device =
+            second.is_regular && second.status == static_cast<int>(ExitCode::device);
+        return lacks_device ? first : second;
+    }
+
+    void say(const WorkerEnd& end, const char* then) const {
+        if (options_.quiet) return;
+        print_message(fmt::format("mirrorball: {}: the process of its driver {}; {}\n", name_,
+                                  end.how, then));
+    }
+
+    RenderOptions options_;
+    const double seconds_before_;
+    const std::string name_;
+    const Stopwatch watch_;
+};
 
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
     if (options.is_batch()) return render_batch(options);
     if (options.isolate && !is_worker() && needs_opencl(options.device)) {
-        return render_isolated(options, seconds_before_main);
+        return IsolatedRender(options, seconds_before_main).run();
     }
     return render_scene(options, seconds_before_main);
 }

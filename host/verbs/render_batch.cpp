@@ -149,7 +149,7 @@ class Batch {
         if (stop_flag() != 0) {
             print_message(fmt::format("mirrorball: {} after {}\n", stop_reason(),
                                       counted(pictures_, "picture")));
-            return 128 + stop_flag();
+            return exit_code_of_stop(stop_flag());
         }
         if (pictures_ == 0) throw Error(ExitCode::usage, "no scene in the list");
         if (failed_.empty()) return 0;
@@ -177,6 +177,9 @@ class Batch {
 
 }  // namespace
 
-int render_batch(const RenderOptions& options) { return Batch(options).run(); }
+int render_batch(const RenderOptions& options) {
+    if (options.timeout > 0) stop_after(options.timeout);
+    return Batch(options).run();
+}
 
 }  // namespace rt

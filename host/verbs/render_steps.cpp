@@ -102,7 +102,10 @@ RenderConsole::RenderConsole(const RenderOptions& options) {
         progress_.emplace(queue, progress_mode_for_stderr(options));
     };
     events_.progressed = note_worker_progress;
-    events_.ended = [this] { progress_.reset(); };
+    events_.ended = [this] {
+        watch_worker(false);
+        progress_.reset();
+    };
     events_.driver_loaded = restore_stop_signals;
 }
 
@@ -125,7 +128,7 @@ int verdict(const RenderedPicture& rendered, const std::string& output) {
         print_message(fmt::format("mirrorball: {} after {}{}{}\n", stop_reason(), share_done(stats),
                                   output.empty() ? "" : "; what was finished is in " + output,
                                   can_go_on ? "; the same command goes on from there" : ""));
-        return 128 + stop_flag();
+        return exit_code_of_stop(stop_flag());
     }
     return static_cast<int>(non_finite ? ExitCode::non_finite : ExitCode::done);
 }

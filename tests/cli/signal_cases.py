@@ -192,6 +192,23 @@ class Interrupted(CliTest):
         self.assertEqual(process.returncode, 143)
         self.assertFalse(json.loads(stdout)["complete"])
 
+    def test_out_of_time(self):
+        for device in ["threads", "pocl"]:
+            self.render("mirror-hall", "--size", "8", "--aa", "grid:32", "--device", device)  # caches
+            began = time.monotonic()
+            result = self.run_cli("render", scene_path("mirror-hall"), "--size", "900", "--aa",
+                                  "grid:32", "--device", device, "--timeout", "1.5", "-o", "out.png")
+            self.assertLess(time.monotonic() - began, 6)
+            self.assertEqual(result.returncode, 8, result.stderr)
+            self.assertIn("out of time (--timeout) after", result.stderr)
+            self.assertEqual(self.pictures(), ["out.partial.png"])
+
+    def test_out_of_time_before_it_began(self):
+        result = self.run_cli("render", scene_path("mirror-hall"), "--size", "900", "--aa", "grid:32",
+                              "--device", "pocl", "--timeout", "0.002", "-o", "out.png")
+        self.assertEqual(result.returncode, 8, result.stderr)
+        self.assertEqual(self.pictures(), [])
+
 
 class LargeSceneTest(CliTest):
     def write_large_scene(self, spheres):
