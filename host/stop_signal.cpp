@@ -13,7 +13,6 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/image/temporary_file.h"
-#include "host/worker.h"
 
 namespace rt {
 
@@ -29,7 +28,8 @@ struct StopSignal {
 StopFlag received = 0;
 std::atomic<bool> stops_quietly = false, is_working = false;
 std::atomic<pid_t> worker = 0, boss = 0;  ///< the processes to pass signals on to, and to heed
-std::atomic<int> passed_on = 0;           ///< the last signal that was
+void (*exit_listener)(int status) = nullptr;
+std::atomic<int> passed_on = 0;  ///< the last signal that was
 std::array<StopSignal, 6> stop_signals{{{SIGINT, "interrupted (Ctrl-C)", true},
                                         {SIGTERM, "terminated (SIGTERM)", true},
                                         {SIGHUP, "hung up (SIGHUP)", true},
@@ -66,7 +66,7 @@ void write_line(std::string_view a, std::string_view b) {
     unlink_temporaries();
     if (!signal.by_hand) {
         const int status = exit_code_of_stop(signal.number);
-        note_worker_end(status);
+        if (exit_listener != nullptr) exit_listener(status);
         _exit(status);
     }
     std::signal(signal.number, SIG_DFL);
@@ -180,6 +180,9 @@ int passed_stop_signal() { return passed_on; }
 
 void end_by_stop_signal(int number) { end_by(of_number(number)); }
 
-void heed_stop_signals_of(pid_t process) { boss = process; }
+void heed_stop_signals_of(pid_t process, void (*listener)(int status)) {
+    exit_listener = listener;
+    boss = process;
+}
 
 }  // namespace rt

@@ -248,7 +248,7 @@ bool become_worker(const std::string& link) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(1);  // it has gone already
     link_pipe = pipe;
-    heed_stop_signals_of(parent);
+    heed_stop_signals_of(parent, note_worker_end);
     return true;
 }
 
