@@ -214,7 +214,7 @@ class Dies(WrongDriver):
         """What it had finished is in the journal."""
         picture = ["--aa", "grid:64", "--progress", "none", "-o", str(self.folder / "out.png")]
         result = self.die("clEnqueueNDRangeKernel", "abort", *picture, "--resume", "--tile", "16",
-                          CL_SHIM_DIE_AFTER="1.5")
+                          "--threads", "1", CL_SHIM_DIE_AT="4", CL_SHIM_DIE_AFTER="1.5")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stderr, r"going on with .*out\.png\.mbj, which has [1-9]\d* %")
         right = subprocess.run([str(BUILD / "mirrorball"), *self.ARGUMENTS[:4], *picture,
@@ -225,7 +225,7 @@ class Dies(WrongDriver):
         part = str(self.folder / "part.mbj")
         result = self.die("clEnqueueNDRangeKernel", "abort", "--aa", "grid:64", "--progress", "none",
                           "--shard", "0/1", "--fresh", "-o", part, "--tile", "16",
-                          CL_SHIM_DIE_AFTER="1.5")
+                          "--threads", "1", CL_SHIM_DIE_AT="4", CL_SHIM_DIE_AFTER="1.5")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stderr, r"going on with .*part\.mbj, which has [1-9]\d* %")
 
