@@ -314,6 +314,14 @@ class Wrong(WrongDriver):
             right, _ = self.hash_of(0, "render", SCENE, "--size", "100", *more, "--device", "threads")
             self.assertEqual(self.hash_of(0, "merge", part)[0], right)
 
+    def test_is_replaced_in_a_finished_share(self):
+        part = str(self.folder / "part.mbj")
+        share = ["render", SCENE, "--size", "100", "--shard", "0/1", "-o", part]
+        self.hash_of(0, *share, "--device", "pocl", shim=self.LEFT_EDGE)
+        _, said = self.hash_of(0, *share, "--device", "threads", "--check", "50%")
+        self.assertIn("the journal: ", said)
+        self.assertEqual(self.hash_of(0, "merge", part)[0], self.right_hash())
+
     def test_by_tracing_the_journals_tiles_again(self):
         journal, picture = str(self.folder / "out.png.mbj"), str(self.folder / "out.png")
         right = self.right_hash()

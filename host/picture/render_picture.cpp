@@ -116,13 +116,12 @@ class Job {
             film_ = part_of(journal_->take_film(), rendered_, region_);
             tile_ = final_tile;
             note_devices(devices);
-            check_again(devices);
-            return finished_picture();
+        } else {
+            Crew<T> crew = make_crew(devices);
+            crew.open();
+            render_with(crew, joined_names(devices));
+            note_devices(crew, devices);
         }
-        Crew<T> crew = make_crew(devices);
-        crew.open();
-        render_with(crew, joined_names(devices));
-        note_devices(crew, devices);
         if (stats_.complete()) check_again(devices);
         journal_->end(stats_.complete());
         stats_.phases.renderer.open += wait_seconds;
