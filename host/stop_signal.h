@@ -51,7 +51,7 @@ int passed_stop_signal();
 [[noreturn]] void end_by_stop_signal(int number);
 
 /// Heeds stop signals of that process alone: a terminal and most batch systems send theirs to all
-/// processes of a job, and a second one means to quit at once. The listener is told the exit code
+/// processes of a job, and a second one means to quit at once. The listener gets the exit code
 /// when one ends this process; it is called by a signal handler.
 void heed_stop_signals_of(pid_t process, void (*listener)(int status));
 

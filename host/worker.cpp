@@ -12,14 +12,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "host/file_descriptor.h"
 #include "host/render/stopwatch.h"
@@ -94,7 +95,7 @@ class Watchdog {
 
     void hear(char byte) {
         if (byte == watched || byte == unwatched) is_watched_ = byte == watched;
-        begin();
+        was_heard_ = true;
     }
 
     /// To be asked every poll_seconds or sooner. Time in which nobody ran does not count.
@@ -102,8 +103,10 @@ class Watchdog {
         const double passed = std::min(watch_.lap(), 2 * poll_seconds);
         if (!is_watched_) return false;
         const ProcessState now = state_of(process_);
-        if (now.is_busy || now.processor_seconds - processor_before_ >= idle_seconds) {
-            begin();
+        const bool has_computed = now.processor_seconds - processor_before_ >= idle_seconds;
+        if (std::exchange(was_heard_, false) || now.is_busy || has_computed) {
+            idle_ = 0;
+            processor_before_ = now.processor_seconds;
             return false;
         }
         idle_ += passed;
@@ -111,15 +114,10 @@ class Watchdog {
     }
 
    private:
-    void begin() {
-        idle_ = 0;
-        processor_before_ = state_of(process_).processor_seconds;
-    }
-
     const pid_t process_;
     const double deadline_;
     Stopwatch watch_;
-    bool is_watched_ = false;
+    bool is_watched_ = false, was_heard_ = false;
     double idle_ = 0, processor_before_ = 0;
 };
 
@@ -165,8 +163,8 @@ bool has_ended(pid_t process) {
            info.si_pid == process;
 }
 
-/// Listens to the worker until it says that it ends, is gone, or is late. The exit code that it
-/// told, if it did.
+/// Listens to the worker until it says that it ends, is gone, or is late. Returns the exit code
+/// that it gave, if it did.
 std::optional<int> listen(int pipe, pid_t process, Watchdog& watchdog, bool& is_late) {
     bool is_end_next = false;
     for (;;) {
@@ -212,7 +210,6 @@ WorkerEnd run_worker(const std::vector<std::string>& command,
     std::vector<std::string> all = changes;
     all.push_back(
         fmt::format("{}={},{},{:.6f}", link_name, theirs.number(), ::getpid(), seconds_before));
-    const Stopwatch watch;
     pid_t process = 0;
     pass_stop_signals_to([&] { return process = start(command, all); });
     theirs = FileDescriptor();
@@ -225,11 +222,13 @@ WorkerEnd run_worker(const std::vector<std::string>& command,
     }
     const int passed = passed_stop_signal();
     pass_stop_signals_to([] { return 0; });
-    if (!status) end.stop_signal = passed;
     if (status) {
         end.is_regular = true;
         end.status = *status;
-    } else if (end.is_hung) {
+        return end;
+    }
+    end.stop_signal = passed;
+    if (end.is_hung) {
         end.how = fmt::format("did nothing for {:g} s", deadline);
     } else if (WIFSIGNALED(wait_status)) {
         end.how = "was ended by " + name_of_signal(WTERMSIG(wait_status));
@@ -260,7 +259,6 @@ void watch_worker(bool is_watched) { tell({is_watched ? &watched : &unwatched, 1
 
 /// Ten times a second at most, so that the pipe is never full.
 void note_worker_progress() {
-    if (!is_worker()) return;
     static const Stopwatch watch;
     static std::atomic<std::int64_t> last = -1;
     const auto now = static_cast<std::int64_t>(10 * watch.seconds());

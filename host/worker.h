@@ -34,7 +34,7 @@ bool is_worker();
 /// Of a worker what had passed before it was started; else 0.
 double seconds_before_worker();
 
-// Told by a worker, without effect in other processes; the last two may be called by any thread.
+// Called by a worker, without effect in other processes; the last two may be called by any thread.
 void watch_worker(bool is_watched);  ///< whether it is to do something all the time
 void note_worker_progress();
 void note_worker_end(int status);  ///< just before it exits

@@ -29,10 +29,10 @@ void mend(std::string& bytes) {
 
 template <typename T>
 void read_all(rt::JournalReader& reader) {
-    const rt::KnownPixels<T> known = rt::read_known_pixels<T>(reader);
+    rt::KnownPixels<T> known = rt::read_known_pixels<T>(reader);
     const auto pixels = static_cast<std::size_t>(reader.header().film.pixels());
     if (known.is_rendered.size() != pixels) __builtin_trap();
-    if (known.refined_film().rgb.size() != 3 * pixels) __builtin_trap();
+    if (known.take_refined_film().rgb.size() != 3 * pixels) __builtin_trap();
 }
 
 }  // namespace

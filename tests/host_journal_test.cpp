@@ -6,7 +6,6 @@
 #include "host/error.h"
 #include "host/journal/journal_keeper.h"
 #include "host/journal/merge.h"
-#include "host/journal/shares.h"
 #include "host/picture/render_picture.h"
 #include "host/scene/scene_file.h"
 #include "tests/picture_files.h"
@@ -68,80 +67,6 @@ std::vector<std::size_t> record_ends(const std::string& bytes) {
     return ends;
 }
 
-TEST(ParseShares, ReadsNumbersAndRanges) {
-    EXPECT_EQ(parse_shares("7/64"), (Shares{{7}, 64}));
-    EXPECT_EQ(parse_shares("20-22,7,9,21/64"), (Shares{{7, 9, 20, 21, 22}, 64}));
-    EXPECT_EQ(to_string(Shares{{0}, 1}), "0/1");
-    EXPECT_EQ(to_string(Shares{{7, 9, 10, 20, 21, 22}, 64}), "7,9,10,20-22/64");
-    for (const char* text : {"", "/", "7", "7/", "/64", "64/64", "0/0", "-1/4", "3-1/4", "1,/4",
-                             "1,,2/4", "a/4", "1/4x", "1 /4", "0/100001", "1-2-3/8", "0/-3"}) {
-        EXPECT_FALSE(parse_shares(text)) << text;
-    }
-}
-
-TEST(BlockShares, AreEquallyManyAndApart) {
-    for (const int shares : {1, 2, 3, 7, 64}) {
-        const std::vector<int> share_of = block_shares(1000, shares);
-        int together = 0;
-        for (int share = 0; share < shares; ++share) {
-            const auto count = std::count(share_of.begin(), share_of.end(), share);
-            EXPECT_LE(std::abs(count - 1000 / shares), 1) << shares;
-        }
-        for (std::size_t i = 1; i < 1000; ++i) together += share_of[i] == share_of[i - 1];
-        EXPECT_LT(together, 1000 * 1.5 / shares + 20) << shares;
-    }
-}
-
-TEST(ShareBlocks, AreAboutAThousand) {
-    for (const int side : {500, 1000, 2000, 4000, 8000}) {
-        const std::size_t blocks = share_blocks({0, 0, side, side}).size();
-        EXPECT_GT(blocks, 250u) << side;
-        EXPECT_LE(blocks, 1024u) << side;
-    }
-    EXPECT_EQ(share_blocks({5, 6, 20, 10}).size(), 2u);
-}
-
-TEST(ShareNeeds, GrowByOnePixelAPass) {
-    const Rect region{0, 0, 64, 48};
-    const Shares shares{{1}, 3};
-    const auto needs = share_needs(shares, region, region, true);
-    const auto own = share_needs(shares, region, region, false);
-    const auto level_of_nearest = [&](int x, int y) {
-        int nearest = 99;
-        for (int v = 0; v < 48; ++v) {
-            for (int u = 0; u < 64; ++u) {
-                if (own[static_cast<std::size_t>(64 * v + u)] == 0) continue;
-                nearest = std::min(nearest, std::max(std::abs(u - x), std::abs(v - y)));
-            }
-        }
-        return std::max(refine_passes + 1 - nearest, 0);
-    };
-    for (int y = 0; y < 48; ++y) {
-        for (int x = 0; x < 64; ++x) {
-            ASSERT_EQ(needs[static_cast<std::size_t>(64 * y + x)], level_of_nearest(x, y))
-                << x << ' ' << y;
-        }
-    }
-}
-
-TEST(WantedTiles, CoverWhatIsWantedOnce) {
-    Random random(7);
-    const Rect film{3, 2, 50, 40};
-    std::vector<std::uint8_t> wanted(2000);
-    for (auto& value : wanted) value = random.uniform(0, 1) < 0.7;
-    std::vector<int> covered(2000);
-    for (const Rect& tile : wanted_tiles(make_tiles(film, 16, 16), wanted, film)) {
-        for (int y = tile.y - 2; y < tile.y - 2 + tile.height; ++y) {
-            for (int x = tile.x - 3; x < tile.x - 3 + tile.width; ++x) {
-                ++covered[static_cast<std::size_t>(50 * y + x)];
-            }
-        }
-    }
-    for (std::size_t i = 0; i < 2000; ++i) ASSERT_EQ(covered[i], wanted[i]) << i;
-    const std::vector<std::uint8_t> all(2000, 1);
-    EXPECT_EQ(wanted_tiles(make_tiles(film, 16, 16), all, film), make_tiles(film, 16, 16));
-}
-
 TEST_F(Journals, OfSharesMergeToTheWhole) {
     for (const char* aa : {"none", "grid:3", "sobol:4", "adaptive:0.02"}) {
         for (const Precision precision : {Precision::float32, Precision::float64}) {
@@ -166,7 +91,7 @@ TEST_F(Journals, OfSharesMergeToTheWhole) {
     }
 }
 
-/// Cut anywhere, or with any byte changed, it is gone on with or begun anew: the picture is the
+/// Cut anywhere, or with any byte changed, it is continued or restarted: the picture is the
 /// same.
 TEST_F(Journals, OfAnyLengthAreGoneOnWith) {
     for (const char* aa : {"grid:2", "adaptive:0.02"}) {
@@ -350,7 +275,7 @@ TEST_F(Journals, ForgetLostTiles) {
     header.height = 2;
     header.region = header.film = {0, 0, 4, 2};
     JournalFile file(path("f.mbj"));
-    file.begin_anew([&] {
+    file.restart([&] {
         const auto magic = std::as_bytes(std::span(journal_magic));
         std::vector<std::byte> start(magic.begin(), magic.end());
         append_header(start, header);

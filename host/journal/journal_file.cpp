@@ -52,27 +52,19 @@ void JournalFile::open_existing() {
     if (!file) return;
     const bool is_ours = lock(file);
     if (::fstat(file.number(), &status) != 0) return;
+    const auto size = static_cast<std::uint64_t>(status.st_size);
     if (!is_ours) {
-        const auto size = static_cast<std::uint64_t>(status.st_size);
         throw Error(ExitCode::output, fmt::format("{}: {} is rendering this picture; wait for it, "
                                                   "or name another output",
                                                   path_, last_writer(path_, size)));
     }
-    const auto size = static_cast<std::uint64_t>(status.st_size);
     char magic[journal_magic.size()];
     const ssize_t got = ::pread(file.number(), magic, sizeof(magic), 0);
     const std::string_view bytes(magic, got > 0 ? static_cast<std::size_t>(got) : 0);
     if (is_start_of_magic(bytes)) {
         found_ = Found::nothing;  // its process ended before the first record
     } else if (bytes.starts_with(journal_magic.substr(0, 6))) {
-        std::ifstream stream(path_, std::ios::binary);
-        try {
-            const JournalReader reader(stream, size);
-            found_ = Found::journal;
-        } catch (const Error& error) {
-            found_ = Found::damaged;
-            damage_ = error.what();
-        }
+        found_ = Found::journal;
     } else {
         return;
     }
@@ -97,7 +89,7 @@ void JournalFile::read(const std::function<void(JournalReader&)>& read) {
     end_ = reader.good_bytes();
 }
 
-void JournalFile::begin_anew(std::function<std::vector<std::byte>()> start) {
+void JournalFile::restart(std::function<std::vector<std::byte>()> start) {
     start_ = std::move(start);
     end_ = 0;
 }
@@ -140,8 +132,9 @@ void JournalFile::append(std::span<const std::byte> records) {
     const std::uint64_t before = end_;
     if (::ftruncate(file_.number(), static_cast<off_t>(end_)) != 0) return fail("cut", errno);
     if (!write_all(start_ ? start_() : std::vector<std::byte>()) || !write_all(records)) {
-        // What is there stays good for the next time.
-        if (::ftruncate(file_.number(), static_cast<off_t>(before)) != 0) return;
+        // What is there stays good for the next time; if this fails, too, a reader cuts it.
+        [[maybe_unused]] const int ignored =
+            ::ftruncate(file_.number(), static_cast<off_t>(before));
         return;
     }
     start_ = {};

@@ -18,22 +18,20 @@ namespace rt {
 class JournalFile {
    public:
     /// What was found in the place of a journal.
-    enum class Found { nothing, journal, damaged, something_else };
+    enum class Found { nothing, journal, something_else };
 
     /// Throws Error (ExitCode::output) when another process holds its lock.
     explicit JournalFile(std::string path);
 
     Found found() const { return found_; }
-    /// Why a `damaged` one cannot be read.
-    const std::string& damage() const { return damage_; }
     const std::string& path() const { return path_; }
 
     /// Calls `read` with the journal that was found. What follows its last good record goes when
-    /// the next is written.
+    /// the next is written. Throws Error (ExitCode::input) when its header cannot be read.
     void read(const std::function<void(JournalReader&)>& read);
 
     /// Empties it when it is next written, which begins with what `start` gives.
-    void begin_anew(std::function<std::vector<std::byte>()> start);
+    void restart(std::function<std::vector<std::byte>()> start);
 
     /// Whether a file is there.
     bool exists() const { return static_cast<bool>(file_); }
@@ -41,7 +39,7 @@ class JournalFile {
     /// Appends whole records and has the disk keep them.
     void append(std::span<const std::byte> records);
 
-    /// Makes the file that is there empty at once; begin_anew says what is written next.
+    /// Makes the file that is there empty at once; restart says what is written next.
     void empty();
 
     /// Removes the file.
@@ -63,7 +61,7 @@ class JournalFile {
     const std::string path_;
     FileDescriptor file_;
     Found found_ = Found::nothing;
-    std::string damage_, failure_;
+    std::string failure_;
     std::uint64_t end_ = 0;                          ///< bytes that are good
     std::function<std::vector<std::byte>()> start_;  ///< empty once it is written
 };

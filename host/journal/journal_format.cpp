@@ -87,7 +87,7 @@ std::uint32_t record_crc(RecordKind kind, std::span<const std::byte> body) {
     const std::uint32_t head[2] = {static_cast<std::uint32_t>(kind),
                                    static_cast<std::uint32_t>(body.size())};
     const uLong start = crc32_z(0, reinterpret_cast<const Bytef*>(head), sizeof(head));
-    if (body.empty()) return static_cast<std::uint32_t>(start);  // zlib starts anew at null
+    if (body.empty()) return static_cast<std::uint32_t>(start);  // zlib restarts at null
     return static_cast<std::uint32_t>(
         crc32_z(start, reinterpret_cast<const Bytef*>(body.data()), body.size()));
 }

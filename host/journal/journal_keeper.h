@@ -30,7 +30,7 @@ class JournalKeeper {
     /// A rectangle of the picture is in the film. From any thread.
     void tile_finished(const Rect& tile);
 
-    /// It is not any more: to be told before others may render it. From any thread.
+    /// It is there no longer; to be called before others may render it. From any thread.
     void tile_lost(const Rect& tile);
 
     /// Takes what is finished of the first pass out of the film: its pixels may change now.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "host/error.h"
 #include "host/memory_limit.h"
@@ -128,8 +129,8 @@ double KnownPixels<T>::share_rendered() const {
 }
 
 template <typename T>
-Film<T> KnownPixels<T>::refined_film() const {
-    Film<T> result = film;
+Film<T> KnownPixels<T>::take_refined_film() {
+    Film<T> result = std::move(film);
     for (const RefinedPixels<T>& pass : refined) {
         for (std::size_t i = 0; i < pass.pixels.size(); ++i) {
             std::copy_n(pass.colors.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,

@@ -71,8 +71,8 @@ struct KnownPixels {
     /// Of the film, how much was rendered in the first pass: 0 to 1.
     double share_rendered() const;
 
-    /// The film with what was refined.
-    Film<T> refined_film() const;
+    /// The film with what was refined; takes it from here.
+    Film<T> take_refined_film();
 };
 
 /// Reads the rest. Throws Error (ExitCode::limit) when memory is short.

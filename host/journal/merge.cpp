@@ -65,7 +65,7 @@ class Merger {
         const JournalHeader& header = reader.header();
         const auto shares = parse_shares(header.shares);
         if (!shares) refuse(path, "its header is damaged (shares); render it again");
-        const KnownPixels<T> known = read_known_pixels<T>(reader);
+        KnownPixels<T> known = read_known_pixels<T>(reader);
         if (reader.good_bytes() < bytes) {
             notes.push_back(fmt::format("{}: its last {} bytes are damaged and left out", path,
                                         bytes - reader.good_bytes()));
@@ -75,7 +75,8 @@ class Merger {
             notes.push_back(path + ": is not finished, and adaptive: left out");
             return;
         }
-        const Film<T> film = part_of(known.refined_film(), header.film, region_);
+        Film<T> film = known.take_refined_film();
+        if (header.film != region_) film = part_of(film, header.film, region_);
         const std::vector<std::uint8_t> own = share_needs(*shares, region_, region_, false);
         for (std::size_t i = 0; i < owner_.size(); ++i) {
             if (own[i] == 0 || known.is_rendered[index_in_film(header.film, i)] == 0) continue;

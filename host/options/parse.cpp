@@ -74,6 +74,14 @@ std::optional<std::vector<double>> parse_amounts(std::string_view text) {
     }
 }
 
+double parse_seconds(const std::string& option, const std::string& text, double least) {
+    const auto seconds = parse_amounts(text);
+    if (!seconds || seconds->size() != 1 || seconds->front() < least || seconds->front() > 1e8) {
+        refuse(option, text, fmt::format("give seconds, {:g} or more", least));
+    }
+    return seconds->front();
+}
+
 double parse_percent(const std::string& option, const std::string& text, double most) {
     double percent = 0;
     const char* const end = text.data() + text.size();

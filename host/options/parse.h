@@ -24,6 +24,9 @@ PictureSize parse_size(const std::string& option, const std::string& text);
 /// Numbers from 0 to 1e30 with commas between them; empty when the text is anything else.
 std::optional<std::vector<double>> parse_amounts(std::string_view text);
 
+/// Seconds from `least` to 1e8. Throws Error (ExitCode::usage).
+double parse_seconds(const std::string& option, const std::string& text, double least);
+
 /// "5%" or "5": 0.05. Throws Error (ExitCode::usage) beyond 0 to `most` per cent.
 double parse_percent(const std::string& option, const std::string& text, double most);
 

@@ -103,15 +103,9 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                                "give numbers from 0 to N - 1, and N: 7/64 or 7,9,20-25/64");
                     }
                 });
-    verb.option("--timeout", "S", "give up after S seconds, and save what is finished",
-                [&](const std::string& text) {
-                    const auto seconds = parse_amounts(text);
-                    if (!seconds || seconds->size() != 1 || seconds->front() < 0.001 ||
-                        seconds->front() > 1e8) {
-                        refuse("--timeout", text, "give seconds, from 0.001 on");
-                    }
-                    render.timeout = seconds->front();
-                });
+    verb.option(
+        "--timeout", "S", "give up after S seconds, and save what is finished",
+        [&](const std::string& text) { render.timeout = parse_seconds("--timeout", text, 0.001); });
     verb.flag("--fresh", render.fresh,
               "ignore what an interrupted render left in FILE.mbj beside the output");
     verb.flag("--resume", render.resume,
@@ -165,15 +159,10 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
                      "list the triangles that cast shadows, where there are few (default on)");
     add_choice<bool>(verb, "--isolate", render.isolate, {{"auto", true}, {"never", false}},
                      "load OpenCL drivers in a process of their own (default auto: yes)");
-    verb.option("--deadline", "S",
-                "seconds after which a driver that does nothing is taken for hung (default 10)",
-                [&](const std::string& text) {
-                    const auto seconds = parse_amounts(text);
-                    if (!seconds || seconds->size() != 1 || seconds->front() < 0.5) {
-                        refuse("--deadline", text, "give seconds, 0.5 or more");
-                    }
-                    render.deadline = seconds->front();
-                });
+    verb.option(
+        "--deadline", "S",
+        "seconds after which a driver that does nothing is taken for hung (default 10)",
+        [&](const std::string& text) { render.deadline = parse_seconds("--deadline", text, 0.5); });
     verb.flag("--no-fallback", render.no_fallback,
               "fail when the device fails, instead of finishing on threads");
     verb.option(

@@ -112,13 +112,18 @@ void PictureJournal<T>::open() {
 
 template <typename T>
 void PictureJournal<T>::read() {
-    file_->read([&](JournalReader& reader) {
+    const auto read_if_ours = [&](JournalReader& reader) {
         if (reader.header().key != key() || reader.header().shares != header_.shares ||
             reader.header().film != header_.film) {
             return;
         }
         known_ = read_known_pixels<T>(reader);
-    });
+    };
+    try {
+        file_->read(read_if_ours);
+    } catch (const Error& error) {
+        if (error.exit_code() != ExitCode::input) throw;  // else its header is damaged
+    }
     if (!known_) return;
     say_(fmt::format("going on with {}, which has {:.0f} % of the first pass{}", file_->path(),
                      100 * known_->share_rendered(),
@@ -130,7 +135,7 @@ void PictureJournal<T>::start_again() {
     keeper_.reset();
     known_.reset();
     if (!file_) return;
-    file_->begin_anew([this] {
+    file_->restart([this] {
         std::vector<std::byte> start;
         const auto magic = std::as_bytes(std::span(journal_magic));
         start.insert(start.end(), magic.begin(), magic.end());
@@ -144,7 +149,7 @@ void PictureJournal<T>::start_again() {
 template <typename T>
 Film<T> PictureJournal<T>::take_film() {
     if (!known_) return Film<T>(film_rect_.width, film_rect_.height);
-    if (is_finished()) return known_->refined_film();
+    if (is_finished()) return known_->take_refined_film();
     return std::move(known_->film);
 }
 

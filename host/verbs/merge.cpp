@@ -58,7 +58,8 @@ int run_merge(const MergeOptions& options) {
                                   counted(options.parts.size(), "part"),
                                   printable(merged.header.settings), hash_text(merged.image_hash)));
     }
-    const bool is_finite = !report_non_finite(merged.picture, merged.header.region);
+    const bool is_finite =
+        !report_non_finite(merged.picture, merged.header.region, count_non_finite(merged.picture));
     return static_cast<int>(is_finite ? ExitCode::done : ExitCode::non_finite);
 }
 

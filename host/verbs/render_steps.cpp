@@ -39,8 +39,7 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
             {"mirrorball:Version", version}};
 }
 
-bool report_non_finite(const Picture& picture, const Rect& region) {
-    const std::size_t count = count_non_finite(picture);
+bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count) {
     if (count == 0) return false;
     const auto [x, y] = first_non_finite(picture);
     print_message(
@@ -101,7 +100,7 @@ RenderConsole::RenderConsole(const RenderOptions& options) {
         install_stop_signals();
         progress_.emplace(queue, progress_mode_for_stderr(options));
     };
-    events_.progressed = note_worker_progress;
+    if (is_worker()) events_.progressed = note_worker_progress;
     events_.ended = [this] {
         watch_worker(false);
         progress_.reset();
@@ -121,7 +120,7 @@ void print_results(const RenderStats& stats, const RenderOptions& options) {
 
 int verdict(const RenderedPicture& rendered, const std::string& output) {
     const RenderStats& stats = rendered.stats;
-    const bool non_finite = report_non_finite(rendered.picture, stats.region);
+    const bool non_finite = report_non_finite(rendered.picture, stats.region, stats.non_finite);
     if (!stats.complete()) {
         const bool can_go_on = rendered.journal != nullptr && rendered.journal->exists() &&
                                rendered.journal->failure().empty();

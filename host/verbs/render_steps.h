@@ -15,8 +15,8 @@ namespace rt {
 PictureMetadata picture_metadata(const std::string& scene, const std::string& scene_hash,
                                  const std::string& settings, const std::string& image_hash);
 
-/// Says on stderr what is wrong with the values of a picture of that region; whether anything is.
-bool report_non_finite(const Picture& picture, const Rect& region);
+/// Says on stderr that so many pixels of a picture of that region are not finite; whether any is.
+bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count);
 
 /// Refuses, before anything is computed, an output that could not be written.
 void check_output(const RenderOptions& options);

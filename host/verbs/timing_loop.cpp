@@ -5,8 +5,6 @@
 #include <stdlib.h>
 
 #include <cmath>
-#include <filesystem>
-#include <system_error>
 
 #include "host/console.h"
 #include "host/counted.h"
@@ -133,16 +131,7 @@ void say_busy(bool quiet) {
 }
 
 FreshKernelCache::FreshKernelCache() {
-    std::error_code error;
-    std::string name = std::filesystem::temp_directory_path(error) / "mirrorball-kernels-XXXXXX";
-    if (error || mkdtemp(name.data()) == nullptr) return;
-    folder_ = name;
-    setenv("POCL_CACHE_DIR", folder_.c_str(), 1);
-}
-
-FreshKernelCache::~FreshKernelCache() {
-    std::error_code ignored;
-    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+    if (!folder_.name().empty()) setenv("POCL_CACHE_DIR", folder_.name().c_str(), 1);
 }
 
 }  // namespace rt

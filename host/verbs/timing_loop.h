@@ -12,6 +12,7 @@
 #include "host/options/options.h"
 #include "host/picture/render_picture.h"
 #include "host/scene/scene.h"
+#include "host/temporary_folder.h"
 
 namespace rt {
 
@@ -62,12 +63,9 @@ void say_busy(bool quiet);
 class FreshKernelCache {
    public:
     FreshKernelCache();
-    ~FreshKernelCache();
-    FreshKernelCache(const FreshKernelCache&) = delete;
-    FreshKernelCache& operator=(const FreshKernelCache&) = delete;
 
    private:
-    std::string folder_;
+    TemporaryFolder folder_;
 };
 
 }  // namespace rt
