@@ -14,6 +14,7 @@
 #include "host/memory_limit.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/picture/crew_members.h"
+#include "host/picture/device_stats.h"
 #include "host/picture/picture_journal.h"
 #include "host/picture/render_cache.h"
 #include "host/picture/tile_check.h"
@@ -106,7 +107,7 @@ class Job {
 
     RenderedPicture run(const Devices& devices, double wait_seconds) {
         for (const DeviceChoice& choice : devices) {
-            say_ignored_settings(choice);
+            say_ignored_settings(choice, settings_, events_);
             if (!choice.note.empty()) say(choice.note);
         }
         journal_.emplace(settings_, stats_, *scene_, rendered_, inexact_names(devices),
@@ -140,30 +141,6 @@ class Job {
         if (events_.message) events_.message(line);
     }
 
-    /// Settings that mean nothing on the chosen device are named, not dropped in silence.
-    void say_ignored_settings(const DeviceChoice& choice) const {
-        if (choice.use_threads && settings_.launch != Launch::automatic) {
-            say("--launch is for OpenCL devices; threads ignore it");
-        }
-        if (choice.use_threads && settings_.fast_math) {
-            say("--math fast is for OpenCL devices; threads are strict");
-        }
-        if (!choice.use_threads && settings_.schedule != Schedule::tiles) {
-            say("--schedule is for --device threads; OpenCL devices ignore it");
-        }
-        const bool is_pocl = choice.device.platform == pocl_platform;
-        if (!choice.use_threads && settings_.threads > 0 && !is_pocl) {
-            say("--threads is for --device threads and PoCL; " + choice.device.name +
-                " ignores it");
-        }
-        if (!choice.use_threads && !settings_.fast_math && !choice.device.rounds_correctly &&
-            events_.detail) {
-            events_.detail(choice.device.name +
-                           " does not promise correctly rounded division and square root; the "
-                           "picture's bits may differ from other devices'");
-        }
-    }
-
     /// Threads that take tiles from others cannot render whole sample buffers.
     ThreadsOptions threads_beside_others() const {
         ThreadsOptions options = threads_options(settings_, 0);
@@ -191,25 +168,6 @@ class Job {
         }
         return Crew<T>(std::move(members), std::move(spare),
                        [this](const std::string& line) { say(line); });
-    }
-
-    /// Of devices whose bits may be their own.
-    static std::string inexact_names(const Devices& devices) {
-        std::string names;
-        for (const DeviceChoice& choice : devices) {
-            const bool is_exact = choice.use_threads || choice.device.rounds_correctly;
-            if (!is_exact) names += choice.device.name + "\n";
-        }
-        return names;
-    }
-
-    static std::string joined_names(const Devices& devices) {
-        std::string names;
-        for (const DeviceChoice& choice : devices) {
-            names += (names.empty() ? "" : " + ") +
-                     (choice.use_threads ? "threads" : choice.device.name);
-        }
-        return names;
     }
 
     /// Renders the region; a device that failed is left out of what follows. `names`: who renders.
@@ -277,7 +235,7 @@ class Job {
         const std::vector<DeviceShare> shares = crew.shares();
         if (shares.size() > 1) stats_.shares = shares;
         if (crew.uses_spare()) {
-            note_threads(threads_beside_others());
+            stats_.device = threads_stats<T>(*scene_, stats_.aa, threads_beside_others());
             stats_.device.fallback_from = shares.front().name;
         } else {
             note_devices(devices);
@@ -288,28 +246,11 @@ class Job {
         if (devices.size() > 1) {
             stats_.device.name = joined_names(devices);
         } else if (devices.front().use_threads) {
-            note_threads(threads_options(settings_, devices.front().threads));
+            stats_.device = threads_stats<T>(*scene_, stats_.aa,
+                                             threads_options(settings_, devices.front().threads));
         } else {
-            note_device(devices.front().device);
+            stats_.device = device_stats<T>(devices.front().device, settings_);
         }
-    }
-
-    void note_threads(const ThreadsOptions& options) {
-        const NativeKernels<T>& kernels = native_kernels_for(*scene_, options);
-        stats_.device = {};
-        stats_.device.lanes = kernels.lanes;
-        stats_.device.isa = kernels.isa;
-        stats_.device.name = "threads";
-        stats_.device.threads = thread_count(options, stats_.aa.samples());
-        stats_.device.schedule = options.schedule == Schedule::tiles ? "tiles" : "buffers";
-    }
-
-    void note_device(const ClDevice& device) {
-        stats_.device.name = device.name;
-        stats_.device.platform = device.platform;
-        stats_.device.driver = device.driver;
-        stats_.device.launch = launches_samples(settings_.launch, device) ? "sample" : "pixel";
-        stats_.device.lanes = packet_lanes<T>(settings_.lanes, device);
     }
 
     /// What is wrong with what devices have rendered: their count of rays, or a share of the tiles,
@@ -345,7 +286,7 @@ class Job {
         threads.open();
         stats_.resumed = 0;
         render_with(threads, "threads");
-        note_threads(threads_beside_others());
+        stats_.device = threads_stats<T>(*scene_, stats_.aa, threads_beside_others());
         stats_.device.fallback_from = failed;
     }
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/picture/device_stats.h"
+
+#include "host/opencl/cl_tiles.h"
+
+namespace rt {
+
+template <typename T>
+DeviceStats threads_stats(const FlatScene<T>& scene, const AaMode& aa,
+                          const ThreadsOptions& options) {
+    const NativeKernels<T>& kernels = native_kernels_for(scene, options);
+    DeviceStats stats;
+    stats.lanes = kernels.lanes;
+    stats.isa = kernels.isa;
+    stats.name = "threads";
+    stats.threads = thread_count(options, aa.samples());
+    stats.schedule = options.schedule == Schedule::tiles ? "tiles" : "buffers";
+    return stats;
+}
+
+template <typename T>
+DeviceStats device_stats(const ClDevice& device, const RenderSettings& settings) {
+    DeviceStats stats;
+    stats.name = device.name;
+    stats.platform = device.platform;
+    stats.driver = device.driver;
+    stats.launch = launches_samples(settings.launch, device) ? "sample" : "pixel";
+    stats.lanes = packet_lanes<T>(settings.lanes, device);
+    return stats;
+}
+
+std::string joined_names(const std::vector<DeviceChoice>& devices) {
+    std::string names;
+    for (const DeviceChoice& choice : devices) {
+        names +=
+            (names.empty() ? "" : " + ") + (choice.use_threads ? "threads" : choice.device.name);
+    }
+    return names;
+}
+
+std::string inexact_names(const std::vector<DeviceChoice>& devices) {
+    std::string names;
+    for (const DeviceChoice& choice : devices) {
+        const bool is_exact = choice.use_threads || choice.device.rounds_correctly;
+        if (!is_exact) names += choice.device.name + "\n";
+    }
+    return names;
+}
+
+void say_ignored_settings(const DeviceChoice& choice, const RenderSettings& settings,
+                          const RenderEvents& events) {
+    const auto say = [&](const std::string& line) {
+        if (events.message) events.message(line);
+    };
+    if (choice.use_threads) {
+        if (settings.launch != Launch::automatic) {
+            say("--launch is for OpenCL devices; threads ignore it");
+        }
+        if (settings.fast_math) say("--math fast is for OpenCL devices; threads are strict");
+        return;
+    }
+    if (settings.schedule != Schedule::tiles) {
+        say("--schedule is for --device threads; OpenCL devices ignore it");
+    }
+    if (settings.threads > 0 && choice.device.platform != pocl_platform) {
+        say("--threads is for --device threads and PoCL; " + choice.device.name + " ignores it");
+    }
+    if (!settings.fast_math && !choice.device.rounds_correctly && events.detail) {
+        events.detail(choice.device.name +
+                      " does not promise correctly rounded division and square root; the "
+                      "picture's bits may differ from other devices'");
+    }
+}
+
+template DeviceStats threads_stats(const FlatScene<float>&, const AaMode&, const ThreadsOptions&);
+template DeviceStats threads_stats(const FlatScene<double>&, const AaMode&, const ThreadsOptions&);
+template DeviceStats device_stats<float>(const ClDevice&, const RenderSettings&);
+template DeviceStats device_stats<double>(const ClDevice&, const RenderSettings&);
+
+}  // namespace rt
