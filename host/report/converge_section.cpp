@@ -24,7 +24,7 @@ std::string device_text(const ConvergePoint& point) {
     return text + (point.asked.fast_math ? ", fast math" : "");
 }
 
-/// Seconds to open the device and build the kernels of a point anew; 0 where there are none.
+/// Seconds to open the device and build the kernels of a point again; 0 where there are none.
 double build_seconds(const ConvergeResult& result, const ConvergeCase& asked) {
     for (const BuildOffset& offset : build_offsets(result)) {
         if (offset.of.device == asked.device && offset.of.fast_math == asked.fast_math &&

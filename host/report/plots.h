@@ -12,7 +12,7 @@
 namespace rt {
 
 /// Stacked bars: where the time of the largest picture goes, device by device; for OpenCL also in
-/// the first round, where that built kernels anew.
+/// the first round, where that rebuilt kernels.
 std::string phases_figure(const std::vector<PlacedRow>& rows, const DeviceColors& colors);
 
 /// Two plots against picture size: trace seconds of each device, and how many times as fast as one

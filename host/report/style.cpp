@@ -3,7 +3,7 @@
 
 namespace rt {
 
-// Colors after Okabe and Ito (2008), told apart by the color-blind; darkened on white and
+// Colors after Okabe and Ito (2008), distinct to the color-blind; darkened on white and
 // lightened on black until each has a contrast of 4.5 to 1 or, for lines, 3 to 1.
 const char* const report_style = R"css(
 :root {

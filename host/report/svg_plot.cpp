@@ -67,7 +67,7 @@ class Painter {
         return svg;
     }
 
-    /// From the curve's first point to where it would be with its kernels built anew.
+    /// From the curve's first point to where it would be with its kernels rebuilt.
     std::string build_offset(const PlotCurve& curve) const {
         if (curve.points.empty() || !curve.points.front().x_with_build) return "";
         const PlotPoint& point = curve.points.front();

@@ -18,7 +18,7 @@ struct PlotPoint {
     std::string label;                   ///< beside the point; empty: none
     std::string title;                   ///< said when pointed at: what it is, with numbers
     std::string source;                  ///< where the value comes from, for data-source
-    std::optional<double> x_with_build;  ///< where x would be with kernels built anew
+    std::optional<double> x_with_build;  ///< where x would be with kernels rebuilt
 };
 
 /// Points of one kind, joined by a line.
@@ -40,7 +40,7 @@ struct Plot {
     std::vector<PlotCurve> curves;
     std::vector<PlotPoint> front;  ///< a step line: the least y to be had for x or less
     std::string front_label = "Pareto front";
-    std::optional<double> floor;  ///< below this y nothing can be told
+    std::optional<double> floor;  ///< y below this means nothing
     std::string floor_label;
 };
 
