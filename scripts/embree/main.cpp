@@ -3,7 +3,10 @@
 // Times Embree on a mirrorball scene: the same rays, samples and shading, Embree's tracing. Prints
 // JSON. Started by scripts/compare-embree.
 //
-// usage: embree-bench SCENE WIDTHxHEIGHT AA THREADS ROUNDS [PICTURE.pfm]
+// usage: embree-bench SCENE WIDTHxHEIGHT AA THREADS ROUNDS|once [PICTURE.pfm]
+//
+// once: traces one picture with coherent packets, cold, as a renderer does; prints the seconds of
+// each phase.
 #include <embree3/rtcore.h>
 
 #include <chrono>
@@ -91,6 +94,33 @@ void check(const rt::FlatScene<float>& flat) {
     }
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// One picture, as a renderer's whole process makes it.
+int run_once(const std::vector<std::string>& arguments, int threads) {
+    const auto start = std::chrono::steady_clock::now();
+    const rt::Scene scene = scene_of(arguments[0], arguments[1], arguments[2]);
+    const double loaded = seconds_since(start);
+    rt::FlattenOptions options;
+    options.hierarchies = false;
+    options.caster_lists = scene.triangles.size() < rt::triangle_crossover;
+    const rt::FlatScene<float> flat = rt::flatten<float>(scene, options);
+    check(flat);
+    const EmbreeScene embree(flat, threads);
+    const double built = seconds_since(start);
+    const TracedPicture picture = trace(flat, embree, Mode::coherent, threads);
+    const double traced = seconds_since(start);
+    if (arguments.size() == 6) write_pfm(arguments[5], flat, picture.rgb);
+    const Json json{{"load", loaded},
+                    {"flatten", built - loaded},
+                    {"trace", traced - built},
+                    {"write", seconds_since(start) - traced}};
+    std::printf("%s\n", json.dump().c_str());
+    return 0;
+}
+
 /// Scenes that mirrorball tests one primitive after the other: their work can be counted.
 bool is_countable(const rt::FlatScene<float>& flat) {
     return flat.spheres.size() < rt::sphere_crossover &&
@@ -99,9 +129,12 @@ bool is_countable(const rt::FlatScene<float>& flat) {
 
 int run(const std::vector<std::string>& arguments) {
     if (arguments.size() < 5 || arguments.size() > 6) {
-        throw std::runtime_error("usage: embree-bench SCENE WxH AA THREADS ROUNDS [PICTURE.pfm]");
+        throw std::runtime_error(
+            "usage: embree-bench SCENE WxH AA THREADS ROUNDS|once [PICTURE.pfm]");
     }
-    const int threads = std::stoi(arguments[3]), rounds = std::stoi(arguments[4]);
+    const int threads = std::stoi(arguments[3]);
+    if (arguments[4] == "once") return run_once(arguments, threads);
+    const int rounds = std::stoi(arguments[4]);
     rt::FlattenOptions options;
     options.hierarchies = false;
     const rt::Scene scene = scene_of(arguments[0], arguments[1], arguments[2]);

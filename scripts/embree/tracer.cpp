@@ -211,11 +211,11 @@ class PacketTracer {
     Materials materials_of(const Hits& hits, Ints live) const {
         const Ints is_triangle = hits.geometry == EmbreeScene::triangles;
         const Ints place = hits.primitive + (is_triangle ? ints(first_triangle_) : Ints{});
-        const Ints material = gathered(materials_, live ? place : Ints{});
+        const Ints index = gathered(materials_, live ? place : Ints{});
         Materials material;
         for (Ints left = live; any(left);) {
-            const std::int32_t one = material[__builtin_ctz(lane_bits(left))];
-            const Ints worn = left & (material == one);
+            const std::int32_t one = index[__builtin_ctz(lane_bits(left))];
+            const Ints worn = left & (index == one);
             left &= ~worn;
             const auto& flat = flat_.materials[static_cast<std::size_t>(one)];
             material.ambient = select(worn, all(flat.ambient), material.ambient);

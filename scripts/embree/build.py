@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds scripts/embree with a build folder's own libraries."""
+import pathlib
+import subprocess
+import sys
+
+SOURCES = pathlib.Path(__file__).resolve().parent
+ROOT = SOURCES.parent.parent
+COMPILER = ["g++", "-std=c++20", "-O3", "-march=native", "-mprefer-vector-width=512",
+            "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-Wall", "-Wextra",
+            "-Wno-maybe-uninitialized", "-Wno-psabi", "-Wno-unknown-pragmas"]
+LIBRARIES = ["threads", "scene", "memory"]
+
+
+def run(command):
+    """What the command prints; ends the script where the command fails."""
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True,
+                            cwd=ROOT, check=False)
+    if result.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{result.stdout[-1000:]}{result.stderr[-2000:]}")
+    return result.stdout
+
+
+def is_installed():
+    test = "#include <embree3/rtcore.h>\nint main() { return 0; }\n"
+    return subprocess.run(["g++", "-xc++", "-fsyntax-only", "-"], input=test, text=True,
+                          capture_output=True, check=False).returncode == 0
+
+
+def build(folder):
+    """The Embree renderer, rebuilt when it is older than its sources or the libraries."""
+    program = folder / "embree-bench"
+    libraries = [folder / f"libmirrorball_{name}.a" for name in LIBRARIES]
+    kernels = (ROOT / "kernels").glob("*.*")
+    inputs = [*SOURCES.glob("*.cpp"), *SOURCES.glob("*.h"), *kernels, *libraries]
+    if not program.exists() or any(f.stat().st_mtime > program.stat().st_mtime for f in inputs):
+        run([*COMPILER, f"-I{ROOT}", *sorted(SOURCES.glob("*.cpp")), "-Wl,--start-group",
+             *libraries, "-Wl,--end-group", "-lfmt", "-lembree3", "-pthread", "-ldl", "-o", program])
+    return program

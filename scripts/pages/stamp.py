@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a table of figures says of itself: date, machine, revision."""
+import datetime
+import json
+import pathlib
+import re
+import subprocess
+
+
+def environment(program):
+    """The environment that `mirrorball bench --json` reports."""
+    result = subprocess.run([program, "bench", "scenes/empty.json", "--sizes", "8", "--aa", "none",
+                             "--devices", "threads:1", "--repeats", "1", "--json", "-q"], check=True,
+                            capture_output=True, text=True,
+                            cwd=pathlib.Path(__file__).resolve().parent.parent.parent)
+    return json.loads(result.stdout)["environment"]
+
+
+def processor_model():
+    """" (family 6, model 143)" on Linux on x86: one name is given to many processors."""
+    text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    numbers = [re.search(rf"^{name}\s*:\s*(\d+)$", text, re.M) for name in ["cpu family", "model"]]
+    return " (family {}, model {})".format(*(n[1] for n in numbers)) if all(numbers) else ""
+
+
+def stamp(program):
+    """One line of Markdown."""
+    machine = environment(program)
+    busy = "; **the machine was busy**" if machine["busy"] else ""
+    return (f"*{datetime.date.today()}, {machine['cpu']}{processor_model()}, {machine['cores']} cores, "
+            f"{machine['os']}; {machine['program']}, revision {machine['git_revision']}{busy}.*")

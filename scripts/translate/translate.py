@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes a scene of spheres, triangles and PLY meshes for Tachyon or POV-Ray.
+
+usage: scripts/translate/translate.py SCENE.json (-o SCENE.dat | -o SCENE.pov) [--size WxH]
+
+For timing them on the same geometry, lights and mirrors: highlights and ambient light are as near as
+the other's materials come, not the same. Anti-aliasing is four samples a pixel in both. Meshes are
+binary little-endian PLY files of triangles, as scripts/generate writes them; both programs take them
+as text only. JSON comments that stand alone in their line are allowed.
+"""
+import argparse
+import json
+import math
+import pathlib
+import re
+import struct
+
+
+def read_scene(path):
+    text = re.sub(r"^\s*//.*$", "", pathlib.Path(path).read_text(), flags=re.M)
+    return json.loads(text)
+
+
+def read_ply(path):
+    """(points, corners) of a binary PLY of x, y, z as floats and triangles as uchar + int."""
+    data = pathlib.Path(path).read_bytes()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    counts = {name.decode(): int(count) for name, count
+              in re.findall(rb"element (\w+) (\d+)", data[:end])}
+    points = list(struct.iter_unpack("<3f", data[end:end + 12 * counts["vertex"]]))
+    faces = struct.iter_unpack("<B3i", data[end + 12 * counts["vertex"]:][:13 * counts["face"]])
+    return points, [face[1:] for face in faces]
+
+
+def triangles_of(scene, folder):
+    """(material, three points) of every triangle, those of meshes, too."""
+    for triangle in scene.get("triangles", []):
+        yield triangle["material"], triangle["vertices"]
+    for mesh in scene.get("meshes", []):
+        points, faces = read_ply(folder / mesh["file"])
+        for face in faces:
+            yield mesh["material"], [points[corner] for corner in face]
+
+
+def rgb(value):
+    return [value] * 3 if isinstance(value, (int, float)) else list(value)
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def unit(a):
+    return [x / math.sqrt(dot(a, a)) for x in a]
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def view(camera, width, height):
+    """(forward, right, up) as unit vectors, and half the picture's height at distance 1."""
+    forward = unit([b - a for a, b in zip(camera["from"], camera["at"])])
+    right = unit(cross(forward, camera.get("up", [0, 1, 0])))
+    half = math.tan(math.radians(camera["fov_degrees"]) / 2)
+    if camera.get("fov_axis", "y") == "x":
+        half *= height / width
+    return forward, right, cross(right, forward), half
+
+
+def words(numbers):
+    return " ".join(f"{number:.9g}" for number in numbers)
+
+
+def tachyon(scene, folder, width, height):
+    """Mirrored in x: Tachyon's pictures are left-handed."""
+    def across(point):
+        return words([-point[0], point[1], point[2]])
+
+    camera = scene["camera"]
+    forward, _, up, half = view(camera, width, height)
+    lines = ["BEGIN_SCENE", f"RESOLUTION {width} {height}",
+             f"CAMERA ZOOM {0.5 / half:.9g} ASPECTRATIO 1.0 ANTIALIASING 3",
+             f"RAYDEPTH {scene.get('max_bounces', 8) + 1}", f"CENTER {across(camera['from'])}",
+             f"VIEWDIR {across(forward)}", f"UPDIR {across(up)}", "END_CAMERA",
+             f"BACKGROUND {words(rgb(scene.get('background', 0)))}"]
+    for light in scene["lights"]:
+        lines.append(f"LIGHT CENTER {across(light['position'])} RAD 0.0001 "
+                     f"COLOR {words(rgb(light['intensity']))}")
+    ambient = max(rgb(scene.get("ambient_light", 0)))
+    for name, material in scene["materials"].items():
+        color = rgb(material.get("diffuse", 0))
+        strength = max(*color, 1e-6)
+        of_ambient = max(rgb(material.get("ambient", 0))) / strength
+        lines.append(f"TEXDEF {name} AMBIENT {ambient * min(1, of_ambient * strength):.9g} "
+                     f"DIFFUSE {strength:.9g} SPECULAR {max(rgb(material.get('mirror', 0))):.9g} "
+                     f"OPACITY 1.0 PHONG PLASTIC {max(rgb(material.get('specular', 0))):.9g} "
+                     f"PHONG_SIZE {material.get('shininess', 1):.9g} "
+                     f"COLOR {words(part / strength for part in color)} TEXFUNC 0")
+    for sphere in scene.get("spheres", []):
+        lines.append(f"SPHERE CENTER {across(sphere['center'])} RAD {sphere['radius']:.9g} "
+                     f"{sphere['material']}")
+    for material, (a, b, c) in triangles_of(scene, folder):
+        lines.append(f"TRI V0 {across(a)} V1 {across(b)} V2 {across(c)} {material}")
+    return "\n".join([*lines, "END_SCENE", ""])
+
+
+def vector(numbers):
+    return "<" + ", ".join(f"{number:.9g}" for number in numbers) + ">"
+
+
+def povray(scene, folder, width, height):
+    camera = scene["camera"]
+    forward, right, up, half = view(camera, width, height)
+    lines = ["#version 3.7;",
+             f"global_settings {{ assumed_gamma 1 ambient_light rgb {vector(rgb(scene.get('ambient_light', 0)))}"
+             f" max_trace_level {scene.get('max_bounces', 8) + 1} adc_bailout 0 }}",
+             f"background {{ rgb {vector(rgb(scene.get('background', 0)))} }}",
+             f"camera {{ perspective location {vector(camera['from'])} direction {vector(forward)}"
+             f" right {vector([2 * half * width / height * x for x in right])}"
+             f" up {vector([2 * half * x for x in up])} }}"]
+    for light in scene["lights"]:
+        lines.append(f"light_source {{ {vector(light['position'])} rgb {vector(rgb(light['intensity']))} }}")
+    for name, material in scene["materials"].items():
+        lines.append(f"#declare {name}_ = texture {{ pigment {{ rgb {vector(rgb(material.get('diffuse', 0)))} }}"
+                     f" finish {{ ambient 1 diffuse 1 specular {max(rgb(material.get('specular', 0))):.9g}"
+                     f" roughness {1 / max(material.get('shininess', 1), 1):.9g}"
+                     f" reflection {{ rgb {vector(rgb(material.get('mirror', 0)))} }} }} }}")
+    for sphere in scene.get("spheres", []):
+        lines.append(f"sphere {{ {vector(sphere['center'])}, {sphere['radius']:.9g}"
+                     f" texture {{ {sphere['material']}_ }} }}")
+    by_material = {}
+    for material, corners in triangles_of(scene, folder):
+        by_material.setdefault(material, []).append(corners)
+    for material, triangles in by_material.items():
+        lines.append("mesh {")
+        lines += ["triangle { " + ", ".join(map(vector, corners)) + " }" for corners in triangles]
+        lines.append(f"texture {{ {material}_ }} }}")
+    return "\n".join([*lines, ""])
+
+
+FORMATS = {".dat": tachyon, ".pov": povray}
+
+
+def translate(scene_file, output, size=None):
+    """Writes the scene for the program that output's suffix names; size is (width, height)."""
+    scene_file, output = pathlib.Path(scene_file), pathlib.Path(output)
+    scene = read_scene(scene_file)
+    width, height = size or (scene["image"]["width"], scene["image"]["height"])
+    output.write_text(FORMATS[output.suffix](scene, scene_file.parent, width, height))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene")
+    parser.add_argument("-o", "--output", required=True, help="a file that ends in .dat or .pov")
+    parser.add_argument("--size", help="WIDTHxHEIGHT; else the scene's own")
+    arguments = parser.parse_args()
+    if pathlib.Path(arguments.output).suffix not in FORMATS:
+        parser.error("the output must end in .dat (Tachyon) or .pov (POV-Ray)")
+    size = tuple(map(int, arguments.size.split("x"))) if arguments.size else None
+    translate(arguments.scene, arguments.output, size)
+
+
+if __name__ == "__main__":
+    main()
