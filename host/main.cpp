@@ -40,6 +40,8 @@ int run(int argc, char** argv, double seconds_before_main) {
             return rt::run_devices(options.devices);
         case rt::Verb::doctor:
             return rt::run_doctor(options.doctor);
+        case rt::Verb::explain:
+            return rt::run_explain(options.explain);
         case rt::Verb::scene:
             return rt::run_scene(options.scene);
         case rt::Verb::none:

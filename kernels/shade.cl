@@ -12,6 +12,10 @@
 #include "kernels/material.cl"
 #include "kernels/power.cl"
 
+#ifndef RT_EXPLAIN  // what kernels/native/explain.cl does with an event of a path
+#define RT_EXPLAIN(live, what, index, bounce, distance, weight, point, normal, color)
+#endif
+
 // max(0, n.h)^p with h halfway between the unit directions to the light and to the eye.
 Reals specular_lobe(real3 normal, real3 to_light, real3 to_eye, Reals shininess) {
     real3 sum = add3(to_light, to_eye);
@@ -37,6 +41,7 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const M
     Reals end = distance * (Reals)((Real)1 - (Real)16 * (Real)RT_ROUNDOFF);
     shadow.t_max = lit ? end : (Reals)-1;
     counts->shadow += lit & 1;
+    RT_EXPLAIN(lit, RT_EVENT_SHADOW, light - scene->lights, 0, distance, none, origin, dir, none);
     lit &= !any_hit(scene, &shadow, light->first_caster, light->caster_count);
     if (!any_lane(lit)) return none;
     real3 reflected = scale3(cosine, material->diffuse);
@@ -44,7 +49,9 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const M
         Reals lobe = specular_lobe(surface->normal, shadow.dir, to_eye, material->shininess);
         reflected = add_scaled(reflected, lobe, material->specular);
     }
-    return select3(lit, mul3(load3(light->intensity), reflected), none);
+    real3 added = select3(lit, mul3(load3(light->intensity), reflected), none);
+    RT_EXPLAIN(lit, RT_EVENT_LIT, light - scene->lights, 0, distance, none, origin, dir, added);
+    return added;
 }
 
 real3 shade(const SceneView* scene, const Surface* surface, const Materials* material, real3 to_eye,

@@ -106,6 +106,8 @@ void scatter(const Surface* surface, const Materials* material, Indices prim, Ma
         path->ray = mirror_ray(surface, path->ray.dir, prim);
         path->bounce += 1;
         counts->mirror += path->live & 1;
+        RT_EXPLAIN(path->live, RT_EVENT_MIRROR, 0, path->bounce, (Reals)0, reflected,
+                   path->ray.origin, path->ray.dir, reflected);
         return;
     }
     real3 transmitted = limit3(mul3(throughput, material->transmission));
@@ -127,6 +129,8 @@ void scatter(const Surface* surface, const Materials* material, Indices prim, Ma
     path->live = reflects | transmits;
     counts->mirror += reflects & 1;
     counts->transmitted += transmits & 1;
+    RT_EXPLAIN(path->live, reflects ? RT_EVENT_MIRROR : RT_EVENT_REFRACTED, 0, path->bounce,
+               (Reals)0, path->throughput, path->ray.origin, path->ray.dir, path->throughput);
 }
 
 // What the hits of a path add to the color, and the path from there on.
@@ -142,6 +146,8 @@ real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* pa
     real3 to_eye = negate3(path->ray.dir);
     real3 local_light = shade(scene, &surface, &material, to_eye, hit->prim, path->live, counts);
     color = select3(path->live, add3(color, mul3(path->throughput, local_light)), color);
+    RT_EXPLAIN(path->live, RT_EVENT_HIT, hit->prim, path->bounce, hit->t, path->throughput,
+               surface.point, surface.normal, local_light);
     bool ends = !(RT_HAS_MIRRORS || RT_HAS_GLASS) || path->bounce >= scene->params.max_bounces;
     if (ends) {
         path->live = RT_NO_LANES;
@@ -156,6 +162,8 @@ bool resume(Path* path, Pending* pending) {
     if (!(RT_HAS_GLASS && RT_HAS_MIRRORS) || pending->size == 0) return false;
     pending->size -= 1;
     *path = pending->paths[pending->size];
+    RT_EXPLAIN(path->live, RT_EVENT_REFRACTED, 0, path->bounce, (Reals)0, path->throughput,
+               path->ray.origin, path->ray.dir, path->throughput);
     return true;
 }
 
@@ -170,6 +178,8 @@ RT_OUT_OF_LINE real3 trace_path(const SceneView* scene, Ray ray, Mask live, Pack
         Mask missed = path.live & (hit.prim == RT_NONE);
         if (any_lane(missed)) {
             real3 background = mul3(path.throughput, load3(scene->params.background));
+            RT_EXPLAIN(missed, RT_EVENT_MISS, 0, path.bounce, (Reals)0, path.throughput,
+                       path.ray.origin, path.ray.dir, load3(scene->params.background));
             color = select3(missed, add3(color, background), color);
             path.live &= !missed;
         }
@@ -181,7 +191,9 @@ RT_OUT_OF_LINE real3 trace_path(const SceneView* scene, Ray ray, Mask live, Pack
 // The colors of samples k of the pixels (x, y) in the live lanes.
 real3 trace_sample(const SceneView* scene, Indices x, Indices y, Indices k, Mask live,
                    PacketCounts* counts) {
-    return trace_path(scene, camera_ray(&scene->params, x, y, k), live, counts);
+    Ray ray = camera_ray(&scene->params, x, y, k);
+    RT_EXPLAIN(live, RT_EVENT_SAMPLE, k, 0, (Reals)0, ray.dir, ray.origin, ray.dir, ray.dir);
+    return trace_path(scene, ray, live, counts);
 }
 
 #endif

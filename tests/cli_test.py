@@ -15,7 +15,8 @@ sys.dont_write_bytecode = True
 import harness
 
 MODULES = {
-    "calm": ["usage_cases", "shell_cases", "batch_cases", "journal_cases", "doctor_cases", "scene_cases",
+    "calm": ["usage_cases", "shell_cases", "batch_cases", "journal_cases", "doctor_cases",
+             "explain_cases", "frames_cases", "scene_cases",
              "output_cases", "device_cases", "picture_cases",
              "render_cases", "compare_cases", "stats_cases", "failure_cases"],
     "timed": ["stream_cases", "signal_cases"],

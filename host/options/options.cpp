@@ -24,6 +24,7 @@ Options parse_options(int argc, const char* const* argv) {
         add_report(program, options);
         add_devices(program, options);
         add_doctor(program, options);
+        add_explain(program, options);
         add_scene(program, options);
     };
     options.worker_link = environment("MIRRORBALL_WORKER");

@@ -6,6 +6,7 @@
 #include "host/options/bench_options.h"
 #include "host/options/compare_options.h"
 #include "host/options/converge_options.h"
+#include "host/options/explain_options.h"
 #include "host/options/merge_options.h"
 #include "host/options/render_options.h"
 #include "host/options/report_options.h"
@@ -46,7 +47,8 @@ enum class Verb {
     compare,
     report,
     stress,
-    doctor
+    doctor,
+    explain
 };
 
 struct Options {
@@ -60,6 +62,7 @@ struct Options {
     StressOptions stress;
     DevicesOptions devices;
     DoctorOptions doctor;
+    ExplainOptions explain;
     SceneOptions scene;
 
     /// -q, of whichever verb.

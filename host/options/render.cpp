@@ -6,6 +6,7 @@
 
 #include "host/error.h"
 #include "host/opencl/device_spec.h"
+#include "host/options/frame_number.h"
 #include "host/options/lists.h"
 #include "host/options/parse.h"
 #include "host/options/verb_options.h"
@@ -32,6 +33,24 @@ Rect parse_crop(const std::string& text) {
         refuse("--crop", text, "give x0,y0,x1,y1 in pixels from the top left, with x0<x1, y0<y1");
     }
     return {(*n)[0], (*n)[1], (*n)[2] - (*n)[0], (*n)[3] - (*n)[1]};
+}
+
+/// "1-240" or "1,5,10-20", ascending.
+std::vector<int> parse_frames(const std::string& text) {
+    constexpr const char* expected = "give frames from 0 to 999999, ascending: 1-240 or 1,5,10-20";
+    constexpr int last_frame = 999999;
+    std::vector<int> frames;
+    for (const std::string& part : split_list("--frames", text)) {
+        const auto ends = parse_integers(part, '-');
+        if (!ends || ends->size() > 2 || ends->back() > last_frame)
+            refuse("--frames", text, expected);
+        const int first = ends->front();
+        if (first < 0 || ends->back() < first || (!frames.empty() && first <= frames.back())) {
+            refuse("--frames", text, expected);
+        }
+        for (int frame = first; frame <= ends->back(); ++frame) frames.push_back(frame);
+    }
+    return frames;
 }
 
 std::string parse_isa(const std::string& text) {
@@ -103,6 +122,11 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                                "give numbers from 0 to N - 1, and N: 7/64 or 7,9,20-25/64");
                     }
                 });
+    verb.option("--frames", "LIST",
+                "frames of the scene's camera path, each into a picture of its own (-o "
+                "out.%04d.png): 1-240 or 1,5,10-20; with --shard I/N every N-th of them; with "
+                "--resume those that are not there yet",
+                [&](const std::string& text) { render.frames = parse_frames(text); });
     verb.option(
         "--timeout", "S", "give up after S seconds, and save what is finished",
         [&](const std::string& text) { render.timeout = parse_seconds("--timeout", text, 0.001); });
@@ -209,8 +233,35 @@ void settle_journal(RenderOptions& render) {
     }
 }
 
+/// Frames of one scene; of shares, every so many.
+void settle_frames(RenderOptions& render) {
+    if (render.scenes.size() != 1 || !render.batch.empty()) {
+        throw Error(ExitCode::usage, "--frames is for one scene");
+    }
+    if (!render.output.empty() && !find_frame_number(render.output)) {
+        throw Error(ExitCode::usage,
+                    fmt::format("-o '{}' is one file for several frames; write %04d for a frame's "
+                                "number, as in out.%04d.png",
+                                render.output));
+    }
+    if (!render.shares) return;
+    std::vector<int> own;
+    for (std::size_t i = 0; i < render.frames.size(); ++i) {
+        const auto& numbers = render.shares->numbers;
+        const int share = static_cast<int>(i % static_cast<std::size_t>(render.shares->of));
+        if (std::find(numbers.begin(), numbers.end(), share) != numbers.end()) {
+            own.push_back(render.frames[i]);
+        }
+    }
+    if (own.empty())
+        throw Error(ExitCode::usage, "--shard leaves this share no frame; give fewer shares");
+    render.frames = std::move(own);
+    render.shares.reset();
+}
+
 /// One scene, or a batch.
 void settle_scenes(RenderOptions& render) {
+    if (!render.frames.empty()) return settle_frames(render);
     if (!render.is_batch()) {
         if (render.scenes.empty()) {
             throw Error(ExitCode::usage, "SCENE is required; see 'mirrorball render --help'");

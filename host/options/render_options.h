@@ -19,6 +19,7 @@ struct RenderOptions : RenderSettings {
     std::string output;  ///< empty: render, write nothing. Of several scenes %s is the name
     std::vector<std::string> scenes;  ///< all of them, where there are several
     std::string batch;                ///< a file that names scenes, "-": stdin; empty: none
+    std::vector<int> frames;          ///< of the scene's camera path; empty: the scene as it is
     std::string device;               ///< a list with commas; empty: the best there is
     LightOverrides light;
     std::string reference;  ///< empty: none
@@ -35,7 +36,7 @@ struct RenderOptions : RenderSettings {
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar
 
-    bool is_batch() const { return !batch.empty() || scenes.size() > 1; }
+    bool is_batch() const { return !batch.empty() || scenes.size() > 1 || !frames.empty(); }
 };
 
 }  // namespace rt

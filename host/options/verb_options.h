@@ -17,6 +17,7 @@ void add_stress(const CommandLine& program, Options& options);
 void add_report(const CommandLine& program, Options& options);
 void add_devices(const CommandLine& program, Options& options);
 void add_doctor(const CommandLine& program, Options& options);
+void add_explain(const CommandLine& program, Options& options);
 void add_scene(const CommandLine& program, Options& options);
 
 /// Where OpenCL's loader looks for its drivers: a folder of .icd files, or one of them.

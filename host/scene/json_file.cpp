@@ -11,6 +11,7 @@
 #include "host/scene/json_camera.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_meshes.h"
+#include "host/scene/json_path.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/json_shapes.h"
 #include "host/scene/scene_limits.h"
@@ -25,7 +26,7 @@ constexpr int max_max_bounces = 100000;
 
 constexpr std::string_view scene_keys[] = {
     "$schema", "name",      "camera",  "image", "max_bounces", "background", "ambient_light",
-    "lights",  "materials", "spheres", "cones", "triangles",   "meshes"};
+    "lights",  "materials", "spheres", "cones", "triangles",   "meshes",     "path"};
 constexpr std::string_view image_keys[] = {"width", "height", "aa"};
 
 std::optional<AaMode> read_aa(const JsonValue& value, std::string_view name, Mistakes& mistakes) {
@@ -113,7 +114,12 @@ SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes&
     constexpr std::string_view example =
         "\"camera\": {\"from\": [0, 0, 5], \"at\": [0, 0, 0], \"fov_degrees\": 60}";
     if (const JsonValue* camera = reader.require("camera", example)) {
+        const std::size_t before = mistakes.count();
         scene.camera = read_camera(*camera, mistakes);
+        const JsonValue* path = reader.find("path");
+        if (path && mistakes.count() == before) {
+            scene.path = read_camera_path(*path, scene.camera, mistakes);
+        }
     }
     if (const JsonValue* image = reader.find("image")) read_image(*image, scene, mistakes);
     reader.optional("max_bounces", scene.max_bounces, read_bounces);

@@ -51,6 +51,17 @@ struct Scene {
         Window window;
     };
 
+    /// Where the camera is at some frames of an animation; between them it is interpolated.
+    struct CameraPath {
+        struct Key {
+            double frame = 0;
+            Camera camera;  ///< of the scene's kind
+        };
+
+        bool is_smooth = true;  ///< Catmull-Rom splines; else straight lines
+        std::vector<Key> keys;  ///< frames ascend; empty: the camera stays where it is
+    };
+
     /// Surface reflectances per RGB channel, each >= 0 (Phong 1975, Blinn 1977, Whitted 1980).
     struct Material {
         std::string name;
@@ -106,6 +117,7 @@ struct Scene {
 
     std::string name;
     Camera camera;
+    CameraPath path;
     int width = 500, height = 500;  ///< pixels
     AaMode aa;
     Filter filter = Filter::box;

@@ -110,9 +110,9 @@ void add(Hasher& hasher, const Scene::Mesh& mesh) {
 }  // namespace
 
 std::uint64_t scene_hash(const Scene& scene) {
-    const auto& [name, camera, width, height, aa, filter, sampling_seed, max_bounces, background,
-                 ambient_light, lights, materials, spheres, cones, triangles, meshes, notes,
-                 model_files] = scene;
+    const auto& [name, camera, path, width, height, aa, filter, sampling_seed, max_bounces,
+                 background, ambient_light, lights, materials, spheres, cones, triangles, meshes,
+                 notes, model_files] = scene;
     Hasher hasher;
     add(hasher, camera);
     add(hasher, background);

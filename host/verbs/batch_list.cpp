@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "host/error.h"
+#include "host/options/frame_number.h"
 #include "host/stop_signal.h"
 
 namespace rt {
@@ -41,6 +42,13 @@ std::string batch_output(const std::string& pattern, const std::string& scene) {
         if (is_name) ++i;
     }
     return output;
+}
+
+std::string frame_output(const std::string& pattern, int frame) {
+    const std::optional<FrameNumber> number = find_frame_number(pattern);
+    if (!number) return pattern;
+    return pattern.substr(0, number->at) + fmt::format("{:0{}}", frame, number->digits) +
+           pattern.substr(number->at + number->length);
 }
 
 LineReader::LineReader(const std::string& path)
@@ -77,8 +85,17 @@ BatchList::BatchList(const RenderOptions& options) : options_(options) {
 }
 
 bool BatchList::take(BatchItem& item) {
+    if (!options_.frames.empty()) {
+        if (given_ == options_.frames.size()) return false;
+        const int frame = options_.frames[given_++];
+        item.frame = frame;
+        item.where = fmt::format("frame {}: ", frame);
+        item.scene = options_.scenes.front();
+        item.output = frame_output(options_.output, frame);
+        return true;
+    }
     if (given_ < options_.scenes.size()) {
-        item = {"", options_.scenes[given_++], ""};
+        item.scene = options_.scenes[given_++];
         return true;
     }
     while (lines_) {

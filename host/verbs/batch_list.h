@@ -15,6 +15,7 @@ struct BatchItem {
     std::string where;  ///< "list.txt:3: ", for messages; empty: the command line
     std::string scene;
     std::string output;  ///< empty: none
+    std::optional<int> frame;
 };
 
 /// "SCENE" or "SCENE OUTPUT"; names with blanks stand in double quotes. Nothing for an empty line
@@ -23,6 +24,9 @@ std::optional<BatchItem> parse_batch_line(const std::string& line);
 
 /// The pattern with the scene's name, without folder and ending, for each %s.
 std::string batch_output(const std::string& pattern, const std::string& scene);
+
+/// The pattern with the frame's number for its %d or %04d.
+std::string frame_output(const std::string& pattern, int frame);
 
 /// Lines of a file as they come. Waiting for one ends with a stop signal.
 class LineReader {

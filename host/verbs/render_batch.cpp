@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <future>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "host/picture/render_cache.h"
 #include "host/print/stats_json.h"
 #include "host/render/stopwatch.h"
+#include "host/scene/camera_path.h"
 #include "host/stop_signal.h"
 #include "host/verbs/batch_list.h"
 #include "host/verbs/render_steps.h"
@@ -99,11 +101,15 @@ class Batch {
         RenderOptions options = options_;
         options.scene = item.scene;
         options.output = item.output;
+        if (item.frame && options.resume && std::filesystem::exists(options.output)) {
+            ++there_;
+            return;
+        }
         check_output(options);
         check_output_is_no_input(options.output, {options.scene});
         choose_journal(options);
         Stopwatch watch;
-        const Scene scene = scene_to_render(options);
+        const Scene& scene = load(item, options);
         const double load_seconds = watch.lap();
         RenderedPicture rendered = render(scene, options);
         rendered.stats.scene.path = options.scene;
@@ -112,6 +118,17 @@ class Batch {
         written_ = item;
         writing_ = std::async(std::launch::async, finish_picture, std::move(rendered),
                               std::move(options), total);
+    }
+
+    /// A path's scene is loaded once.
+    const Scene& load(const BatchItem& item, const RenderOptions& options) {
+        if (!item.frame) return scene_ = scene_to_render(options);
+        if (!has_path_) scene_ = scene_to_render(options);
+        has_path_ = true;
+        check_output_is_no_input(options.output, scene_.model_files);
+        scene_.camera = camera_at(scene_, *item.frame);
+        set_image_size(scene_, scene_.width, scene_.height);
+        return scene_;
     }
 
     /// A device that has failed is not asked again.
@@ -141,17 +158,26 @@ class Batch {
         ++pictures_;
         if (status == 0) return;
         worst_ = std::max(worst_, status);
-        failed_.push_back(
-            fmt::format("{} ({})", item.scene.empty() ? item.where : item.scene, status));
+        failed_.push_back(fmt::format("{} ({})", name_of(item), status));
+    }
+
+    static std::string name_of(const BatchItem& item) {
+        if (item.frame) return fmt::format("frame {}", *item.frame);
+        return item.scene.empty() ? item.where : item.scene;
     }
 
     int sum_up() const {
+        if (there_ > 0 && !options_.quiet) {
+            print_message(
+                fmt::format("mirrorball: {} there already\n",
+                            there_ == 1 ? "1 frame was" : counted(there_, "frame") + " were"));
+        }
         if (stop_flag() != 0) {
             print_message(fmt::format("mirrorball: {} after {}\n", stop_reason(),
                                       counted(pictures_, "picture")));
             return exit_code_of_stop(stop_flag());
         }
-        if (pictures_ == 0) throw Error(ExitCode::usage, "no scene in the list");
+        if (pictures_ == 0 && there_ == 0) throw Error(ExitCode::usage, "no scene in the list");
         if (failed_.empty()) return 0;
         std::string text =
             fmt::format("mirrorball: {} of {} failed, with exit codes:", failed_.size(),
@@ -168,6 +194,9 @@ class Batch {
     BatchList list_;
     std::vector<DeviceChoice> devices_;
     RenderCache cache_;
+    Scene scene_;
+    bool has_path_ = false;  ///< scene_ is that of all frames
+    std::size_t there_ = 0;  ///< frames whose pictures were there
     std::future<int> writing_;
     BatchItem written_;
     std::size_t pictures_ = 0;

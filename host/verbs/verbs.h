@@ -16,6 +16,7 @@ int run_stress(const StressOptions& options);
 int run_report(const ReportOptions& options);
 int run_devices(const DevicesOptions& options);
 int run_doctor(const DoctorOptions& options);
+int run_explain(const ExplainOptions& options);
 int run_scene(const SceneOptions& options);
 
 }  // namespace rt

@@ -7,8 +7,8 @@ import unittest
 
 from harness import CliTest
 
-VERBS = [["render"], ["compare"], ["bench"], ["converge"], ["stress"], ["report"], ["devices"],
-         ["scene", "info"], ["scene", "check"]]
+VERBS = [["render"], ["merge"], ["compare"], ["bench"], ["converge"], ["stress"], ["report"],
+         ["devices"], ["doctor"], ["explain"], ["scene", "info"], ["scene", "check"]]
 
 
 class Shell(CliTest):

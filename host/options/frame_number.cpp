@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/options/frame_number.h"
+
+namespace rt {
+
+namespace {
+
+constexpr int most_digits = 9;
+
+/// At the '%' at `at`.
+std::optional<FrameNumber> frame_number_at(const std::string& name, std::size_t at) {
+    std::size_t end = at + 1;
+    int digits = 0;
+    while (end < name.size() && name[end] >= '0' && name[end] <= '9' && digits <= most_digits) {
+        digits = 10 * digits + (name[end++] - '0');
+    }
+    if (end == name.size() || name[end] != 'd' || digits > most_digits) return std::nullopt;
+    return FrameNumber{at, end + 1 - at, digits == 0 ? 1 : digits};
+}
+
+}  // namespace
+
+std::optional<FrameNumber> find_frame_number(const std::string& name) {
+    std::optional<FrameNumber> found;
+    for (std::size_t at = name.find('%'); at != std::string::npos; at = name.find('%', at + 1)) {
+        const std::optional<FrameNumber> number = frame_number_at(name, at);
+        if (number && found) return std::nullopt;
+        if (number) found = number;
+    }
+    return found;
+}
+
+}  // namespace rt

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""mirrorball explain: the ray tree of a pixel."""
+import json
+
+from harness import CliTest, scene_path
+from pictures import read_pfm
+
+BOX = ["--size", "40", "--pixel", "26,31"]  # on the mirror ball
+
+
+def rays_of(ray):
+    yield ray
+    for child in ray["children"]:
+        yield from rays_of(child)
+
+
+class Explain(CliTest):
+    def explain(self, *arguments):
+        result = self.run_cli("explain", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def test_adds_up(self):
+        answer = json.loads(self.explain(scene_path("cornell-box"), *BOX, "--json"))
+        self.assertEqual(answer["format"], "mirrorball-explain")
+        tree = answer["samples"][0]["ray"]
+        self.assertEqual(tree["hit"]["object"], "sphere 2")
+        self.assertEqual(tree["hit"]["material"], "mirror")
+        self.assertEqual(tree["children"][0]["kind"], "mirror")
+        for channel in range(3):
+            total = sum(ray["weight"][channel] * ray["color"][channel] for ray in rays_of(tree))
+            self.assertAlmostEqual(total, answer["color"][channel], delta=1e-15)
+
+    def test_says_what_the_picture_has(self):
+        answer = json.loads(self.explain(scene_path("glass"), "--size", "40x30", "--pixel", "18,16",
+                                         "--json"))
+        self.run_cli("render", scene_path("glass"), "--size", "40x30", "--aa", "none", "--precision",
+                     "double", "--device", "threads", "-o", "a.pfm")
+        _, _, pixels = read_pfm(self.folder / "a.pfm")
+        at = 3 * (16 * 40 + 18)
+        for channel in range(3):
+            self.assertAlmostEqual(pixels[at + channel], answer["color"][channel], delta=1e-7)
+
+    def test_is_a_text_with_a_line_for_each_light(self):
+        text = self.explain(scene_path("cornell-box"), *BOX)
+        self.assertIn("eye ray hits sphere 2 (mirror) at (", text)
+        self.assertIn("mirror ray hits ", text)
+        self.assertIn("    light 1 ", text)
+        self.assertNotIn("nan", text)
+
+    def test_has_a_tree_for_each_sample(self):
+        answer = json.loads(self.explain(scene_path("cornell-box"), *BOX, "--json", "--aa", "sobol:3"))
+        self.assertEqual([sample["sample"] for sample in answer["samples"]], [0, 1, 2])
+
+    def test_ends_where_it_is_told_to(self):
+        answer = json.loads(self.explain(scene_path("cornell-box"), *BOX, "--json", "--max-bounces", "1"))
+        self.assertEqual(max(ray["bounce"] for ray in rays_of(answer["samples"][0]["ray"])), 1)
+
+    def test_refuses_what_it_cannot_explain(self):
+        box = scene_path("cornell-box")
+        for arguments, words in [([box], "--pixel"),
+                                 ([box, "--pixel", "500,0"], "500x500"),
+                                 ([box, "--pixel", "1"], "x,y"),
+                                 ([box, "--pixel", "-1,2"], "x,y"),
+                                 ([box, "--pixel", "1,1", "--aa", "adaptive:0.1"], "--aa"),
+                                 ([box, "--pixel", "1,1", "--aa", "grid:9"], "--aa"),
+                                 ([box, "--pixel", "1,1", "--max-bounces", "x"], "--max-bounces")]:
+            result = self.run_cli("explain", *arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertIn(words, result.stderr)
+            self.assertEqual(result.stdout, "")

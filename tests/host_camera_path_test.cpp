@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "host/error.h"
+#include "host/scene/camera_path.h"
+#include "host/scene/json_file.h"
+
+namespace rt::test {
+namespace {
+
+Scene scene_with(const std::string& path) {
+    return parse_json_scene(R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 60},
+                               "path": )" +
+                                path + "}",
+                            "path.json");
+}
+
+TEST(CameraPath, IsAtItsKeysAndStaysAtItsEnds) {
+    for (const char* kind : {"linear", "catmull-rom"}) {
+        const Scene scene = scene_with(
+            std::string(R"({"interpolation": ")") + kind +
+            R"(", "keys": [{"frame": 1, "from": [1, 0, 5]}, {"frame": 5, "at": [0, 1, 0]},
+                           {"frame": 6, "fov_degrees": 20, "up": [1, 1, 0]}]})");
+        EXPECT_EQ(camera_at(scene, -3).from, glm::dvec3(1, 0, 5));
+        EXPECT_EQ(camera_at(scene, 1).from, glm::dvec3(1, 0, 5));
+        EXPECT_EQ(camera_at(scene, 5).from, glm::dvec3(0, 0, 5));
+        EXPECT_EQ(camera_at(scene, 5).at, glm::dvec3(0, 1, 0));
+        EXPECT_EQ(camera_at(scene, 5).field_of_view.amount, 60);
+        EXPECT_EQ(camera_at(scene, 6).up, glm::dvec3(1, 1, 0));
+        EXPECT_EQ(camera_at(scene, 99).field_of_view.amount, 20);
+    }
+}
+
+TEST(CameraPath, LinearIsAStraightLine) {
+    const Scene scene = scene_with(
+        R"({"interpolation": "linear", "keys": [{"frame": 0, "from": [0, 0, 4]},
+            {"frame": 8, "from": [8, 4, 4], "fov_degrees": 20}]})");
+    const Scene::Camera camera = camera_at(scene, 2);
+    EXPECT_EQ(camera.from, glm::dvec3(2, 1, 4));
+    EXPECT_DOUBLE_EQ(camera.field_of_view.amount, 50);
+}
+
+/// Keys on a parabola, equally far apart: central differences are its slopes, so that a Catmull-Rom
+/// spline between two inner keys is the parabola.
+TEST(CameraPath, SplineRunsAlongAParabola) {
+    std::string keys;
+    for (int frame = 0; frame <= 3; ++frame) {
+        keys += (frame == 0 ? "" : ",") + ("{\"frame\": " + std::to_string(10 * frame)) +
+                ", \"from\": [" + std::to_string(frame * frame) + ", " + std::to_string(frame) +
+                ", 9]}";
+    }
+    const Scene scene = scene_with("{\"keys\": [" + keys + "]}");
+    for (int frame = 10; frame <= 20; ++frame) {
+        const double t = frame / 10.0;
+        const glm::dvec3 from = camera_at(scene, frame).from;
+        EXPECT_NEAR(from.x, t * t, 1e-14) << frame;
+        EXPECT_NEAR(from.y, t, 1e-14) << frame;
+        EXPECT_NEAR(from.z, 9, 1e-14) << frame;
+    }
+}
+
+TEST(CameraPath, FieldOfViewDoesNotOvershoot) {
+    const Scene scene = scene_with(
+        R"({"keys": [{"frame": 0, "fov_degrees": 179}, {"frame": 1, "fov_degrees": 179},
+                     {"frame": 2, "fov_degrees": 1}, {"frame": 3, "fov_degrees": 1}]})");
+    for (double frame = 0; frame <= 3; frame += 0.05) {
+        const double degrees = camera_at(scene, frame).field_of_view.amount;
+        EXPECT_GE(degrees, 1) << frame;
+        EXPECT_LE(degrees, 179) << frame;
+    }
+}
+
+TEST(CameraPath, RefusesAViewWithoutADirection) {
+    const Scene scene = scene_with(
+        R"({"interpolation": "linear", "keys": [{"frame": 0, "from": [0, 0, 5]},
+            {"frame": 2, "from": [0, 0, -5]}]})");
+    EXPECT_EQ(camera_at(scene, 1.5).from.z, -2.5);
+    try {
+        camera_at(scene, 1);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::input);
+        EXPECT_NE(std::string(error.what()).find("frame 1"), std::string::npos) << error.what();
+    }
+}
+
+TEST(CameraPath, RefusesASceneWithoutOne) { EXPECT_THROW(camera_at(Scene{}, 1), Error); }
+
+}  // namespace
+}  // namespace rt::test
