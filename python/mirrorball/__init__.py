@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""mirrorball from Python: each call runs the program as a process of its own.
+
+A scene is a path, or a dict of the same shape as a JSON scene. Keyword arguments are the program's
+options with `_` for `-`. Mistakes raise Error, or the subclass of the program's exit code.
+"""
+from .errors import (DeviceError, Error, InputError, InternalError, LimitError, MissingPartsError,
+                     NonFiniteError, OutputError, UsageError)
+from .measures import Rows, bench, compare, converge, devices, doctor, options, scene_info
+from .picture import Picture, read_pfm, write_pfm
+from .program import find_program
+from .rendering import render
+from .scenes import scene
+
+__all__ = ["DeviceError", "Error", "InputError", "InternalError", "LimitError",
+           "MissingPartsError", "NonFiniteError", "OutputError", "Picture", "Rows", "UsageError",
+           "bench", "compare", "converge", "devices", "doctor", "find_program", "options",
+           "read_pfm", "render", "scene", "scene_info", "write_pfm"]
+__version__ = "0.1.0"

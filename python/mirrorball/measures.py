@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the program measures, as rows and dicts."""
+from __future__ import annotations
+
+import contextlib
+import re
+import tempfile
+from typing import Any, Iterable
+
+from .picture import as_file
+from .program import option_words, run, run_json
+from .scenes import Scene, scene_path
+
+
+class Rows(list):
+    """Flat dicts, one a row, as pandas.DataFrame takes them; report is all that was printed."""
+
+    def __init__(self, rows: Iterable[dict[str, Any]], report: dict[str, Any]) -> None:
+        super().__init__(rows)
+        self.report = report
+
+
+def _flat(value: dict[str, Any], before: str = "") -> dict[str, Any]:
+    """Nested objects as keys with dots; lists are left out."""
+    found: dict[str, Any] = {}
+    for key, part in value.items():
+        name = f"{before}{key}"
+        if isinstance(part, dict):
+            found.update(_flat(part, name + "."))
+        elif not isinstance(part, list):
+            found[name] = part
+    return found
+
+
+def bench(*scenes: Scene, **options: Any) -> Rows:
+    """`mirrorball bench`: a row for each device, size, mode and schedule.
+
+    options: sizes=[100, 200], devices=["pocl", "threads:2"], aa=["none", "grid:2"], repeats=5 ..
+    Without a scene, the paper's. Rows that are wrong say so in `verdict`. Raises Error.
+    """
+    with contextlib.ExitStack() as stack:
+        paths = [stack.enter_context(scene_path(scene)) for scene in scenes]
+        report = run_json(["bench", *paths, "--json", "-q", *option_words(options)],
+                          accepted=(0, 1))
+    return Rows([_flat(row) for row in report["rows"] + report.get("ablation", [])], report)
+
+
+def converge(scene: Scene, **options: Any) -> Rows:
+    """`mirrorball converge`: error against run time, a row for each device, precision and AA mode.
+
+    `figures.seconds.median` and `figures.rmse` are the two axes; report["pareto_front"] has the
+    indices of the best rows. Raises Error.
+    """
+    with scene_path(scene) as path:
+        report = run_json(["converge", path, "--json", "-q", *option_words(options)])
+    return Rows([_flat(point) for point in report["points"]], report)
+
+
+def compare(picture: Any, reference: Any, **options: Any) -> dict[str, Any]:
+    """`mirrorball compare`: how far a picture is from a reference.
+
+    Both are paths, Pictures or arrays of height x width x 3. A broken threshold (max_abs=0, ..) does
+    not raise: `passed` says so. Raises Error.
+    """
+    with tempfile.TemporaryDirectory(prefix="mirrorball-") as folder:
+        return run_json(["compare", as_file(picture, folder, "picture.pfm"),
+                         as_file(reference, folder, "reference.pfm"), "--json",
+                         *option_words(options)], accepted=(0, 1))
+
+
+def devices(**options: Any) -> list[dict[str, Any]]:
+    """The OpenCL devices of this machine; `usable` says whether one can render. Raises Error."""
+    report = run_json(["devices", "--json", *option_words(options)], accepted=(0, 5))
+    return Rows(report["devices"], report)
+
+
+def doctor() -> dict[str, Any]:
+    """`mirrorball doctor`: what works on this machine; `well` is false where something is broken."""
+    return run_json(["doctor", "--json"], accepted=(0, 5))
+
+
+def scene_info(scene: Scene) -> dict[str, Any]:
+    """`mirrorball scene info`: what a scene holds, and warnings. Raises Error."""
+    with scene_path(scene) as path:
+        return run_json(["scene", "info", path, "--json"])
+
+
+def options(verb: str) -> list[str]:
+    """The options of a verb, as keyword arguments."""
+    found = re.findall(r"--([a-z][a-z-]+)", run([verb, "--help"]))
+    return [name.replace("-", "_") for name in dict.fromkeys(found)]

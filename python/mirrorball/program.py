@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finds the program, spells its options and runs it."""
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+from typing import Any, Callable, Iterable, Optional
+
+from .errors import UsageError, error_of
+
+Progress = Callable[[float], None]
+
+_PREFIX = pathlib.Path(__file__).resolve().parent / "program"  # what a wheel holds
+_PACKAGED = _PREFIX / "bin" / "mirrorball"
+_SECONDS_TO_STOP = 10
+
+
+def find_program() -> str:
+    """The path of the program: $MIRRORBALL, else the package's own, else that in PATH.
+
+    Raises FileNotFoundError where there is none.
+    """
+    named = os.environ.get("MIRRORBALL")
+    if named:
+        found = shutil.which(named)
+        if found is None:
+            raise FileNotFoundError(f"MIRRORBALL names {named}, which is no program")
+        return os.path.abspath(found)
+    if _PACKAGED.exists():
+        return str(_PACKAGED)
+    found = next((path for path in _in_path("mirrorball") if not _is_script(path)), None)
+    if found is None:
+        raise FileNotFoundError("no mirrorball in PATH: install it, or set MIRRORBALL to its path")
+    return found
+
+
+def _in_path(name: str) -> Iterable[str]:
+    for folder in os.get_exec_path():
+        path = shutil.which(name, path=folder)
+        if path is not None:
+            yield path
+
+
+def _is_script(path: str) -> bool:
+    """Whether it is a script, such as the command that pip makes for main() below."""
+    with open(path, "rb") as file:
+        return file.read(2) == b"#!"
+
+
+def _word(value: Any) -> str:
+    if isinstance(value, (list, tuple)):
+        return ",".join(_word(part) for part in value)
+    return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
+
+
+def option_words(options: dict[str, Any]) -> list[str]:
+    """The command line's words for keyword arguments: `max_bounces=4` is `--max-bounces 4`.
+
+    None and False leave an option out, True gives a flag; a list is written with commas.
+    """
+    words = []
+    for name, value in options.items():
+        if value is None or value is False:
+            continue
+        words.append("--" + name.replace("_", "-"))
+        if name == "size" and isinstance(value, (list, tuple)):
+            words.append("x".join(str(part) for part in value))
+        elif value is not True:
+            words.append(_word(value))
+    return words
+
+
+def _stop(process: subprocess.Popen[str]) -> None:
+    """Asks the program to end, as Ctrl-C does; kills it when it does not."""
+    if process.poll() is not None:
+        return
+    process.send_signal(signal.SIGINT)
+    try:
+        process.wait(_SECONDS_TO_STOP)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+
+
+def _listen(stream: Iterable[str], progress: Optional[Progress], said: list[str]) -> None:
+    """Takes the lines of stderr: shares of progress, and everything else."""
+    for line in stream:
+        try:
+            fraction = float(json.loads(line)["fraction"])
+        except (ValueError, TypeError, KeyError):
+            said.append(line)
+            continue
+        if progress is not None:
+            progress(fraction)
+
+
+def run(words: Iterable[Any], progress: Optional[Progress] = None,
+        accepted: Iterable[int] = (0,)) -> str:
+    """What the program prints on stdout.
+
+    Raises Error where it ends with an exit code that is not accepted. An interrupt stops the
+    program before it is raised again.
+    """
+    command = [find_program(), *(_word(word) for word in words)]
+    said: list[str] = []
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, errors="replace") as process:
+        assert process.stdout is not None and process.stderr is not None
+        listener = threading.Thread(target=_listen, args=(process.stderr, progress, said),
+                                    daemon=True)
+        listener.start()
+        try:
+            printed = process.stdout.read()
+            process.wait()
+        except BaseException:
+            _stop(process)
+            raise
+        finally:
+            listener.join(_SECONDS_TO_STOP)
+    if process.returncode not in accepted:
+        raise error_of(process.returncode, "".join(said))
+    return printed
+
+
+def run_json(words: Iterable[Any], progress: Optional[Progress] = None,
+             accepted: Iterable[int] = (0,)) -> dict[str, Any]:
+    """The JSON object that the program prints."""
+    printed = run(words, progress, accepted)
+    try:
+        return json.loads(printed)
+    except ValueError as error:
+        raise UsageError("mirrorball printed no JSON: an option here may send it elsewhere",
+                         0) from error
+
+
+def main() -> None:
+    """The command `mirrorball` of an installed package: the program itself, in this process's place."""
+    program = find_program()
+    os.execv(program, [program, *sys.argv[1:]])

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The Python package over the program that $MIRRORBALL names: python -m pytest python/tests"""
+import json
+import os
+import pathlib
+import signal
+import stat
+import subprocess
+import sys
+import threading
+import time
+
+import numpy
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+sys.dont_write_bytecode = True
+
+import mirrorball  # noqa: E402
+
+PAPER = ROOT / "scenes" / "cornell-box.json"
+SMALL = {"device": "threads:1", "size": 24, "aa": "none"}
+BALL = {"camera": {"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40},
+        "image": {"width": 20, "height": 10},
+        "background": [0.25, 0.5, 0.75],
+        "materials": {"red": {"ambient": [1, 0, 0]}},
+        "ambient_light": 1,
+        "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "red"}]}
+
+
+@pytest.fixture(autouse=True)
+def program(monkeypatch):
+    if "MIRRORBALL" not in os.environ:
+        monkeypatch.setenv("MIRRORBALL", str(ROOT / "build" / "release" / "mirrorball"))
+
+
+def test_a_picture_has_the_pixels_that_the_scene_says():
+    picture = mirrorball.render(BALL, device="threads:1", aa="none")
+    assert picture.array.shape == (10, 20, 3)
+    assert picture.array.dtype == numpy.float32
+    assert picture.array[0, 0].tolist() == [0.25, 0.5, 0.75]
+    assert picture.array[5, 10].tolist() == [1, 0, 0]
+
+
+def test_row_0_is_at_the_top():
+    scene = {**BALL, "camera": {"from": [0, -3, 9], "at": [0, -3, 0], "fov_degrees": 40}}
+    picture = mirrorball.render(scene, device="threads:1", aa="none")
+    red = numpy.argwhere(picture.array[:, :, 0] == 1)
+    assert len(red) > 0 and red[:, 0].max() < 5
+
+
+def test_a_path_gives_the_hash_that_the_command_line_gives():
+    picture = mirrorball.render(PAPER, **SMALL)
+    printed = subprocess.run([mirrorball.find_program(), "render", PAPER, "--device", "threads:1",
+                              "--size", "24", "--aa", "none", "--stats=json", "-q"], check=True,
+                             capture_output=True, text=True).stdout
+    assert picture.hash == json.loads(printed)["image"]["hash"]
+    assert picture.stats["settings"]["width"] == 24
+
+
+def test_saved_pngs_have_the_programs_pixels(tmp_path):
+    picture = mirrorball.render(PAPER, **SMALL)
+    picture.save(tmp_path / "ours.png")
+    subprocess.run([mirrorball.find_program(), "render", PAPER, "--device", "threads:1", "--size",
+                    "24", "--aa", "none", "-q", "-o", tmp_path / "theirs.png"], check=True)
+    assert mirrorball.compare(tmp_path / "ours.png", tmp_path / "theirs.png")["identical"]
+    assert picture._repr_png_() == (tmp_path / "ours.png").read_bytes()
+
+
+def test_saved_pfms_keep_every_bit(tmp_path):
+    picture = mirrorball.render(PAPER, **SMALL)
+    picture.save(tmp_path / "box.pfm")
+    assert numpy.array_equal(mirrorball.read_pfm(tmp_path / "box.pfm"), picture.array)
+    with pytest.raises(ValueError):
+        picture.save(tmp_path / "box.xyz")
+
+
+def test_options_are_spelled_as_the_program_takes_them():
+    picture = mirrorball.render(PAPER, device="threads:1", size=(30, 20), aa="none", max_bounces=0,
+                                crop=(0, 0, 15, 20), precision="double", no_fallback=True)
+    assert picture.array.shape == (20, 15, 3)
+    assert picture.stats["settings"]["precision"] == "double"
+    assert picture.stats["rays"]["mirror"] == 0
+
+
+def test_meshes_of_a_dict_are_named_from_the_working_folder(tmp_path, monkeypatch):
+    (tmp_path / "one.obj").write_text("v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n")
+    monkeypatch.chdir(tmp_path)
+    scene = {**BALL, "spheres": [], "meshes": [{"file": "one.obj", "material": "red"}]}
+    assert mirrorball.scene_info(scene)["mesh_triangles"] == 1
+    picture = mirrorball.render(scene, device="threads:1", aa="none")
+    assert picture.array[5, 10].tolist() == [1, 0, 0]
+    assert scene["meshes"][0]["file"] == "one.obj"
+
+
+@pytest.mark.parametrize("call, error, code, words", [
+    (lambda: mirrorball.render("nowhere.json"), mirrorball.InputError, 3, "nowhere.json"),
+    (lambda: mirrorball.render({"camera": 1}), mirrorball.InputError, 3, "camera"),
+    (lambda: mirrorball.render(PAPER, aa="much"), mirrorball.UsageError, 2, "much"),
+    (lambda: mirrorball.render(PAPER, no_such_option=1), mirrorball.UsageError, 2, "no-such-option"),
+    (lambda: mirrorball.render(PAPER, device="name:nothing"), mirrorball.DeviceError, 5, "nothing"),
+])
+def test_mistakes_are_exceptions_with_the_programs_message(call, error, code, words):
+    with pytest.raises(error) as caught:
+        call()
+    assert caught.value.exit_code == code
+    assert words in str(caught.value)
+
+
+def test_what_render_does_itself_is_no_option():
+    with pytest.raises(TypeError):
+        mirrorball.render(PAPER, output="x.png")
+
+
+def test_a_program_that_is_not_there_is_said(monkeypatch):
+    monkeypatch.setenv("MIRRORBALL", "/nowhere/mirrorball")
+    with pytest.raises(FileNotFoundError, match="/nowhere/mirrorball"):
+        mirrorball.render(PAPER)
+
+
+def test_progress_goes_to_one():
+    shares = []
+    mirrorball.render(PAPER, progress=shares.append, **SMALL)
+    assert shares == sorted(shares)
+    assert shares[-1] == 1
+
+
+def test_an_interrupt_stops_the_program(tmp_path, monkeypatch):
+    pid = tmp_path / "pid"
+    waits = tmp_path / "waits"
+    waits.write_text(f"#!/bin/sh\necho $$ > {pid}\nexec sleep 60\n")
+    waits.chmod(waits.stat().st_mode | stat.S_IXUSR)
+    monkeypatch.setenv("MIRRORBALL", str(waits))
+
+    def interrupt():
+        while not (pid.exists() and pid.read_text().strip()):
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=interrupt, daemon=True).start()
+    with pytest.raises(KeyboardInterrupt):
+        mirrorball.render(PAPER)
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(pid.read_text()), 0)
+
+
+def test_compare_takes_arrays_and_pictures():
+    picture = mirrorball.render(PAPER, **SMALL)
+    assert mirrorball.compare(picture, picture)["identical"]
+    brighter = picture.array.copy()
+    brighter[3, 4, 1] += 0.5
+    answer = mirrorball.compare(brighter, picture, max_abs=0.1)
+    assert answer["error"]["max"] == pytest.approx(0.5, abs=1e-6)
+    assert answer["error"]["max_at"] == [4, 3]
+    assert not answer["passed"]
+
+
+def test_bench_gives_flat_rows():
+    rows = mirrorball.bench(PAPER, sizes=[16, 24], aa="none", devices=["threads:1"], schedules="tiles",
+                            repeats=1)
+    assert {row["width"] for row in rows} == {16, 24}
+    assert all(row["verdict"] == "right" for row in rows)
+    assert all(row["figures.trace.median"] > 0 for row in rows)
+    assert not any(isinstance(value, (dict, list)) for row in rows for value in row.values())
+    assert rows.report["format"] == "mirrorball-bench"
+
+
+def test_converge_gives_flat_rows(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    rows = mirrorball.converge(PAPER, size=16, devices="threads", aa="none,grid:2", precision="float",
+                               reference_samples=16)
+    assert len(rows) == 2
+    assert all(row["figures.rmse"] > 0 for row in rows)
+
+
+def test_devices_and_options_are_lists():
+    assert isinstance(mirrorball.devices(), list)
+    assert "max_bounces" in mirrorball.options("render")
+
+
+def test_files_that_are_no_pfm_are_refused(tmp_path):
+    (tmp_path / "x.pfm").write_bytes(b"P6\n1 1\n255\nabc")
+    with pytest.raises(ValueError):
+        mirrorball.read_pfm(tmp_path / "x.pfm")
+
+
+def test_scenes_come_with_the_program():
+    assert pathlib.Path(mirrorball.scene("cornell-box")).name == "cornell-box.json"
+    with pytest.raises(FileNotFoundError):
+        mirrorball.scene("nothing")

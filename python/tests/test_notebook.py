@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the cells of docs/paper.ipynb, on smaller pictures."""
+import json
+import os
+import pathlib
+import sys
+from unittest import mock
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+SMALLER = {"SIZES = [100, 200, 300, 400, 500]": "SIZES = [16, 24]", "REPEATS = 5": "REPEATS = 1",
+           "THREADS = os.cpu_count()": "THREADS = 2", "reference_samples=256": "reference_samples=16"}
+
+
+def code_cells():
+    notebook = json.loads((ROOT / "docs" / "paper.ipynb").read_text(encoding="utf-8"))
+    return ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+
+
+def pyplot(monkeypatch):
+    """A function that counts the curves drawn by matplotlib, or by what stands in for it where it is
+    not installed."""
+    try:
+        import matplotlib
+    except ImportError:
+        axes = mock.MagicMock()
+        stand_in = mock.MagicMock()
+        stand_in.subplots.return_value = (mock.MagicMock(), axes)
+        monkeypatch.setitem(sys.modules, "matplotlib", mock.MagicMock(pyplot=stand_in))
+        monkeypatch.setitem(sys.modules, "matplotlib.pyplot", stand_in)
+        return lambda: axes.plot.call_count + axes.loglog.call_count
+    matplotlib.use("Agg")
+    from matplotlib import pyplot as real
+    return lambda: sum(len(real.figure(number).axes[0].lines) for number in real.get_fignums())
+
+
+def test_the_papers_evaluation_runs(monkeypatch, tmp_path):
+    drawn = pyplot(monkeypatch)
+    if "MIRRORBALL" not in os.environ:
+        monkeypatch.setenv("MIRRORBALL", str(ROOT / "build" / "release" / "mirrorball"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    source = "\n".join(code_cells())
+    for long, short in SMALLER.items():
+        assert long in source
+        source = source.replace(long, short)
+    variables = {}
+    exec(compile(source, "paper.ipynb", "exec"), variables)
+    assert len(variables["rows"]) > 0
+    assert all(row["verdict"] == "right" for row in variables["rows"])
+    assert len(variables["points"]) == 6
+    assert drawn() >= 5
