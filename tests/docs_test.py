@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the commands of README.md and docs/tutorial.md as they are printed.
+
+usage: docs_test.py BUILD_DIR REPO_ROOT
+
+A block of a page without a language is commands: lines that begin with `mirrorball` or
+`build/release/mirrorball` are run, one after the other, in a folder that has the repository's scenes.
+A json block that follows "Save this as `NAME`" is written to NAME first.
+"""
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+BUILD, REPO = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+NAMES = {"mirrorball", "build/release/mirrorball"}
+
+
+def steps_of(page):
+    """("file", name, text) and ("command", words, line) of a page, in order."""
+    text = page.read_text(encoding="utf-8")
+    for block in re.finditer(r"^```(\w*)\n(.*?)^```$", text, re.M | re.S):
+        language, content = block.groups()
+        if language == "json":
+            named = re.search(r"Save this as `([\w.-]+)`[^`]*$", text[:block.start()])
+            if named:
+                yield "file", named[1], content
+        elif not language:
+            for line in content.splitlines():
+                words = shlex.split(line, comments=True)
+                if words and words[0] in NAMES:
+                    yield "command", words[1:], line
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "out").mkdir()
+        shutil.copytree(REPO / "scenes", self.folder / "scenes")
+
+    def run_page(self, name, environment):
+        """How many commands ran."""
+        commands = 0
+        for kind, what, content in steps_of(REPO / name):
+            if kind == "file":
+                (self.folder / what).write_text(content, encoding="utf-8")
+                continue
+            result = subprocess.run(
+                ["bash", "-c", '"$0" ' + " ".join(glob_safe(word) for word in what),
+                 str(BUILD / "mirrorball")], cwd=self.folder, capture_output=True, text=True,
+                check=False, env={**os.environ, **environment})
+            with self.subTest(command=content):
+                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            commands += 1
+        return commands
+
+    def test_readme(self):
+        self.assertGreaterEqual(self.run_page("README.md", {}), 5)
+
+    def test_tutorial(self):
+        home = {"XDG_CACHE_HOME": str(self.folder / "cache")}
+        self.assertGreaterEqual(self.run_page("docs/tutorial.md", home), 10)
+        for picture in ["ball.png", "balls.png", "torus.png", "heat.png"]:
+            self.assertTrue((self.folder / picture).exists(), picture)
+
+    def test_kernels(self):
+        self.assertGreaterEqual(self.run_page("docs/kernels.md", {}), 3)
+
+
+def glob_safe(word):
+    """The word for a shell that may still expand its stars."""
+    return word if re.fullmatch(r"[\w./:,*=-]+", word) else shlex.quote(word)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
