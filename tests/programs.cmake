@@ -45,9 +45,15 @@ function(add_test_program NAME LABEL)
     target_link_libraries(${NAME} PRIVATE mirrorball_report GTest::gtest_main)
     target_compile_options(${NAME} PRIVATE -O0)
     if(NOT CMAKE_CXX_COMPILER_LAUNCHER)  # ccache and precompiled headers do not go together
-        target_precompile_headers(${NAME} PRIVATE precompiled.h)
+        if(TARGET host_tests AND NOT NAME STREQUAL host_tests)
+            target_precompile_headers(${NAME} REUSE_FROM host_tests)
+        else()
+            target_precompile_headers(${NAME} PRIVATE precompiled.h)
+        endif()
     endif()
     target_compile_definitions(${NAME} PRIVATE
+        MIRRORBALL_PICTURES_DIR="${CMAKE_CURRENT_SOURCE_DIR}/pictures"
+        MIRRORBALL_PROBES_DIR="${CMAKE_CURRENT_BINARY_DIR}/native_probes"
         MIRRORBALL_SCENES_DIR="${CMAKE_SOURCE_DIR}/scenes"
         MIRRORBALL_BAD_SCENES_DIR="${CMAKE_SOURCE_DIR}/tests/scenes_bad"
         $<$<BOOL:${MIRRORBALL_SANITIZE}>:MIRRORBALL_SANITIZED>)
