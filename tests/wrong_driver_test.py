@@ -16,7 +16,7 @@ BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 SCENE = str(ROOT / "scenes" / "cornell-box.json")
 # What a light adds: a little brighter, within every tolerance but that of the bits; or much.
-LIGHT = "return select3(lit, mul3(load3(light->intensity), reflected), none);"
+LIGHT = "real3 added = select3(lit, mul3(load3(light->intensity), reflected), none);"
 
 
 def brighter(factor):
