@@ -58,7 +58,8 @@ class Merger {
     explicit Merger(const JournalHeader& header)
         : region_(header.region),
           film_(region_.width, region_.height),
-          owner_(static_cast<std::size_t>(region_.pixels()), -1) {}
+          owner_(static_cast<std::size_t>(region_.pixels()), -1),
+          blocks_(share_blocks(region_)) {}
 
     void add(const std::string& path, JournalReader& reader, std::uint64_t bytes,
              std::vector<std::string>& notes) {
@@ -77,10 +78,11 @@ class Merger {
         }
         Film<T> film = known.take_refined_film();
         if (header.film != region_) film = part_of(film, header.film, region_);
-        const std::vector<std::uint8_t> own = share_needs(*shares, region_, region_, false);
-        for (std::size_t i = 0; i < owner_.size(); ++i) {
-            if (own[i] == 0 || known.is_rendered[index_in_film(header.film, i)] == 0) continue;
-            take_pixel(i, film);
+        const std::vector<int> share_of = block_shares(blocks_.size(), shares->of);
+        for (std::size_t b = 0; b < blocks_.size(); ++b) {
+            const auto& numbers = shares->numbers;
+            if (!std::binary_search(numbers.begin(), numbers.end(), share_of[b])) continue;
+            take_block(blocks_[b], header.film, known.is_rendered, film);
         }
     }
 
@@ -127,6 +129,19 @@ class Merger {
                static_cast<std::size_t>(region_.x - film.x) + i % width;
     }
 
+    /// The rendered pixels of a block; `rendered` is of the part's film, `film` is cut to the
+    /// region.
+    void take_block(const Rect& block, const Rect& part_film,
+                    const std::vector<std::uint8_t>& rendered, const Film<T>& film) {
+        for (int y = block.y - region_.y; y < block.y - region_.y + block.height; ++y) {
+            const std::size_t first = static_cast<std::size_t>(y) * region_.width +
+                                      static_cast<std::size_t>(block.x - region_.x);
+            for (std::size_t i = first; i < first + static_cast<std::size_t>(block.width); ++i) {
+                if (rendered[index_in_film(part_film, i)] != 0) take_pixel(i, film);
+            }
+        }
+    }
+
     void take_pixel(std::size_t i, const Film<T>& film) {
         const auto part = static_cast<int>(parts_.size()) - 1;
         constexpr std::size_t bytes = 3 * sizeof(T);
@@ -152,10 +167,9 @@ class Merger {
     /// The shares, of so many, that have missing pixels.
     Shares missing(int of) const {
         Shares shares{{}, of};
-        const std::vector<Rect> blocks = share_blocks(region_);
-        const std::vector<int> share_of = block_shares(blocks.size(), of);
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-            const Rect& block = blocks[b];
+        const std::vector<int> share_of = block_shares(blocks_.size(), of);
+        for (std::size_t b = 0; b < blocks_.size(); ++b) {
+            const Rect& block = blocks_[b];
             for (int y = block.y - region_.y; y < block.y - region_.y + block.height; ++y) {
                 const auto row =
                     owner_.begin() + std::ptrdiff_t{y} * region_.width + (block.x - region_.x);
@@ -172,7 +186,8 @@ class Merger {
 
     const Rect region_;
     Film<T> film_;
-    std::vector<int> owner_;  ///< of each pixel the part that it is from; -1: none
+    std::vector<int> owner_;          ///< of each pixel the part that it is from; -1: none
+    const std::vector<Rect> blocks_;  ///< that shares are made of
     std::vector<Part> parts_;
     std::map<std::pair<int, int>, Difference> differences_;
 };
