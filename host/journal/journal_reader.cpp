@@ -141,12 +141,16 @@ Film<T> KnownPixels<T>::take_refined_film() {
 }
 
 template <typename T>
-KnownPixels<T> read_known_pixels(JournalReader& reader) {
+KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used) {
     const Rect film = reader.header().film;
-    check_memory(static_cast<std::uint64_t>(film.pixels()) * (3 * sizeof(T) + 1),
-                 "the film of a journal", "render it in parts with --crop");
     KnownPixels<T> known;
-    known.film = Film<T>(film.width, film.height);
+    if (used.width == film.width && used.height == film.height) {
+        known.film = std::move(used);
+    } else {
+        check_memory(static_cast<std::uint64_t>(film.pixels()) * (3 * sizeof(T) + 1),
+                     "the film of a journal", "render it in parts with --crop");
+        known.film = Film<T>(film.width, film.height);
+    }
     known.is_rendered.resize(static_cast<std::size_t>(film.pixels()));
     const auto width = static_cast<std::size_t>(film.width);
     while (const auto record = reader.next()) {
@@ -183,7 +187,7 @@ KnownPixels<T> read_known_pixels(JournalReader& reader) {
 
 template struct KnownPixels<float>;
 template struct KnownPixels<double>;
-template KnownPixels<float> read_known_pixels(JournalReader&);
-template KnownPixels<double> read_known_pixels(JournalReader&);
+template KnownPixels<float> read_known_pixels(JournalReader&, Film<float>);
+template KnownPixels<double> read_known_pixels(JournalReader&, Film<double>);
 
 }  // namespace rt

@@ -75,8 +75,10 @@ struct KnownPixels {
     Film<T> take_refined_film();
 };
 
-/// Reads the rest. Throws Error (ExitCode::limit) when memory is short.
+/// Reads the rest. A film that is no longer needed may be given for its memory; where it has the
+/// right size, pixels that are not rendered keep what it had. Throws Error (ExitCode::limit) when
+/// memory is short.
 template <typename T>
-KnownPixels<T> read_known_pixels(JournalReader& reader);
+KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used = {0, 0});
 
 }  // namespace rt

@@ -66,7 +66,7 @@ class Merger {
         const JournalHeader& header = reader.header();
         const auto shares = parse_shares(header.shares);
         if (!shares) refuse(path, "its header is damaged (shares); render it again");
-        KnownPixels<T> known = read_known_pixels<T>(reader);
+        KnownPixels<T> known = read_known_pixels<T>(reader, std::move(used_film_));
         if (reader.good_bytes() < bytes) {
             notes.push_back(fmt::format("{}: its last {} bytes are damaged and left out", path,
                                         bytes - reader.good_bytes()));
@@ -84,6 +84,7 @@ class Merger {
             if (!std::binary_search(numbers.begin(), numbers.end(), share_of[b])) continue;
             take_block(blocks_[b], header.film, known.is_rendered, film);
         }
+        used_film_ = std::move(film);
     }
 
     /// Throws Error where parts differ.
@@ -186,7 +187,8 @@ class Merger {
 
     const Rect region_;
     Film<T> film_;
-    std::vector<int> owner_;          ///< of each pixel the part that it is from; -1: none
+    Film<T> used_film_{0, 0};  ///< of the part before: 100 MB for a picture of 4K are not for free
+    std::vector<int> owner_;   ///< of each pixel the part that it is from; -1: none
     const std::vector<Rect> blocks_;  ///< that shares are made of
     std::vector<Part> parts_;
     std::map<std::pair<int, int>, Difference> differences_;
