@@ -2,7 +2,6 @@
 # tests/native_probes.cl compiled ahead of time: a shared object for each precision and width of a
 # packet in NATIVE_PROBES. With the flags of pthreads' kernels, but less optimized: each probe holds
 # all it calls, and would take long.
-set(NATIVE_PROBES ${CMAKE_CURRENT_BINARY_DIR}/native_probes)
 file(MAKE_DIRECTORY ${NATIVE_PROBES})
 set(native_probe_flags ${NATIVE_KERNEL_FLAGS} -O1
     -DRT_RENDERS_PIXELS=0 -DRT_RENDERS_SAMPLES=0 -DRT_RENDERS_LIST=0 -DRT_TRACES_RAYS=0)

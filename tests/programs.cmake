@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # GoogleTest programs of many files, and a ctest test for each file.
 
+set(NATIVE_PROBES ${CMAKE_CURRENT_BINARY_DIR}/native_probes)
+
 # suite_filter(FILE FILTER): a --gtest_filter of the suites whose tests stand in the file, whether
 # plain, typed or with parameters. A test begins a line there.
 function(suite_filter FILE FILTER)
@@ -53,7 +55,7 @@ function(add_test_program NAME LABEL)
     endif()
     target_compile_definitions(${NAME} PRIVATE
         MIRRORBALL_PICTURES_DIR="${CMAKE_CURRENT_SOURCE_DIR}/pictures"
-        MIRRORBALL_PROBES_DIR="${CMAKE_CURRENT_BINARY_DIR}/native_probes"
+        MIRRORBALL_PROBES_DIR="${NATIVE_PROBES}"
         MIRRORBALL_SCENES_DIR="${CMAKE_SOURCE_DIR}/scenes"
         MIRRORBALL_BAD_SCENES_DIR="${CMAKE_SOURCE_DIR}/tests/scenes_bad"
         $<$<BOOL:${MIRRORBALL_SANITIZE}>:MIRRORBALL_SANITIZED>)

@@ -18,8 +18,14 @@ class TriangleList {
    public:
     using Corners = std::array<glm::dvec3, 3>;
 
+    struct Place {
+        const Scene::Mesh* mesh;  ///< null: one of Scene::triangles
+        std::size_t index;        ///< in Scene::triangles or the mesh's faces
+    };
+
     explicit TriangleList(const Scene& scene);
 
+    Place place(std::size_t index) const;
     std::uint64_t size() const { return starts_.back(); }
     Corners corners(std::size_t index) const;
     int material(std::size_t index) const;
@@ -27,13 +33,6 @@ class TriangleList {
     std::optional<Corners> normals(std::size_t index) const;
 
    private:
-    struct Place {
-        const Scene::Mesh* mesh;  ///< null: one of Scene::triangles
-        std::size_t index;        ///< in Scene::triangles or the mesh's faces
-    };
-
-    Place place(std::size_t index) const;
-
     const Scene& scene_;
     /// The number of each mesh's first face, and the number of all triangles.
     std::vector<std::uint64_t> starts_;

@@ -132,15 +132,10 @@ class TreeBuilder {
             return material(scene_.cones[number].material);
         }
         number -= scene_.cones.size();
-        std::size_t face = number;
-        ray.object = fmt::format("triangle {}", face + 1);
-        if (number >= scene_.triangles.size()) {
-            face -= scene_.triangles.size();
-            std::size_t mesh = 0;
-            while (face >= scene_.meshes[mesh].faces.size())
-                face -= scene_.meshes[mesh++].faces.size();
-            ray.object = fmt::format("mesh {}, face {}", mesh + 1, face + 1);
-        }
+        const auto [mesh, index] = triangles_.place(number);
+        ray.object = mesh == nullptr ? fmt::format("triangle {}", index + 1)
+                                     : fmt::format("mesh {}, face {}",
+                                                   mesh - scene_.meshes.data() + 1, index + 1);
         return material(triangles_.material(number));
     }
 

@@ -8,7 +8,6 @@ namespace rt {
 namespace {
 
 constexpr int most_samples = 64;  // beyond, nobody reads the trees
-constexpr int most_explained_bounces = 1000;
 
 AaMode parse_explained_aa(const std::string& text) {
     const auto mode = parse_aa_mode(text);
@@ -22,6 +21,7 @@ AaMode parse_explained_aa(const std::string& text) {
 
 void add_explain(const CommandLine& program, Options& options) {
     ExplainOptions& explain = options.explain;
+    explain.settings.aa = grid_aa(1);
     const CommandLine verb =
         program.verb("explain", "say how a pixel got its color: the tree of its rays");
     verb.argument("SCENE", explain.scene, "scene file (.json, .nff, .obj, .ply)");
@@ -36,15 +36,17 @@ void add_explain(const CommandLine& program, Options& options) {
             explain.y = numbers->back();
         },
         true);
-    verb.option("--size", "WxH|N", "pixels of the picture (default: the scene's)",
-                [&](const std::string& text) { explain.size = parse_size("--size", text); });
-    verb.option("--aa", "MODE", "none (default), grid:N or sobol:S: a tree for each sample",
-                [&](const std::string& text) { explain.aa = parse_explained_aa(text); });
     verb.option(
-        "--max-bounces", "N", "mirror and refracted rays after the eye ray (default: the scene's)",
-        [&](const std::string& text) {
-            explain.max_bounces = parse_count("--max-bounces", text, 0, most_explained_bounces);
-        });
+        "--size", "WxH|N", "pixels of the picture (default: the scene's)",
+        [&](const std::string& text) { explain.settings.size = parse_size("--size", text); });
+    verb.option("--aa", "MODE", "none (default), grid:N or sobol:S: a tree for each sample",
+                [&](const std::string& text) { explain.settings.aa = parse_explained_aa(text); });
+    verb.option("--max-bounces", "N",
+                "mirror and refracted rays after the eye ray (default: the scene's)",
+                [&](const std::string& text) {
+                    explain.settings.max_bounces =
+                        parse_count("--max-bounces", text, 0, ExplainOptions::most_bounces);
+                });
     add_light_options(verb, explain.light);
     verb.flag("--json", explain.json, "as JSON on stdout");
     verb.when_chosen([&options] { options.verb = Verb::explain; });

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "host/picture/render_settings.h"
@@ -11,12 +10,12 @@ namespace rt {
 
 /// `mirrorball explain`
 struct ExplainOptions {
+    static constexpr int most_bounces = 256;  ///< deeper JSON is too much for most readers
+
     std::string scene;
     LightOverrides light;
-    int x = 0, y = 0;                 ///< the pixel, from the top left
-    std::optional<PictureSize> size;  ///< default: the scene's
-    AaMode aa = grid_aa(1);
-    std::optional<int> max_bounces;
+    int x = 0, y = 0;         ///< the pixel, from the top left
+    RenderSettings settings;  ///< size, AA and bounces alone
     bool json = false;
 };
 

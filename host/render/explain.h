@@ -9,7 +9,7 @@
 
 namespace rt {
 
-/// A pixel, and all that its paths told of themselves, in the order in which it happened
+/// A pixel, and all events of its paths, in the order in which they happened
 /// (kernels/native/explain.cl).
 struct ExplainedPixel {
     glm::dvec3 color{0};

@@ -21,34 +21,18 @@ constexpr std::string_view camera_keys[] = {"type",     "from",   "at",     "up"
 
 std::optional<Scene::Projection> read_projection(const JsonValue& value, std::string_view name,
                                                  Mistakes& mistakes) {
-    const std::string* text = read_string(value, name, mistakes);
-    if (!text) return std::nullopt;
-    if (*text == "perspective") return Scene::Projection::perspective;
-    if (*text == "orthographic") return Scene::Projection::orthographic;
-    mistakes.add(value.offset, fmt::format("unknown camera type {}; write \"perspective\" or "
-                                           "\"orthographic\"",
-                                           in_quotes(*text)));
-    return std::nullopt;
+    using Projection = Scene::Projection;
+    const auto is_perspective =
+        read_choice(value, name, "camera type", "perspective", "orthographic", mistakes);
+    if (!is_perspective) return std::nullopt;
+    return *is_perspective ? Projection::perspective : Projection::orthographic;
 }
 
 std::optional<Fixed> read_fov_axis(const JsonValue& value, std::string_view name,
                                    Mistakes& mistakes) {
-    const std::string* text = read_string(value, name, mistakes);
-    if (!text) return std::nullopt;
-    if (*text == "x") return Fixed::horizontal;
-    if (*text == "y") return Fixed::vertical;
-    mistakes.add(value.offset,
-                 fmt::format("unknown fov_axis {}; write \"x\" or \"y\"", in_quotes(*text)));
-    return std::nullopt;
-}
-
-std::optional<double> read_angle(const JsonValue& value, std::string_view name,
-                                 Mistakes& mistakes) {
-    const auto degrees = read_positive(value, name, mistakes);
-    if (!degrees || *degrees < 180) return degrees;
-    mistakes.add(value.offset,
-                 fmt::format("{} is {}; write an angle between 0 and 180", name, *degrees));
-    return std::nullopt;
+    const auto is_x = read_choice(value, name, name, "x", "y", mistakes);
+    if (!is_x) return std::nullopt;
+    return *is_x ? Fixed::horizontal : Fixed::vertical;
 }
 
 std::optional<Scene::Window> read_window(const JsonValue& value, std::string_view name,

@@ -21,23 +21,7 @@ constexpr std::string_view key_keys[] = {"frame",       "from",   "at",   "up",
 
 std::optional<bool> read_is_smooth(const JsonValue& value, std::string_view name,
                                    Mistakes& mistakes) {
-    const std::string* text = read_string(value, name, mistakes);
-    if (!text) return std::nullopt;
-    if (*text == "catmull-rom") return true;
-    if (*text == "linear") return false;
-    mistakes.add(value.offset, fmt::format("unknown interpolation {}; write \"catmull-rom\" or "
-                                           "\"linear\"",
-                                           in_quotes(*text)));
-    return std::nullopt;
-}
-
-std::optional<double> read_degrees(const JsonValue& value, std::string_view name,
-                                   Mistakes& mistakes) {
-    const auto degrees = read_positive(value, name, mistakes);
-    if (!degrees || *degrees < 180) return degrees;
-    mistakes.add(value.offset,
-                 fmt::format("{} is {}; write an angle between 0 and 180", name, *degrees));
-    return std::nullopt;
+    return read_choice(value, name, name, "catmull-rom", "linear", mistakes);
 }
 
 /// The key by which this kind of camera says what it sees; "" where a window does.
@@ -66,7 +50,7 @@ void read_extent(const ObjectReader& reader, Scene::Camera& camera, Mistakes& mi
                                  own.empty() ? "a window" : in_quotes(std::string(own))));
     }
     if (own == "fov_degrees") {
-        reader.optional(own, camera.field_of_view.amount, read_degrees);
+        reader.optional(own, camera.field_of_view.amount, read_angle);
     } else if (!own.empty()) {
         reader.optional(own, camera.field_of_view.amount, read_positive);
     }

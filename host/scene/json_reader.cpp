@@ -95,6 +95,26 @@ const std::string* read_string(const JsonValue& value, std::string_view name, Mi
     return text;
 }
 
+std::optional<double> read_angle(const JsonValue& value, std::string_view name,
+                                 Mistakes& mistakes) {
+    const auto degrees = read_positive(value, name, mistakes);
+    if (!degrees || *degrees < 180) return degrees;
+    mistakes.add(value.offset,
+                 fmt::format("{} is {}; write an angle between 0 and 180", name, *degrees));
+    return std::nullopt;
+}
+
+std::optional<bool> read_choice(const JsonValue& value, std::string_view name,
+                                std::string_view what, std::string_view first,
+                                std::string_view second, Mistakes& mistakes) {
+    const std::string* text = read_string(value, name, mistakes);
+    if (!text) return std::nullopt;
+    if (*text == first || *text == second) return *text == first;
+    mistakes.add(value.offset, fmt::format("unknown {} {}; write \"{}\" or \"{}\"", what,
+                                           in_quotes(*text), first, second));
+    return std::nullopt;
+}
+
 std::optional<glm::dvec3> read_vec3(const JsonValue& value, std::string_view name,
                                     Mistakes& mistakes) {
     const auto* items = read_triple(value, name, "three numbers, [x, y, z]", mistakes);

@@ -25,6 +25,12 @@ std::optional<int> read_integer(const JsonValue& value, std::string_view name, i
                                 Mistakes& mistakes);
 std::optional<bool> read_bool(const JsonValue& value, std::string_view name, Mistakes& mistakes);
 const std::string* read_string(const JsonValue& value, std::string_view name, Mistakes& mistakes);
+/// Above 0 and below 180 degrees.
+std::optional<double> read_angle(const JsonValue& value, std::string_view name, Mistakes& mistakes);
+/// Whether the text is the first of two words. `what` it is stands in messages: "camera type".
+std::optional<bool> read_choice(const JsonValue& value, std::string_view name,
+                                std::string_view what, std::string_view first,
+                                std::string_view second, Mistakes& mistakes);
 std::optional<glm::dvec3> read_vec3(const JsonValue& value, std::string_view name,
                                     Mistakes& mistakes);
 /// [r, g, b] or one number for a gray, not negative.

@@ -20,9 +20,13 @@ namespace {
 
 Scene scene_to_explain(const ExplainOptions& options) {
     Scene scene = load_scene(options.scene, options.light);
-    if (options.size) set_image_size(scene, options.size->width, options.size->height);
-    if (options.max_bounces) scene.max_bounces = *options.max_bounces;
-    scene.aa = options.aa;
+    apply_overrides(scene, options.settings);
+    if (scene.max_bounces > ExplainOptions::most_bounces) {
+        throw Error(
+            ExitCode::limit,
+            fmt::format("{}: up to {} bounces; give --max-bounces {} or less",
+                        printable(options.scene), scene.max_bounces, ExplainOptions::most_bounces));
+    }
     if (options.x >= scene.width || options.y >= scene.height) {
         throw Error(ExitCode::usage,
                     fmt::format("--pixel {},{}: the picture has {}x{} pixels, counted from 0",

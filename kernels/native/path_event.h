@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a path tells of itself where kernels are compiled to explain a pixel (explain.cl); one
+// What happens to a path, where kernels are compiled to explain a pixel (explain.cl); one
 // struct for the kernels and the host. Includes nothing.
 #ifndef RT_PATH_EVENT_H
 #define RT_PATH_EVENT_H

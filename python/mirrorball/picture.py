@@ -11,7 +11,6 @@ from typing import Any, Union
 import numpy
 
 
-
 def read_pfm(path: Union[str, "os.PathLike[str]"]) -> numpy.ndarray:
     """The pixels of a PFM file: height x width x 3 (or x 1), float32, row 0 at the top.
 

@@ -16,8 +16,7 @@ from .errors import UsageError, error_of
 
 Progress = Callable[[float], None]
 
-_PREFIX = pathlib.Path(__file__).resolve().parent / "program"  # what a wheel holds
-_PACKAGED = _PREFIX / "bin" / "mirrorball"
+_PACKAGED = pathlib.Path(__file__).resolve().parent / "program" / "bin" / "mirrorball"  # in a wheel
 _SECONDS_TO_STOP = 10
 
 

@@ -6,19 +6,15 @@ import pathlib
 import signal
 import stat
 import subprocess
-import sys
 import threading
 import time
 
 import numpy
 import pytest
 
+import mirrorball
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "python"))
-sys.dont_write_bytecode = True
-
-import mirrorball  # noqa: E402
-
 PAPER = ROOT / "scenes" / "cornell-box.json"
 SMALL = {"device": "threads:1", "size": 24, "aa": "none"}
 BALL = {"camera": {"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40},
@@ -27,12 +23,6 @@ BALL = {"camera": {"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40},
         "materials": {"red": {"ambient": [1, 0, 0]}},
         "ambient_light": 1,
         "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "red"}]}
-
-
-@pytest.fixture(autouse=True)
-def program(monkeypatch):
-    if "MIRRORBALL" not in os.environ:
-        monkeypatch.setenv("MIRRORBALL", str(ROOT / "build" / "release" / "mirrorball"))
 
 
 def test_a_picture_has_the_pixels_that_the_scene_says():

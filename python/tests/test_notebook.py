@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the cells of docs/paper.ipynb, on smaller pictures."""
 import json
-import os
 import pathlib
 import sys
 from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "python"))
 SMALLER = {"SIZES = [100, 200, 300, 400, 500]": "SIZES = [16, 24]", "REPEATS = 5": "REPEATS = 1",
            "THREADS = os.cpu_count()": "THREADS = 2", "reference_samples=256": "reference_samples=16"}
 
@@ -36,8 +34,6 @@ def pyplot(monkeypatch):
 
 def test_the_papers_evaluation_runs(monkeypatch, tmp_path):
     drawn = pyplot(monkeypatch)
-    if "MIRRORBALL" not in os.environ:
-        monkeypatch.setenv("MIRRORBALL", str(ROOT / "build" / "release" / "mirrorball"))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     source = "\n".join(code_cells())
     for long, short in SMALLER.items():

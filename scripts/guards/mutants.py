@@ -162,8 +162,8 @@ MUTANTS = [
          "return m;"),
     ], [("host_transform_test", "*")]),
     Mutant("fov_axis x and y exchanged", [
-        (S + "json_camera.cpp", 'if (*text == "x") return Fixed::horizontal;',
-         'if (*text == "x") return Fixed::vertical;'),
+        (S + "json_camera.cpp", "*is_x ? Fixed::horizontal : Fixed::vertical",
+         "*is_x ? Fixed::vertical : Fixed::horizontal"),
     ], [("host_scene_test", "*")]),
     Mutant("the last column of tiles left out", [
         ("host/render/tile_queue.cpp", "x < region.width; x += tile_width",

@@ -92,8 +92,7 @@ def tachyon(scene, folder, width, height):
     for name, material in scene["materials"].items():
         color = rgb(material.get("diffuse", 0))
         strength = max(*color, 1e-6)
-        of_ambient = max(rgb(material.get("ambient", 0))) / strength
-        lines.append(f"TEXDEF {name} AMBIENT {ambient * min(1, of_ambient * strength):.9g} "
+        lines.append(f"TEXDEF {name} AMBIENT {ambient * min(1, max(rgb(material.get('ambient', 0)))):.9g} "
                      f"DIFFUSE {strength:.9g} SPECULAR {max(rgb(material.get('mirror', 0))):.9g} "
                      f"OPACITY 1.0 PHONG PLASTIC {max(rgb(material.get('specular', 0))):.9g} "
                      f"PHONG_SIZE {material.get('shininess', 1):.9g} "

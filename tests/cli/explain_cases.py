@@ -9,9 +9,11 @@ BOX = ["--size", "40", "--pixel", "26,31"]  # on the mirror ball
 
 
 def rays_of(ray):
-    yield ray
-    for child in ray["children"]:
-        yield from rays_of(child)
+    waiting = [ray]
+    while waiting:
+        ray = waiting.pop()
+        yield ray
+        waiting += ray["children"]
 
 
 class Explain(CliTest):
@@ -55,6 +57,21 @@ class Explain(CliTest):
     def test_ends_where_it_is_told_to(self):
         answer = json.loads(self.explain(scene_path("cornell-box"), *BOX, "--json", "--max-bounces", "1"))
         self.assertEqual(max(ray["bounce"] for ray in rays_of(answer["samples"][0]["ray"])), 1)
+
+    def test_refuses_trees_without_an_end(self):
+        wall = [[-99, -99, -2], [99, -99, -2], [0, 99, -2]]
+        self.write_text("hall.json", json.dumps({
+            "camera": {"from": [0, 0, 0], "at": [0, 0, -1], "fov_degrees": 20},
+            "image": {"width": 3, "height": 3}, "max_bounces": 100000,
+            "materials": {"mirror": {"mirror": 1, "two_sided": True}},
+            "triangles": [{"vertices": [[x, y, z * side] for x, y, z in wall], "material": "mirror"}
+                          for side in (1, -1)]}))
+        result = self.run_cli("explain", "hall.json", "--pixel", "1,1")
+        self.assertEqual(result.returncode, 7)
+        self.assertIn("--max-bounces 256", result.stderr)
+        answer = json.loads(self.explain("hall.json", "--pixel", "1,1", "--max-bounces", "256",
+                                         "--json"))
+        self.assertEqual(len(list(rays_of(answer["samples"][0]["ray"]))), 257)
 
     def test_refuses_what_it_cannot_explain(self):
         box = scene_path("cornell-box")
