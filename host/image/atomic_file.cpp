@@ -26,7 +26,9 @@ void keep_owner_and_mode(int file, const struct stat& existing) {
 }
 
 FileDescriptor open_in_place(const std::string& path) {
-    FileDescriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+    FileDescriptor file(path == stdout_path
+                            ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+                            : ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
     if (file.number() < 0) fail_to_write(path, errno);
     return file;
 }

@@ -17,7 +17,7 @@ namespace rt {
 ///
 /// A symlink is written through, never replaced. An existing file keeps its permissions and must
 /// be writable; a new one gets 0666 less the umask. A hard link to the old file keeps the old
-/// bytes. What cannot be renamed over (/dev/null, a pipe, /dev/stdout) is written in place.
+/// bytes. What cannot be renamed over (/dev/null, a pipe, standard output) is written in place.
 ///
 /// Throws Error(ExitCode::output) "path: cannot write: reason; what to do". The reasons EFBIG and
 /// EPIPE only arrive as such when the program ignores SIGXFSZ and SIGPIPE.

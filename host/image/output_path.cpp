@@ -69,7 +69,8 @@ fs::path directory_of(const fs::path& file) {
 }
 
 OutputDestination find_output_destination(const std::string& path) {
-    OutputDestination destination{path, false, std::nullopt};
+    OutputDestination destination{path, path == stdout_path, std::nullopt};
+    if (destination.in_place) return destination;
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0) {
         if (S_ISDIR(status.st_mode)) fail_to_write(path, EISDIR);
@@ -112,7 +113,8 @@ std::string partial_path(const std::string& path) {
 
 void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs) {
     struct stat target {};
-    if (output == "-" || ::stat(output.c_str(), &target) != 0 || !S_ISREG(target.st_mode)) return;
+    if (output == stdout_path || ::stat(output.c_str(), &target) != 0 || !S_ISREG(target.st_mode))
+        return;
     for (const std::string& input : inputs) {
         struct stat source {};
         if (::stat(input.c_str(), &source) != 0) continue;

@@ -10,6 +10,9 @@
 
 namespace rt {
 
+/// The name of standard output among paths.
+constexpr const char* stdout_path = "-";
+
 /// Where the bytes written to a path really go.
 struct OutputDestination {
     std::filesystem::path file;  // behind all symlinks

@@ -90,9 +90,9 @@ std::vector<std::byte> encode(const std::string& path, PictureFormat format,
     return bytes;
 }
 
-std::vector<std::byte> encode_with_module(const std::string& path, const Picture& picture,
-                                          Encoding encoding, Metadata metadata) {
-    const PictureFormat format = picture_format_of_name(path);
+std::vector<std::byte> encode_with_module(const std::string& path, PictureFormat format,
+                                          const Picture& picture, Encoding encoding,
+                                          Metadata metadata) {
     module::EncodeRequest request{};
     request.format = module_name(format);
     request.width = picture.width;
@@ -111,27 +111,28 @@ std::vector<std::byte> encode_with_module(const std::string& path, const Picture
     return encode(path, format, request, metadata);
 }
 
-void write_checked(const std::string& path, const Picture& picture, Encoding encoding,
-                   Metadata metadata) {
-    switch (picture_format_of_name(path)) {
+void write_checked(const std::string& path, PictureFormat format, const Picture& picture,
+                   Encoding encoding, Metadata metadata) {
+    switch (format) {
         case PictureFormat::png:
             return write_file_atomically(path, encode_png_file(path, picture, encoding, metadata));
         case PictureFormat::pfm:
             return write_pfm(path, picture);
         default:
-            return write_file_atomically(path,
-                                         encode_with_module(path, picture, encoding, metadata));
+            return write_file_atomically(
+                path, encode_with_module(path, format, picture, encoding, metadata));
     }
 }
 
 }  // namespace
 
 void write_picture(const std::string& path, const Picture& picture, Encoding encoding,
-                   Metadata metadata) {
-    check_picture_path(path);
+                   Metadata metadata, std::optional<PictureFormat> format) {
+    check_picture_path(path, format);
     check_picture(path, picture);
     check_metadata(path, metadata);
-    write_checked(path, picture, encoding, metadata);
+    write_checked(path, format ? *format : picture_format_of_name(path), picture, encoding,
+                  metadata);
 }
 
 std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding) {
@@ -140,10 +141,10 @@ std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding) {
     return encode_png_file(what, picture, encoding, {});
 }
 
-void check_picture_path(const std::string& path) {
-    const PictureFormat format = picture_format_of_name(path);
+void check_picture_path(const std::string& path, std::optional<PictureFormat> format) {
+    if (!format) format = picture_format_of_name(path);
     check_output_path(path);
-    if (needs_module(format)) picture_module(format, ExitCode::output);
+    if (needs_module(*format)) picture_module(*format, ExitCode::output);
 }
 
 }  // namespace rt

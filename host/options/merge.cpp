@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/options/parse.h"
+#include "host/options/picture_output.h"
 #include "host/options/verb_options.h"
 
 namespace rt {
@@ -9,19 +10,19 @@ void add_merge(const CommandLine& program, Options& options) {
     const CommandLine verb =
         program.verb("merge", "put the parts of a picture together that render --shard wrote");
     verb.arguments("PART", merge.parts, "parts (.mbj) of one picture, in any order", true);
-    verb.option("-o,--output", "FILE",
-                "picture file: .png, .exr, .pfm, .tif, .jpg .. (default: only check the parts)",
-                [&](const std::string& text) {
-                    if (text.empty()) refuse("-o", text, "name a picture file");
-                    merge.output = text;
-                });
+    add_picture_output(verb, merge.output, merge.format,
+                       "picture file: .png, .exr, .pfm, .tif, .jpg .. (default: only check the "
+                       "parts), or - for standard output");
     verb.option("--encoding", "display|srgb|linear",
                 "how 8-bit files store linear light (default display: value x 255)",
                 [&](const std::string& text) { merge.encoding = parse_encoding(text); });
     verb.flag("--allow-missing", merge.allow_missing,
               "write the picture although parts are missing, black there");
     verb.flag("-q,--quiet", merge.quiet, "errors only");
-    verb.when_chosen([&options] { options.verb = Verb::merge; });
+    verb.when_chosen([&options] {
+        settle_picture_output(options.merge.output, options.merge.format);
+        options.verb = Verb::merge;
+    });
 }
 
 }  // namespace rt

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host/image/encoding.h"
+#include "host/image/picture_format.h"
 
 namespace rt {
 
 /// `mirrorball merge`
 struct MergeOptions {
     std::vector<std::string> parts;
-    std::string output;  ///< empty: only look whether they fit
+    std::string output;  ///< empty: only look whether they fit; "-": standard output
+    std::optional<PictureFormat> format;  ///< of standard output
     Encoding encoding = Encoding::display;
     bool allow_missing = false;
     bool quiet = false;

@@ -5,12 +5,16 @@
 #include <algorithm>
 
 #include "host/error.h"
+#include "host/image/output_path.h"
 #include "host/opencl/device_spec.h"
 #include "host/options/frame_number.h"
 #include "host/options/lists.h"
 #include "host/options/parse.h"
+#include "host/options/picture_output.h"
 #include "host/options/verb_options.h"
 #include "host/render/native_kernels.h"
+#include "host/scene/scene_file.h"
+#include "host/view/tev_viewer.h"
 
 namespace rt {
 
@@ -130,6 +134,8 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
     verb.option(
         "--timeout", "S", "give up after S seconds, and save what is finished",
         [&](const std::string& text) { render.timeout = parse_seconds("--timeout", text, 0.001); });
+    verb.flag("--watch", render.watch,
+              "render again whenever the scene's file or one of its models changes, until Ctrl-C");
     verb.flag("--fresh", render.fresh,
               "ignore what an interrupted render left in FILE.mbj beside the output");
     verb.flag("--resume", render.resume,
@@ -194,6 +200,40 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
         [&](const std::string& text) { render.check = parse_percent("--check", text, 100); });
 }
 
+/// Where the picture is shown while it is rendered.
+void add_view_options(const CommandLine& verb, ViewSettings& view) {
+    using Mode = std::pair<const char*, PreviewMode>;
+    static constexpr Mode modes[] = {{"auto", PreviewMode::automatic},
+                                     {"half", PreviewMode::half},
+                                     {"kitty", PreviewMode::kitty},
+                                     {"sixel", PreviewMode::sixel}};
+    const auto find = [](const std::string& text) {
+        return std::ranges::find(modes, text, [](const Mode& mode) { return mode.first; });
+    };
+    verb.optional_value(
+        "--preview", "auto|half|kitty|sixel",
+        "show the picture in the terminal as it is rendered, by half blocks or one of the "
+        "terminals' picture protocols (auto, default: the best that the terminal has)",
+        "auto", [find](const std::string& text) { return find(text) != std::end(modes); },
+        [find, &view](const std::string& text) {
+            const auto* const mode = find(text);
+            if (mode == std::end(modes)) {
+                refuse("--preview", text, "give auto, half, kitty or sixel");
+            }
+            view.preview = mode->second;
+        });
+    verb.flag("--show", view.window,
+              "show it in a window as it is rendered; Escape or q closes it, and the command ends "
+              "when it is closed");
+    const TevAddress usual;
+    verb.optional_value(
+        "--tev", "HOST:PORT",
+        "show it in the image viewer tev as it is rendered (default: 127.0.0.1:14158)",
+        usual.host + ":" + usual.port,
+        [](const std::string& text) { return text.find(':') != std::string::npos; },
+        [&view](const std::string& text) { view.tev = parse_tev_address(text); });
+}
+
 void add_report_options(const CommandLine& verb, RenderOptions& render) {
     const auto is_format = [](const std::string& text) { return text == "text" || text == "json"; };
     verb.optional_value("--stats", "text|json",
@@ -209,6 +249,7 @@ void add_report_options(const CommandLine& verb, RenderOptions& render) {
                               {"json", ProgressMode::json},
                               {"none", ProgressMode::none}},
                              "on stderr (default auto: a bar on a terminal, else lines)");
+    add_view_options(verb, render.view);
     verb.flag("-q,--quiet", render.quiet, "errors only");
     verb.flag("-v,--verbose", render.verbose, "say more");
 }
@@ -230,6 +271,33 @@ void settle_journal(RenderOptions& render) {
     }
     if (!render.output.ends_with(".mbj")) {
         throw Error(ExitCode::usage, "--shard writes a part of a picture: give -o FILE.mbj");
+    }
+}
+
+void settle_watch(const RenderOptions& render) {
+    if (!render.watch) return;
+    if (render.is_batch() || render.scene == stdin_scene || render.shares) {
+        throw Error(ExitCode::usage, "--watch is for one scene file");
+    }
+    if (render.output == stdout_path || render.timeout > 0 || render.view.window) {
+        throw Error(ExitCode::usage,
+                    "--watch goes on until Ctrl-C: not with -o -, --timeout or --show (--preview "
+                    "and --tev show each picture)");
+    }
+}
+
+/// Standard streams that two would want.
+void settle_streams(RenderOptions& render) {
+    settle_picture_output(render.output, render.format);
+    const bool prints = render.stats != StatsFormat::summary || !render.reference.empty();
+    if (render.output == stdout_path && prints) {
+        throw Error(ExitCode::usage,
+                    "-o - takes standard output, where --stats and --reference print: name a file");
+    }
+    const auto& scenes = render.scenes;
+    if (render.batch == "-" &&
+        std::find(scenes.begin(), scenes.end(), stdin_scene) != scenes.end()) {
+        throw Error(ExitCode::usage, "standard input is a scene or a list of scenes, not both");
     }
 }
 
@@ -285,14 +353,12 @@ void settle_scenes(RenderOptions& render) {
 void add_render(const CommandLine& program, Options& options) {
     options.render.dumb_terminal = environment("TERM") == "dumb";
     const CommandLine verb = program.verb("render", "render a picture, or several");
-    verb.arguments("SCENE", options.render.scenes, "scene files (.json, .nff, .obj, .ply)", false);
-    verb.option("-o,--output", "FILE",
-                "picture file: .png, .exr, .pfm, .tif, .jpg .. (default: none); of several scenes "
-                "%s is a scene's name: out/%s.png",
-                [&](const std::string& text) {
-                    if (text.empty()) refuse("-o", text, "name a picture file");
-                    options.render.output = text;
-                });
+    verb.arguments("SCENE", options.render.scenes,
+                   "scene files (.json, .nff, .obj, .ply), or - for JSON from standard input",
+                   false);
+    add_picture_output(verb, options.render.output, options.render.format,
+                       "picture file: .png, .exr, .pfm, .tif, .jpg .. (default: none), or - for "
+                       "standard output; of several scenes %s is a scene's name: out/%s.png");
     verb.option("--batch", "FILE|-",
                 "also the scenes that a file or stdin names, a line each: SCENE or SCENE OUTPUT",
                 [&](const std::string& text) { options.render.batch = text; });
@@ -302,8 +368,10 @@ void add_render(const CommandLine& program, Options& options) {
     add_report_options(verb, options.render);
     verb.when_chosen([&options, verb] {
         if (!verb.given("--device")) options.render.device = device_from_environment();
+        settle_streams(options.render);
         settle_scenes(options.render);
         settle_journal(options.render);
+        settle_watch(options.render);
         options.verb = Verb::render;
     });
 }

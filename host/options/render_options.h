@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "host/image/encoding.h"
+#include "host/image/picture_format.h"
 #include "host/picture/render_settings.h"
 #include "host/scene/scene_file.h"
+#include "host/view/view_settings.h"
 
 namespace rt {
 
@@ -16,17 +18,20 @@ enum class ProgressMode { automatic, bar, plain, json, none };
 /// `mirrorball render`; what is not given is the scene's.
 struct RenderOptions : RenderSettings {
     std::string scene;
-    std::string output;  ///< empty: render, write nothing. Of several scenes %s is the name
-    std::vector<std::string> scenes;  ///< all of them, where there are several
-    std::string batch;                ///< a file that names scenes, "-": stdin; empty: none
-    std::vector<int> frames;          ///< of the scene's camera path; empty: the scene as it is
-    std::string device;               ///< a list with commas; empty: the best there is
+    std::string output;  ///< empty: write nothing; "-": stdout. Of several scenes %s is the name
+    std::optional<PictureFormat> format;  ///< of stdout; of files their ending says it
+    std::vector<std::string> scenes;      ///< all of them, where there are several
+    std::string batch;                    ///< a file that names scenes, "-": stdin; empty: none
+    std::vector<int> frames;              ///< of the scene's camera path; empty: the scene as it is
+    std::string device;                   ///< a list with commas; empty: the best there is
     LightOverrides light;
     std::string reference;  ///< empty: none
     Encoding encoding = Encoding::display;
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;
     bool resume = false;               ///< was asked for by name
+    ViewSettings view;                 ///< where the picture is shown meanwhile
+    bool watch = false;                ///< render again when the scene's files change
     double timeout = 0;                ///< seconds after which to give up; 0: never
     bool isolate = true;               ///< OpenCL in a process of its own
     double deadline = 10;              ///< seconds after which a driver that does nothing is hung

@@ -7,6 +7,7 @@
 #include "host/scene/json_file.h"
 #include "host/scene/model_file.h"
 #include "host/scene/nff_file.h"
+#include "host/scene/stdin_text.h"
 
 namespace rt {
 namespace {
@@ -21,6 +22,7 @@ std::string ending_of(const std::string& path) {
 }
 
 Scene load(const std::string& path) {
+    if (path == stdin_scene) return parse_json_scene(read_stdin().view(), "stdin");
     const std::string ending = ending_of(path);
     if (ending == ".nff") return load_nff_scene(path);
     if (ending == ".obj" || ending == ".ply") return load_model_scene(path);

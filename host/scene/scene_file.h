@@ -15,9 +15,13 @@ struct LightOverrides {
     std::optional<glm::dvec3> ambient_light;
 };
 
+/// The name of standard input among scene files.
+inline constexpr const char* stdin_scene = "-";
+
 /// Reads a scene file in the format that its ending names: .nff, a model alone in .obj or
-/// .ply, else .json. Throws Error: ExitCode::input for a file that is missing, unreadable, not
-/// regular, or wrong; ExitCode::limit for one that is too large.
+/// .ply, else .json; "-" is JSON from standard input, whose folder is the working folder. Throws
+/// Error: ExitCode::input for a file that is missing, unreadable, not regular, or wrong;
+/// ExitCode::limit for one that is too large.
 Scene load_scene(const std::string& path, const LightOverrides& light = {});
 
 /// Gives a scene the light that replaces its own.

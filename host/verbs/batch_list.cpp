@@ -14,6 +14,7 @@
 
 #include "host/error.h"
 #include "host/options/frame_number.h"
+#include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
 
 namespace rt {
@@ -105,6 +106,9 @@ bool BatchList::take(BatchItem& item) {
             fmt::format("{}:{}: ", options_.batch == "-" ? "stdin" : options_.batch, ++line_);
         const std::optional<BatchItem> parsed = parse_batch_line(*line);
         if (!parsed) continue;
+        if (options_.batch == "-" && parsed->scene == stdin_scene) {
+            throw Error(ExitCode::usage, "standard input is this list; name a file");
+        }
         item.scene = parsed->scene;
         item.output = parsed->output;
         return true;

@@ -36,14 +36,14 @@ void write_merged(const MergedPicture& merged, const MergeOptions& options) {
         metadata.emplace_back("mirrorball:Partial",
                               fmt::format("without shares {}", to_string(*merged.missing)));
     }
-    write_picture(options.output, merged.picture, options.encoding, metadata);
+    write_picture(options.output, merged.picture, options.encoding, metadata, options.format);
 }
 
 }  // namespace
 
 int run_merge(const MergeOptions& options) {
     if (!options.output.empty()) {
-        check_picture_path(options.output);
+        check_picture_path(options.output, options.format);
         check_output_is_no_input(options.output, options.parts);
     }
     const MergedPicture merged = merge_journals(options.parts);

@@ -15,11 +15,14 @@
 #include "host/journal/journal_file.h"
 #include "host/opencl/icd_files.h"
 #include "host/render/stopwatch.h"
+#include "host/scene/scene_file.h"
+#include "host/scene/stdin_text.h"
 #include "host/stop_signal.h"
 #include "host/temporary_folder.h"
 #include "host/verbs/render_batch.h"
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
+#include "host/verbs/watch.h"
 #include "host/worker.h"
 
 namespace rt {
@@ -64,10 +67,11 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     const std::optional<Picture> reference = load_reference(options, scene);
     const double reference_seconds = watch.lap();
     say_unsaved(options);
-    const RenderConsole console(options);
+    RenderConsole console(options);
     RenderedPicture rendered =
         render_picture(scene, options, std::move(devices), console.events(), stop_flag());
     watch_worker(false);
+    console.finish(rendered.picture);
     RenderStats& stats = rendered.stats;
     if (!options.failed_device.empty()) stats.device.fallback_from = options.failed_device;
     stats.scene.path = options.scene;
@@ -79,7 +83,9 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
     if (reference) stats.error = image_error(rendered.picture, *reference);
     print_results(stats, options);
-    return verdict(rendered, path);
+    const int status = verdict(rendered, path);
+    console.wait();
+    return status;
 }
 
 /// Has workers, which load the drivers, render.
@@ -93,6 +99,7 @@ class IsolatedRender {
     /// When the first worker crashes another tries again. Then, or when it hangs, threads go on
     /// here with what the journal has.
     int run() {
+        if (options_.scene == stdin_scene) keep_stdin();  // each worker reads it
         if (options_.fresh) remove_journal();
         WorkerEnd end = work({});
         if (!end.is_regular && !end.is_hung && end.stop_signal == 0) end = try_again(end);
@@ -158,14 +165,21 @@ class IsolatedRender {
     const Stopwatch watch_;
 };
 
-}  // namespace
-
-int run_render(const RenderOptions& options, double seconds_before_main) {
-    if (options.is_batch()) return render_batch(options);
+int render_once(const RenderOptions& options, double seconds_before_main) {
     if (options.isolate && !is_worker() && needs_opencl(options.device)) {
         return IsolatedRender(options, seconds_before_main).run();
     }
     return render_scene(options, seconds_before_main);
+}
+
+}  // namespace
+
+int run_render(const RenderOptions& options, double seconds_before_main) {
+    if (options.is_batch()) return render_batch(options);
+    if (!options.watch || is_worker()) return render_once(options, seconds_before_main);
+    return watch_scene(options.scene, options.quiet, [&] {
+        return render_once(options, std::exchange(seconds_before_main, 0.0));
+    });
 }
 
 }  // namespace rt

@@ -133,9 +133,11 @@ class Batch {
 
     /// A device that has failed is not asked again.
     RenderedPicture render(const Scene& scene, const RenderOptions& options) {
-        const RenderConsole console(options);
+        RenderConsole console(options);
         RenderedPicture rendered =
             render_picture(scene, options, devices_, console.events(), stop_flag(), &cache_);
+        console.finish(rendered.picture);
+        console.wait();
         if (!rendered.stats.device.fallback_from.empty()) {
             devices_ = {DeviceChoice{true, 0, {}, ""}};
         }

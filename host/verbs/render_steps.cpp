@@ -16,6 +16,7 @@
 #include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
 #include "host/version.h"
+#include "host/view/make_viewers.h"
 #include "host/worker.h"
 
 namespace rt {
@@ -52,7 +53,7 @@ bool report_non_finite(const Picture& picture, const Rect& region, std::size_t c
 void check_output(const RenderOptions& options) {
     if (options.output.empty()) return;
     if (options.shares) return check_output_path(options.output);
-    check_picture_path(options.output);
+    check_picture_path(options.output, options.format);
 }
 
 void choose_journal(RenderOptions& options) {
@@ -82,10 +83,11 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     }
     std::string path = options.output;
     if (!stats.complete()) {
+        if (path == stdout_path) return "";  // whoever reads it wants a whole picture
         path = partial_path(path);
         metadata.emplace_back("mirrorball:Partial", share_done(stats));
     }
-    write_picture(path, rendered.picture, options.encoding, metadata);
+    write_picture(path, rendered.picture, options.encoding, metadata, options.format);
     if (rendered.journal && stats.complete()) rendered.journal->remove();
     return path;
 }
@@ -96,9 +98,11 @@ RenderConsole::RenderConsole(const RenderOptions& options) {
         if (!options.quiet) print_message("mirrorball: " + line + "\n");
     };
     if (options.verbose) events_.detail = events_.message;
-    events_.started = [this, &options](const TileQueue& queue) {
+    show(options);
+    const bool has_bar = !options.view.preview || options.progress != ProgressMode::automatic;
+    events_.started = [this, &options, has_bar](const TileQueue& queue) {
         install_stop_signals();
-        progress_.emplace(queue, progress_mode_for_stderr(options));
+        if (has_bar) progress_.emplace(queue, progress_mode_for_stderr(options));
     };
     if (is_worker()) events_.progressed = note_worker_progress;
     events_.ended = [this] {
@@ -106,6 +110,25 @@ RenderConsole::RenderConsole(const RenderOptions& options) {
         progress_.reset();
     };
     events_.driver_loaded = restore_stop_signals;
+}
+
+void RenderConsole::show(const RenderOptions& options) {
+    const std::string name = options.output.empty() ? options.scene : options.output;
+    auto viewers = make_viewers(options.view, name, options.encoding, events_.message);
+    if (viewers.empty()) return;
+    live_.emplace(std::move(viewers));
+    events_.began = [this](int width, int height) { live_->begin(width, height); };
+    events_.rendered = [this](const Rect& part, std::span<const float> rgb) {
+        live_->put(part, rgb);
+    };
+}
+
+void RenderConsole::finish(const Picture& picture) {
+    if (live_) live_->finish(picture);
+}
+
+void RenderConsole::wait() {
+    if (live_) live_->wait([] { return stop_flag() != 0; });
 }
 
 void print_results(const RenderStats& stats, const RenderOptions& options) {

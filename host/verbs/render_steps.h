@@ -7,6 +7,7 @@
 #include "host/options/render_options.h"
 #include "host/picture/render_picture.h"
 #include "host/verbs/progress.h"
+#include "host/view/live_picture.h"
 
 // What rendering one scene and a batch of them have in common. All of it throws Error.
 namespace rt {
@@ -37,7 +38,16 @@ class RenderConsole {
 
     const RenderEvents& events() const { return events_; }
 
+    /// Shows the picture as it stays, where it is shown.
+    void finish(const Picture& picture);
+
+    /// Until its windows are closed, or a stop signal comes.
+    void wait();
+
    private:
+    void show(const RenderOptions& options);
+
+    std::optional<LivePicture> live_;
     std::optional<ProgressReporter> progress_;
     RenderEvents events_;
 };

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/watch.h"
+
+#include <sys/stat.h>
+
+#include <chrono>
+#include <cstdint>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "host/console.h"
+#include "host/error.h"
+#include "host/scene/scene_file.h"
+#include "host/stop_signal.h"
+
+namespace rt {
+
+namespace {
+
+constexpr std::chrono::milliseconds look_interval(100);
+
+/// What changes when a file is written, in place or anew; zeros where there is none.
+using FileState = std::tuple<ino_t, off_t, std::int64_t, std::int64_t>;
+
+std::vector<FileState> states_of(const std::vector<std::string>& files) {
+    std::vector<FileState> states;
+    for (const std::string& file : files) {
+        struct stat status {};
+        if (::stat(file.c_str(), &status) != 0) status = {};
+        states.emplace_back(status.st_ino, status.st_size, status.st_mtim.tv_sec,
+                            status.st_mtim.tv_nsec);
+    }
+    return states;
+}
+
+/// The scene's file and those that it names; the file alone while it has mistakes.
+std::vector<std::string> files_of(const std::string& scene) {
+    std::vector<std::string> files{scene};
+    try {
+        const Scene loaded = load_scene(scene);
+        files.insert(files.end(), loaded.model_files.begin(), loaded.model_files.end());
+    } catch (const Error&) {
+    }
+    return files;
+}
+
+/// Until a file differs from `before` and has been left alone for a moment: an editor may be
+/// writing it.
+void await_change(const std::vector<std::string>& files, const std::vector<FileState>& before) {
+    std::vector<FileState> last = before;
+    while (stop_flag() == 0) {
+        std::this_thread::sleep_for(look_interval);
+        std::vector<FileState> now = states_of(files);
+        if (now != before && now == last && std::get<1>(now.front()) > 0) return;
+        last = std::move(now);
+    }
+}
+
+}  // namespace
+
+int watch_scene(const std::string& scene, bool is_quiet, const std::function<int()>& render) {
+    while (stop_flag() == 0) {
+        const std::vector<FileState> before = states_of({scene});
+        try {
+            render();
+        } catch (const Error& error) {
+            print_error(error.what());
+        }
+        if (stop_flag() != 0) break;
+        if (!is_quiet) print_message("mirrorball: waiting for " + scene + " to change\n");
+        std::vector<std::string> files{scene};
+        std::vector<FileState> known = before;
+        if (states_of(files) == before) {
+            files = files_of(scene);
+            known = states_of(files);
+        }
+        await_change(files, known);
+    }
+    return exit_code_of_stop(stop_flag());
+}
+
+}  // namespace rt

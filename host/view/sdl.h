@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+
+// The little of SDL 2 that a window takes, loaded when one is asked for: its development package
+// brings fifty others, and its binary interface has not changed since 2.0.0 (SDL_*.h of SDL2).
+namespace rt::sdl {
+
+struct Window;
+struct Renderer;
+struct Texture;
+
+struct Box {
+    int x, y, w, h;
+};
+
+/// SDL_Event: 56 bytes; of a key its symbol.
+union Event {
+    std::uint32_t type;
+    struct {
+        std::uint32_t type, time, window;
+        std::uint8_t state, repeat, padding[2];
+        std::int32_t scancode, symbol;
+    } key;
+    std::uint8_t size[56];
+};
+static_assert(sizeof(Event) == 56);
+
+constexpr std::uint32_t video = 0x20, quit = 0x100, key_down = 0x300;
+constexpr int centered = 0x2FFF0000, resizable = 0x20;
+constexpr std::int32_t escape = 27;
+constexpr std::uint32_t rgb24 = 0x17101803;
+constexpr int streaming = 1;
+
+/// Its functions, SDL_... each.
+struct Library {
+    int (*SetHint)(const char* name, const char* value);
+    int (*Init)(std::uint32_t flags);
+    void (*Quit)();
+    const char* (*GetError)();
+    int (*GetDisplayUsableBounds)(int display, Box* bounds);
+    Window* (*CreateWindow)(const char* title, int x, int y, int w, int h, std::uint32_t flags);
+    void (*SetWindowTitle)(Window*, const char* title);
+    void (*DestroyWindow)(Window*);
+    Renderer* (*CreateRenderer)(Window*, int index, std::uint32_t flags);
+    int (*RenderSetLogicalSize)(Renderer*, int w, int h);
+    Texture* (*CreateTexture)(Renderer*, std::uint32_t format, int access, int w, int h);
+    int (*UpdateTexture)(Texture*, const Box* part, const void* pixels, int pitch);
+    int (*RenderClear)(Renderer*);
+    int (*RenderCopy)(Renderer*, Texture*, const Box* from, const Box* to);
+    void (*RenderPresent)(Renderer*);
+    int (*PollEvent)(Event*);
+};
+
+/// Null where SDL is not installed; `why` says so.
+const Library* load(std::string& why);
+
+}  // namespace rt::sdl

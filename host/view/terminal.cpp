@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/view/terminal.h"
+
+#include <fcntl.h>
+#include <langinfo.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "host/file_descriptor.h"
+
+namespace rt {
+
+namespace {
+
+constexpr int answer_patience_ms = 300;
+
+std::string variable(const char* name) {
+    const char* const value = std::getenv(name);
+    return value == nullptr ? "" : value;
+}
+
+/// Whether text goes out as UTF-8, as the environment says.
+bool is_utf8() {
+    const locale_t locale = newlocale(LC_CTYPE_MASK, "", nullptr);
+    if (locale == nullptr) return false;
+    const bool result = std::string_view(nl_langinfo_l(CODESET, locale)) == "UTF-8";
+    freelocale(locale);
+    return result;
+}
+
+/// Asks for a picture of one pixel to be looked at, in kitty's protocol, and for the terminal's
+/// attributes, which every terminal answers, in the end: "ESC [ ? 6 2 ; 4 c", 4 for sixels.
+constexpr std::string_view questions = "\x1b_Gi=4211,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[c";
+
+std::string answers(int terminal) {
+    termios usual{};
+    if (tcgetpgrp(terminal) != getpgrp() || tcgetattr(terminal, &usual) != 0) return "";
+    termios raw = usual;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    raw.c_cc[VMIN] = 0;
+    raw.c_cc[VTIME] = 0;
+    if (tcsetattr(terminal, TCSANOW, &raw) != 0) return "";
+    std::string text;
+    if (write(terminal, questions.data(), questions.size()) > 0) {
+        pollfd waited{terminal, POLLIN, 0};
+        while (poll(&waited, 1, answer_patience_ms) == 1) {
+            char bytes[256];
+            const ssize_t got = read(terminal, bytes, sizeof(bytes));
+            if (got <= 0) break;
+            text.append(bytes, static_cast<std::size_t>(got));
+            const std::size_t attributes = text.find("\x1b[?");
+            if (attributes != text.npos && text.find('c', attributes) != text.npos) break;
+        }
+    }
+    tcsetattr(terminal, TCSANOW, &usual);
+    return text;
+}
+
+/// Whether the attributes have a 4 among them.
+bool has_sixels(const std::string& text) {
+    const std::size_t start = text.find("\x1b[?");
+    if (start == text.npos) return false;
+    const std::string list = ";" + text.substr(start + 3, text.find('c', start) - start - 3) + ";";
+    return list.find(";4;", list.find(';', 1)) != list.npos;
+}
+
+}  // namespace
+
+Terminal ask_terminal() {
+    Terminal terminal;
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
+        terminal.columns = size.ws_col;
+        terminal.rows = size.ws_row;
+        if (size.ws_xpixel > 0 && size.ws_ypixel > 0) {
+            terminal.cell_width = size.ws_xpixel / size.ws_col;
+            terminal.cell_height = size.ws_ypixel / size.ws_row;
+        }
+    }
+    const std::string kind = variable("TERM"), colors = variable("COLORTERM");
+    terminal.true_color = colors == "truecolor" || colors == "24bit" || kind.ends_with("-direct");
+    const bool is_plain = kind.empty() || kind == "dumb" || !variable("NO_COLOR").empty();
+    terminal.has_blocks = !is_plain && is_utf8();
+    if (is_plain) return terminal;
+    const FileDescriptor device(open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC));
+    if (!device) return terminal;
+    const std::string text = answers(device.number());
+    terminal.shows_kitty = text.find("_Gi=4211;OK") != text.npos;
+    terminal.shows_sixels = has_sixels(text);
+    return terminal;
+}
+
+}  // namespace rt

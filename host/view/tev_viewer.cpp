@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/view/tev_viewer.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "host/view/cut.h"
+
+namespace rt {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers go into packets as they are");
+
+constexpr char create_image = 4, update_image_v3 = 6;
+constexpr int send_patience_ms = 2000;
+constexpr int most_pixels = 1 << 20;  ///< of a packet
+
+class Packet {
+   public:
+    explicit Packet(char kind) {
+        add(std::uint32_t{0});
+        add(kind);
+    }
+    template <typename T>
+    void add(T value) {
+        const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
+        bytes_.insert(bytes_.end(), bytes, bytes + sizeof(T));
+    }
+    void add(const std::string& text) {
+        const auto* const bytes = reinterpret_cast<const std::byte*>(text.c_str());
+        bytes_.insert(bytes_.end(), bytes, bytes + text.size() + 1);
+    }
+    void add(std::span<const float> values) {
+        const auto bytes = std::as_bytes(values);
+        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    }
+    std::vector<std::byte> take() {
+        const auto size = static_cast<std::uint32_t>(bytes_.size());
+        std::memcpy(bytes_.data(), &size, sizeof(size));
+        return std::move(bytes_);
+    }
+
+   private:
+    std::vector<std::byte> bytes_;
+};
+
+void add_channels(Packet& packet) {
+    for (const char* name : {"R", "G", "B"}) packet.add(std::string(name));
+}
+
+/// Waits until a socket can be written to.
+bool is_writable(int socket) {
+    pollfd waited{socket, POLLOUT, 0};
+    return ::poll(&waited, 1, send_patience_ms) == 1;
+}
+
+/// An open connection; else `why` says what is wrong.
+FileDescriptor connect_to(const TevAddress& address, std::string& why) {
+    addrinfo hints{};
+    hints.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    const int status = ::getaddrinfo(address.host.c_str(), address.port.c_str(), &hints, &found);
+    if (status != 0) {
+        why = ::gai_strerror(status);
+        return FileDescriptor();
+    }
+    const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(found, ::freeaddrinfo);
+    for (const addrinfo* at = found; at != nullptr; at = at->ai_next) {
+        FileDescriptor socket(
+            ::socket(at->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, at->ai_protocol));
+        if (!socket) continue;
+        int error = ::connect(socket.number(), at->ai_addr, at->ai_addrlen) == 0 ? 0 : errno;
+        if (error == EINPROGRESS) {
+            socklen_t size = sizeof(error);
+            error = ETIMEDOUT;
+            if (is_writable(socket.number())) {
+                ::getsockopt(socket.number(), SOL_SOCKET, SO_ERROR, &error, &size);
+            }
+        }
+        if (error == 0) return socket;
+        why = std::strerror(error);
+    }
+    return FileDescriptor();
+}
+
+}  // namespace
+
+TevAddress parse_tev_address(const std::string& text) {
+    TevAddress address;
+    const std::size_t bracket = text.find(']');
+    const std::size_t from = bracket == std::string::npos ? 0 : bracket;
+    const std::size_t colon = text.find(':', from);
+    std::string host = text.substr(0, colon);
+    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+    if (!host.empty()) address.host = host;
+    if (colon != std::string::npos && colon + 1 < text.size()) {
+        address.port = text.substr(colon + 1);
+    }
+    return address;
+}
+
+std::vector<std::byte> tev_create_image(const std::string& name, int width, int height) {
+    Packet packet(create_image);
+    packet.add(char{1});  // it comes to the front
+    packet.add(name);
+    packet.add(std::int32_t{width});
+    packet.add(std::int32_t{height});
+    packet.add(std::int32_t{3});
+    add_channels(packet);
+    return packet.take();
+}
+
+std::vector<std::byte> tev_update_image(const std::string& name, const Picture& picture,
+                                        const Rect& part) {
+    Packet packet(update_image_v3);
+    packet.add(char{0});
+    packet.add(name);
+    packet.add(std::int32_t{3});
+    add_channels(packet);
+    for (const int number : {part.x, part.y, part.width, part.height}) {
+        packet.add(std::int32_t{number});
+    }
+    for (const int offset : {0, 1, 2}) packet.add(std::int64_t{offset});
+    for (int channel = 0; channel < 3; ++channel) packet.add(std::int64_t{3});  // strides
+    packet.add(std::span<const float>(cut(picture, part).pixels));
+    return packet.take();
+}
+
+TevViewer::TevViewer(TevAddress address, std::string name, Say say)
+    : address_(std::move(address)), name_(std::move(name)), say_(std::move(say)) {}
+
+void TevViewer::begin(int width, int height) {
+    if (has_failed_) return;
+    if (!socket_) {
+        std::string why;
+        socket_ = connect_to(address_, why);
+        if (!socket_) {
+            return give_up(fmt::format("cannot reach tev at {}:{} ({}); start tev first",
+                                       address_.host, address_.port, why));
+        }
+    }
+    send(tev_create_image(name_, width, height));
+}
+
+void TevViewer::update(const Picture& picture, std::span<const Rect> changed) {
+    for (const Rect& part : changed) send_part(picture, part);
+}
+
+void TevViewer::finish(const Picture& picture) {
+    send_part(picture, {0, 0, picture.width, picture.height});
+}
+
+void TevViewer::send_part(const Picture& picture, const Rect& part) {
+    const int rows = std::max(most_pixels / part.width, 1);
+    for (int y = 0; y < part.height && socket_; y += rows) {
+        send(tev_update_image(name_, picture,
+                              {part.x, part.y + y, part.width, std::min(rows, part.height - y)}));
+    }
+}
+
+void TevViewer::send(const std::vector<std::byte>& packet) {
+    std::span<const std::byte> left = packet;
+    while (socket_ && !left.empty()) {
+        const ssize_t count = ::send(socket_.number(), left.data(), left.size(), MSG_NOSIGNAL);
+        if (count >= 0) {
+            left = left.subspan(static_cast<std::size_t>(count));
+        } else if (errno == EAGAIN && !is_writable(socket_.number())) {
+            give_up("tev reads nothing; going on without it");
+        } else if (errno != EAGAIN && errno != EINTR) {
+            give_up(fmt::format("tev is gone ({}); going on without it", std::strerror(errno)));
+        }
+    }
+}
+
+void TevViewer::give_up(const std::string& why) {
+    has_failed_ = true;
+    socket_ = FileDescriptor();
+    say_(why);
+}
+
+}  // namespace rt

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace rt {
+
+/// How a terminal shows pictures; automatic: as it says that it can, else by half blocks.
+enum class PreviewMode { automatic, half, kitty, sixel };
+
+struct TevAddress {
+    std::string host = "127.0.0.1", port = "14158";
+};
+
+/// Where a picture is shown while it is rendered.
+struct ViewSettings {
+    std::optional<PreviewMode> preview;  ///< in the terminal
+    std::optional<TevAddress> tev;
+    bool window = false;
+};
+
+}  // namespace rt

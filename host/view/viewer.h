@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "host/image/picture.h"
+#include "host/render/rect.h"
+
+namespace rt {
+
+/// Shows a picture while it is rendered. All calls come from one thread; none throws.
+class Viewer {
+   public:
+    virtual ~Viewer() = default;
+
+    /// A picture of so many pixels begins, black so far.
+    virtual void begin(int width, int height) = 0;
+
+    /// The picture so far, and what is new in it since the last call.
+    virtual void update(const Picture& picture, std::span<const Rect> changed) = 0;
+
+    /// The picture as it stays.
+    virtual void finish(const Picture& picture) = 0;
+
+    /// Called ten times a second from `begin` on.
+    virtual void tick() {}
+
+    /// Whether people see it until they close it.
+    virtual bool is_open() const { return false; }
+};
+
+}  // namespace rt

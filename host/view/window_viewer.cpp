@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/view/window_viewer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "host/view/cut.h"
+
+namespace rt {
+
+WindowViewer::WindowViewer(std::string name, Encoding encoding, Say say)
+    : name_(std::move(name)), encoding_(encoding), say_(std::move(say)) {}
+
+WindowViewer::~WindowViewer() { close(); }
+
+bool WindowViewer::open(int width, int height) {
+    std::string why;
+    sdl_ = sdl::load(why);
+    if (sdl_ != nullptr) {
+        sdl_->SetHint("SDL_NO_SIGNAL_HANDLERS", "1");
+        sdl_->SetHint("SDL_VIDEO_ALLOW_SCREENSAVER", "1");
+        sdl::Box screen{0, 0, 1024, 768};
+        if (sdl_->Init(sdl::video) == 0) {
+            sdl_->GetDisplayUsableBounds(0, &screen);
+            const double scale = std::min({1.0, 0.9 * screen.w / width, 0.9 * screen.h / height});
+            window_ =
+                sdl_->CreateWindow(name_.c_str(), sdl::centered, sdl::centered,
+                                   std::max(static_cast<int>(width * scale), 1),
+                                   std::max(static_cast<int>(height * scale), 1), sdl::resizable);
+        }
+        if (window_ != nullptr) renderer_ = sdl_->CreateRenderer(window_, -1, 0);
+        if (renderer_ != nullptr) {
+            sdl_->RenderSetLogicalSize(renderer_, width, height);
+            texture_ = sdl_->CreateTexture(renderer_, sdl::rgb24, sdl::streaming, width, height);
+        }
+        if (texture_ == nullptr) why = sdl_->GetError();
+    }
+    if (texture_ != nullptr) return true;
+    say_("no window: " + why);
+    close();
+    return false;
+}
+
+void WindowViewer::close() {
+    was_closed_ = true;
+    texture_ = nullptr;  // goes with the window
+    renderer_ = nullptr;
+    if (window_ == nullptr) return;
+    sdl_->DestroyWindow(std::exchange(window_, nullptr));
+    sdl_->Quit();
+}
+
+void WindowViewer::begin(int width, int height) {
+    if (was_closed_ || (window_ == nullptr && !open(width, height))) return;
+    pixels_ = std::int64_t{width} * height;
+    pixels_shown_ = 0;
+    put({width, height, 3, std::vector<float>(static_cast<std::size_t>(3 * pixels_))},
+        {0, 0, width, height});
+    present();
+}
+
+void WindowViewer::put(const Picture& picture, const Rect& part) {
+    const std::vector<std::uint8_t> rgb = encode_8bit(cut(picture, part), encoding_);
+    const sdl::Box box{part.x, part.y, part.width, part.height};
+    sdl_->UpdateTexture(texture_, &box, rgb.data(), 3 * part.width);
+}
+
+void WindowViewer::present() {
+    sdl_->RenderClear(renderer_);
+    sdl_->RenderCopy(renderer_, texture_, nullptr, nullptr);
+    sdl_->RenderPresent(renderer_);
+}
+
+void WindowViewer::set_title(std::int64_t pixels) {
+    pixels_shown_ = std::min(pixels, pixels_);
+    const auto percent = 100 * pixels_shown_ / std::max<std::int64_t>(pixels_, 1);
+    sdl_->SetWindowTitle(window_, fmt::format("{} - {} %", name_, percent).c_str());
+}
+
+void WindowViewer::update(const Picture& picture, std::span<const Rect> changed) {
+    if (window_ == nullptr) return;
+    std::int64_t pixels = pixels_shown_;
+    for (const Rect& part : changed) {
+        put(picture, part);
+        pixels += part.pixels();
+    }
+    set_title(pixels);
+    present();
+}
+
+void WindowViewer::finish(const Picture& picture) {
+    if (window_ == nullptr) return;
+    put(picture, {0, 0, picture.width, picture.height});
+    sdl_->SetWindowTitle(window_, name_.c_str());
+    present();
+}
+
+/// Answers the window system; what has been covered is drawn again.
+void WindowViewer::tick() {
+    sdl::Event event{};
+    bool any = false;
+    while (window_ != nullptr && sdl_->PollEvent(&event) != 0) {
+        any = true;
+        const bool is_key = event.type == sdl::key_down;
+        if (event.type == sdl::quit ||
+            (is_key && (event.key.symbol == sdl::escape || event.key.symbol == 'q'))) {
+            return close();
+        }
+    }
+    if (any) present();
+}
+
+}  // namespace rt

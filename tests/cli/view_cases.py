@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The picture while it is rendered: in the terminal, and in tev. Decoders written for these tests
+look at what the program sends."""
+import base64
+import fcntl
+import os
+import pathlib
+import pty
+import re
+import socket
+import struct
+import subprocess
+import termios
+import threading
+
+from harness import SETTINGS, CliTest, clean_environment, scene_path
+from pictures import read_pfm, read_png
+
+UTF8 = {"TERM": "xterm-256color", "LC_ALL": "C.UTF-8", "COLORTERM": "truecolor"}
+ASKS = b"\x1b[c"
+TAKES_A_WHILE = ["--size", "300", "--aa", "grid:8", "--lanes", "1", "--tile", "30"]
+
+
+def on_terminal(arguments, folder, env, answer=b"", columns=80, rows=24, pixels=(0, 0)):
+    """(exit code, what a terminal of so many cells and pixels gets) of the program, which is in
+    front there. The terminal answers when it is asked what it is."""
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, *pixels))
+    process = subprocess.Popen(
+        [SETTINGS["program"], *map(str, arguments)], cwd=folder, stdin=theirs, stdout=theirs,
+        stderr=theirs, env=clean_environment(env), start_new_session=True,
+        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+    os.close(theirs)
+    got = bytearray()
+
+    def read():
+        answered = False
+        while True:
+            try:
+                got.extend(os.read(ours, 65536))
+            except OSError:  # the other end is closed
+                return
+            if not answered and ASKS in got:
+                answered = True
+                os.write(ours, answer)
+
+    reader = threading.Thread(target=read)
+    reader.start()
+    code = process.wait(60)
+    reader.join()
+    os.close(ours)
+    return code, bytes(got).replace(b"\r\n", b"\n")
+
+
+def decoded_half_blocks(frame):
+    """(width, height, RGB) of lines of half blocks in 24-bit colors, the last time they are drawn."""
+    rows = []
+    for line in re.split(rb"\x1b\[\d+A\r", frame)[-1].decode().split("\n"):
+        if "▀" not in line:
+            continue
+        upper, lower, front, back = [], [], None, None
+        for code, blocks in re.findall(r"\x1b\[([\d;]*)m(▀*)", line):
+            numbers = [int(n) for n in code.split(";")]
+            if numbers[:2] == [38, 2]:
+                front, back = numbers[2:5], numbers[7:10]
+            upper += front * len(blocks) if blocks else []
+            lower += back * len(blocks) if blocks and back else []
+        rows += [upper, lower] if lower else [upper]
+    return len(rows[0]) // 3, len(rows), bytes(value for row in rows for value in row)
+
+
+def decoded_sixels(text):
+    """(width, height, RGB) by the VT330/340 manual, chapter 14."""
+    body = text[text.index(b"\x1bPq") + 3:text.index(b"\x1b\\", text.index(b"\x1bPq"))].decode()
+    width, height = map(int, re.match(r'"1;1;(\d+);(\d+)', body).groups())
+    palette, picture = {}, {}
+    x = top = color = 0
+    for part in re.finditer(r'#(\d+);2;(\d+);(\d+);(\d+)|#(\d+)|!(\d+)(.)|([$-])|([?-~])',
+                            body[body.index("#"):]):
+        define, r, g, b, use, count, repeated, move, one = part.groups()
+        if define:
+            palette[int(define)] = tuple(round(int(v) * 255 / 100) for v in (r, g, b))
+        elif use:
+            color = int(use)
+        elif move:
+            x, top = 0, top + (6 if move == "-" else 0)
+        else:
+            for _ in range(int(count or 1)):
+                for bit in range(6):
+                    if (ord(repeated or one) - 63) >> bit & 1:
+                        picture[x, top + bit] = palette[color]
+                x += 1
+    return width, height, bytes(value for y in range(height) for x in range(width)
+                                for value in picture[x, y])
+
+
+class Preview(CliTest):
+    def preview(self, *arguments, env=None, device="threads", **terminal):
+        code, text = on_terminal(
+            ["render", scene_path("cornell-box"), "--device", device, "-o", "out.png",
+             *arguments], self.folder, UTF8 if env is None else env, **terminal)
+        self.assertEqual(code, 0, text)
+        return text
+
+    def saved(self):
+        return read_png(self.folder / "out.png")
+
+    def test_half_blocks_are_the_pixels(self):
+        for size in ["20x10", "7x5"]:
+            text = self.preview("--preview=half", "--size", size)
+            self.assertEqual(decoded_half_blocks(text), self.saved())
+
+    def test_a_large_picture_is_shrunk_to_the_terminal(self):
+        text = self.preview("--preview", "half", "--size", "100", columns=50, rows=12)
+        width, height, rgb = decoded_half_blocks(text)
+        self.assertEqual((width, height), (20, 20))
+        side, _, whole = self.saved()
+        for x, y in [(0, 0), (7, 12), (19, 19)]:
+            block = [whole[3 * (side * (5 * y + j) + 5 * x + i)] for i in range(5)
+                     for j in range(5)]
+            self.assertAlmostEqual(rgb[3 * (width * y + x)], sum(block) / 25, delta=1)
+
+    def test_256_colors_where_the_terminal_has_no_more(self):
+        env = dict(UTF8)
+        del env["COLORTERM"]
+        text = self.preview("--preview=half", "--size", "8", env=env)
+        self.assertIn(b"38;5;", text)
+        self.assertNotIn(b"38;2;", text)
+
+    def test_it_is_drawn_again_at_the_same_place_as_tiles_finish(self):
+        text = self.preview("--preview=half", *TAKES_A_WHILE, rows=12)
+        frames = text.split(b"\x1b[10A\r")
+        self.assertGreater(len(frames), 2)
+        first, last = (decoded_half_blocks(frame)[2] for frame in (frames[0], frames[-1]))
+        self.assertGreater(first.count(0), last.count(0))
+        self.assertNotIn(b"%", text)  # no bar over it
+
+    def test_kitty_where_the_terminal_says_so(self):
+        text = self.preview("--preview", "--size", "200", pixels=(800, 480),
+                            answer=b"\x1b_Gi=4211;OK\x1b\\\x1b[?62;4c")
+        parts = re.findall(rb"\x1b_G([^;]*);([^\x1b]*)\x1b\\", text.split(ASKS)[1])
+        self.assertIn(b"f=100", parts[0][0])
+        self.assertIn(b"c=20,r=10", parts[0][0])
+        self.assertTrue(all(len(data) <= 4096 for _, data in parts))
+        png = self.folder / "sent.png"
+        png.write_bytes(base64.b64decode(b"".join(data for _, data in parts)))
+        self.assertEqual(read_png(png), self.saved())
+
+    def test_sixels_where_the_terminal_says_so(self):
+        text = self.preview("--preview", "--size", "64x50", answer=b"\x1b[?62;4;22c")
+        width, height, rgb = decoded_sixels(text)
+        side, rows, whole = self.saved()
+        self.assertEqual((width, height), (side, rows))
+        step = 51  # of the color cube, which dithering stays within
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(rgb, whole)), step)
+        mean = sum(a - b for a, b in zip(rgb, whole)) / len(rgb)
+        self.assertLess(abs(mean), 2)
+
+    def test_half_blocks_where_it_says_nothing_of_pictures(self):
+        for answer in [b"\x1b[?62;22c", b"\x1b[?64c", b""]:
+            text = self.preview("--preview", "--size", "8", answer=answer)
+            self.assertEqual(decoded_half_blocks(text.split(ASKS)[1]), self.saved())
+
+    def test_none_in_a_pipe_and_on_terminals_that_cannot(self):
+        result = self.render("single-sphere", "--size", "8", "--preview", env=UTF8)
+        self.assertIn("no preview", result.stderr)
+        self.assertNotIn("\x1b", result.stderr + result.stdout)
+        for change in [{"TERM": "dumb"}, {"NO_COLOR": "1"}, {"LC_ALL": "C"}]:
+            text = self.preview("--preview", "--size", "8", env=dict(UTF8, **change))
+            self.assertIn(b"no preview", text)
+            self.assertNotIn("▀".encode(), text)
+
+    def test_a_worker_process_draws_too(self):
+        text = self.preview("--preview=half", "--size", "8", device="pocl")
+        self.assertEqual(decoded_half_blocks(text), self.saved())
+
+    def test_unknown_protocol(self):
+        result = self.run_cli("render", scene_path("single-sphere"), "--preview=ascii")
+        self.assert_refused(result, 2, "--preview", "auto, half, kitty or sixel")
+
+
+class TevServer:
+    """Reads packets as tev's Ipc.cpp does."""
+
+    def __init__(self, reads=True):
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.port = self.listener.getsockname()[1]
+        self.reads, self.created, self.updates, self.pixels = reads, [], 0, {}
+        self.thread = threading.Thread(target=self.serve, daemon=True)
+        self.thread.start()
+
+    def serve(self):
+        self.connection, _ = self.listener.accept()
+        if not self.reads:
+            return
+        with self.connection.makefile("rb") as stream:
+            while length := stream.read(4):
+                packet = stream.read(struct.unpack("<I", length)[0] - 4)
+                {4: self.create, 6: self.update}[packet[0]](packet[2:])
+
+    @staticmethod
+    def texts(data, count):
+        parts = data.split(b"\0", count)
+        return [part.decode() for part in parts[:count]], parts[count]
+
+    def create(self, data):
+        (name,), data = self.texts(data, 1)
+        width, height, channels = struct.unpack_from("<3i", data)
+        names, rest = self.texts(data[12:], channels)
+        assert not rest and names == ["R", "G", "B"], data
+        self.created.append((name, width, height))
+        self.pixels = {}
+
+    def update(self, data):
+        (name,), data = self.texts(data, 1)
+        assert name == self.created[-1][0]
+        (channels,) = struct.unpack_from("<i", data)
+        _, data = self.texts(data[4:], channels)
+        x, y, width, height = struct.unpack_from("<4i", data)
+        offsets, strides = struct.unpack_from("<3q", data, 16), struct.unpack_from("<3q", data, 40)
+        values = struct.unpack(f"<{(len(data) - 64) // 4}f", data[64:])
+        for i in range(width * height):
+            self.pixels[x + i % width, y + i // width] = tuple(
+                values[offset + i * stride] for offset, stride in zip(offsets, strides))
+        self.updates += 1
+
+
+class Tev(CliTest):
+    def render_to(self, server, *arguments):
+        result = self.render("cornell-box", "--device", "threads", "-o", "out.pfm",
+                             f"--tev=127.0.0.1:{server.port}", *arguments)
+        return result
+
+    def test_it_gets_the_picture(self):
+        for more in [[], ["--crop", "5,3,30,28"], ["--aa", "adaptive:0.05"],
+                     ["--precision", "double"]]:
+            with self.subTest(more=more):
+                server = TevServer()
+                self.render_to(server, "--size", "40x30", *more)
+                server.thread.join(20)
+                width, height, values = read_pfm(self.folder / "out.pfm")
+                self.assertEqual(server.created, [("out.pfm", width, height)])
+                got = [value for y in range(height) for x in range(width)
+                       for value in server.pixels[x, y]]
+                self.assertEqual(got, values)
+
+    def test_it_gets_tiles_as_they_come(self):
+        server = TevServer()
+        self.render_to(server, *TAKES_A_WHILE)
+        server.thread.join(20)
+        self.assertGreater(server.updates, 10)
+
+    def test_one_that_does_not_read_is_left_alone(self):
+        server = TevServer(reads=False)
+        result = self.render_to(server, "--size", "2000")
+        self.assertIn("tev reads nothing", result.stderr)
+
+    def test_one_that_is_not_there(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+        result = self.render("single-sphere", "--size", "8", "-o", "out.png", "--tev",
+                             f"127.0.0.1:{port}")
+        self.assertIn("cannot reach tev", result.stderr)
+        self.assertTrue(pathlib.Path(self.folder / "out.png").exists())
