@@ -33,10 +33,10 @@ void parse_schedules(const std::string& text, BenchOptions& bench) {
 }
 
 void add_baseline(const CommandLine& verb, BenchOptions& bench) {
-    verb.option("--baseline", "FILE", "an earlier --json file: exit 1 when a row has become slower",
+    verb.option("--baseline", "FILE", "an earlier --json file: exit 1 if a row has become slower",
                 [&](const std::string& text) { bench.baseline = text; });
     verb.option("--max-regress", "P%",
-                "how much slower a row may become (default 5%); noise is allowed for on top",
+                "how much slower a row may become, beyond noise (default 5%)",
                 [&](const std::string& text) {
                     bench.max_regress = parse_percent("--max-regress", text, 1e6);
                 });
@@ -45,7 +45,7 @@ void add_baseline(const CommandLine& verb, BenchOptions& bench) {
 /// What an ablation does not say otherwise: one picture on every device.
 void settle_ablation(const CommandLine& verb, BenchOptions& bench) {
     if (!bench.baseline.empty()) {
-        throw Error(ExitCode::usage, "--ablate and --baseline: give one of them");
+        throw Error(ExitCode::usage, "give --ablate or --baseline, not both");
     }
     if (!verb.given("--sizes")) bench.sizes = {{500, 500}};
     if (!verb.given("--aa")) bench.aa = parse_aa_list("--aa", "grid:2");
@@ -57,7 +57,7 @@ void settle_ablation(const CommandLine& verb, BenchOptions& bench) {
 void add_bench(const CommandLine& program, Options& options) {
     BenchOptions& bench = options.bench;
     bench.aa = parse_aa_list("--aa", "none,grid:2");
-    const CommandLine verb = program.verb("bench", "device against pthreads timings");
+    const CommandLine verb = program.verb("bench", "time OpenCL devices against pthreads");
     verb.arguments("SCENE", bench.scenes, "scene files (default: the built-in cornell-box)", false);
     verb.option("--sizes", "LIST", "pixels, N or WxH (default 100,200,300,400,500)",
                 [&](const std::string& text) { bench.sizes = parse_sizes(text); });
@@ -65,14 +65,13 @@ void add_bench(const CommandLine& program, Options& options) {
                 [&](const std::string& text) { bench.aa = parse_aa_list("--aa", text); });
     add_device_list(verb, bench.devices);
     add_count(verb, "--threads", bench.threads, 1, 4096,
-              "'threads' is timed with 1 to N threads (default: all cores)");
+              "time 'threads' with 1 to N threads (default: all cores)");
     add_precisions(verb, bench.precisions);
     add_light_options(verb, bench.light);
-    verb.option(
-        "--schedules", "LIST",
-        "of pthreads: tiles, buffers, scalar (tiles, one ray at a time; on one thread and on "
-        "the most); default: all",
-        [&](const std::string& text) { parse_schedules(text, bench); });
+    verb.option("--schedules", "LIST",
+                "schedules for pthreads: tiles, buffers, scalar (tiles, one ray at a time; on one "
+                "thread and on the maximum); default: all",
+                [&](const std::string& text) { parse_schedules(text, bench); });
     add_count(verb, "--repeats", bench.repeats, 1, 1000,
               "timed rounds after the warm-up (default 5)");
     add_baseline(verb, bench);

@@ -45,7 +45,7 @@ void add_thresholds(const CommandLine& verb, CompareOptions& compare) {
 }
 
 void add_heatmap(const CommandLine& verb, CompareOptions& compare) {
-    verb.option("--heatmap", "FILE.png", "write the differences as colors, black to yellow",
+    verb.option("--heatmap", "FILE.png", "write a color map of the differences, black to yellow",
                 [&](const std::string& text) {
                     if (picture_format_of_name(text) != PictureFormat::png) {
                         refuse("--heatmap", text, "name a .png file");
@@ -53,11 +53,11 @@ void add_heatmap(const CommandLine& verb, CompareOptions& compare) {
                     compare.heatmap = text;
                 });
     verb.option("--heatmap-scale", "X",
-                "the difference at the top of its colors (default: the largest)",
+                "the difference at the top of the color map (default: the largest)",
                 [&](const std::string& text) {
                     compare.heatmap_scale = parse_limit("--heatmap-scale", text);
                     if (compare.heatmap_scale == 0)
-                        refuse("--heatmap-scale", text, "0 is no scale");
+                        refuse("--heatmap-scale", text, "give a number above 0");
                 });
 }
 
@@ -67,14 +67,15 @@ void add_compare(const CommandLine& program, Options& options) {
     CompareOptions& compare = options.compare;
     const CommandLine verb = program.verb("compare", "measure the difference between two images");
     verb.argument("A", compare.picture, "picture: PNG, EXR, PFM, JPEG, TIFF, HDR, PNM");
-    verb.argument("B", compare.reference, "reference of the same size and channels");
+    verb.argument("B", compare.reference,
+                  "reference picture, of the same size and number of channels");
     add_thresholds(verb, compare);
     add_heatmap(verb, compare);
     verb.flag("--flip", compare.flip,
-              "also NVIDIA's FLIP, where python3 has flip-evaluator (half a second and more)");
+              "also compute NVIDIA's FLIP, if python3 has flip-evaluator (half a second or more)");
     verb.flag("--clamp", compare.clamp, "clamp values to 0..1 first, as 8-bit files do");
     add_result_file(verb, "--json", compare.json,
-                    "as JSON: to FILE, or instead of the text on stdout");
+                    "write JSON: to FILE, or to stdout instead of the text");
     verb.when_chosen([&] { options.verb = Verb::compare; });
 }
 

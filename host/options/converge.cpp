@@ -43,9 +43,9 @@ void add_sweep(const CommandLine& verb, ConvergeOptions& converge) {
                 [&](const std::string& text) { converge.aa = parse_aa_list("--aa", text); });
     add_device_list(verb, converge.devices);
     add_count(verb, "--threads", converge.threads, 1, 4096,
-              "threads of 'threads' (default: all cores)");
+              "number of threads for 'threads' (default: all cores)");
     verb.flag("--scalar", converge.scalar,
-              "also threads one ray at a time, without vectors (float)");
+              "also time threads that trace one ray at a time, without vectors (float)");
     add_precisions(verb, converge.precisions);
     add_choice<std::vector<bool>>(verb, "--math", converge.fast_math,
                                   {{"strict", {false}}, {"fast", {true}}, {"both", {false, true}}},

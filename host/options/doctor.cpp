@@ -7,9 +7,9 @@ namespace rt {
 void add_doctor(const CommandLine& program, Options& options) {
     DoctorOptions& doctor = options.doctor;
     const CommandLine verb = program.verb(
-        "doctor", "test what is installed: drivers, devices, caches, formats; say what to do");
+        "doctor", "test the installation: drivers, devices, caches, formats; say how to fix it");
     verb.flag("--json", doctor.json, "as JSON on stdout");
-    verb.option("--device", "SPEC", "test this device alone, in this process",
+    verb.option("--device", "SPEC", "test only this device, in this process",
                 [&](const std::string& text) {
                     check_device_list(text);
                     doctor.device = text;

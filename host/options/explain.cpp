@@ -23,7 +23,7 @@ void add_explain(const CommandLine& program, Options& options) {
     ExplainOptions& explain = options.explain;
     explain.settings.aa = grid_aa(1);
     const CommandLine verb =
-        program.verb("explain", "say how a pixel got its color: the tree of its rays");
+        program.verb("explain", "show how a pixel got its color: the tree of its rays");
     verb.argument("SCENE", explain.scene, "scene file (.json, .nff, .obj, .ply)");
     verb.option(
         "--pixel", "X,Y", "the pixel, from the top left",

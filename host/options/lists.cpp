@@ -31,7 +31,7 @@ std::vector<std::string> split_list(const std::string& option, const std::string
     for (;;) {
         const std::size_t comma = text.find(',', at);
         parts.push_back(text.substr(at, comma - at));
-        if (parts.back().empty()) refuse(option, text, "give a list with commas between");
+        if (parts.back().empty()) refuse(option, text, "give a list separated by commas");
         if (comma == std::string::npos) return parts;
         at = comma + 1;
     }
@@ -57,7 +57,7 @@ int parse_count(const std::string& option, const std::string& text, int least, i
 
 void add_device_list(const CommandLine& verb, std::vector<std::string>& devices) {
     verb.option("--devices", "LIST",
-                "device specs as for render --device, with commas between; threads; all (default): "
+                "device specs as for render --device, separated by commas; threads; all (default): "
                 "threads and every OpenCL device",
                 [&](const std::string& text) {
                     devices = split_list("--devices", text);

@@ -63,37 +63,37 @@ std::string sections(const std::string& name, const VerbText& verb) {
 constexpr const char* exit_statuses = R"(.SH EXIT STATUS
 .TP
 0
-done
+success
 .TP
 1
-compared, and it differs
+a comparison or check found a difference
 .TP
 2
-wrong usage
+usage error
 .TP
 3
-input refused
+input rejected
 .TP
 4
 output not written
 .TP
 5
-no usable device, or it failed and \-\-no\-fallback
+no usable device, or it failed under \-\-no\-fallback
 .TP
 6
-pixels that are not finite
+non\-finite pixels
 .TP
 7
-over a limit of memory or size
+over a memory or size limit
 .TP
 8
-incomplete: parts of the picture are missing, or its time was over
+incomplete: parts of the picture are missing, or \-\-timeout ran out
 .TP
 70
-a bug of the program's
+a bug in mirrorball
 .TP
 129, 130, 138, 143, 152
-stopped by a signal; the picture so far is saved beside the output
+stopped by a signal; the picture so far is saved next to the output
 )";
 
 }  // namespace
@@ -105,8 +105,8 @@ std::string man_page(const VerbText& program, const std::string& version) {
     text += ".SH SYNOPSIS\n" + synopses(program.name, program);
     text += ".SH OPTIONS\n" + sections(program.name, program);
     return text + exit_statuses +
-           ".SH ENVIRONMENT\n.TP\n.B MIRRORBALL_DEVICE\nwhat \\fB\\-\\-device\\fR means when it is "
-           "not given\n";
+           ".SH ENVIRONMENT\n.TP\n.B MIRRORBALL_DEVICE\nthe default of "
+           "\\fB\\-\\-device\\fR in \\fBrender\\fR\n";
 }
 
 }  // namespace rt

@@ -8,17 +8,17 @@ namespace rt {
 void add_merge(const CommandLine& program, Options& options) {
     MergeOptions& merge = options.merge;
     const CommandLine verb =
-        program.verb("merge", "put the parts of a picture together that render --shard wrote");
+        program.verb("merge", "merge the parts of a picture that render --shard wrote");
     verb.arguments("PART", merge.parts, "parts (.mbj) of one picture, in any order", true);
     add_picture_output(verb, merge.output, merge.format,
-                       "picture file: .png, .exr, .pfm, .tif, .jpg .. (default: only check the "
+                       "picture file: .png, .exr, .pfm, .tif, .jpg, ... (default: only check the "
                        "parts), or - for standard output");
     verb.option("--encoding", "display|srgb|linear",
                 "how 8-bit files store linear light (default display: value x 255)",
                 [&](const std::string& text) { merge.encoding = parse_encoding(text); });
     verb.flag("--allow-missing", merge.allow_missing,
-              "write the picture although parts are missing, black there");
-    verb.flag("-q,--quiet", merge.quiet, "errors only");
+              "write the picture even if parts are missing; they are black");
+    verb.flag("-q,--quiet", merge.quiet, "print only errors");
     verb.when_chosen([&options] {
         settle_picture_output(options.merge.output, options.merge.format);
         options.verb = Verb::merge;

@@ -88,7 +88,7 @@ double parse_percent(const std::string& option, const std::string& text, double 
     const auto [stop, error] = std::from_chars(text.data(), end, percent);
     const bool is_whole = stop == end || (stop + 1 == end && *stop == '%');
     if (error != std::errc{} || !is_whole || !(percent >= 0 && percent <= most)) {
-        refuse(option, text, fmt::format("give per cent from 0% to {:g}%", most));
+        refuse(option, text, fmt::format("give a percentage from 0% to {:g}%", most));
     }
     return percent / 100;
 }

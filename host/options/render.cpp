@@ -109,7 +109,7 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                         {"mitchell", Filter::mitchell}},
                        "reconstruction filter (default box)");
     verb.option("--crop", "x0,y0,x1,y1",
-                "render a window: pixels from the top left, x1 and y1 not included",
+                "render only a window: pixels from the top left, excluding x1 and y1",
                 [&](const std::string& text) { render.crop = parse_crop(text); });
     verb.option("--max-bounces", "N",
                 "mirror and refracted rays after the eye ray (default: the scene's)",
@@ -117,8 +117,8 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                     render.max_bounces = parse_count("--max-bounces", text, 0, most_bounces);
                 });
     verb.option("--shard", "I/N",
-                "render some of N shares alone, into a part (-o FILE.mbj) for `mirrorball merge`: "
-                "7/64 or 7,9,20-25/64, numbers from 0",
+                "render only some of N shares, into a part file (-o FILE.mbj) for `mirrorball "
+                "merge`: 7/64 or 7,9,20-25/64, counted from 0",
                 [&](const std::string& text) {
                     render.shares = parse_shares(text);
                     if (!render.shares) {
@@ -127,19 +127,19 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                     }
                 });
     verb.option("--frames", "LIST",
-                "frames of the scene's camera path, each into a picture of its own (-o "
-                "out.%04d.png): 1-240 or 1,5,10-20; with --shard I/N every N-th of them; with "
-                "--resume those that are not there yet",
+                "render frames of the scene's camera path, each to its own picture (-o "
+                "out.%04d.png): 1-240 or 1,5,10-20; with --shard I/N only every N-th frame; with "
+                "--resume only the missing ones",
                 [&](const std::string& text) { render.frames = parse_frames(text); });
     verb.option(
-        "--timeout", "S", "give up after S seconds, and save what is finished",
+        "--timeout", "S", "stop after S seconds and save what is finished",
         [&](const std::string& text) { render.timeout = parse_seconds("--timeout", text, 0.001); });
     verb.flag("--watch", render.watch,
               "render again whenever the scene's file or one of its models changes, until Ctrl-C");
     verb.flag("--fresh", render.fresh,
-              "ignore what an interrupted render left in FILE.mbj beside the output");
+              "ignore what an interrupted render left in FILE.mbj next to the output");
     verb.flag("--resume", render.resume,
-              "keep what is finished in FILE.mbj from the start, not after 2 s only");
+              "save finished tiles in FILE.mbj from the start, not only after 2 s");
     verb.option("--encoding", "display|srgb|linear",
                 "how 8-bit files store linear light (default display: value x 255)",
                 [&](const std::string& text) { render.encoding = parse_encoding(text); });
@@ -150,8 +150,8 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
 void add_device_options(const CommandLine& verb, RenderOptions& render) {
     verb.option(
         "--device", "SPEC",
-        "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N] or all; several with "
-        "commas share the picture (default: $MIRRORBALL_DEVICE, else the best available)",
+        "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N] or all; several, separated "
+        "by commas, share the picture (default: $MIRRORBALL_DEVICE, else the best available)",
         [&](const std::string& text) {
             check_device_list(text);
             render.device = text;
@@ -161,42 +161,42 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
                           "arithmetic (default float)");
     add_choice<bool>(verb, "--math", render.fast_math, {{"strict", false}, {"fast", true}},
                      "strict (default): the same bits everywhere; fast: the compiler may contract");
-    add_choice<Launch>(verb, "--launch", render.launch,
-                       {{"pixel", Launch::pixel}, {"sample", Launch::sample}},
-                       "what an OpenCL work item is (default: pixel on CPUs, sample elsewhere)");
+    add_choice<Launch>(
+        verb, "--launch", render.launch, {{"pixel", Launch::pixel}, {"sample", Launch::sample}},
+        "what an OpenCL work item renders (default: pixel on CPUs, sample elsewhere)");
     add_choice<int>(verb, "--lanes", render.lanes,
                     {{"auto", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}},
-                    "rays traced side by side (default: a CPU's vector width; 1 on GPUs)");
+                    "rays per packet (default: a CPU's vector width; 1 on GPUs)");
     verb.option(
         "--isa", "NAME",
-        "instruction set of the threads' kernels, as `devices` names them (default: the best)",
+        "instruction set of the threads' kernels, as `devices` lists them (default: the best)",
         [&](const std::string& text) { render.isa = parse_isa(text); });
     add_choice<Schedule>(verb, "--schedule", render.schedule,
                          {{"tiles", Schedule::tiles}, {"buffers", Schedule::buffers}},
-                         "pthreads: shared tiles (default), or a thread per sample buffer");
+                         "pthreads: shared tiles (default), or one thread per sample buffer");
     add_count(verb, "--threads", render.threads, 1, most_threads,
-              "threads of the pthreads renderer, and of PoCL (default: all cores)");
+              "number of threads for pthreads and for PoCL (default: all cores)");
     verb.option("--tile", "WxH|N", "tile size in pixels (default: chosen by the device)",
                 [&](const std::string& text) { render.tile = parse_size("--tile", text); });
     verb.option("--features", "auto|all|LIST",
-                "compile what the scene needs (default), everything, or what it needs and these",
+                "compile what the scene needs (default), everything, or what it needs plus LIST",
                 [&](const std::string& text) { parse_features(text, render); });
     add_choice<std::optional<bool>>(
         verb, "--hierarchies", render.hierarchies,
         {{"auto", std::nullopt}, {"on", true}, {"off", false}},
         "build bounding volume hierarchies: auto (where they are faster, default), on, off");
     add_choice<bool>(verb, "--caster-lists", render.caster_lists, {{"on", true}, {"off", false}},
-                     "list the triangles that cast shadows, where there are few (default on)");
+                     "list the triangles that can cast shadows, if there are few (default on)");
     add_choice<bool>(verb, "--isolate", render.isolate, {{"auto", true}, {"never", false}},
-                     "load OpenCL drivers in a process of their own (default auto: yes)");
+                     "load OpenCL drivers in a separate process (default auto: yes)");
     verb.option(
         "--deadline", "S",
-        "seconds after which a driver that does nothing is taken for hung (default 10)",
+        "seconds without progress after which a driver counts as hung (default 10)",
         [&](const std::string& text) { render.deadline = parse_seconds("--deadline", text, 0.5); });
     verb.flag("--no-fallback", render.no_fallback,
-              "fail when the device fails, instead of finishing on threads");
+              "fail if the device fails, instead of finishing on threads");
     verb.option(
-        "--check", "P%", "trace a share of a device's tiles again on threads and compare",
+        "--check", "P%", "trace P% of a device's tiles again on threads and compare",
         [&](const std::string& text) { render.check = parse_percent("--check", text, 100); });
 }
 
@@ -250,8 +250,8 @@ void add_report_options(const CommandLine& verb, RenderOptions& render) {
                               {"none", ProgressMode::none}},
                              "on stderr (default auto: a bar on a terminal, else lines)");
     add_view_options(verb, render.view);
-    verb.flag("-q,--quiet", render.quiet, "errors only");
-    verb.flag("-v,--verbose", render.verbose, "say more");
+    verb.flag("-q,--quiet", render.quiet, "print only errors");
+    verb.flag("-v,--verbose", render.verbose, "print more");
 }
 
 void settle_journal(RenderOptions& render) {
@@ -260,9 +260,9 @@ void settle_journal(RenderOptions& render) {
     }
     if (render.resume) render.journal_delay = 0;
     if (!render.shares) return;
-    if (render.is_batch()) throw Error(ExitCode::usage, "--shard is for one scene");
+    if (render.is_batch()) throw Error(ExitCode::usage, "--shard takes one scene");
     if (!render.reference.empty()) {
-        throw Error(ExitCode::usage, "--reference is for whole pictures, not for --shard");
+        throw Error(ExitCode::usage, "--reference needs a whole picture; leave out --shard");
     }
     if (render.fast_math || render.schedule != Schedule::tiles) {
         throw Error(ExitCode::usage,
@@ -304,13 +304,12 @@ void settle_streams(RenderOptions& render) {
 /// Frames of one scene; of shares, every so many.
 void settle_frames(RenderOptions& render) {
     if (render.scenes.size() != 1 || !render.batch.empty()) {
-        throw Error(ExitCode::usage, "--frames is for one scene");
+        throw Error(ExitCode::usage, "--frames takes one scene");
     }
     if (!render.output.empty() && !find_frame_number(render.output)) {
-        throw Error(ExitCode::usage,
-                    fmt::format("-o '{}' is one file for several frames; write %04d for a frame's "
-                                "number, as in out.%04d.png",
-                                render.output));
+        throw Error(ExitCode::usage, fmt::format("-o '{}' names one file for several frames; use "
+                                                 "%04d for the frame number, as in out.%04d.png",
+                                                 render.output));
     }
     if (!render.shares) return;
     std::vector<int> own;
@@ -322,7 +321,7 @@ void settle_frames(RenderOptions& render) {
         }
     }
     if (own.empty())
-        throw Error(ExitCode::usage, "--shard leaves this share no frame; give fewer shares");
+        throw Error(ExitCode::usage, "--shard gives this share no frames; use fewer shares");
     render.frames = std::move(own);
     render.shares.reset();
 }
@@ -338,13 +337,12 @@ void settle_scenes(RenderOptions& render) {
         return;
     }
     if (!render.reference.empty()) {
-        throw Error(ExitCode::usage, "--reference is for one scene");
+        throw Error(ExitCode::usage, "--reference takes one scene");
     }
     if (!render.output.empty() && render.output.find("%s") == std::string::npos) {
-        throw Error(ExitCode::usage,
-                    fmt::format("-o '{}' is one file for several scenes; write %s for a scene's "
-                                "name, as in out/%s.png",
-                                render.output));
+        throw Error(ExitCode::usage, fmt::format("-o '{}' names one file for several scenes; use "
+                                                 "%s for the scene's name, as in out/%s.png",
+                                                 render.output));
     }
 }
 
@@ -357,11 +355,13 @@ void add_render(const CommandLine& program, Options& options) {
                    "scene files (.json, .nff, .obj, .ply), or - for JSON from standard input",
                    false);
     add_picture_output(verb, options.render.output, options.render.format,
-                       "picture file: .png, .exr, .pfm, .tif, .jpg .. (default: none), or - for "
-                       "standard output; of several scenes %s is a scene's name: out/%s.png");
-    verb.option("--batch", "FILE|-",
-                "also the scenes that a file or stdin names, a line each: SCENE or SCENE OUTPUT",
-                [&](const std::string& text) { options.render.batch = text; });
+                       "picture file: .png, .exr, .pfm, .tif, .jpg, ... (default: none), or - for "
+                       "standard output; for several scenes, %s stands for the scene's name: "
+                       "out/%s.png");
+    verb.option(
+        "--batch", "FILE|-",
+        "also render the scenes listed in a file or on stdin, one per line: SCENE or SCENE OUTPUT",
+        [&](const std::string& text) { options.render.batch = text; });
     add_picture_options(verb, options.render);
     add_light_options(verb, options.render.light);
     add_device_options(verb, options.render);

@@ -8,10 +8,10 @@ namespace rt {
 void add_report(const CommandLine& program, Options& options) {
     ReportOptions& report = options.report;
     const CommandLine verb =
-        program.verb("report", "one page: pictures, timings, error against run time");
+        program.verb("report", "write one page: pictures, timings, error against run time");
     verb.arguments("SCENE", report.scenes, "scene files (.json, .nff, .obj, .ply)", true);
     verb.option(
-        "-o,--output", "FILE", "the page (.html)",
+        "-o,--output", "FILE", "page to write (.html)",
         [&](const std::string& text) {
             if (!text.ends_with(".html")) refuse("-o", text, "name a file that ends in .html");
             report.output = text;
@@ -23,9 +23,9 @@ void add_report(const CommandLine& program, Options& options) {
     add_count(verb, "--repeats", report.repeats, 5, 1000,
               "timed rounds after the warm-up, at least 5 (default 5)");
     verb.flag("--quick", report.quick,
-              "fewer settings and a coarser reference: to see the page, not to quote it");
+              "fewer settings and a coarser reference: for a preview, not for figures to quote");
     verb.flag("--stress", report.stress,
-              "also the stress suite, minutes more (with --quick: its quick part)");
+              "also run the stress suite, which takes minutes (with --quick: its quick part)");
     verb.flag("-q,--quiet", report.quiet, "no progress on stderr");
     verb.when_chosen([&] {
         options.report.cache_folder = options.converge.cache_folder;

@@ -21,9 +21,9 @@ void add_scene_action(const CommandLine& scene, const char* name, const char* he
 
 void add_scene(const CommandLine& program, Options& options) {
     const CommandLine scene = program.verb("scene", "inspect a scene file");
-    add_scene_action(scene, "info", "what the scene holds, needs, and leaves out", true, options);
-    add_scene_action(scene, "check", "read the scene and say what is wrong with it", false,
+    add_scene_action(scene, "info", "show what the scene contains, needs, and leaves out", true,
                      options);
+    add_scene_action(scene, "check", "check the scene for errors", false, options);
 }
 
 }  // namespace rt

@@ -24,25 +24,26 @@ void add_stress(const CommandLine& program, Options& options) {
     add_list(verb, "--case", stress.cases,
              "families (scale-*) or cases (shift/1e9) to run (default: all)");
     add_list(verb, "--except", stress.except, "families or cases to leave out");
-    verb.option("--device", "SPEC,...",
-                "as for render; threads; all (default): threads and every OpenCL device",
-                [&](const std::string& text) {
-                    stress.devices = split_list("--device", text);
-                    for (const std::string& spec : stress.devices) {
-                        check_device_list(spec);
-                    }
-                });
-    verb.flag("--quick", stress.quick, "the cases that take under a minute in all");
+    verb.option(
+        "--device", "SPEC,...",
+        "device specs as for render; threads; all (default): threads and every OpenCL device",
+        [&](const std::string& text) {
+            stress.devices = split_list("--device", text);
+            for (const std::string& spec : stress.devices) {
+                check_device_list(spec);
+            }
+        });
+    verb.flag("--quick", stress.quick, "run only the cases that take under a minute in total");
     verb.flag("--all-features", stress.all_features,
               "compile all features into the kernels: one build for all cases");
-    verb.flag("--naive", stress.naive, "also textbook formulas, for comparison");
-    verb.flag("--list", stress.list, "name the cases, run none");
+    verb.flag("--naive", stress.naive, "also run textbook formulas, for comparison");
+    verb.flag("--list", stress.list, "list the cases without running them");
     add_result_file(verb, "--json", stress.json,
-                    "as JSON: to FILE, or instead of the table on stdout");
+                    "write JSON: to FILE, or to stdout instead of the table");
     verb.option("-o,--output", "DIR",
                 "folder for each case's reference, worst picture and error map",
                 [&](const std::string& text) { stress.output = text; });
-    verb.flag("-v,--verbose", stress.verbose, "a line per case and renderer");
+    verb.flag("-v,--verbose", stress.verbose, "print a line per case and renderer");
     verb.flag("-q,--quiet", stress.quiet, "no progress on stderr");
     verb.when_chosen([&] { options.verb = Verb::stress; });
 }
