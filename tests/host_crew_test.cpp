@@ -157,7 +157,8 @@ TEST(Crew, GoesOnWithoutAMemberThatFails) {
         painting.render();
         EXPECT_TRUE(painting.is_finished());
         EXPECT_EQ(painting.count(1) + painting.count(2), picture.pixels());
-        EXPECT_EQ(painting.said, std::vector<std::string>{"painter fell off; going on without it"});
+        EXPECT_EQ(painting.said,
+                  std::vector<std::string>{"painter fell off; continuing without it"});
         EXPECT_EQ(painting.crew.shares()[0].failure, "painter fell off");
         painting.refine();
         EXPECT_EQ(painting.count(3) + painting.count(4), picture.pixels());

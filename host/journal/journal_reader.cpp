@@ -41,11 +41,11 @@ JournalReader::JournalReader(std::istream& stream, std::uint64_t size)
     char magic[journal_magic.size()];
     if (!stream_.read(magic, sizeof(magic)) ||
         std::string_view(magic, 6) != journal_magic.substr(0, 6)) {
-        throw Error(ExitCode::input, "is no journal; give a file that render --shard wrote");
+        throw Error(ExitCode::input, "is not a journal; give a file that render --shard wrote");
     }
     if (std::string_view(magic, sizeof(magic)) != journal_magic) {
         throw Error(ExitCode::input,
-                    "is a journal of another version of mirrorball; render it again");
+                    "is a journal of a different version of mirrorball; render it again");
     }
     good_bytes_ = sizeof(magic);
     if (!read_record() || kind_ != RecordKind::header) {

@@ -42,14 +42,13 @@ void check_same_picture(const std::string& path, const JournalHeader& header,
         return;
     }
     const auto what = [&]() -> std::string {
-        if (header.scene_hash != first.scene_hash) return "another scene";
-        if (header.settings != first.settings) return "other settings";
-        return "another version of mirrorball";
+        if (header.scene_hash != first.scene_hash) return "shows a different scene";
+        if (header.settings != first.settings) return "has different settings";
+        return "comes from a different version of mirrorball";
     };
-    throw Error(
-        ExitCode::input,
-        printable(fmt::format("{}: is of {} than {} ({}, {}; {}, {})", path, what(), first_path,
-                              header.scene, header.settings, first.scene, first.settings)));
+    throw Error(ExitCode::input,
+                printable(fmt::format("{}: {} than {} ({}, {}; {}, {})", path, what(), first_path,
+                                      header.scene, header.settings, first.scene, first.settings)));
 }
 
 template <typename T>
@@ -68,12 +67,12 @@ class Merger {
         if (!shares) refuse(path, "its header is damaged (shares); render it again");
         KnownPixels<T> known = read_known_pixels<T>(reader, std::move(used_film_));
         if (reader.good_bytes() < bytes) {
-            notes.push_back(fmt::format("{}: its last {} bytes are damaged and left out", path,
+            notes.push_back(fmt::format("{}: ignored its last {} bytes, which are damaged", path,
                                         bytes - reader.good_bytes()));
         }
         parts_.push_back({path, known.writers});
         if (header.refines && !known.is_finished) {
-            notes.push_back(path + ": is not finished, and adaptive: left out");
+            notes.push_back(path + ": ignored, because it is adaptive and not finished");
             return;
         }
         Film<T> film = known.take_refined_film();
@@ -92,13 +91,12 @@ class Merger {
         if (differences_.empty()) return;
         const auto& [pair, difference] = *differences_.begin();
         const auto width = static_cast<std::size_t>(region_.width);
-        throw Error(
-            ExitCode::different,
-            fmt::format("{} and {} differ in {} pixels, the first at {},{}: render both shares "
-                        "again, one of the devices is wrong",
-                        described(pair.first), described(pair.second), difference.pixels,
-                        static_cast<std::size_t>(region_.x) + difference.first % width,
-                        static_cast<std::size_t>(region_.y) + difference.first / width));
+        throw Error(ExitCode::different,
+                    fmt::format("{} and {} differ in {} pixels, the first at {},{}; render both "
+                                "shares again: one of the devices is wrong",
+                                described(pair.first), described(pair.second), difference.pixels,
+                                static_cast<std::size_t>(region_.x) + difference.first % width,
+                                static_cast<std::size_t>(region_.y) + difference.first / width));
     }
 
     MergedPicture result(const JournalHeader& header) {

@@ -65,8 +65,8 @@ std::string why_no_device(const std::string& platform) {
     return fmt::format("OpenCL platform '{}' has no devices; {}", platform,
                        platform == pocl_platform
                            ? "check that its kernel cache can be written (POCL_CACHE_DIR, else "
-                             "~/.cache/mirrorball) and what POCL_DEVICES says"
-                           : "look at its driver");
+                             "~/.cache/mirrorball), and check POCL_DEVICES"
+                           : "check its driver");
 }
 
 std::vector<cl::Device> devices_of(const cl::Platform& platform) {
@@ -92,9 +92,8 @@ void list_platform(const cl::Platform& platform, int platform_index, std::vector
         }
     } catch (const cl::Error& error) {
         problems.push_back(
-            fmt::format("OpenCL platform '{}' does not tell its devices: {}; look "
-                        "at its driver",
-                        name, cl_status_text(error.err())));
+            fmt::format("OpenCL platform '{}' cannot list its devices: {}; check its driver", name,
+                        cl_status_text(error.err())));
     }
 }
 

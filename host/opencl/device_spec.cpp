@@ -76,11 +76,12 @@ Test test_for(const std::string& spec) {
             };
         }
     }
-    throw Error(ExitCode::usage,
-                fmt::format("--device '{}' is not understood; use an index, platform:device, pocl, "
-                            "name:TEXT, cpu, gpu, threads[:N], all or auto, or several of them "
-                            "with commas",
-                            spec));
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "--device '{}' is not a device; use an index, platform:device, pocl, name:TEXT, cpu, "
+            "gpu, threads[:N], all or auto, or several of them separated by commas",
+            spec));
 }
 
 constexpr std::string_view all_devices = "all";

@@ -236,7 +236,7 @@ void Crew<T>::work_together(const Job& job, const std::function<bool()>& is_unfi
     for (;;) {
         for (Place& place : team.places) {
             if (place.failure == nullptr || std::exchange(place.failure_is_told, true)) continue;
-            say_(message_of(place.failure) + "; going on without it");
+            say_(message_of(place.failure) + "; continuing without it");
         }
         const bool is_idle = team.working == 0 &&
                              !team.any([&](const Place& place) { return team.has_work(place); });

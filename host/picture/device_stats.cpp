@@ -67,7 +67,7 @@ void say_ignored_settings(const DeviceChoice& choice, const RenderSettings& sett
     }
     if (!settings.fast_math && !choice.device.rounds_correctly && events.detail) {
         events.detail(choice.device.name +
-                      " does not promise correctly rounded division and square root; the "
+                      " does not guarantee correctly rounded division and square root; the "
                       "picture's bits may differ from other devices'");
     }
 }

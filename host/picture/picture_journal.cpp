@@ -88,24 +88,23 @@ void PictureJournal<T>::open() {
     if (file_->found() == Found::something_else) {
         if (settings_.shares) {
             throw Error(ExitCode::output,
-                        path +
-                            ": holds something else than a journal, or cannot be written; "
-                            "name another file");
+                        path + ": is not a journal, or cannot be written; name another file");
         }
-        say_(path + " is no journal of ours; the picture is not kept while it is rendered");
+        say_(path + " is not a mirrorball journal; finished tiles are not saved");
         file_.reset();
         return;
     }
     if (file_->found() == Found::journal && !settings_.fresh) read();
     const bool is_foreign = !settings_.fresh && !known_ && file_->found() != Found::nothing;
     if (is_foreign && settings_.shares) {
-        throw Error(ExitCode::output,
-                    path +
-                        ": is of another picture, other shares or another version; name "
-                        "another file, or give --fresh to replace it");
+        throw Error(ExitCode::output, path +
+                                          ": belongs to a different picture, share or version; "
+                                          "name another file, or give --fresh to replace it");
     }
     if (is_foreign) {
-        say_(path + " is of another picture, other settings or another version; starting again");
+        say_(path +
+             " belongs to a different picture, different settings or a different version; starting "
+             "over");
     }
     if (!known_) start_again();
 }
@@ -125,9 +124,9 @@ void PictureJournal<T>::read() {
         if (error.exit_code() != ExitCode::input) throw;  // else its header is damaged
     }
     if (!known_) return;
-    say_(fmt::format("going on with {}, which has {:.0f} % of the first pass{}", file_->path(),
+    say_(fmt::format("resuming from {}, which has {:.0f} % of the first pass{}", file_->path(),
                      100 * known_->share_rendered(),
-                     known_->refined[0].pixels.empty() ? "" : " and some of what is refined"));
+                     known_->refined[0].pixels.empty() ? "" : " and some refined pixels"));
 }
 
 template <typename T>
@@ -257,7 +256,7 @@ void PictureJournal<T>::end(bool is_complete) {
     keeper_.reset();
     if (file_->failure().empty()) return;
     if (settings_.shares) throw Error(ExitCode::output, file_->failure());
-    say_(file_->failure() + "; the picture was not kept while it was rendered");
+    say_(file_->failure() + "; finished tiles were not saved");
 }
 
 template class PictureJournal<float>;

@@ -56,7 +56,7 @@ std::string points_text(const ConvergeResult& result) {
         text += point_text(result, result.points[i], on_front);
     }
     return text +
-           "* on the Pareto front; < below the reference's own error: not to be told apart.\n"
+           "* on the Pareto front; < below the reference's own error, not resolved.\n"
            "seconds: medians without open and build; +-%: median absolute deviation.\n";
 }
 
@@ -73,8 +73,9 @@ std::string curves_text(const ConvergeResult& result) {
 
 std::string builds_text(const ConvergeResult& result) {
     std::string text = fmt::format(
-        "\non top of the first picture, seconds\n{:<30} {:>9} {:>11} {:<8} "
-        "{:>11} {:>4}\n",
+        "\n"
+        "extra time for the first picture, seconds\n"
+        "{:<30} {:>9} {:>11} {:<8} {:>11} {:>4}\n",
         "", "open", "first build", "cache", "later build", "+-%");
     for (const BuildOffset& offset : build_offsets(result)) {
         text += fmt::format("{} {:>9.5f} {:>11.5f} {:<8} {:>11.5f} {:>4.1f}\n", who(offset.of),
@@ -93,7 +94,7 @@ std::string target_text(const ConvergeResult& result, const TargetTime& time) {
 }
 
 std::string targets_text(const ConvergeResult& result) {
-    std::string text = "\ntime to reach an RMSE, with the fastest setting measured that does\n";
+    std::string text = "\ntime to reach an RMSE, with the fastest setting that reaches it\n";
     for (const TargetTime& time : target_times(result)) {
         text += fmt::format("{:<24} {:>5.0e}  {}\n",
                             device_text(time.device, time.device_name).substr(0, 24), time.target,

@@ -25,7 +25,7 @@ std::string hierarchies_text(const FlattenStats& stats) {
         text += fmt::format("{}{} ({} nodes, {} deep)", text.empty() ? "" : ", ", kind,
                             shape->nodes, shape->depth);
     }
-    if (text.empty()) return "no hierarchy: few primitives";
+    if (text.empty()) return "no hierarchy: too few primitives";
     return fmt::format("hierarchy over {}, built in {:.3f} s", text, stats.bvh_seconds);
 }
 

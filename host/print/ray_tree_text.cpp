@@ -48,7 +48,7 @@ std::string light_text(const LightAtHit& light) {
         case LightAtHit::State::behind:
             return "behind the surface";
         case LightAtHit::State::shadowed:
-            return "in the shadow";
+            return "in shadow";
         case LightAtHit::State::lit:
             return color_text(light.color);
     }
@@ -62,7 +62,7 @@ void add_ray(const RayNode& ray, std::string& text) {
                             kind_of(ray), ray.object, printable(ray.material),
                             point_text(ray.point), ray.distance, point_text(ray.normal));
     } else {
-        text += fmt::format("{}{} ray meets nothing\n", indent, kind_of(ray));
+        text += fmt::format("{}{} ray hits nothing\n", indent, kind_of(ray));
     }
     if (ray.hit) {
         text += fmt::format("{}    ambient     {}\n", indent, color_text(ray.ambient));
@@ -71,7 +71,7 @@ void add_ray(const RayNode& ray, std::string& text) {
                 fmt::format("{}    light {:<5} {}\n", indent, light.light + 1, light_text(light));
         }
     }
-    text += fmt::format("{}    {:<11} {}\n", indent, ray.hit ? "here" : "background",
+    text += fmt::format("{}    {:<11} {}\n", indent, ray.hit ? "local light" : "background",
                         color_text(ray.color));
     text += fmt::format("{}    x weight    {}\n", indent, color_text(ray.weight));
     text += fmt::format("{}    adds        {}\n", indent, color_text(ray.weight * ray.color));

@@ -103,8 +103,8 @@ std::string error_line(const ImageError& error) {
 
 std::string driver_time_text(const RenderStats& stats) {
     return fmt::format(
-        "kernels ran for {:.3f} s of the {:.3f} s of tracing; the driver seems to have compiled "
-        "meanwhile: a second run shows the speed of tracing",
+        "kernels ran for {:.3f} s of the {:.3f} s of tracing; the driver seems to have been "
+        "compiling; a second run shows the true tracing speed",
         stats.phases.renderer.kernel, stats.phases.renderer.trace);
 }
 
@@ -126,12 +126,12 @@ std::string stats_text(const RenderStats& stats) {
             fmt::format("        {:.0f} % of the first pass from a journal\n", 100 * stats.resumed);
     }
     if (stats.tiles_checked > 0) {
-        text += fmt::format("        {} traced again on threads: the same\n",
+        text += fmt::format("        {} traced again on threads: identical\n",
                             counted(stats.tiles_checked, "tile"));
     }
     text += fmt::format("needs   {}\nleaves out {}{}\n", names_text(stats.features, true),
                         names_text(stats.features, false),
-                        stats.all_features ? " (compiled in all the same: --features all)" : "");
+                        stats.all_features ? " (compiled in anyway: --features all)" : "");
     text += fmt::format("builds  {}\ncasters {}\n", hierarchies_text(stats.scene.flatten),
                         casters_text(stats.scene.flatten));
     text += phases_text(stats.phases) + rays_text(stats);

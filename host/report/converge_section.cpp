@@ -125,7 +125,7 @@ Plot error_time_plot(const ConvergeResult& result, const DeviceColors& colors, s
 }
 
 std::string front_table(const ConvergeResult& result, std::size_t index) {
-    HtmlTable table{"Pareto front: no other setting is both faster and more exact",
+    HtmlTable table{"Pareto front: no other setting is both faster and more accurate",
                     {"sampling", "device", "run time, ms", "noise, %", "RMSE"},
                     {}};
     for (const std::size_t i : front_of(result)) {
@@ -151,7 +151,7 @@ std::string name_of(const ConvergeResult& result, const std::string& device,
 
 std::string targets_table(const ConvergeResult& result, std::size_t index) {
     HtmlTable table{
-        "Time to reach an error, with the fastest setting measured that does", {"device"}, {}};
+        "Time to reach an error, with the fastest setting that reaches it", {"device"}, {}};
     for (const double target : rmse_targets) {
         table.heads.push_back("RMSE " + significant(target, 1));
     }
@@ -213,8 +213,8 @@ std::string error_time_section(const ReportScene& scene, std::size_t index) {
                html_text(fmt::format(
                    "{} x {} pixels, medians of {} repeats; bands: median absolute deviation. "
                    "Hollow markers: double precision. A dotted whisker at a curve's first point "
-                   "leads to the time with opening the device and building its kernels, paid once, "
-                   "or to the frame where that is beyond it. Run time: "
+                   "leads to the time that includes opening the device and building its kernels, "
+                   "which is paid once; it ends at the frame if that time is beyond it. Run time: "
                    "flatten, upload, trace, resolve, read back. Values clamped to 0 to 1.",
                    result.width, result.height, result.repeats_asked))) +
            front_table(result, index) + targets_table(result, index) + slopes_table(result);

@@ -55,7 +55,7 @@ std::string environment_section(const Report& report) {
     if (report.load_before >= 0) {
         table.rows.push_back({{"load before", ""}, {significant(report.load_before, 2), ""}});
     }
-    table.rows.push_back({{"made on", ""}, {report.date, ""}});
+    table.rows.push_back({{"created", ""}, {report.date, ""}});
     return "<h2 id=\"machine\">Environment</h2>\n<div class=\"facts\">" + html_table(table) +
            "</div>\n";
 }

@@ -95,8 +95,8 @@ std::string features_section(const ReportScene& scene, std::size_t index) {
         stats.scene.bytes, stats.double_precision ? "double" : "float");
     if (names_of(stats.features, false).empty()) {
         html +=
-            "<p>This scene needs everything; there is nothing to leave out, so both "
-            "below are the same kernels and their difference is noise.</p>\n";
+            "<p>This scene needs everything, so there is nothing to leave out: both rows below use "
+            "the same kernels, and their difference is noise.</p>\n";
     } else {
         html += "<p>Left out: " + html_text(names_text(stats.features, false)) + ".</p>\n";
     }

@@ -81,7 +81,7 @@ std::string phases_figure(const std::vector<PlacedRow>& rows, const DeviceColors
     if (!cold.empty()) {
         html += "<h4>The first picture</h4>\n" +
                 bars_figure("Time of a first picture by phase", cold,
-                            "After an install, kernels are compiled once, then kept.");
+                            "After installation, kernels are compiled once, then cached.");
     }
     return html;
 }

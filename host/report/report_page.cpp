@@ -39,7 +39,7 @@ std::string headline(const Report& report) {
     for (const ReportScene& scene : report.scenes) {
         names += (names.empty() ? "" : ", ") + scene_name(scene);
     }
-    return "How fast and how exactly mirrorball renders " + names;
+    return "How fast and how accurately mirrorball renders " + names;
 }
 
 /// "AMD EPYC 7763, 2 cores, 2026-11-20 12:00 UTC"
@@ -88,7 +88,7 @@ std::string scene_html(const Report& report, std::size_t index) {
         index, index, index, html_text(scene_name(scene)), html_text(stats.path),
         holdings_text(run), run.width, run.height, run.max_bounces, hash_text(stats.hash));
     html += scene_verdict(report, index);
-    if (!scene.complete) html += "<p class=\"warning\">Incomplete: stopped on the way.</p>\n";
+    if (!scene.complete) html += "<p class=\"warning\">Incomplete: stopped before the end.</p>\n";
     if (scene.has_pictures) html += glance_html(scene, index) + pictures_section(scene, index);
     html += timing_section(scene, index);
     if (!front_of(scene.converge).empty()) html += error_time_section(scene, index);
@@ -101,7 +101,7 @@ std::string warnings_html(const Report& report) {
     std::string html;
     if (!report.stopped.empty()) {
         html += "<p class=\"warning\">Incomplete: " + html_text(report.stopped) +
-                " before all was measured.</p>\n";
+                " before everything was measured.</p>\n";
     }
     const std::string busy = busy_text(load_of(report.load_before));
     if (!busy.empty()) html += "<p class=\"warning\">" + html_text(busy) + "</p>\n";
@@ -111,8 +111,9 @@ std::string warnings_html(const Report& report) {
 std::string commands_html(const Report& report) {
     std::string text;
     for (const std::string& command : report.commands) text += command + "\n";
-    return "<h2 id=\"commands\">Reproduce</h2>\n<p>The first line makes this page; the others "
-           "make its parts.</p>\n<pre tabindex=\"0\"><code>" +
+    return "<h2 id=\"commands\">Reproduce</h2>\n"
+           "<p>The first command makes this page; the others make parts of it.</p>\n"
+           "<pre tabindex=\"0\"><code>" +
            html_text(text) + "</code></pre>\n";
 }
 
@@ -165,7 +166,7 @@ std::string report_page(const Report& report) {
     std::string html =
         head(report) + "<body>\n<header>\n<h1>" + html_text(headline(report)) + "</h1>\n";
     if (report.scenes.size() == 1) html += lead_html(verdict_details(report.scenes.front(), 0));
-    html += "<p class=\"note\">A mirrorball report, measured in one go on " +
+    html += "<p class=\"note\">A mirrorball report, measured in one run on " +
             html_text(machine_and_date(report)) + ".</p>\n" + warnings_html(report) +
             navigation(report) + "</header>\n<main>\n";
     for (std::size_t i = 0; i < report.scenes.size(); ++i) html += scene_html(report, i);
@@ -173,8 +174,9 @@ std::string report_page(const Report& report) {
     return html + environment_section(report) + commands_html(report) + data_html(report) +
            "</main>\n<footer>Made by " + html_text(text_of(report.environment["program"])) + ", " +
            html_text(report.date) +
-           ". Nothing in this page comes from elsewhere, and no script "
-           "runs.</footer>\n</body>\n</html>\n";
+           ". This page loads nothing from elsewhere and runs no scripts.</footer>\n"
+           "</body>\n"
+           "</html>\n";
 }
 
 }  // namespace rt

@@ -141,7 +141,7 @@ std::string ratio_figure(const std::vector<PlacedRow>& rows, std::size_t index,
     plot.y.low = lowest_y(plot) / 1.1;  // no need of 0 where ratios are compared
     name_sizes(plot, rows);
     plot.description = "Sizes on a logarithmic axis. The numbers are in the table of every row.";
-    return plot_figure(plot, "Time of one thread over the device's, each of tracing alone.");
+    return plot_figure(plot, "Tracing time of one thread over tracing time of the device.");
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ std::string shot_figures(const StressFamilyResult& family) {
     const Picture worst = shown(shot.worst), reference = shown(shot.reference);
     return fmt::format("<h4>{}</h4>\n<div class=\"pictures three pixels\">\n", html_text(name)) +
            figure(reference, name + ", reference", "Reference.") +
-           figure(worst, name + ", worst of mirrorball's pictures", "Worst of ours.") +
+           figure(worst, name + ", worst of mirrorball's pictures", "Worst of mirrorball's.") +
            figure(heat_map(worst, reference, map_scale), name + ", error map",
                   "Difference, 1/255 and more at the top of the color map.") +
            "</div>\n";
@@ -62,8 +62,8 @@ std::string stress_pictures(const StressResult& result) {
         ++shown_families;
     }
     if (html.empty()) return "";
-    return "<h3>Worst pictures</h3>\n<p>Of the families with the least margin to their "
-           "tolerance.</p>\n" +
+    return "<h3>Worst pictures</h3>\n"
+           "<p>From the families with the smallest margin to their tolerance.</p>\n" +
            html;
 }
 

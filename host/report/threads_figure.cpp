@@ -66,7 +66,7 @@ std::string sentences(const CurvesBySchedule& curves) {
 Plot threads_plot(CurvesBySchedule all, std::size_t index) {
     Plot plot;
     plot.id = fmt::format("threads-{}", index);
-    plot.title = "Speed-up against threads, measured and after Amdahl";
+    plot.title = "Speed-up against threads, measured and predicted by Amdahl's law";
     plot.x = {"threads", 0, 1, false, AxisUnit::count};
     plot.y = {"total: times as fast as one thread", 0, 1, false, AxisUnit::plain};
     int style = 0;

@@ -114,9 +114,9 @@ std::vector<HtmlCell> full_row(const PlacedRow& placed) {
 
 std::string full_table(const std::vector<PlacedRow>& rows) {
     HtmlTable table{
-        "Every row; total leaves out starting the program, reading the scene and "
-        "writing the picture; speed-up is over one thread; RMSE is against double precision at the "
-        "same samples",
+        "Every row; total excludes starting the program, reading the scene and writing the "
+        "picture; speed-up is over one thread; RMSE is against double precision at the same "
+        "samples",
         {"pixels", "sampling", "precision", "device", "trace, ms", "noise, %", "total, ms",
          "Mrays/s", "trace speed-up", "total speed-up", "RMSE"},
         {}};
@@ -136,9 +136,10 @@ std::string timing_section(const ReportScene& scene, std::size_t index) {
     if (rows.empty()) return "";
     const DeviceColors colors(scene.bench.rows);
     return fmt::format(
-               "<h3>Time</h3>\n<p>Medians of {} repeats, interleaved so that a slow moment "
-               "of the machine hits every row alike; the first round is not counted. A picture "
-               "that is not right gets no time.</p>\n",
+               "<h3>Time</h3>\n"
+               "<p>Medians of {} repeats, interleaved so that a slow moment of the machine affects "
+               "every row equally; the first round is not counted. A wrong picture gets no "
+               "time.</p>\n",
                scene.bench.repeats_asked) +
            paper_tables(rows) + full_table(rows) + phases_figure(rows, colors) +
            size_figures(rows, index, colors) + threads_html(rows, index);

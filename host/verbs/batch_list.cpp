@@ -123,8 +123,9 @@ bool BatchList::next(BatchItem& item) {
     if (item.output.empty()) return true;
     const auto path = std::filesystem::absolute(item.output).lexically_normal().string();
     if (!outputs_.insert(path).second) {
-        throw Error(ExitCode::usage,
-                    item.output + " is another scene's already; give each a file of its own");
+        throw Error(
+            ExitCode::usage,
+            item.output + " is already the output of another scene; give each scene its own file");
     }
     return true;
 }

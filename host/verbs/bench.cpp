@@ -54,7 +54,7 @@ class Plan {
     explicit Plan(const BenchOptions& options)
         : options_(options), devices_(listed_devices(options.devices)) {
         if (options.scenes.empty()) {
-            say("no scene given: the built-in cornell-box");
+            say("no scene given: using the built-in cornell-box");
             scenes_.push_back({default_scene_path, load_default_scene(options.light), 0});
         }
         for (const std::string& path : options.scenes) {
@@ -97,7 +97,7 @@ class Plan {
 
     void say_devices_without_double() const {
         for (const ListedDevice& device : devices_) {
-            if (wants_double() && !device.has_double) say(device.name + " has no double");
+            if (wants_double() && !device.has_double) say(device.name + " has no double precision");
         }
     }
 

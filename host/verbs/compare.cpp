@@ -49,7 +49,7 @@ void check_same_shape(const Picture& a, const Picture& b, const CompareOptions& 
     if (a.width == b.width && a.height == b.height && a.channels == b.channels) return;
     throw Error(ExitCode::input,
                 fmt::format("{} is {}x{} pixels of {} channels, {} is {}x{} of {}; give pictures "
-                            "of one size and one number of channels",
+                            "with the same size and number of channels",
                             options.picture, a.width, a.height, a.channels, options.reference,
                             b.width, b.height, b.channels));
 }

@@ -158,8 +158,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     result.points = planned_points(options, bounces, devices);
     if (result.points.empty()) {
         throw Error(ExitCode::usage,
-                    "nothing to sweep: no device named can do that --precision "
-                    "and --math");
+                    "nothing to sweep: none of the devices supports this --precision and --math");
     }
     bounces.push_back(scene.max_bounces);
     scene.max_bounces = *std::max_element(bounces.begin(), bounces.end());

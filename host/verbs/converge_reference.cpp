@@ -77,7 +77,7 @@ void keep_half(const std::string& path, const Picture& half) {
         std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
         write_pfm(path, half);
     } catch (const Error& error) {
-        print_message(fmt::format("mirrorball: the reference is not kept: {}\n", error.what()));
+        print_message(fmt::format("mirrorball: the reference is not cached: {}\n", error.what()));
     }
 }
 

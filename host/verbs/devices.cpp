@@ -73,7 +73,7 @@ std::string device_text(const ClDevice& device) {
         static_cast<double>(device.memory_bytes) / gib,
         static_cast<double>(device.max_buffer_bytes) / gib);
     if (!device.rounds_correctly) {
-        text += "   does not promise correctly rounded division: bits may differ\n";
+        text += "   does not guarantee correctly rounded division: bits may differ\n";
     }
     if (!device.unusable.empty()) text += "   cannot be used: " + device.unusable + "\n";
     return text;

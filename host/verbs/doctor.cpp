@@ -64,8 +64,8 @@ void render_known_picture(const DeviceChoice& device, Precision precision) {
     const bool is_double = precision == Precision::float64;
     if (rendered.stats.image_hash == (is_double ? double_hash : float_hash)) return;
     throw Error(ExitCode::different,
-                fmt::format("computes other bits in {} than it should: image {}",
-                            is_double ? "double" : "float", hash_text(rendered.stats.image_hash)));
+                fmt::format("computes wrong bits in {}: image {}", is_double ? "double" : "float",
+                            hash_text(rendered.stats.image_hash)));
 }
 
 /// In this process.
@@ -115,9 +115,10 @@ Finding test_format(const char* name, const char* ending) {
 
 Finding test_kernel_cache() {
     const std::string why = why_pocl_cache_is_read_only();
-    if (why.empty()) return {State::fine, "kernel cache", "PoCL keeps what it compiles"};
+    if (why.empty()) return {State::fine, "kernel cache", "PoCL can save what it compiles"};
     return {State::broken, "kernel cache",
-            "PoCL cannot write it: " + why + "; set POCL_CACHE_DIR to a folder of yours"};
+            "PoCL cannot write to it: " + why +
+                "; set POCL_CACHE_DIR to a folder that you can write to"};
 }
 
 void examine_devices(const DoctorOptions& options, IcdFiles& files,
@@ -139,8 +140,9 @@ std::vector<Finding> examine(const DoctorOptions& options) {
     std::vector<Finding> findings;
     const std::vector<std::string> isas = native_isas();
     findings.push_back({isas.empty() ? State::broken : State::fine, "processor",
-                        isas.empty() ? "has no kernels here; render on an OpenCL device"
-                                     : fmt::format("kernels for {}", fmt::join(isas, ", "))});
+                        isas.empty()
+                            ? "is not supported by the threads renderer; render on an OpenCL device"
+                            : fmt::format("kernels for {}", fmt::join(isas, ", "))});
     prepare_pocl(0);
     IcdFiles files = try_icd_files(options.drivers);
     for (const std::string& file : files.usable) {
@@ -168,7 +170,7 @@ void print_findings(const std::vector<Finding>& findings, bool is_well) {
         text +=
             fmt::format("{:<8} {}: {}\n", word_of(finding.state), finding.what, finding.verdict);
     }
-    print_result(text + (is_well ? "all that is installed works\n" : "something is broken\n"));
+    print_result(text + (is_well ? "everything installed works\n" : "something is broken\n"));
 }
 
 void print_findings_json(const std::vector<Finding>& findings, bool is_well) {

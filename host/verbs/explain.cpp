@@ -24,8 +24,9 @@ Scene scene_to_explain(const ExplainOptions& options) {
     if (scene.max_bounces > ExplainOptions::most_bounces) {
         throw Error(
             ExitCode::limit,
-            fmt::format("{}: up to {} bounces; give --max-bounces {} or less",
-                        printable(options.scene), scene.max_bounces, ExplainOptions::most_bounces));
+            fmt::format(
+                "{}: up to {} bounces is too many to explain; give --max-bounces {} or less",
+                printable(options.scene), scene.max_bounces, ExplainOptions::most_bounces));
     }
     if (options.x >= scene.width || options.y >= scene.height) {
         throw Error(ExitCode::usage,

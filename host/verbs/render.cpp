@@ -38,11 +38,10 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
     if (reference.width == width && reference.height == height && reference.channels == 3) {
         return reference;
     }
-    throw Error(ExitCode::input,
-                fmt::format("{}: {}x{} pixels of {} channels, and the picture will be {}x{} of 3; "
-                            "give --size or --crop to match",
-                            options.reference, reference.width, reference.height,
-                            reference.channels, width, height));
+    throw Error(ExitCode::input, fmt::format("{}: {}x{} pixels of {} channels, but the picture "
+                                             "will be {}x{} of 3; give --size or --crop to match",
+                                             options.reference, reference.width, reference.height,
+                                             reference.channels, width, height));
 }
 
 /// Who asks for figures alone wants no picture.
@@ -106,7 +105,7 @@ class IsolatedRender {
         if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
         if (end.is_regular) return end.status;
         if (options_.no_fallback) {
-            throw Error(ExitCode::device, name_ + ": the process of its driver " + end.how);
+            throw Error(ExitCode::device, name_ + ": the driver process " + end.how);
         }
         say(end, "rendering on threads instead");
         if (options_.timeout > 0) {
@@ -142,11 +141,11 @@ class IsolatedRender {
         const UsableIcdFiles usable(files);
         if (cache.name().empty() || usable.place().empty()) return first;
         if (!files.any_dangerous) {
-            say(first, "trying once more with an empty kernel cache");
+            say(first, "trying again with an empty kernel cache");
             return work({"POCL_CACHE_DIR=" + cache.name()});
         }
         if (files.usable.empty()) return first;
-        say(first, "trying once more with the other drivers");
+        say(first, "trying again with the other drivers");
         const WorkerEnd second = work({"OCL_ICD_VENDORS=" + usable.place()});
         const bool lacks_device =
             second.is_regular && second.status == static_cast<int>(ExitCode::device);
@@ -155,8 +154,8 @@ class IsolatedRender {
 
     void say(const WorkerEnd& end, const char* then) const {
         if (options_.quiet) return;
-        print_message(fmt::format("mirrorball: {}: the process of its driver {}; {}\n", name_,
-                                  end.how, then));
+        print_message(
+            fmt::format("mirrorball: {}: the driver process {}; {}\n", name_, end.how, then));
     }
 
     RenderOptions options_;

@@ -171,7 +171,7 @@ class Batch {
     int sum_up() const {
         if (there_ > 0 && !options_.quiet) {
             print_message(
-                fmt::format("mirrorball: {} there already\n",
+                fmt::format("mirrorball: {} already there\n",
                             there_ == 1 ? "1 frame was" : counted(there_, "frame") + " were"));
         }
         if (stop_flag() != 0) {
@@ -179,7 +179,7 @@ class Batch {
                                       counted(pictures_, "picture")));
             return exit_code_of_stop(stop_flag());
         }
-        if (pictures_ == 0 && there_ == 0) throw Error(ExitCode::usage, "no scene in the list");
+        if (pictures_ == 0 && there_ == 0) throw Error(ExitCode::usage, "the list has no scenes");
         if (failed_.empty()) return 0;
         std::string text =
             fmt::format("mirrorball: {} of {} failed, with exit codes:", failed_.size(),

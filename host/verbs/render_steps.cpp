@@ -148,8 +148,8 @@ int verdict(const RenderedPicture& rendered, const std::string& output) {
         const bool can_go_on = rendered.journal != nullptr && rendered.journal->exists() &&
                                rendered.journal->failure().empty();
         print_message(fmt::format("mirrorball: {} after {}{}{}\n", stop_reason(), share_done(stats),
-                                  output.empty() ? "" : "; what was finished is in " + output,
-                                  can_go_on ? "; the same command goes on from there" : ""));
+                                  output.empty() ? "" : "; the finished part is in " + output,
+                                  can_go_on ? "; the same command resumes from there" : ""));
         return exit_code_of_stop(stop_flag());
     }
     return static_cast<int>(non_finite ? ExitCode::non_finite : ExitCode::done);

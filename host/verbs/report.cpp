@@ -203,8 +203,8 @@ int run_report(const ReportOptions& options) {
     report.load_before = load_average();
     measure(options, report);
     if (report.scenes.empty()) {
-        print_message(
-            fmt::format("mirrorball: {} before any picture; no page written\n", stop_reason()));
+        print_message(fmt::format(
+            "mirrorball: {} before any picture was finished; no page written\n", stop_reason()));
         return 128 + stop_flag();
     }
     report.environment = environment_json();

@@ -28,7 +28,7 @@ void make_folder(const std::string& folder) {
     if (!folder.empty()) std::filesystem::create_directories(folder, error);
     if (error) {
         throw Error(ExitCode::output,
-                    fmt::format("{}: cannot make the folder: {}", folder, error.message()));
+                    fmt::format("{}: cannot create the folder: {}", folder, error.message()));
     }
 }
 

@@ -159,7 +159,7 @@ class Runner {
                                             row.double_precision ? "double" : "float");
         const auto [first, is_new] = first_hashes_.try_emplace(key, row.hash);
         if (!is_new && first->second != row.hash) {
-            row.why = "not the bits of " + trial.same_bits;
+            row.why = "bits differ from " + trial.same_bits;
         }
     }
 
@@ -264,8 +264,8 @@ class Runner {
                 hashes.insert(row.hash);
             }
             if (hashes.size() < 2) continue;
-            result.disagreement = fmt::format("devices give {} pictures in {}", hashes.size(),
-                                              double_precision ? "double" : "float");
+            result.disagreement = fmt::format("devices give {} different pictures in {}",
+                                              hashes.size(), double_precision ? "double" : "float");
         }
     }
 

@@ -79,7 +79,7 @@ class SeveralScenes(BatchTest):
         result = self.run_cli("render", scene_path("cones"), scene_path("cones"), "-o", "%s.png",
                               *SMALL)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("cones.png is another scene's already", result.stderr)
+        self.assertIn("cones.png is already the output of another scene", result.stderr)
         self.assertEqual(self.files(), ["cones.png"])
 
 

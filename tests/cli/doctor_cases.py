@@ -22,7 +22,7 @@ class Doctor(CliTest):
         for name in ["processor", "driver", "threads", "kernel cache", "EXR pictures"]:
             self.assertIn(name, findings)
         text = self.run_cli("doctor").stdout.splitlines()
-        self.assertEqual(text[-1], "all that is installed works")
+        self.assertEqual(text[-1], "everything installed works")
         self.assertEqual(len(text), len(findings) + 2)
 
     def test_knows_the_picture(self):

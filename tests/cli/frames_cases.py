@@ -47,7 +47,7 @@ class Frames(CliTest):
         (self.folder / "f02.pfm").write_text("mine")
         (self.folder / "f03.pfm").unlink()
         result = self.frames("--frames", "1-3", "--resume")
-        self.assertIn("2 frames were there already", result.stderr)
+        self.assertIn("2 frames were already there", result.stderr)
         self.assertEqual((self.folder / "f02.pfm").read_text(), "mine")
         self.assertTrue((self.folder / "f03.pfm").exists())
         self.assertIn("3 frames were", self.frames("--frames", "1-3", "--resume").stderr)

@@ -80,7 +80,7 @@ class Shares(JournalTest):
         self.share("0/2", "a.mbj", *SMALL)
         before = self.bytes_of("a.mbj")
         result = self.share("0/2", "a.mbj", *SMALL)
-        self.assertIn("going on with a.mbj", result.stderr)
+        self.assertIn("resuming from a.mbj", result.stderr)
         self.assertIn("0.00 Mrays", result.stderr)
         self.assertEqual(self.bytes_of("a.mbj"), before)
 
@@ -114,8 +114,8 @@ class Shares(JournalTest):
         self.share("1/2", "c.mbj", *SMALL, scene="glass")
         (self.folder / "cut.mbj").write_bytes(self.bytes_of("a.mbj")[:100])
         self.write_text("text.mbj", "no journal")
-        for part, words in [("b.mbj", "other settings"), ("c.mbj", "another scene"),
-                            ("cut.mbj", "damaged"), ("text.mbj", "no journal"),
+        for part, words in [("b.mbj", "different settings"), ("c.mbj", "different scene"),
+                            ("cut.mbj", "damaged"), ("text.mbj", "is not a journal"),
                             ("nowhere.mbj", "cannot read"), (".", "directory")]:
             self.assert_refused(self.run_cli("merge", "a.mbj", part, "-o", "x.png"), 3, part, words)
         self.assert_refused(self.run_cli("merge", "a.mbj", "-o", "a.mbj"), 2)
@@ -140,10 +140,10 @@ class Resume(JournalTest):
         code, stderr = self.interrupted(number, *arguments)
         if number != signal.SIGKILL:
             self.assertEqual(code, 128 + number)
-            self.assertIn("the same command goes on from there", stderr)
+            self.assertIn("the same command resumes from there", stderr)
         result = self.run_cli("render", *arguments, "-o", "out.png")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stderr, r"going on with out\.png\.mbj, which has [1-9]\d* %")
+        self.assertRegex(result.stderr, r"resuming from out\.png\.mbj, which has [1-9]\d* %")
         self.assertEqual(self.bytes_of("out.png"), self.bytes_of("whole.png"))
         self.assertNotIn("out.png.mbj", self.files())
 
@@ -175,7 +175,7 @@ class Resume(JournalTest):
         result = self.run_shell('ulimit -f 40; "$MIRRORBALL" render "$SCENE" --size 300 --aa '
                                 'grid:64 --device threads --resume -o out.png')
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stderr, r"out\.png\.mbj: cannot write: .*; the picture was not kept")
+        self.assertRegex(result.stderr, r"out\.png\.mbj: cannot write: .*; finished tiles were not saved")
         self.assertEqual(self.files(), ["out.png"])
         result = self.run_shell('ulimit -f 1; "$MIRRORBALL" render "$SCENE" --size 300 '
                                 '--device threads --shard 0/2 -o part.mbj')
@@ -187,7 +187,7 @@ class Resume(JournalTest):
         result = self.run_cli("render", scene_path("mirror-hall"), "--size", "300", "--aa",
                               "grid:40", "--device", "threads", "--fresh", "-o", "out.png")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertNotIn("going on", result.stderr)
+        self.assertNotIn("resuming from", result.stderr)
         self.assertEqual(self.files(), ["out.png"])
 
     def test_stats_tell(self):
