@@ -192,7 +192,7 @@ GUARDS = [
         ("host/stress/judge.cpp", "if (std::isnan(pixel[c])) return", "if (pixel == nullptr) return"),
     ], [("host_stress_test", "StressJudge.*")]),
     Guard("pictures are searched for NaN: render", [
-        ("host/verbs/render.cpp", "if (count == 0) return false;", "if (count + 1 > 0) return "
+        ("host/verbs/render_steps.cpp", "if (count == 0) return false;", "if (count + 1 > 0) return "
          "false;"),
     ], [("cli", "render_cases.NonFinite")]),
     Guard("hierarchies are no deeper than a traversal's stack", [
