@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds scripts/embree with a build folder's own libraries."""
+"""Builds scripts/embree against the libraries of a mirrorball build folder."""
 import pathlib
 import subprocess
 import sys

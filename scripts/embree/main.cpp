@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Times Embree on a mirrorball scene: the same rays, samples and shading, Embree's tracing. Prints
-// JSON. Started by scripts/compare-embree.
+// Times Embree on a mirrorball scene, with the same rays, samples and shading, but Embree's tracing.
+// Prints JSON. Started by scripts/compare-embree.
 //
 // usage: embree-bench SCENE WIDTHxHEIGHT AA THREADS ROUNDS|once [PICTURE.pfm]
 //

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a large scene, so that none need be kept.
+"""Writes a large scene, so that none has to be stored.
 
-  sphere-flake DEPTH    mirror balls that carry nine of a third their size each: 1 + 9 + 81 + ...
+  sphere-flake DEPTH    mirror balls, each carrying nine a third its size: 1 + 9 + 81 + ...
   bumpy-mesh N          a bumpy ring of N triangles (N even) on a mirror floor, with mirror balls;
                         the mesh goes into a .ply file beside the scene (--plain: into the scene);
-                        --mirror: the mesh is a mirror, too
+                        --mirror: makes the mesh a mirror, too
   mirror-lattice N      N x N x N mirror balls
 """
 import argparse

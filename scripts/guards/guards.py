@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The guards of the arithmetic: where each one is in the kernels or in the host, how to take it out,
-and the tests that must then fail."""
+"""The guards of the arithmetic: where each one is in the kernels or in the host, how to remove it, and the
+tests that must then fail.
+"""
 import dataclasses
 
 K, F = "kernels/", "host/flatten/"

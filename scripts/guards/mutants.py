@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small faults, each of which some test must notice: a wrong sign, a forgotten term, a check left out.
-Where the fault is a guard of the arithmetic taken out it is in guards.py instead."""
+"""Small faults, each of which some test must notice: a wrong sign, a forgotten term, a missing check.
+Faults that remove a guard of the arithmetic are in guards.py instead.
+"""
 import dataclasses
 
 K, F, M, S, V = "kernels/", "host/flatten/", "host/measure/", "host/scene/", "host/verbs/"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Takes something out of a copy of the tree or puts a fault in, builds what its tests need, and runs
-them. A change has a name, edits and tests, as in guards.py and mutants.py."""
+"""Changes a copy of the tree (removes something or introduces a fault), builds what the tests need, and
+runs them. A change has a name, edits and tests, as in guards.py and mutants.py.
+"""
 import pathlib
 import shutil
 import subprocess

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The most multiply-adds an OpenCL device does: prints {"float": FLOP/s, "double": FLOP/s or null}.
-// Every work item has many vectors of sums under way; an fma counts two. The best of five launches.
+// The peak multiply-add rate of an OpenCL device: prints {"float": FLOP/s, "double": FLOP/s or null}.
+// Every work item keeps many vectors of sums in flight; an fma counts as two. Best of five launches.
 //
 // usage: opencl-peak DEVICE_NAME
 #define CL_TARGET_OPENCL_VERSION 120

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A page of docs/ of which scripts write parts, each between marks of its own."""
+"""A page of docs/ with parts that scripts write, each between its own markers."""
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent

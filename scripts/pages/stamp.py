@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a table of figures says of itself: date, machine, revision."""
+"""The provenance of a table of figures: date, machine, revision."""
 import datetime
 import json
 import pathlib

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes one of Eric Haines' Standard Procedural Databases as NFF to stdout.
 
-Own code from the published descriptions (IEEE CG&A, November 1987; SPD 3.14). Sizes mean what
-they do there; --corners asks for the 513 x 513 rays of the databases' table of ray counts.
+Our own code, written from the published descriptions (IEEE CG&A, November 1987; SPD 3.14). Sizes mean
+what they mean there; --corners asks for the 513 x 513 rays of the databases' table of ray counts.
 """
 import argparse
 import pathlib

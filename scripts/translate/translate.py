@@ -4,10 +4,10 @@
 
 usage: scripts/translate/translate.py SCENE.json (-o SCENE.dat | -o SCENE.pov) [--size WxH]
 
-For timing them on the same geometry, lights and mirrors: highlights and ambient light are as near as
-the other's materials come, not the same. Anti-aliasing is four samples a pixel in both. Meshes are
-binary little-endian PLY files of triangles, as scripts/generate writes them; both programs take them
-as text only. JSON comments that stand alone in their line are allowed.
+The result is for timing these programs on the same geometry, lights and mirrors: highlights and ambient
+light are as close as their materials allow, not identical. Anti-aliasing is four samples per pixel in
+both. Meshes must be binary little-endian PLY files of triangles, as scripts/generate writes them; both
+programs read only text. JSON comments are allowed on lines of their own.
 """
 import argparse
 import json
