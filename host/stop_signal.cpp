@@ -98,7 +98,7 @@ void stop_working(int number, siginfo_t* info, void*) {
     int none = 0;
     if (received.compare_exchange_strong(none, number)) {
         if (!stops_quietly)
-            write_line("stopping, saving what is finished; again to quit at once", "");
+            write_line("stopping, saving what is finished; interrupt again to quit at once", "");
     } else if (signal.by_hand) {
         end_by(signal);
     }

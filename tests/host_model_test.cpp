@@ -121,7 +121,7 @@ TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
             "scene/scene.json", scene_with(R"({"material": "red", "file": ")" + name + "\"}"));
         const Refusal refusal = refusal_of([&] { load_scene(path); });
         EXPECT_EQ(refusal.exit_code, ExitCode::input);
-        EXPECT_NE(refusal.message.find("lies outside of the scene's folder"), std::string::npos);
+        EXPECT_NE(refusal.message.find("lies outside the scene's folder"), std::string::npos);
     }
     fs::create_symlink("../scene/inside.ply", folder_ / "scene/alias.ply");
     write("scene/inside.ply", ply_triangle);

@@ -183,7 +183,7 @@ void check(const HeaderLimits& header, std::uint64_t file_size) {
 ExrSize check_exr_headers(std::istream& stream, std::uint64_t file_size) {
     constexpr std::uint32_t deep = 0x800, many_parts = 0x1000;
     Bytes bytes(stream, file_size);
-    if (bytes.number<std::uint32_t>() != 20000630) refuse("it is no EXR file");
+    if (bytes.number<std::uint32_t>() != 20000630) refuse("it is not an EXR file");
     const auto version = bytes.number<std::uint32_t>();
     if ((version & 0xff) != 2) refuse("its version is unknown");
     if ((version & deep) != 0) refuse("it holds deep pixels");

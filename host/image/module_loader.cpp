@@ -83,7 +83,7 @@ LoadResult load(const fs::path& file, const ModuleFile& wanted) {
         reinterpret_cast<module::EntryPoint>(::dlsym(handle, module::entry_point_name));
     const module::Module* found = entry == nullptr ? nullptr : entry();
     if (found == nullptr || found->version != module::interface_version) {
-        return {nullptr, file.string() + ": belongs to another version of mirrorball" + advice};
+        return {nullptr, file.string() + ": belongs to a different version of mirrorball" + advice};
     }
     return {found, {}};
 }

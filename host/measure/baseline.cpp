@@ -81,8 +81,8 @@ std::vector<Regression> regressions(const BenchResult& result, const Baseline& b
     }
     if (!any_in_common) {
         throw Error(ExitCode::input,
-                    "the baseline has no right row in common with this bench; "
-                    "give the same scenes, sizes, AA modes and devices");
+                    "the baseline has no correct row in common with this bench; give the same "
+                    "scenes, sizes, AA modes and devices");
     }
     return slower;
 }

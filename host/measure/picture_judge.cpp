@@ -20,7 +20,7 @@ std::string shape_mistake(const Picture& picture, const Picture& reference) {
         picture.channels == reference.channels) {
         return "";
     }
-    return fmt::format("{}x{} pixels where {}x{} were asked for", picture.width, picture.height,
+    return fmt::format("{}x{} pixels instead of {}x{}", picture.width, picture.height,
                        reference.width, reference.height);
 }
 
@@ -107,7 +107,7 @@ std::string what_is_wrong(const Picture& picture, const Picture& reference,
                            error.rmse);
     }
     if (const double rmse = rounding_rmse(picture, reference); rmse > largest_rounding_rmse) {
-        return fmt::format("values are off by RMSE {:.2g}, more than roundings", rmse);
+        return fmt::format("values are off by RMSE {:.2g}, more than rounding explains", rmse);
     }
     return "";
 }

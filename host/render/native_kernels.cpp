@@ -127,7 +127,7 @@ const NativeKernels<T>& choose_native(const NativeChoice& choice) {
         if (serves(kernels, wanted)) return kernels;
     }
     throw Error(ExitCode::usage,
-                fmt::format("no kernels for {} trace {} rays side by side; use --lanes 1 or auto",
+                fmt::format("no kernels for {} trace packets of {} rays; use --lanes 1 or auto",
                             wanted.isa, wanted.lanes));
 }
 

@@ -58,9 +58,9 @@ OpenedFile open_beneath(const SceneFolder& folder, const std::string& name) {
         return OpenedFile{FileDescriptor(), {}, fmt::format("{} {}", in_quotes(name), what)};
     };
     constexpr std::string_view outside =
-        "lies outside of the scene's folder; put it beside the scene, or in a folder there";
-    constexpr std::string_view unreachable = "is no file that can be reached; check the name";
-    if (name.empty()) return problem("names no file; write the name of one");
+        "lies outside the scene's folder; put it next to the scene, or in a folder there";
+    constexpr std::string_view unreachable = "cannot be found or opened; check the name";
+    if (name.empty()) return problem("is not a file name; write one");
     if (climbs(name)) return problem(outside);
     const fs::path path = folder.base / name;
     std::error_code error;

@@ -59,7 +59,7 @@ void refuse_keys(const ObjectReader& camera, std::initializer_list<std::string_v
     for (const std::string_view key : unwanted) {
         if (const JsonMember* member = camera.find_member(key)) {
             mistakes.add(member->key_offset,
-                         fmt::format("{} has no use in {}; {}", in_quotes(key), where, advice));
+                         fmt::format("{} is not allowed in {}; {}", in_quotes(key), where, advice));
         }
     }
 }

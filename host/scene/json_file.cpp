@@ -98,7 +98,7 @@ void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
     if (const JsonValue* value = reader.find("name")) {
         const std::string* name = read_string(*value, "name", mistakes);
         if (name && printable(*name) != *name) {
-            mistakes.add(value->offset, "'name' holds a control character; use plain text");
+            mistakes.add(value->offset, "'name' contains a control character; use plain text");
         } else if (name) {
             scene.name = *name;
         }

@@ -20,9 +20,10 @@ std::optional<std::string> read_file_name(const JsonValue& value, std::string_vi
     const std::string* text = read_string(value, name, mistakes);
     if (!text) return std::nullopt;
     if (!is_obj_name(*text) && !is_ply_name(*text)) {
-        mistakes.add(value.offset, fmt::format("{} is no model that can be read; name a file that "
-                                               "ends in .obj or .ply",
-                                               in_quotes(*text)));
+        mistakes.add(
+            value.offset,
+            fmt::format("{} is not a supported model file; name a file that ends in .obj or .ply",
+                        in_quotes(*text)));
         return std::nullopt;
     }
     const OpenedFile opened = open_beneath(folder, *text);
@@ -61,7 +62,7 @@ MeshRequest read_mesh(const JsonValue& value, const MaterialTable& materials,
     if (const JsonValue* material = reader.find("material")) {
         request.material = read_material(*material, "material", mistakes);
     } else if (is_ply_name(request.file)) {
-        reader.require("material", "\"material\": \"name\": PLY files bring none");
+        reader.require("material", "\"material\": \"name\": PLY files have none");
     }
     reader.optional("transform", request.transform, read_transform);
     return request;
@@ -78,10 +79,9 @@ void load_meshes(const std::vector<MeshRequest>& requests, const SceneFolder& fo
         const ModelOptions options{folder.root, !request.material, request.transform};
         Model model = load_model(opened.file, opened.path, options);
         if (!request.material && model.materials.empty()) {
-            mistakes.add(request.offset,
-                         fmt::format("a mesh has no \"material\", and {} names none either; add "
-                                     "\"material\": \"name\"",
-                                     in_quotes(opened.path)));
+            mistakes.add(request.offset, fmt::format("a mesh has no \"material\", and {} has none "
+                                                     "either; add \"material\": \"name\"",
+                                                     in_quotes(opened.path)));
             continue;
         }
         add_model(std::move(model), request, scene);

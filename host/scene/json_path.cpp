@@ -45,9 +45,10 @@ void read_extent(const ObjectReader& reader, Scene::Camera& camera, Mistakes& mi
     for (const std::string_view key : {"fov_degrees", "width", "height"}) {
         const JsonMember* member = reader.find_member(key);
         if (member == nullptr || key == own) continue;
-        mistakes.add(member->key_offset,
-                     fmt::format("{} has no use here: the scene's camera gives {}", in_quotes(key),
-                                 own.empty() ? "a window" : in_quotes(std::string(own))));
+        mistakes.add(
+            member->key_offset,
+            fmt::format("{} is not allowed here: the scene's camera gives {}", in_quotes(key),
+                        own.empty() ? "a window" : in_quotes(std::string(own))));
     }
     if (own == "fov_degrees") {
         reader.optional(own, camera.field_of_view.amount, read_angle);
@@ -86,7 +87,7 @@ Scene::CameraPath read_camera_path(const JsonValue& value, const Scene::Camera& 
         reader.require("keys", "\"keys\": [{\"frame\": 1, \"from\": [0, 0, 5]}]");
     const auto* items = keys ? read_array(*keys, "keys", -1, mistakes) : nullptr;
     if (!items) return path;
-    if (items->empty()) mistakes.add(keys->offset, "the path has no key; give one or more");
+    if (items->empty()) mistakes.add(keys->offset, "the path has no keys; give one or more");
     for (const JsonValue& item : *items) {
         const std::size_t before = mistakes.count();
         const Scene::CameraPath::Key key = read_key(item, camera, mistakes);

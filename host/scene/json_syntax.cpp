@@ -64,7 +64,7 @@ JsonSyntaxMistake explain_string(std::string_view text, std::size_t at, std::siz
     }
     const std::size_t place = std::clamp(reader_offset, at, text.size() - 1);
     if (static_cast<unsigned char>(text[place]) < 0x20) {
-        return {place, "a control character stands in the string; write it as \\uXXXX"};
+        return {place, "there is a control character in the string; write it as \\uXXXX"};
     }
     return {place,
             "unknown or broken escape in the string; JSON knows \\\" \\\\ \\/ \\b \\f \\n \\r \\t "
@@ -92,8 +92,8 @@ std::string explain_value(std::string_view text, std::size_t at) {
 
 /// A mistake at a character that nothing starts with, whatever was expected; empty otherwise.
 std::string explain_character(std::string_view text, std::size_t at) {
-    if (text[at] == '\'') return "JSON strings stand in double quotes; replace the ' by \"";
-    if (text[at] == '#') return "'#' starts no comment here; use // or /* */";
+    if (text[at] == '\'') return "JSON strings are written in double quotes; replace the ' with \"";
+    if (text[at] == '#') return "'#' does not start a comment; use // or /* */";
     if (text[at] != '/') return "";
     if (text.substr(at, 2) == "/*") return "the comment is not closed; add */";
     return "a single '/' stands here; comments are // or /* */";
@@ -101,13 +101,13 @@ std::string explain_character(std::string_view text, std::size_t at) {
 
 std::string explain_end(JsonState state, std::string_view wanted) {
     if (state == JsonState::start) {
-        return "the file holds no scene; write { \"camera\": ... } with what it shows";
+        return "the file has no scene; write { \"camera\": ... } with what it shows";
     }
     return fmt::format("the file ends too early; expected {}", wanted);
 }
 
 std::string explain_closing(char bracket) {
-    return fmt::format("a comma stands before '{}'; remove the comma", bracket);
+    return fmt::format("there is a comma before '{}'; remove it", bracket);
 }
 
 }  // namespace

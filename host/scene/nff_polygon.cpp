@@ -10,8 +10,8 @@ namespace rt {
 
 bool NffPolygons::read(NffTokens& tokens, std::size_t offset, bool is_patch, NffFills& fills,
                        std::vector<Scene::Triangle>& triangles) {
-    tokens.expect(is_patch ? "pp count, and so often x y z nx ny nz"
-                           : "p count, and so often x y z");
+    tokens.expect(is_patch ? "pp count, then count times x y z nx ny nz"
+                           : "p count, then count times x y z");
     const auto count = read_count(tokens, is_patch ? 12 : 6);
     if (!count) return false;
     corners_.clear();

@@ -110,9 +110,9 @@ class FaceReader {
     void refuse_statement(std::size_t offset, std::string_view word) {
         std::string advice = "known statements are " + word_list(known_words);
         if (is_one_of(word, free_form_words)) {
-            advice = "curves and surfaces cannot be drawn, export polygons";
+            advice = "curves and surfaces cannot be drawn; export polygons";
         } else if (word == "call" || word == "csh") {
-            advice = "other files and commands are not run, put their text here";
+            advice = "other files and commands are not run; put their text here";
         } else if (const auto near = nearest_word(word, known_words); !near.empty()) {
             advice = fmt::format("did you mean {}?", in_quotes(near));
         }
@@ -128,9 +128,10 @@ class FaceReader {
         if (index == 0) {
             mistakes_.add(offset, fmt::format("{} 0 does not exist; count from 1", what));
         } else {
-            mistakes_.add(offset, fmt::format("{} {} does not exist, {} of them stand above; "
-                                              "correct the number",
-                                              what, index, count));
+            mistakes_.add(
+                offset,
+                fmt::format("{} {} does not exist, only {} defined above; correct the number", what,
+                            index, count));
         }
         return std::nullopt;
     }
@@ -144,9 +145,11 @@ class FaceReader {
         const std::string_view word = scanner_.word();
         const auto corner = parse_obj_corner(word);
         if (!corner) {
-            mistakes_.add(offset, fmt::format("{} is no corner of a face; write v, v/vt, v//vn or "
-                                              "v/vt/vn in whole numbers",
-                                              in_quotes(word)));
+            mistakes_.add(
+                offset,
+                fmt::format(
+                    "{} is not a face corner; write v, v/vt, v//vn or v/vt/vn in whole numbers",
+                    in_quotes(word)));
         }
         return corner;
     }

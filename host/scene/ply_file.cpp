@@ -53,7 +53,7 @@ void check_corners(const PlyElement& element, std::string_view what, Mistakes& m
                                  "list uchar int vertex_indices'",
                                  what));
     } else if (!list->count_type || !is_whole(list->type)) {
-        mistakes.add(element.offset, fmt::format("property {} of the {} is no list of whole "
+        mistakes.add(element.offset, fmt::format("property {} of the {} is not a list of whole "
                                                  "numbers; declare 'property list uchar int {}'",
                                                  in_quotes(list->name), what, list->name));
     }
@@ -111,8 +111,8 @@ class BodyReader {
         const std::uint64_t most = (rows_.bytes_left() + 1) / least;
         if (element.count <= most) return;
         mistakes_.add(element.offset,
-                      fmt::format("element {} declares {} rows, and what is left of the file "
-                                  "holds {} at most; correct the count or save the model again",
+                      fmt::format("element {} declares {} rows, and the rest of the file holds {} "
+                                  "at most; correct the count or save the model again",
                                   in_quotes(element.name), element.count, most));
         mistakes_.throw_if_any();
     }

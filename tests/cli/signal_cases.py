@@ -130,7 +130,7 @@ class Interrupted(CliTest):
         process = self.start_and_wait_until_it_renders()
         process.send_signal(signal.SIGINT)
         sent = time.monotonic()
-        self.assertIn("stopping, saving what is finished; again to quit at once",
+        self.assertIn("stopping, saving what is finished; interrupt again to quit at once",
                       self.next_word(process))
         self.assertLess(time.monotonic() - sent, 1)
 
