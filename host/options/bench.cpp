@@ -36,7 +36,7 @@ void add_baseline(const CommandLine& verb, BenchOptions& bench) {
     verb.option("--baseline", "FILE", "an earlier --json file: exit 1 if a row has become slower",
                 [&](const std::string& text) { bench.baseline = text; });
     verb.option("--max-regress", "P%",
-                "how much slower a row may become, beyond noise (default 5%)",
+                "how much slower a row may become (default 5%); changes within noise also pass",
                 [&](const std::string& text) {
                     bench.max_regress = parse_percent("--max-regress", text, 1e6);
                 });
