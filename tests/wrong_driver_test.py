@@ -86,7 +86,7 @@ class Stress(WrongDriver):
         case = ["--case", "scale-2/2^0", "--device", "threads,pocl"]
         self.stress({}, 0, *case)
         self.assertRegex(self.stress(brighter("1.000001"), 1, *case),
-                         "devices give 2 pictures in (float|double)")
+                         "devices give 2 different pictures in (float|double)")
 
     def test_cases_that_should_have_the_same_bits_and_do_not_fail(self):
         case = ["--case", "scale-2/2^0,scale-2/2^20", "--device", "pocl"]
