@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "host/base64.h"
 #include "host/utf8.h"
 
 namespace rt {
@@ -124,21 +125,7 @@ std::string html_attribute(const char* name, std::string_view value) {
 }
 
 std::string png_data_uri(std::span<const std::byte> png) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text = "data:image/png;base64,";
-    for (std::size_t i = 0; i < png.size(); i += 3) {
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            bits =
-                bits << 8 | (i + k < png.size() ? std::to_integer<std::uint32_t>(png[i + k]) : 0);
-        }
-        const std::size_t real_digits = std::min<std::size_t>(png.size() - i, 3) + 1;
-        for (std::size_t k = 0; k < 4; ++k) {
-            text += k < real_digits ? digits[bits >> (18 - 6 * k) & 63] : '=';
-        }
-    }
-    return text;
+    return "data:image/png;base64," + base64(png);
 }
 
 std::string json_block(const std::string& id, const nlohmann::ordered_json& json) {

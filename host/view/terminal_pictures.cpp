@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <string_view>
+
+#include "host/base64.h"
 
 namespace rt {
 
@@ -30,24 +31,6 @@ std::string color_code(int layer, const std::uint8_t* rgb, bool true_color) {
     if (true_color) return fmt::format("{};2;{};{};{}", layer, rgb[0], rgb[1], rgb[2]);
     const int cube = 36 * nearest_level(rgb[0]) + 6 * nearest_level(rgb[1]) + nearest_level(rgb[2]);
     return fmt::format("{};5;{}", layer, 16 + cube);
-}
-
-std::string base64(std::span<const std::byte> bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t j = 0; j < 3; ++j) {
-            group = group << 8 | (j < count ? std::to_integer<std::uint32_t>(bytes[i + j]) : 0);
-        }
-        for (std::size_t j = 0; j < 4; ++j) {
-            text += j <= count ? digits[group >> (18 - 6 * j) & 63] : '=';
-        }
-    }
-    return text;
 }
 
 /// The step of the cube for a value at a place, dithered by Bayer's matrix of 4 x 4.
