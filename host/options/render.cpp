@@ -14,7 +14,6 @@
 #include "host/options/verb_options.h"
 #include "host/render/native_kernels.h"
 #include "host/scene/scene_file.h"
-#include "host/view/tev_viewer.h"
 
 namespace rt {
 
@@ -198,40 +197,6 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
     verb.option(
         "--check", "P%", "trace P% of a device's tiles again on threads and compare",
         [&](const std::string& text) { render.check = parse_percent("--check", text, 100); });
-}
-
-/// Where the picture is shown while it is rendered.
-void add_view_options(const CommandLine& verb, ViewSettings& view) {
-    using Mode = std::pair<const char*, PreviewMode>;
-    static constexpr Mode modes[] = {{"auto", PreviewMode::automatic},
-                                     {"half", PreviewMode::half},
-                                     {"kitty", PreviewMode::kitty},
-                                     {"sixel", PreviewMode::sixel}};
-    const auto find = [](const std::string& text) {
-        return std::ranges::find(modes, text, [](const Mode& mode) { return mode.first; });
-    };
-    verb.optional_value(
-        "--preview", "auto|half|kitty|sixel",
-        "show the picture in the terminal as it is rendered, by half blocks or one of the "
-        "terminals' picture protocols (auto, default: the best that the terminal has)",
-        "auto", [find](const std::string& text) { return find(text) != std::end(modes); },
-        [find, &view](const std::string& text) {
-            const auto* const mode = find(text);
-            if (mode == std::end(modes)) {
-                refuse("--preview", text, "give auto, half, kitty or sixel");
-            }
-            view.preview = mode->second;
-        });
-    verb.flag("--show", view.window,
-              "show it in a window as it is rendered; Escape or q closes it, and the command ends "
-              "when it is closed");
-    const TevAddress usual;
-    verb.optional_value(
-        "--tev", "HOST:PORT",
-        "show it in the image viewer tev as it is rendered (default: 127.0.0.1:14158)",
-        usual.host + ":" + usual.port,
-        [](const std::string& text) { return text.find(':') != std::string::npos; },
-        [&view](const std::string& text) { view.tev = parse_tev_address(text); });
 }
 
 void add_report_options(const CommandLine& verb, RenderOptions& render) {

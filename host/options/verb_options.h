@@ -26,4 +26,7 @@ std::string icd_place();
 /// --light-scale and --ambient, of every verb that reads scenes.
 void add_light_options(const CommandLine& verb, LightOverrides& light);
 
+/// --preview, --show and --tev.
+void add_view_options(const CommandLine& verb, ViewSettings& view);
+
 }  // namespace rt

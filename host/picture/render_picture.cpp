@@ -180,7 +180,7 @@ class Job {
         film_ = journal_->take_film();
         tile_ = tile_size(crew);
         if (events_.began) events_.began(region_.width, region_.height);
-        if (stats_.resumed > 0) tell_rendered(rendered_);
+        if (stats_.resumed > 0) report_rendered(rendered_);
         journal_->begin(film_, names);
         TileQueue queue(journal_->tiles(tile_.width, tile_.height), stop_, tile_events());
         if (events_.started) events_.started(queue);
@@ -207,22 +207,22 @@ class Job {
         if (!events_.progressed && !events_.rendered) return events;
         events.finished = [this, keep = events.finished](const Rect& tile) {
             if (keep) keep(tile);
-            tell_rendered(tile);
+            report_rendered(tile);
             if (events_.progressed) events_.progressed();
         };
         return events;
     }
 
-    /// Of a part of the picture, what was asked for.
-    void tell_rendered(const Rect& part) const {
+    /// The pixels of a part that lie in the region, to our caller.
+    void report_rendered(const Rect& part) const {
         if (!events_.rendered) return;
         const int left = std::max(part.x, region_.x), top = std::max(part.y, region_.y);
         const int right = std::min(part.x + part.width, region_.x + region_.width);
         const int bottom = std::min(part.y + part.height, region_.y + region_.height);
         if (left >= right || top >= bottom) return;
         const Film<T> shown = part_of(film_, rendered_, {left, top, right - left, bottom - top});
-        const std::vector<float> rgb(shown.rgb.begin(), shown.rgb.end());
-        events_.rendered({left - region_.x, top - region_.y, shown.width, shown.height}, rgb);
+        events_.rendered({left - region_.x, top - region_.y, shown.width, shown.height},
+                         {shown.rgb.begin(), shown.rgb.end()});
     }
 
     RefineEvents<T> refine_events() {

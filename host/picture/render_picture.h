@@ -4,7 +4,6 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -36,11 +35,11 @@ struct RenderEvents {
     std::function<void(const TileQueue&)> started;
     std::function<void()> progressed;  ///< a tile or some pixels are finished; on any thread
     std::function<void()> ended;
-    /// A picture of so many pixels begins, black so far; again where it has to begin anew.
+    /// A picture of so many pixels begins, black so far; again if it has to start over.
     std::function<void(int width, int height)> began;
-    /// Pixels of a part of it, three numbers each, row by row; on any thread. Those that adaptive
-    /// sampling renders once more are not told.
-    std::function<void(const Rect& part, std::span<const float> rgb)> rendered;
+    /// Pixels of a part of it, three numbers each, row by row; on any thread. Not those that
+    /// adaptive sampling renders a second time.
+    std::function<void(const Rect& part, std::vector<float> rgb)> rendered;
     std::function<void()> driver_loaded;  ///< it may have replaced signal handlers; on any thread
 };
 

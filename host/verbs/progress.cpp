@@ -2,7 +2,6 @@
 #include "host/verbs/progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,13 +9,13 @@
 #include <cmath>
 
 #include "host/console.h"
+#include "host/view/terminal.h"
 
 namespace rt {
 
 namespace {
 
 constexpr int widest_bar = 30, narrowest_bar = 5;
-constexpr int usual_columns = 80;
 constexpr std::chrono::milliseconds bar_interval(100);
 constexpr std::chrono::milliseconds line_interval(2000);
 
@@ -24,12 +23,6 @@ std::string eta_text(double fraction, double seconds) {
     if (fraction <= 0) return "-:--";
     const auto left = static_cast<long>(std::ceil(seconds * (1 - fraction) / fraction));
     return fmt::format("{}:{:02}", left / 60, left % 60);
-}
-
-int stderr_columns() {
-    winsize size{};
-    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return known ? size.ws_col : usual_columns;
 }
 
 }  // namespace
@@ -90,8 +83,9 @@ void ProgressReporter::show(bool last) {
     const double seconds = watch_.seconds();
     const RayCounts rays = queue_.rays();
     if (mode_ == ProgressMode::bar) {
-        print_bar(progress_bar(fraction, progress_line(fraction, seconds, rays), stderr_columns()),
-                  last);
+        print_bar(
+            progress_bar(fraction, progress_line(fraction, seconds, rays), terminal_size().columns),
+            last);
     } else if (mode_ == ProgressMode::json) {
         print_message(fmt::format("{{\"fraction\":{:.4f},\"seconds\":{:.3f},\"rays\":{}}}\n",
                                   fraction, seconds, rays.total()));

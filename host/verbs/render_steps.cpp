@@ -118,8 +118,8 @@ void RenderConsole::show(const RenderOptions& options) {
     if (viewers.empty()) return;
     live_.emplace(std::move(viewers));
     events_.began = [this](int width, int height) { live_->begin(width, height); };
-    events_.rendered = [this](const Rect& part, std::span<const float> rgb) {
-        live_->put(part, rgb);
+    events_.rendered = [this](const Rect& part, std::vector<float> rgb) {
+        live_->put(part, std::move(rgb));
     };
 }
 

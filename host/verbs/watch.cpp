@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::milliseconds look_interval(100);
 
-/// What changes when a file is written, in place or anew; zeros where there is none.
+/// What changes when a file is written in place or replaced; zeros where there is none.
 using FileState = std::tuple<ino_t, off_t, std::int64_t, std::int64_t>;
 
 std::vector<FileState> states_of(const std::vector<std::string>& files) {

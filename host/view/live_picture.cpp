@@ -13,19 +13,6 @@ namespace {
 /// Between two updates: smooth to watch, and little to do.
 constexpr std::chrono::milliseconds interval(100);
 
-std::size_t place(const Picture& picture, int x, int y) {
-    return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                static_cast<std::size_t>(x));
-}
-
-void copy_part(const Picture& from, const Rect& part, Picture& to) {
-    for (int y = part.y; y < part.y + part.height; ++y) {
-        const std::size_t at = place(from, part.x, y);
-        std::copy_n(from.pixels.begin() + static_cast<std::ptrdiff_t>(at), 3 * part.width,
-                    to.pixels.begin() + static_cast<std::ptrdiff_t>(at));
-    }
-}
-
 }  // namespace
 
 LivePicture::LivePicture(std::vector<std::unique_ptr<Viewer>> viewers)
@@ -33,24 +20,25 @@ LivePicture::LivePicture(std::vector<std::unique_ptr<Viewer>> viewers)
 
 void LivePicture::begin(int width, int height) {
     const std::scoped_lock lock(mutex_);
-    picture_ = {width, height, 3, {}};
-    picture_.pixels.resize(place(picture_, 0, height));
+    width_ = width;
+    height_ = height;
     parts_.clear();
     has_begun_ = true;
     changed_.notify_all();
 }
 
-void LivePicture::put(const Rect& part, std::span<const float> rgb) {
+void LivePicture::put(const Rect& part, std::vector<float> rgb) {
     const std::scoped_lock lock(mutex_);
-    const auto row = static_cast<std::size_t>(3 * part.width);
-    for (int y = 0; y < part.height; ++y) {
-        const auto from = rgb.subspan(static_cast<std::size_t>(y) * row, row);
-        std::copy(from.begin(), from.end(),
-                  picture_.pixels.begin() +
-                      static_cast<std::ptrdiff_t>(place(picture_, part.x, part.y + y)));
+    parts_.push_back({part, std::move(rgb)});
+}
+
+void LivePicture::add(const Part& part) {
+    const Rect& rect = part.rect;
+    const auto row = 3 * static_cast<std::ptrdiff_t>(rect.width);
+    for (int y = 0; y < rect.height; ++y) {
+        const std::ptrdiff_t at = 3 * (std::ptrdiff_t{rect.y + y} * shown_.width + rect.x);
+        std::copy_n(part.rgb.begin() + y * row, row, shown_.pixels.begin() + at);
     }
-    parts_.push_back(part);
-    changed_.notify_all();
 }
 
 void LivePicture::tell(bool begins, const std::vector<Rect>& parts) {
@@ -70,16 +58,21 @@ void LivePicture::run() {
     std::unique_lock lock(mutex_);
     while (!is_done_ && final_ == nullptr) {
         const bool begins = std::exchange(has_begun_, false);
-        const std::vector<Rect> parts = std::exchange(parts_, {});
-        if (begins) shown_ = picture_;
-        for (const Rect& part : parts) copy_part(picture_, part, shown_);
+        const std::vector<Part> parts = std::exchange(parts_, {});
+        if (begins) shown_ = {width_, height_, 3, {}};
         lock.unlock();
-        tell(begins, parts);
+        shown_.pixels.resize(3 * static_cast<std::size_t>(shown_.width) * shown_.height);
+        std::vector<Rect> changed;
+        for (const Part& part : parts) {
+            add(part);
+            changed.push_back(part.rect);
+        }
+        tell(begins, changed);
         lock.lock();
         changed_.wait_for(lock, interval, [this] { return is_done_ || final_ != nullptr; });
     }
     if (final_ != nullptr) {
-        const bool begins = has_begun_ || picture_.width == 0;
+        const bool begins = has_begun_ || shown_.width == 0;
         for (const auto& viewer : viewers_) {
             if (begins) viewer->begin(final_->width, final_->height);
             viewer->finish(*final_);

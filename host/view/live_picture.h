@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <thread>
 #include <vector>
 
@@ -28,7 +27,7 @@ class LivePicture {
     void begin(int width, int height);
 
     /// Pixels of a part of the picture, three numbers each, row by row; from any thread.
-    void put(const Rect& part, std::span<const float> rgb);
+    void put(const Rect& part, std::vector<float> rgb);
 
     /// Shows the picture as it stays. Once.
     void finish(const Picture& picture);
@@ -37,20 +36,26 @@ class LivePicture {
     void wait(const std::function<bool()>& is_stopped);
 
    private:
+    struct Part {
+        Rect rect;
+        std::vector<float> rgb;
+    };
+
     void run();
+    void add(const Part& part);
     void tell(bool begins, const std::vector<Rect>& parts);
     bool any_open() const;
 
     const std::vector<std::unique_ptr<Viewer>> viewers_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    Picture picture_;          ///< so far
-    std::vector<Rect> parts_;  ///< of it that are new
+    int width_ = 0, height_ = 0;
+    std::vector<Part> parts_;  ///< that no viewer knows yet
     bool has_begun_ = false;   ///< and no viewer knows yet
     const Picture* final_ = nullptr;
     bool is_shown_ = false;  ///< the final one
     bool is_done_ = false;
-    Picture shown_;  ///< what viewers know of it; the thread's own
+    Picture shown_;  ///< so far; the thread's own
     std::thread thread_;
 };
 

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <clocale>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
@@ -20,11 +19,6 @@ namespace rt {
 namespace {
 
 constexpr int answer_patience_ms = 300;
-
-std::string variable(const char* name) {
-    const char* const value = std::getenv(name);
-    return value == nullptr ? "" : value;
-}
 
 /// Whether text goes out as UTF-8, as the environment says.
 bool is_utf8() {
@@ -73,20 +67,25 @@ bool has_sixels(const std::string& text) {
 
 }  // namespace
 
-Terminal ask_terminal() {
-    Terminal terminal;
+TerminalSize terminal_size() {
+    TerminalSize result;
     winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
-        terminal.columns = size.ws_col;
-        terminal.rows = size.ws_row;
-        if (size.ws_xpixel > 0 && size.ws_ypixel > 0) {
-            terminal.cell_width = size.ws_xpixel / size.ws_col;
-            terminal.cell_height = size.ws_ypixel / size.ws_row;
-        }
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0) return result;
+    if (size.ws_col > 0) result.columns = size.ws_col;
+    if (size.ws_row > 0) result.rows = size.ws_row;
+    if (size.ws_xpixel >= result.columns && size.ws_ypixel >= result.rows) {
+        result.cell_width = size.ws_xpixel / result.columns;
+        result.cell_height = size.ws_ypixel / result.rows;
     }
-    const std::string kind = variable("TERM"), colors = variable("COLORTERM");
-    terminal.true_color = colors == "truecolor" || colors == "24bit" || kind.ends_with("-direct");
-    const bool is_plain = kind.empty() || kind == "dumb" || !variable("NO_COLOR").empty();
+    return result;
+}
+
+Terminal ask_terminal(const TerminalNames& names) {
+    Terminal terminal;
+    terminal.size = terminal_size();
+    terminal.true_color =
+        names.colors == "truecolor" || names.colors == "24bit" || names.kind.ends_with("-direct");
+    const bool is_plain = names.kind.empty() || names.kind == "dumb" || names.without_colors;
     terminal.has_blocks = !is_plain && is_utf8();
     if (is_plain) return terminal;
     const FileDescriptor device(open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC));

@@ -28,10 +28,10 @@ PreviewMode preview_mode(const Terminal& terminal, PreviewMode asked) {
 void TerminalViewer::begin(int width, int height) {
     const bool blocks = mode_ == PreviewMode::half;
     // The pixels of a cell: two, one above the other, or the terminal's own.
-    const int cell_width = blocks ? 1 : terminal_.cell_width;
-    const int cell_height = blocks ? 2 : terminal_.cell_height;
-    const double room_x = double(terminal_.columns) * cell_width;
-    const double room_y = double(std::max(terminal_.rows - lines_below, 1)) * cell_height;
+    const int cell_width = blocks ? 1 : terminal_.size.cell_width;
+    const int cell_height = blocks ? 2 : terminal_.size.cell_height;
+    const double room_x = double(terminal_.size.columns) * cell_width;
+    const double room_y = double(std::max(terminal_.size.rows - lines_below, 1)) * cell_height;
     const double scale = std::min({1.0, room_x / width, room_y / height});
     width_ = std::max(static_cast<int>(std::floor(width * scale)), 1);
     height_ = std::max(static_cast<int>(std::floor(height * scale)), 1);

@@ -97,20 +97,6 @@ FileDescriptor connect_to(const TevAddress& address, std::string& why) {
 
 }  // namespace
 
-TevAddress parse_tev_address(const std::string& text) {
-    TevAddress address;
-    const std::size_t bracket = text.find(']');
-    const std::size_t from = bracket == std::string::npos ? 0 : bracket;
-    const std::size_t colon = text.find(':', from);
-    std::string host = text.substr(0, colon);
-    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-    if (!host.empty()) address.host = host;
-    if (colon != std::string::npos && colon + 1 < text.size()) {
-        address.port = text.substr(colon + 1);
-    }
-    return address;
-}
-
 std::vector<std::byte> tev_create_image(const std::string& name, int width, int height) {
     Packet packet(create_image);
     packet.add(char{1});  // it comes to the front

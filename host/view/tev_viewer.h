@@ -13,9 +13,6 @@
 
 namespace rt {
 
-/// "HOST:PORT", "HOST", ":PORT" or "[IPv6]:PORT"; what is missing is tev's own.
-TevAddress parse_tev_address(const std::string& text);
-
 /// The packets of tev's protocol (its Ipc.cpp): the length of all of it, a byte for the kind, and
 /// values in little-endian order; texts end with a NUL.
 std::vector<std::byte> tev_create_image(const std::string& name, int width, int height);

@@ -13,11 +13,19 @@ struct TevAddress {
     std::string host = "127.0.0.1", port = "14158";
 };
 
+/// What the environment says of the terminal.
+struct TerminalNames {
+    std::string kind;             ///< TERM
+    std::string colors;           ///< COLORTERM
+    bool without_colors = false;  ///< NO_COLOR
+};
+
 /// Where a picture is shown while it is rendered.
 struct ViewSettings {
     std::optional<PreviewMode> preview;  ///< in the terminal
     std::optional<TevAddress> tev;
     bool window = false;
+    TerminalNames terminal;
 };
 
 }  // namespace rt
