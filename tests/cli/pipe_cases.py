@@ -13,7 +13,7 @@ class PictureToStdout(CliTest):
     def piped(self, *arguments, code=0, **more):
         result = subprocess.run(
             [SETTINGS["program"], "render", *arguments], cwd=self.folder, capture_output=True,
-            env=clean_environment({}), timeout=30, check=False, **more)
+            env=clean_environment({}), timeout=TIME_LIMIT, check=False, **more)
         self.assertEqual(result.returncode, code, result.stderr)
         return result.stdout
 
@@ -81,7 +81,7 @@ class SceneFromStdin(CliTest):
     def given(self, text, *arguments, code=0):
         result = subprocess.run(
             [SETTINGS["program"], *arguments], cwd=self.folder, input=text, text=True,
-            capture_output=True, env=clean_environment({}), timeout=30, check=False)
+            capture_output=True, env=clean_environment({}), timeout=TIME_LIMIT, check=False)
         self.assertEqual(result.returncode, code, result.stderr)
         return result
 
