@@ -35,7 +35,9 @@ TEST_P(OneFeatureAlone, IsWhatTheSceneNeedsAndGivesTheBitsOfAllFeatures) {
     const Scene scene = scene_needing(GetParam());
     ASSERT_EQ(flatten<float>(scene).features, GetParam());
     const std::uint64_t reference = hash_of(render_on_threads<float>(scene));
-    EXPECT_EQ(hash_of(render_on_device<float>(scene, cl_options(Launch::pixel))), reference);
+    ClOptions options = cl_options(Launch::pixel);
+    options.warnings_are_errors = true;
+    EXPECT_EQ(hash_of(render_on_device<float>(scene, options)), reference);
     EXPECT_EQ(hash_of(render_on_device<float>(scene, cl_options(Launch::pixel, true))), reference);
 }
 

@@ -60,7 +60,7 @@ TEST_P(EveryLaneWidth, GivesTheBitsOfLoneRays) {
         for (const char* aa : {"grid:1", "grid:2", "grid:3", "sobol:6"}) {
             expect_the_hash_of_lone_rays<float>(stem, aa, true, launches);
         }
-        if (!test_device().has_double || GetParam() == 2) continue;
+        if (!test_device().has_double || GetParam() == 2 || GetParam() == 4) continue;
         for (const char* aa : {"grid:2", "sobol:6"}) {
             expect_the_hash_of_lone_rays<double>(stem, aa, true, {Launch::pixel});
         }
@@ -68,12 +68,14 @@ TEST_P(EveryLaneWidth, GivesTheBitsOfLoneRays) {
 }
 
 /// The number of samples is compiled in where a packet holds them. How work is launched does not
-/// depend on the scene: both ways with two programs are enough. The widths that GPUs and CPUs run.
+/// depend on the scene: both ways with two programs are enough. One lane, as GPUs run, and 16 for
+/// the paper's scene: picture_test has the others at the width of this processor.
 TEST_P(EveryLaneWidth, GivesTheBitsOfLoneRaysWithWhatTheSceneNeedsAlone) {
     if (GetParam() != 1 && GetParam() != 16) GTEST_SKIP() << "with all features alone";
     for (const char* aa : {"grid:1", "grid:2", "grid:3"}) {
         expect_the_hash_of_lone_rays<float>("cornell-box", aa, false);
     }
+    if (GetParam() != 1) return;
     for (const char* stem : {"vertex-normals", "many-lights", "cones", "glass"}) {
         expect_the_hash_of_lone_rays<float>(stem, "grid:2", false, {Launch::pixel});
     }

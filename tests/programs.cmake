@@ -39,6 +39,13 @@ function(optimize_tests)
         SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
+# The first program that has sources without optimization.
+if(MIRRORBALL_HOST_TESTS)
+    set(PRECOMPILED_BY host_tests)
+else()
+    set(PRECOMPILED_BY kernel_tests)
+endif()
+
 # add_test_program(NAME LABEL SOURCES...): a program of the sources; each that ends in _test.cpp is a
 # ctest test of its own. NAME_whole fails where a suite is in none of them.
 function(add_test_program NAME LABEL)
@@ -47,10 +54,10 @@ function(add_test_program NAME LABEL)
     target_link_libraries(${NAME} PRIVATE mirrorball_report GTest::gtest_main)
     target_compile_options(${NAME} PRIVATE -O0)
     if(NOT CMAKE_CXX_COMPILER_LAUNCHER)  # ccache and precompiled headers do not go together
-        if(TARGET host_tests AND NOT NAME STREQUAL host_tests)
-            target_precompile_headers(${NAME} REUSE_FROM host_tests)
-        else()
+        if(NAME STREQUAL PRECOMPILED_BY)
             target_precompile_headers(${NAME} PRIVATE precompiled.h)
+        elseif(TARGET ${PRECOMPILED_BY})
+            target_precompile_headers(${NAME} REUSE_FROM ${PRECOMPILED_BY})
         endif()
     endif()
     target_compile_definitions(${NAME} PRIVATE

@@ -30,7 +30,6 @@ Film<T> render_on_threads(const Scene& scene, const ThreadsOptions& options = {}
 template <typename T>
 Film<T> render_on_device(const Scene& scene, const ClOptions& options = {}, Rect tile = {});
 
-/// Options for tests: OpenCL warnings are errors.
 ClOptions cl_options(Launch launch, bool all_features = false);
 
 /// `film` against `reference`, both clamped to [0, 1].

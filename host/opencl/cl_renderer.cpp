@@ -201,11 +201,9 @@ class ClRenderer : public Renderer<T> {
         program_options.lanes = lanes_;
         program_options.fast_math = options.fast_math;
         program_options.warnings_are_errors = options.warnings_are_errors;
-        program_options.entries.rays = false;
+        program_options.entries = {!launch_samples_, launch_samples_, options.will_refine, false};
         if (!options.all_features) {
             program_options.features = either_of(scene.features, options.also);
-            program_options.entries = {!launch_samples_, launch_samples_, options.will_refine,
-                                       false};
             const int held = shape(samples()).samples;
             const bool is_one_packet = !launch_samples_ && held == params_.samples;
             if (is_one_packet && !options.any_samples) program_options.samples = held;

@@ -144,10 +144,10 @@ GUARDS = [
     ], [("stress", "bright-mirrors")]),
     Guard("boxes are enlarged", [
         (F + "boxes.cpp", "T(box_slack) * Flat<T>::roundoff", "T(0) * Flat<T>::roundoff"),
-    ], [("host_hits_test", "Hits.*"), ("kernel_hits_test", "DeviceHits.*")]),
+    ], [("geometry_hits_test", "Hits.*"), ("kernel_hits_test", "DeviceHits.*")]),
     Guard("and by the origin's share", [
         (K + "bvh.cl", "(Reals)((Real)16 * (Real)RT_ROUNDOFF) * max_of", "(Reals)0 * max_of"),
-    ], [("host_hits_test", "Hits.*FromFarAway"),
+    ], [("geometry_hits_test", "Hits.*FromFarAway"),
         ("kernel_scene_test", "ClosestHit.*FromFarAway")]),
     Guard("Blinn lobe near its peak from the part across the normal", [
         (K + "power.cl", "Mask near = (binades >= (Indices)0) & !low;",
@@ -199,7 +199,7 @@ GUARDS = [
     Guard("hierarchies are no deeper than a traversal's stack", [
         (F + "bvh_split.cpp", "range.depth + halvings >= max_bvh_depth",
          "range.depth + halvings >= 1 << 20"),
-    ], [("host_bvh_test", "*")]),
+    ], [("geometry_bvh_test", "*")]),
     Guard("ray trees are no deeper than their stack", [
         (F + "flat_scene.cpp", "if (scene_.max_bounces <= f32::RT_TREE_STACK || "
          "!material_use_.splits) return;",

@@ -10,7 +10,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TIME_LIMIT = 1800
 PROGRAMS = {"stress": ["mirrorball"], "cli": ["mirrorball"], "py": ["mirrorball", "cl_shim"],
-            "compiler": ["host_tests"], "host": ["host_tests"], "kernel": ["kernel_tests"]}
+            "compiler": ["geometry_tests"], "geometry": ["geometry_tests"], "host": ["host_tests"],
+            "kernel": ["kernel_tests"]}
 
 
 def one_isa():

@@ -53,7 +53,8 @@ def image_hash(text):
 
 def clean_environment(changes):
     """This process's environment without what changes mirrorball, and with PoCL alone."""
-    variables = dict(os.environ, POCL_CACHE_DIR=SETTINGS["cache"])
+    variables = dict(os.environ)
+    variables.setdefault("POCL_CACHE_DIR", SETTINGS["cache"])
     for name in ["MIRRORBALL_DEVICE", "POCL_DEVICES", "POCL_AFFINITY", "POCL_MAX_PTHREAD_COUNT",
                  "POCL_PTHREAD_MIN_THREADS", "OCL_ICD_VENDORS", "TERM"]:
         variables.pop(name, None)
