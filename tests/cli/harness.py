@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import unittest
 
-TIME_LIMIT = 30
+TIME_LIMIT = 120
 POCL_DRIVER = "/etc/OpenCL/vendors/pocl.icd"
 SETTINGS = {}
 

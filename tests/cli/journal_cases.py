@@ -149,15 +149,15 @@ class Resume(JournalTest):
 
     def test_after_kill(self):
         self.assert_goes_on(signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
-                            "grid:40", "--device", "threads")
+                            "grid:28", "--device", "threads:1")
 
     def test_after_sigterm_on_a_device(self):
         self.assert_goes_on(signal.SIGTERM, scene_path("mirror-hall"), "--size", "300", "--aa",
                             "grid:40", "--device", "pocl")
 
     def test_while_refining(self):
-        self.assert_goes_on(signal.SIGKILL, scene_path("mirror-hall"), "--size", "800", "--aa",
-                            "adaptive:0.0001", "--precision", "double", "--device", "threads")
+        self.assert_goes_on(signal.SIGKILL, scene_path("mirror-hall"), "--size", "500", "--aa",
+                            "adaptive:0.0001", "--precision", "double", "--device", "threads:1")
 
     def test_two_processes_at_one_picture(self):
         arguments = [scene_path("mirror-hall"), "--size", "300", "--aa", "grid:64", "--device",
@@ -183,9 +183,9 @@ class Resume(JournalTest):
 
     def test_fresh_ignores_it(self):
         self.interrupted(signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
-                         "grid:40", "--device", "threads")
+                         "grid:28", "--device", "threads:1")
         result = self.run_cli("render", scene_path("mirror-hall"), "--size", "300", "--aa",
-                              "grid:40", "--device", "threads", "--fresh", "-o", "out.png")
+                              "grid:28", "--device", "threads", "--fresh", "-o", "out.png")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertNotIn("resuming from", result.stderr)
         self.assertEqual(self.files(), ["out.png"])

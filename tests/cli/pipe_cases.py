@@ -4,7 +4,7 @@ import os
 import pty
 import subprocess
 
-from harness import SETTINGS, CliTest, clean_environment, scene_path
+from harness import SETTINGS, TIME_LIMIT, CliTest, clean_environment, scene_path
 
 SIZE = ["--size", "16", "--device", "threads"]
 
