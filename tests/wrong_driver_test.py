@@ -314,6 +314,20 @@ class Wrong(WrongDriver):
             right, _ = self.hash_of(0, "render", SCENE, "--size", "100", *more, "--device", "threads")
             self.assertEqual(self.hash_of(0, "merge", part)[0], right)
 
+    def test_in_a_share_is_found_when_merged(self):
+        bad, good = str(self.folder / "bad.mbj"), str(self.folder / "good.mbj")
+        share = ["render", SCENE, "--size", "100", "--device", "pocl", "--aa", "adaptive:0.05",
+                 "--precision", "double"]
+        self.hash_of(0, *share, "--shard", "0,1/3", "-o", bad, shim=self.LEFT_EDGE)
+        self.hash_of(0, *share, "--shard", "2/3", "-o", good)
+        out = self.folder / "out.png"
+        merge = ["merge", good, bad, "-o", str(out)]
+        _, said = self.hash_of(1, *merge, "--verify", "100%")
+        for words in ["bad.mbj (", "threads on ", "differ in"]:
+            self.assertIn(words, said)
+        self.assertFalse(out.exists())
+        self.hash_of(0, *merge)
+
     def test_is_replaced_in_a_finished_share(self):
         part = str(self.folder / "part.mbj")
         share = ["render", SCENE, "--size", "100", "--shard", "0/1", "-o", part]

@@ -112,7 +112,11 @@ void append_header(std::vector<std::byte>& bytes, const JournalHeader& header) {
                  {"shares", header.shares},
                  {"scene", header.scene},
                  {"scene_hash", header.scene_hash},
-                 {"settings", header.settings}});
+                 {"settings", header.settings},
+                 {"scene_file", header.scene_file},
+                 {"aa", header.aa},
+                 {"filter", header.filter},
+                 {"max_bounces", header.max_bounces}});
 }
 
 void append_writer(std::vector<std::byte>& bytes, const JournalWriterInfo& writer) {
@@ -141,6 +145,11 @@ JournalHeader parse_header(std::span<const std::byte> body) {
     header.scene = text_of(json, "scene");
     header.scene_hash = text_of(json, "scene_hash");
     header.settings = text_of(json, "settings");
+    if (!json.contains("scene_file")) return header;  // none but merge --verify asks for the rest
+    header.scene_file = text_of(json, "scene_file");
+    header.aa = text_of(json, "aa");
+    header.filter = text_of(json, "filter");
+    header.max_bounces = int_of(json, "max_bounces", 0, std::numeric_limits<int>::max());
     return header;
 }
 

@@ -40,6 +40,10 @@ struct JournalHeader {
     bool refines = false;                     ///< adaptive: records of kind `refined` follow
     std::string shares;                       ///< as to_string(Shares)
     std::string scene, scene_hash, settings;  ///< as a picture's metadata have them
+    /// With the above, what it takes to render it again. The file as the first writer found it; may
+    /// be empty.
+    std::string scene_file, aa, filter;
+    int max_bounces = 0;
 
     std::size_t pixel_bytes() const { return 3 * (double_precision ? 8 : 4); }
     bool operator==(const JournalHeader&) const = default;

@@ -18,6 +18,11 @@ void add_merge(const CommandLine& program, Options& options) {
                 [&](const std::string& text) { merge.encoding = parse_encoding(text); });
     verb.flag("--allow-missing", merge.allow_missing,
               "write the picture even if parts are missing; they are black");
+    verb.option(
+        "--verify", "P%", "render P% of the picture again, here and on threads, and compare",
+        [&](const std::string& text) { merge.verify = parse_percent("--verify", text, 100); });
+    verb.option("--scene", "SCENE", "where --verify finds the scene (default: where it was)",
+                [&](const std::string& text) { merge.scene = text; });
     verb.flag("-q,--quiet", merge.quiet, "print only errors");
     verb.when_chosen([&options] {
         settle_picture_output(options.merge.output, options.merge.format);

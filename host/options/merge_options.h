@@ -17,6 +17,8 @@ struct MergeOptions {
     std::optional<PictureFormat> format;  ///< of standard output
     Encoding encoding = Encoding::display;
     bool allow_missing = false;
+    double verify = 0;  ///< share of the picture to render again on threads and compare, 0 to 1
+    std::string scene;  ///< for that; empty: the file that the first part names
     bool quiet = false;
 };
 

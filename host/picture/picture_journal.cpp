@@ -55,6 +55,10 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
     header_.scene = stats.scene.name;
     header_.scene_hash = hash_text(stats.scene.hash);
     header_.settings = settings_text(stats);
+    header_.scene_file = settings.scene_file;
+    header_.aa = to_string(stats.aa);
+    header_.filter = to_string(stats.filter);
+    header_.max_bounces = stats.max_bounces;
     open();
 }
 

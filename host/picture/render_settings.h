@@ -46,6 +46,7 @@ struct RenderSettings {
     /// Where finished tiles are kept, so that the same render goes on after it was interrupted;
     /// empty: nowhere. Pictures by fast arithmetic or by sample buffers are not kept.
     std::string journal;
+    std::string scene_file;        ///< for the journal to name: where the scene can be found again
     double journal_delay = 2;      ///< seconds of tracing that are not worth keeping
     bool fresh = false;            ///< ignore the journal that is there
     std::optional<Shares> shares;  ///< render these alone, into the journal, which is the result

@@ -13,8 +13,11 @@
 #include "host/image/picture_io.h"
 #include "host/picture/render_stats.h"
 #include "host/printable.h"
+#include "host/stop_signal.h"
+#include "host/temporary_folder.h"
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
+#include "host/verbs/verify_parts.h"
 
 namespace rt {
 
@@ -39,6 +42,18 @@ void write_merged(const MergedPicture& merged, const MergeOptions& options) {
     write_picture(options.output, merged.picture, options.encoding, metadata, options.format);
 }
 
+/// The parts' picture, compared with what is rendered again of it. Throws Error where they differ.
+void verify(const MergedPicture& merged, const MergeOptions& options) {
+    const TemporaryFolder folder;
+    const std::string again = folder.name() + "/rendered-here.mbj";
+    install_stop_signals();
+    if (!render_part_again(merged.header, options.scene, options.verify, again)) return;
+    std::vector<std::string> parts = options.parts;
+    parts.push_back(again);
+    merge_journals(parts);
+    if (!options.quiet) print_message("mirrorball: what was rendered again has the same bits\n");
+}
+
 }  // namespace
 
 int run_merge(const MergeOptions& options) {
@@ -52,6 +67,8 @@ int run_merge(const MergeOptions& options) {
         throw Error(ExitCode::incomplete, missing_text(merged));
     }
     if (merged.missing) print_message("mirrorball: " + missing_text(merged) + "\n");
+    if (options.verify > 0) verify(merged, options);
+    if (stop_flag() != 0) return 128 + stop_flag();
     if (!options.output.empty()) write_merged(merged, options);
     if (!options.quiet) {
         print_message(fmt::format("{}: {} of {}, image {}\n", printable(merged.header.scene),

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "host/console.h"
@@ -58,6 +59,10 @@ void check_output(const RenderOptions& options) {
 
 void choose_journal(RenderOptions& options) {
     if (options.output.empty()) return;
+    std::error_code ignored;
+    if (options.scene != stdin_scene) {
+        options.scene_file = std::filesystem::absolute(options.scene, ignored).string();
+    }
     if (options.shares) {
         options.journal = options.output;
     } else if (!find_output_destination(options.output).in_place) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Journals: renders that were interrupted go on, and shares of a picture are merged to the whole."""
 import random
+import shutil
 import signal
 import time
 
@@ -53,6 +54,29 @@ class Shares(JournalTest):
     def test_of_a_window_and_in_other_formats(self):
         self.assert_merges(3, "--crop", "7,9,83,61", "--aa", "adaptive:0.05", ending="exr")
         self.assert_merges(2, "--crop", "7,9,83,61", ending="pfm", scene="glass")
+
+    def test_verified_where_they_are_merged(self):
+        settings = [["--aa", "sobol:8", "--filter", "gaussian", "--max-bounces", "3"],
+                    ["--aa", "adaptive:0.05", "--crop", "7,9,83,61", "--precision", "double"]]
+        for more in settings:
+            with self.subTest(more=more):
+                self.share("0/2", "a.mbj", *SMALL, *more)
+                self.share("1/2", "b.mbj", *SMALL, *more)
+                for share in ["1%", "100%"]:
+                    result = self.merge("a.mbj", "b.mbj", "--verify", share)
+                    self.assertIn("rendered again has the same bits", result.stderr)
+                (self.folder / "a.mbj").unlink()
+                (self.folder / "b.mbj").unlink()
+
+    def test_verified_by_the_right_scene_alone(self):
+        scene = self.folder / "scene.json"
+        shutil.copy(scene_path("cornell-box"), scene)
+        self.share("0/1", "a.mbj", *SMALL, scene=str(scene.with_suffix("")))
+        scene.rename(self.folder / "moved.json")
+        self.assert_refused(self.run_cli("merge", "a.mbj", "--verify", "1%"), 2, "--scene")
+        self.merge("a.mbj", "--verify", "1%", "--scene", "moved.json")
+        self.assert_refused(self.run_cli("merge", "a.mbj", "--verify", "1%", "--scene",
+                                         scene_path("glass")), 3, "different scene")
 
     def test_from_several_devices(self):
         self.render("cornell-box", "-o", "whole.png", *SMALL)

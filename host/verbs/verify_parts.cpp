@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/verify_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <vector>
+
+#include "host/error.h"
+#include "host/journal/shares.h"
+#include "host/picture/render_picture.h"
+#include "host/scene/scene_file.h"
+#include "host/stop_signal.h"
+
+namespace rt {
+
+namespace {
+
+std::string scene_to_load(const JournalHeader& header, const std::string& scene) {
+    std::error_code ignored;
+    if (!scene.empty()) return scene;
+    if (!header.scene_file.empty() && std::filesystem::exists(header.scene_file, ignored)) {
+        return header.scene_file;
+    }
+    throw Error(ExitCode::usage, "--verify: the scene is not where it was rendered (" +
+                                     (header.scene_file.empty() ? "unknown" : header.scene_file) +
+                                     "); give --scene SCENE");
+}
+
+Filter filter_of(const JournalHeader& header) {
+    for (const Filter filter : {Filter::box, Filter::tent, Filter::gaussian, Filter::mitchell}) {
+        if (header.filter == to_string(filter)) return filter;
+    }
+    throw Error(ExitCode::input, "a part's header is damaged (filter); render it again");
+}
+
+/// The blocks of a region are handed out at random, so that any share is a sample of it.
+Shares sample_of(const Rect& region, double share) {
+    const auto blocks = static_cast<int>(share_blocks(region).size());
+    const auto wanted = static_cast<int>(std::lround(share * blocks));
+    Shares sample{std::vector<int>(static_cast<std::size_t>(std::clamp(wanted, 1, blocks))),
+                  blocks};
+    std::iota(sample.numbers.begin(), sample.numbers.end(), 0);
+    return sample;
+}
+
+}  // namespace
+
+bool render_part_again(const JournalHeader& header, const std::string& scene, double share,
+                       const std::string& part) {
+    RenderSettings settings;
+    settings.size = {header.width, header.height};
+    settings.crop = header.region;
+    settings.aa = parse_aa_mode(header.aa);
+    settings.filter = filter_of(header);
+    settings.max_bounces = header.max_bounces;
+    if (header.double_precision) settings.precision = Precision::float64;
+    settings.journal = part;
+    settings.shares = sample_of(header.region, share);
+    Scene loaded = load_scene(scene_to_load(header, scene), {});
+    apply_overrides(loaded, settings);
+    DeviceChoice threads;
+    threads.use_threads = true;
+    return render_picture(loaded, settings, {threads}, {}, stop_flag()).stats.complete();
+}
+
+}  // namespace rt
