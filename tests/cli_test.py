@@ -17,7 +17,7 @@ import harness
 MODULES = {
     "calm": ["usage_cases", "shell_cases", "batch_cases", "journal_cases", "doctor_cases",
              "explain_cases", "frames_cases", "scene_cases", "pipe_cases",
-             "view_cases", "watch_cases",
+             "view_cases", "watch_cases", "aov_cases",
              "output_cases", "device_cases", "picture_cases",
              "render_cases", "compare_cases", "stats_cases", "failure_cases"],
     "timed": ["stream_cases", "signal_cases"],

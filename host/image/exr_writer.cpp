@@ -39,10 +39,12 @@ class SinkStream : public Imf::OStream {
     std::uint64_t place_ = 0;
 };
 
-const char* channel_name(int channels, int channel) {
+const char* channel_name(const EncodeRequest& request, int channel) {
+    if (request.channel_names != nullptr) return request.channel_names[channel];
     static constexpr std::array<std::array<const char*, 4>, 4> names{
         {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};
-    return names.at(static_cast<std::size_t>(channels - 1)).at(static_cast<std::size_t>(channel));
+    return names.at(static_cast<std::size_t>(request.channels - 1))
+        .at(static_cast<std::size_t>(channel));
 }
 
 Imf::Header make_header(const EncodeRequest& request) {
@@ -50,7 +52,7 @@ Imf::Header make_header(const EncodeRequest& request) {
     header.compression() = Imf::ZIP_COMPRESSION;
     header.zipCompressionLevel() = 2;  // 3 % larger than the library's 4, in two thirds of the time
     for (int c = 0; c < request.channels; ++c) {
-        header.channels().insert(channel_name(request.channels, c), Imf::Channel(Imf::FLOAT));
+        header.channels().insert(channel_name(request, c), Imf::Channel(Imf::FLOAT));
     }
     for (std::size_t i = 0; i < request.attribute_count; ++i) {
         header.insert(request.attribute_names[i], Imf::StringAttribute(request.attribute_texts[i]));
@@ -63,7 +65,7 @@ Imf::FrameBuffer frame_buffer(const EncodeRequest& request) {
     auto* first = static_cast<char*>(const_cast<void*>(request.pixels));
     const std::size_t step = sizeof(float) * static_cast<std::size_t>(request.channels);
     for (int c = 0; c < request.channels; ++c) {
-        buffer.insert(channel_name(request.channels, c),
+        buffer.insert(channel_name(request, c),
                       Imf::Slice(Imf::FLOAT, first + sizeof(float) * static_cast<std::size_t>(c),
                                  step, step * static_cast<std::size_t>(request.width)));
     }
@@ -73,7 +75,8 @@ Imf::FrameBuffer frame_buffer(const EncodeRequest& request) {
 }  // namespace
 
 int encode_exr(const EncodeRequest& request, const ByteSink& sink) {
-    if (request.is_float == 0 || request.channels < 1 || request.channels > 4) {
+    const int most = request.channel_names == nullptr ? 4 : 64;
+    if (request.is_float == 0 || request.channels < 1 || request.channels > most) {
         throw std::invalid_argument("EXR files are written from floats of 1 to 4 channels");
     }
     const ExrThreads threads(request.height);

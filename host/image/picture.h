@@ -14,6 +14,7 @@ struct Picture {
     int height = 0;
     int channels = 3;
     std::vector<float> pixels;
+    std::vector<std::string> channel_names = {};  ///< for .exr, any number; empty: Y, YA, RGB, RGBA
 };
 
 /// What a picture file says about itself: (name, text) pairs.

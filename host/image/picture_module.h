@@ -11,7 +11,7 @@
 namespace rt::module {
 
 /// Raised whenever anything below changes; the program refuses a module of another version.
-constexpr std::uint32_t interface_version = 2;
+constexpr std::uint32_t interface_version = 3;
 constexpr const char* entry_point_name = "mirrorball_picture_module";
 
 struct EncodeRequest {
@@ -19,8 +19,9 @@ struct EncodeRequest {
     int width;
     int height;
     int channels;
-    int is_float;             // pixels of 32-bit float, else of 8 bits
-    const void* pixels;       // row 0 on top, interleaved
+    const char* const* channel_names;  // null: those that pictures have
+    int is_float;                      // pixels of 32-bit float, else of 8 bits
+    const void* pixels;                // row 0 on top, interleaved
     const char* color_space;  // what the file declares, OpenImageIO's word; null for nothing
     std::size_t attribute_count;
     const char* const* attribute_names;

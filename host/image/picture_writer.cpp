@@ -22,8 +22,9 @@ namespace {
 using Metadata = std::span<const std::pair<std::string, std::string>>;
 
 void check_picture(const std::string& path, const Picture& picture) {
-    const bool has_size =
-        picture.width > 0 && picture.height > 0 && picture.channels >= 1 && picture.channels <= 4;
+    const bool has_size = picture.width > 0 && picture.height > 0 && picture.channels >= 1 &&
+                          (picture.channels <= 4 || picture.channel_names.size() ==
+                                                        static_cast<std::size_t>(picture.channels));
     if (has_size && picture.pixels.size() == static_cast<std::size_t>(picture.width) *
                                                  picture.height * picture.channels) {
         return;
@@ -98,6 +99,9 @@ std::vector<std::byte> encode_with_module(const std::string& path, PictureFormat
     request.width = picture.width;
     request.height = picture.height;
     request.channels = picture.channels;
+    std::vector<const char*> names;
+    for (const std::string& name : picture.channel_names) names.push_back(name.c_str());
+    if (!names.empty()) request.channel_names = names.data();
     request.is_float = stores_floats(format) ? 1 : 0;
     if (stores_floats(format)) {
         request.pixels = picture.pixels.data();

@@ -214,6 +214,7 @@ void add_report_options(const CommandLine& verb, RenderOptions& render) {
                               {"json", ProgressMode::json},
                               {"none", ProgressMode::none}},
                              "on stderr (default auto: a bar on a terminal, else lines)");
+    add_aov(verb, render.aovs);
     add_view_options(verb, render.view);
     verb.flag("-q,--quiet", render.quiet, "print only errors");
     verb.flag("-v,--verbose", render.verbose, "print more");
@@ -337,6 +338,7 @@ void add_render(const CommandLine& program, Options& options) {
         settle_scenes(options.render);
         settle_journal(options.render);
         settle_watch(options.render);
+        settle_aovs(options.render);
         options.verb = Verb::render;
     });
 }

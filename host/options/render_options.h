@@ -6,6 +6,7 @@
 
 #include "host/image/encoding.h"
 #include "host/image/picture_format.h"
+#include "host/options/aov.h"
 #include "host/picture/render_settings.h"
 #include "host/scene/scene_file.h"
 #include "host/view/view_settings.h"
@@ -30,6 +31,7 @@ struct RenderOptions : RenderSettings {
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;
     bool resume = false;               ///< was asked for by name
+    std::vector<Aov> aovs;             ///< to be saved beside the picture
     ViewSettings view;                 ///< where the picture is shown meanwhile
     bool watch = false;                ///< render again when the scene's files change
     double timeout = 0;                ///< seconds after which to give up; 0: never

@@ -19,6 +19,7 @@
 #include "host/scene/stdin_text.h"
 #include "host/stop_signal.h"
 #include "host/temporary_folder.h"
+#include "host/verbs/aov.h"
 #include "host/verbs/render_batch.h"
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
@@ -57,6 +58,7 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     if (options.timeout > 0) stop_after(options.timeout);
     check_output(options);
     check_output_is_no_input(options.output, {options.scene, options.reference});
+    check_aov_files(options);
     choose_journal(options);
     watch_worker(true);
     auto devices = find_devices(options.device, options.threads, restore_stop_signals);
@@ -78,6 +80,7 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     stats.phases.load = load_seconds;
     watch.lap();
     const std::string path = save_picture(rendered, options);
+    write_aovs(scene, stats, options);
     stats.phases.write = watch.seconds();
     stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
     if (reference) stats.error = image_error(rendered.picture, *reference);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Enough of PNG and PFM to look at mirrorball's pictures: rows from the top, RGB per pixel."""
+"""Enough of PNG, PFM and EXR to look at mirrorball's pictures: rows from the top, RGB per pixel."""
 import struct
 import zlib
 
@@ -88,3 +88,58 @@ def cropped(width, values, x0, y0, x1, y1):
     for y in range(y0, y1):
         part.extend(values[3 * (y * width + x0):3 * (y * width + x1)])
     return part
+
+
+def _exr_attributes(data):
+    """(attributes by name, where the table of offsets begins) of a single-part scanline file."""
+    if data[:8] != b"\x76\x2f\x31\x01\x02\0\0\0":
+        raise ValueError("no plain EXR file")
+    attributes, at = {}, 8
+    while data[at] != 0:
+        name_end = data.index(0, at)
+        name = data[at:name_end].decode()
+        kind_end = data.index(0, name_end + 1)
+        (size,) = struct.unpack_from("<i", data, kind_end + 1)
+        at = kind_end + 5 + size
+        attributes[name] = data[kind_end + 5:at]
+    return attributes, at + 1
+
+
+def _exr_block(packed, size):
+    """Undoes the ZIP compression: differences of neighbors, then halves woven together."""
+    if len(packed) == size:
+        return packed
+    raw = bytearray(zlib.decompress(packed))
+    for i in range(1, len(raw)):
+        raw[i] = (raw[i - 1] + raw[i] - 128) & 255
+    half = (len(raw) + 1) // 2
+    woven = bytearray(len(raw))
+    woven[0::2], woven[1::2] = raw[:half], raw[half:]
+    return bytes(woven)
+
+
+def read_exr(path):
+    """(width, height, {channel: rows of floats from the top}) of 32-bit floats under ZIP."""
+    data = path.read_bytes()
+    attributes, at = _exr_attributes(data)
+    left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
+    width, height = right - left + 1, bottom - top + 1
+    names, rest = [], attributes["channels"]
+    while rest[:1] != b"\0":
+        name, _, rest = rest.partition(b"\0")
+        if struct.unpack_from("<i", rest)[0] != 2:
+            raise ValueError(f"{name} is not of 32-bit floats")
+        names.append(name.decode())
+        rest = rest[16:]
+    if attributes["compression"] != b"\3":
+        raise ValueError("not under ZIP")
+    channels = {name: [] for name in names}
+    for first in range(0, height, 16):
+        (place,) = struct.unpack_from("<Q", data, at + 8 * (first // 16))
+        rows = min(16, height - first)
+        _, size = struct.unpack_from("<ii", data, place)
+        block = _exr_block(data[place + 8:place + 8 + size], rows * width * 4 * len(names))
+        for i in range(rows * len(names)):
+            channels[names[i % len(names)]].append(
+                list(struct.unpack_from(f"<{width}f", block, i * width * 4)))
+    return width, height, channels

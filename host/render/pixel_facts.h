@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/render/rect.h"
+#include "host/render/threads_renderer.h"
+#include "host/scene/scene.h"
+
+namespace rt {
+
+/// What the eye ray through each pixel's center meets, row by row. In double, whatever the picture
+/// is rendered in.
+struct PixelHits {
+    std::vector<float> depth;      ///< distance from the eye, in the scene's units; 0: nothing
+    std::vector<float> normal;     ///< of unit length, toward the eye; three numbers each
+    std::vector<std::int32_t> id;  ///< of the primitive, from 1: spheres, cones, triangles as the
+                                   ///< scene lists them; 0: nothing
+};
+
+/// Of the pixels of a region.
+PixelHits pixel_hits(const Scene& scene, const Rect& region);
+
+/// What each pixel took, row by row. The rays of all pixels are those of the picture.
+struct PixelWork {
+    std::vector<std::uint32_t> samples;
+    std::vector<std::uint64_t> rays;  ///< eye, shadow, mirror and refracted rays
+};
+
+/// Of the pixels of a region, of which an adaptive mode refines those that it refines in the
+/// picture. As rendered in the precision of T.
+template <typename T>
+PixelWork pixel_work(const Scene& scene, const Rect& region);
+
+}  // namespace rt

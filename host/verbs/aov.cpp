@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/aov.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "host/console.h"
+#include "host/image/false_color.h"
+#include "host/image/output_path.h"
+#include "host/image/picture_io.h"
+#include "host/render/pixel_facts.h"
+
+namespace rt {
+
+namespace {
+
+bool asks_for(const RenderOptions& options, Aov aov) {
+    return std::find(options.aovs.begin(), options.aovs.end(), aov) != options.aovs.end();
+}
+
+bool is_exr(const RenderOptions& options) {
+    return picture_format_of_name(options.output) == PictureFormat::exr;
+}
+
+std::string beside(const std::string& output, const std::string& ending) {
+    return std::filesystem::path(output).replace_extension(ending).string();
+}
+
+std::vector<std::string> aov_files(const RenderOptions& options) {
+    if (is_exr(options)) return {beside(options.output, ".aov.exr")};
+    std::vector<std::string> files;
+    for (const Aov aov : options.aovs) {
+        files.push_back(beside(options.output, std::string(".") + to_string(aov) + ".png"));
+    }
+    return files;
+}
+
+/// What is asked for, as numbers.
+class Aovs {
+   public:
+    Aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options)
+        : width_(stats.region.width), height_(stats.region.height) {
+        const auto needs = [&](Aov aov) { return asks_for(options, aov); };
+        if (needs(Aov::depth) || needs(Aov::normal) || needs(Aov::id)) {
+            hits_ = pixel_hits(scene, stats.region);
+        }
+        if (!needs(Aov::rays) && !needs(Aov::samples)) return;
+        const PixelWork work = stats.double_precision ? pixel_work<double>(scene, stats.region)
+                                                      : pixel_work<float>(scene, stats.region);
+        samples_.assign(work.samples.begin(), work.samples.end());
+        rays_.assign(work.rays.begin(), work.rays.end());
+    }
+
+    Picture in_false_colors(Aov aov) const {
+        switch (aov) {
+            case Aov::depth:
+                return color_numbers(hits_.depth, width_, height_, Scale::linear);
+            case Aov::normal:
+                return color_normals(hits_.normal, width_, height_);
+            case Aov::id:
+                return color_ids(hits_.id, width_, height_);
+            case Aov::rays:
+                return color_numbers(rays_, width_, height_, Scale::logarithmic);
+            case Aov::samples:
+                break;
+        }
+        return color_numbers(samples_, width_, height_, Scale::logarithmic);
+    }
+
+    /// All as channels of one picture.
+    Picture as_channels(const std::vector<Aov>& aovs) const {
+        Picture picture;
+        picture.width = width_;
+        picture.height = height_;
+        std::vector<std::vector<float>> planes;
+        for (const Aov aov : aovs) {
+            if (aov != Aov::normal) {
+                picture.channel_names.emplace_back(to_string(aov));
+                planes.push_back(plane(aov));
+                continue;
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                picture.channel_names.push_back(std::string("normal.") + "XYZ"[k]);
+                std::vector<float>& part = planes.emplace_back();
+                for (std::size_t i = k; i < hits_.normal.size(); i += 3) {
+                    part.push_back(hits_.normal[i]);
+                }
+            }
+        }
+        picture.channels = static_cast<int>(planes.size());
+        for (std::size_t i = 0; i < planes.front().size(); ++i) {
+            for (const std::vector<float>& values : planes) picture.pixels.push_back(values[i]);
+        }
+        return picture;
+    }
+
+   private:
+    std::vector<float> plane(Aov aov) const {
+        if (aov == Aov::depth) return hits_.depth;
+        if (aov == Aov::id) return {hits_.id.begin(), hits_.id.end()};
+        return aov == Aov::rays ? rays_ : samples_;
+    }
+
+    const int width_, height_;
+    PixelHits hits_;
+    std::vector<float> samples_, rays_;
+};
+
+}  // namespace
+
+void check_aov_files(const RenderOptions& options) {
+    if (options.aovs.empty()) return;
+    for (const std::string& file : aov_files(options)) {
+        check_picture_path(file);
+        check_output_is_no_input(file, {options.scene, options.reference});
+    }
+}
+
+void write_aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options) {
+    if (options.aovs.empty() || !stats.complete()) return;
+    const Aovs aovs(scene, stats, options);
+    const std::vector<std::string> files = aov_files(options);
+    if (is_exr(options)) {
+        write_picture(files.front(), aovs.as_channels(options.aovs), Encoding::linear);
+    } else {
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            write_picture(files[i], aovs.in_false_colors(options.aovs[i]), Encoding::display);
+        }
+    }
+}
+
+}  // namespace rt

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What render --aov saves beside a picture, against closed forms and the rays that were counted."""
+import json
+import math
+
+from harness import CAMERA, GRAY, CliTest, scene_path
+from pictures import read_exr, read_png
+
+ALL = "depth,normal,id,rays,samples"
+
+
+class Aov(CliTest):
+    def stats(self, *arguments):
+        result = self.run_cli("render", *arguments, "--stats=json", "--device", "threads")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def channels(self, *arguments):
+        stats = self.stats(*arguments, "-o", "a.exr", "--aov", ALL)
+        width, height, channels = read_exr(self.folder / "a.aov.exr")
+        return stats, width, height, channels
+
+    def test_depth_normal_and_id_of_two_spheres(self):
+        self.write_text("scene.json", json.dumps(
+            {"camera": CAMERA, "materials": {"gray": GRAY}, "spheres": [
+                {"center": [0, 0, -20], "radius": 2, "material": "gray"},
+                {"center": [0, 0, 0], "radius": 1, "material": "gray"}]}))
+        _, width, height, channels = self.channels("scene.json", "--size", "41", "--aa", "grid:2")
+        self.assertEqual((width, height), (41, 41))
+        self.assertEqual(sorted(channels), ["depth", "id", "normal.X", "normal.Y", "normal.Z",
+                                            "rays", "samples"])
+        seen = 0
+        for y in range(41):
+            for x in range(41):
+                half = math.tan(math.radians(20))
+                ray = [half * ((x + 0.5) / 20.5 - 1), half * (1 - (y + 0.5) / 20.5), -1]
+                length = math.hypot(*ray)
+                ray = [part / length for part in ray]
+                along = -4 * ray[2]
+                under = along * along - 15
+                if abs(under) < 1e-9:
+                    continue
+                found = [channels[name][y][x] for name in ["depth", "normal.X", "normal.Y", "normal.Z"]]
+                if under < 0:
+                    self.assertEqual((found, channels["id"][y][x]), ([0, 0, 0, 0], 0))
+                    continue
+                depth = along - math.sqrt(under)
+                expected = [depth, depth * ray[0], depth * ray[1], 4 + depth * ray[2]]
+                for a, b in zip(found, expected):
+                    self.assertAlmostEqual(a, b, delta=1e-6)
+                self.assertEqual(channels["id"][y][x], 2)
+                seen += 1
+        self.assertGreater(seen, 200)
+
+    def test_rays_and_samples_add_up_to_the_pictures(self):
+        for more in [["--aa", "grid:3"], ["--aa", "adaptive:0.05", "--precision", "double"],
+                     ["--aa", "adaptive:0.05", "--crop", "7,9,83,61"]]:
+            with self.subTest(more=more):
+                stats, _, _, channels = self.channels(scene_path("glass"), "--size", "96x72", *more)
+                samples = sum(map(sum, channels["samples"]))
+                rays = sum(map(sum, channels["rays"]))
+                if "--crop" not in more:  # its border is rendered too
+                    self.assertEqual((samples, rays),
+                                     (stats["rays"]["primary"], stats["rays"]["total"]))
+                kinds = {value for row in channels["samples"] for value in row}
+                self.assertLessEqual(kinds, {9} if "grid:3" in more else {1, 5, 17, 65, 257})
+                self.assertEqual(len(kinds) > 1, "grid:3" not in more)
+
+    def test_a_window_has_the_pixels_of_the_whole(self):
+        arguments = [scene_path("many-lights"), "--size", "96x72", "--aa", "adaptive:0.05"]
+        whole = self.channels(*arguments)[3]
+        part = self.channels(*arguments, "--crop", "7,9,83,61")[3]
+        for name, rows in part.items():
+            self.assertEqual(rows, [row[7:83] for row in whole[name][9:61]], name)
+
+    def test_ids_are_those_of_the_scene_where_it_has_a_hierarchy(self):
+        arguments = [scene_path("meshes"), "--size", "64", "-o", "a.exr", "--aov", "id"]
+        self.stats(*arguments)
+        with_hierarchy = (self.folder / "a.aov.exr").read_bytes()
+        self.stats(*arguments, "--hierarchies", "off")
+        self.assertEqual((self.folder / "a.aov.exr").read_bytes(), with_hierarchy)
+
+    def test_false_colors(self):
+        plain = self.stats(scene_path("cornell-box"), "--size", "100x60", "-o", "a.png")
+        stats = self.stats(scene_path("cornell-box"), "--size", "100x60", "-o", "b.png", "--aov", ALL)
+        self.assertEqual(plain["image"]["hash"], stats["image"]["hash"])
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+        for name in ALL.split(","):
+            width, height, pixels = read_png(self.folder / f"b.{name}.png")
+            self.assertEqual((width, height), (100, 60) if name == "id" else (200, 80))
+            self.assertGreater(len({bytes(pixels[i:i + 3]) for i in range(0, len(pixels), 3)}), 3)
+
+    def test_refusals(self):
+        scene = scene_path("single-sphere")
+        for arguments, words in [(["-o", "a.png", "--aov", "color"], "'color'"),
+                                 (["--aov", "depth"], "-o FILE"),
+                                 (["-o", "-", "--aov", "depth"], "-o FILE"),
+                                 (["-o", "a.mbj", "--shard", "0/2", "--aov", "depth"], "whole"),
+                                 ([scene, "-o", "%s.png", "--aov", "depth"], "whole")]:
+            self.assert_refused(self.run_cli("render", scene, *arguments), 2, *words.split("|"))
+        (self.folder / "a.depth.png").mkdir()
+        self.assert_refused(self.run_cli("render", scene, "-o", "a.png", "--aov", "depth"), 4,
+                            "a.depth.png")
+        self.assertEqual(self.files(), ["a.depth.png"])
