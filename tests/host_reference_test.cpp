@@ -8,6 +8,8 @@
 #include "host/stress/naive_tracer.h"
 #include "host/stress/reference_tracer.h"
 #include "host/stress/stress_scenes.h"
+#include "host/stress/wide_shapes.h"
+#include "tests/test_random.h"
 
 // The stress suite's reference against closed forms.
 namespace rt {
@@ -248,6 +250,70 @@ TEST(NaiveTracer, IsRightWithConesAndGlass) {
     ReferencePicture reference(scene, ReferenceKind::quad);
     const NaivePicture naive = naive_picture<double>(scene, NaiveStart::along_normal);
     EXPECT_LE(judge_stress_picture(naive.picture, reference).wrong, 2U);
+}
+
+/// Points of the surface, its rims and corners among them, from near and from far away.
+template <typename Shape, typename PointOf, typename Hit>
+void expect_rays_are_not_left_out(const Shape& shape, const PointOf& point_of, const Hit& hit) {
+    using stress::Quad;
+    Random random(7);
+    const stress::Ball<Quad> ball = stress::ball_of(shape);
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const stress::Wide3<Quad> target = point_of(random);
+        stress::WideRay<Quad> ray;
+        ray.dir = stress::unit(stress::widened<Quad>(random.unit_vector()));
+        ray.origin = target - Quad(random.log_uniform(1e-6, 1e12)) * ray.dir;
+        if (!(hit(ray) > 0)) continue;
+        ++hits;
+        ASSERT_FALSE(stress::passes_by(ray.origin, stress::narrowed(ray.dir), ball));
+    }
+    EXPECT_GT(hits, 5000);
+}
+
+TEST(Ball, IsPassedByNoRayThatHitsWhatIsInIt) {
+    using stress::Quad;
+    const Scene::Sphere sphere{{3e6, -2, 1}, 1e-11, 0};
+    const auto ball = stress::wide_sphere<Quad>(sphere);
+    expect_rays_are_not_left_out(
+        ball,
+        [&](Random& random) {
+            const Quad radius = ball.radius * (1 - Quad(random.log_uniform(1e-25, 1e-3)));
+            return ball.center + radius * stress::unit(stress::widened<Quad>(random.unit_vector()));
+        },
+        [&](const auto& ray) { return stress::hit_sphere(ray, ball, false); });
+
+    Scene::Cone cone;
+    cone.base = {1, 2, 3};
+    cone.apex = {-2, 5, 1};
+    cone.base_radius = 0.2;
+    cone.apex_radius = 1.5;
+    const auto frustum = stress::wide_frustum<Quad>(cone);
+    expect_rays_are_not_left_out(
+        frustum,
+        [&](Random& random) {
+            const auto end = random.log_uniform(1e-25, 1);
+            const Quad height = frustum.length * (random.coin() ? Quad(end) : 1 - Quad(end));
+            const auto around = stress::widened<Quad>(random.unit_vector());
+            const auto across = stress::unit(cross(frustum.axis, around));
+            return frustum.base + height * frustum.axis +
+                   (frustum.radius + frustum.slope * height) * across;
+        },
+        [&](const auto& ray) { return stress::hit_frustum(ray, frustum, false); });
+
+    Scene::Triangle triangle;
+    triangle.vertices = {{{0, 0, 5}, {4, 1, 5}, {0.5, 1e-3, 6}}};
+    const auto face = stress::wide_face<Quad>(triangle);
+    expect_rays_are_not_left_out(
+        face,
+        [&](Random& random) {
+            const Quad u = random.log_uniform(1e-25, 1), v = (1 - u) * Quad(random.uniform(0, 1));
+            return face.corner + (1 - u - v) * face.edge1 + v * face.edge2;
+        },
+        [&](const auto& ray) {
+            Quad u, v;
+            return stress::hit_face(ray, face, u, v);
+        });
 }
 
 }  // namespace

@@ -50,6 +50,9 @@ class Tracer final : public ReferenceTracer {
         for (const auto& triangle : scene.triangles) {
             faces_.push_back(stress::wide_face<R>(triangle));
         }
+        for (const auto& sphere : spheres_) balls_.push_back(stress::ball_of(sphere));
+        for (const auto& frustum : frusta_) balls_.push_back(stress::ball_of(frustum));
+        for (const auto& face : faces_) balls_.push_back(stress::ball_of(face));
         for (const auto& light : scene.lights) {
             lights_.push_back({widened<R>(light.position), widened<R>(light.intensity)});
         }
@@ -96,22 +99,33 @@ class Tracer final : public ReferenceTracer {
     std::size_t first_face() const { return spheres_.size() + frusta_.size(); }
     std::size_t primitives() const { return first_face() + faces_.size(); }
 
+    /// Calls take(hit) for each primitive that the ray hits, until it says that is enough.
+    template <typename Take>
+    void for_each_hit(const WideRay<R>& ray, const Take& take) const {
+        const Wide3<long double> dir = stress::narrowed(ray.dir);
+        for (std::size_t prim = 0; prim < primitives(); ++prim) {
+            const bool leaving = static_cast<int>(prim) == ray.from;
+            if (!leaving && stress::passes_by(ray.origin, dir, balls_[prim])) continue;
+            const WideHit<R> hit = hit_primitive(ray, prim);
+            if (hit.prim >= 0 && take(hit)) return;
+        }
+    }
+
     WideHit<R> nearest(const WideRay<R>& ray) const {
         WideHit<R> best;
-        for (std::size_t prim = 0; prim < primitives(); ++prim) {
-            const WideHit<R> hit = hit_primitive(ray, prim);
-            if (hit.prim < 0) continue;
+        for_each_hit(ray, [&](const WideHit<R>& hit) {
             if (best.prim < 0 || hit.t < best.t * (1 - same_distance<R>)) best = hit;
-        }
+            return false;
+        });
         return best;
     }
 
     bool blocked(const WideRay<R>& ray, R distance) const {
-        for (std::size_t prim = 0; prim < primitives(); ++prim) {
-            const WideHit<R> hit = hit_primitive(ray, prim);
-            if (hit.prim >= 0 && hit.t < distance * (1 - same_distance<R>)) return true;
-        }
-        return false;
+        bool found = false;
+        for_each_hit(ray, [&](const WideHit<R>& hit) {
+            return found = hit.t < distance * (1 - same_distance<R>);
+        });
+        return found;
     }
 
     WideSurface<R> surface_of(const WideRay<R>& ray, const WideHit<R>& hit) const {
@@ -251,6 +265,7 @@ class Tracer final : public ReferenceTracer {
     std::vector<stress::WideSphere<R>> spheres_;
     std::vector<stress::WideFrustum<R>> frusta_;
     std::vector<stress::WideFace<R>> faces_;
+    std::vector<stress::Ball<R>> balls_;  ///< around each primitive
     std::vector<WideLight<R>> lights_;
     int eye_surface_ = -1;
 };
