@@ -15,15 +15,13 @@ namespace rt {
 
 namespace {
 
-const StopFlag never_stopped = 0;
-
-/// Calls work(index, x, y) for the pixels of a region on all threads.
+/// Calls work(index, x, y) for the pixels of a region on all threads, until they are to stop.
 template <typename Work>
-void for_each_pixel(const Rect& region, const Work& work) {
+void for_each_pixel(const Rect& region, const StopFlag& stop, const Work& work) {
     const auto width = static_cast<std::size_t>(region.width);
     for_each_run(static_cast<std::size_t>(region.height), 1, available_cores(),
                  [&](std::size_t first, std::size_t last) {
-                     for (std::size_t i = first * width; i < last * width; ++i) {
+                     for (std::size_t i = first * width; i < last * width && stop == 0; ++i) {
                          work(i, region.x + static_cast<int>(i % width),
                               region.y + static_cast<int>(i / width));
                      }
@@ -33,7 +31,8 @@ void for_each_pixel(const Rect& region, const Work& work) {
 /// Samples a side that an adaptive picture gives each pixel of the region the second time; 0 where
 /// it leaves the first.
 template <typename T>
-std::vector<int> refined_grids(const FlatScene<T>& scene, const AaMode& aa, const Rect& region) {
+std::vector<int> refined_grids(const FlatScene<T>& scene, const AaMode& aa, const Rect& region,
+                               const StopFlag& stop) {
     std::vector<int> grids(static_cast<std::size_t>(region.pixels()), 0);
     if (!aa.refines()) return grids;
     const Rect film_rect = region_to_render(aa, region, static_cast<int>(scene.params.width),
@@ -52,7 +51,7 @@ std::vector<int> refined_grids(const FlatScene<T>& scene, const AaMode& aa, cons
     const auto renderer = make_threads_renderer(scene, {});
     Film<T> film(film_rect.width, film_rect.height);
     const Rect tile = renderer->tile_size(film_rect.width);
-    TileQueue queue(make_tiles(film_rect, tile.width, tile.height), never_stopped);
+    TileQueue queue(make_tiles(film_rect, tile.width, tile.height), stop);
     render_all(*renderer, aa, queue, film_rect, film, events);
     return grids;
 }
@@ -105,7 +104,7 @@ class PixelCounter {
 
 }  // namespace
 
-PixelHits pixel_hits(const Scene& scene, const Rect& region) {
+PixelHits pixel_hits(const Scene& scene, const Rect& region, const StopFlag& stop) {
     Scene centers = scene;
     centers.aa = grid_aa(1);
     centers.filter = Filter::box;
@@ -115,7 +114,7 @@ PixelHits pixel_hits(const Scene& scene, const Rect& region) {
     const auto pixels = static_cast<std::size_t>(region.pixels());
     PixelHits hits{std::vector<float>(pixels), std::vector<float>(3 * pixels),
                    std::vector<std::int32_t>(pixels)};
-    for_each_pixel(region, [&](std::size_t i, int x, int y) {
+    for_each_pixel(region, stop, [&](std::size_t i, int x, int y) {
         for (const PathEvent& event : explain_pixel(flat, x, y).events) {
             if (event.what != RT_EVENT_HIT) continue;
             const auto number = static_cast<std::size_t>(event.index);
@@ -131,13 +130,13 @@ PixelHits pixel_hits(const Scene& scene, const Rect& region) {
 }
 
 template <typename T>
-PixelWork pixel_work(const Scene& scene, const Rect& region) {
+PixelWork pixel_work(const Scene& scene, const Rect& region, const StopFlag& stop) {
     const FlatScene<T> flat = flatten<T>(scene);
-    const std::vector<int> grids = refined_grids(flat, scene.aa, region);
+    const std::vector<int> grids = refined_grids(flat, scene.aa, region, stop);
     const PixelCounter<T> counter(flat);
     PixelWork work{std::vector<std::uint32_t>(grids.size()),
                    std::vector<std::uint64_t>(grids.size())};
-    for_each_pixel(region, [&](std::size_t i, int x, int y) {
+    for_each_pixel(region, stop, [&](std::size_t i, int x, int y) {
         const auto refined = static_cast<std::uint64_t>(grids[i] * grids[i]);
         const std::uint64_t samples = counter.samples() + refined;
         work.samples[i] = static_cast<std::uint32_t>(samples);
@@ -147,7 +146,7 @@ PixelWork pixel_work(const Scene& scene, const Rect& region) {
     return work;
 }
 
-template PixelWork pixel_work<float>(const Scene&, const Rect&);
-template PixelWork pixel_work<double>(const Scene&, const Rect&);
+template PixelWork pixel_work<float>(const Scene&, const Rect&, const StopFlag&);
+template PixelWork pixel_work<double>(const Scene&, const Rect&, const StopFlag&);
 
 }  // namespace rt

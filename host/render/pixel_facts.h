@@ -18,8 +18,8 @@ struct PixelHits {
                                    ///< scene lists them; 0: nothing
 };
 
-/// Of the pixels of a region.
-PixelHits pixel_hits(const Scene& scene, const Rect& region);
+/// Of the pixels of a region; of some of them, when the stop flag is set.
+PixelHits pixel_hits(const Scene& scene, const Rect& region, const StopFlag& stop);
 
 /// What each pixel took, row by row. The rays of all pixels are those of the picture.
 struct PixelWork {
@@ -28,8 +28,8 @@ struct PixelWork {
 };
 
 /// Of the pixels of a region, of which an adaptive mode refines those that it refines in the
-/// picture. As rendered in the precision of T.
+/// picture. As rendered in the precision of T. Of some of them, when the stop flag is set.
 template <typename T>
-PixelWork pixel_work(const Scene& scene, const Rect& region);
+PixelWork pixel_work(const Scene& scene, const Rect& region, const StopFlag& stop);
 
 }  // namespace rt

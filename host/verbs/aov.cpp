@@ -12,6 +12,7 @@
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/render/pixel_facts.h"
+#include "host/stop_signal.h"
 
 namespace rt {
 
@@ -45,11 +46,12 @@ class Aovs {
         : width_(stats.region.width), height_(stats.region.height) {
         const auto needs = [&](Aov aov) { return asks_for(options, aov); };
         if (needs(Aov::depth) || needs(Aov::normal) || needs(Aov::id)) {
-            hits_ = pixel_hits(scene, stats.region);
+            hits_ = pixel_hits(scene, stats.region, stop_flag());
         }
         if (!needs(Aov::rays) && !needs(Aov::samples)) return;
-        const PixelWork work = stats.double_precision ? pixel_work<double>(scene, stats.region)
-                                                      : pixel_work<float>(scene, stats.region);
+        const PixelWork work = stats.double_precision
+                                   ? pixel_work<double>(scene, stats.region, stop_flag())
+                                   : pixel_work<float>(scene, stats.region, stop_flag());
         samples_.assign(work.samples.begin(), work.samples.end());
         rays_.assign(work.rays.begin(), work.rays.end());
     }
@@ -119,9 +121,13 @@ void check_aov_files(const RenderOptions& options) {
     }
 }
 
-void write_aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options) {
-    if (options.aovs.empty() || !stats.complete()) return;
+bool write_aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options) {
+    if (options.aovs.empty() || !stats.complete()) return true;
     const Aovs aovs(scene, stats, options);
+    if (stop_flag() != 0) {
+        print_message("mirrorball: stopped; --aov has saved nothing\n");
+        return false;
+    }
     const std::vector<std::string> files = aov_files(options);
     if (is_exr(options)) {
         write_picture(files.front(), aovs.as_channels(options.aovs), Encoding::linear);
@@ -130,6 +136,7 @@ void write_aovs(const Scene& scene, const RenderStats& stats, const RenderOption
             write_picture(files[i], aovs.in_false_colors(options.aovs[i]), Encoding::display);
         }
     }
+    return true;
 }
 
 }  // namespace rt

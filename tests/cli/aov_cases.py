@@ -2,6 +2,8 @@
 """What render --aov saves beside a picture, against closed forms and the rays that were counted."""
 import json
 import math
+import signal
+import time
 
 from harness import CAMERA, GRAY, CliTest, scene_path
 from pictures import read_exr, read_png
@@ -89,6 +91,17 @@ class Aov(CliTest):
             width, height, pixels = read_png(self.folder / f"b.{name}.png")
             self.assertEqual((width, height), (100, 60) if name == "id" else (200, 80))
             self.assertGreater(len({bytes(pixels[i:i + 3]) for i in range(0, len(pixels), 3)}), 3)
+
+    def test_stopped_after_the_picture(self):
+        process = self.start("render", scene_path("glass"), "--size", "300", "--aa", "grid:16",
+                             "--device", "threads", "-o", "a.png", "--aov", "rays")
+        while "a.png" not in self.files():
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        stderr = process.communicate()[1]
+        self.assertEqual(process.returncode, 130, stderr)
+        self.assertIn("--aov has saved nothing", stderr)
+        self.assertEqual(self.files(), ["a.png"])
 
     def test_refusals(self):
         scene = scene_path("single-sphere")
