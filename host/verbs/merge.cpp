@@ -45,6 +45,11 @@ void write_merged(const MergedPicture& merged, const MergeOptions& options) {
 /// The parts' picture, compared with what is rendered again of it. Throws Error where they differ.
 void verify(const MergedPicture& merged, const MergeOptions& options) {
     const TemporaryFolder folder;
+    if (folder.name().empty()) {
+        throw Error(ExitCode::output,
+                    "--verify: cannot make a temporary folder; set TMPDIR to a folder that can be "
+                    "written");
+    }
     const std::string again = folder.name() + "/rendered-here.mbj";
     install_stop_signals();
     if (!render_part_again(merged.header, options.scene, options.verify, again)) return;

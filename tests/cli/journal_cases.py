@@ -78,6 +78,11 @@ class Shares(JournalTest):
         self.assert_refused(self.run_cli("merge", "a.mbj", "--verify", "1%", "--scene",
                                          scene_path("glass")), 3, "different scene")
 
+    def test_verified_where_no_temporary_folder_can_be_made(self):
+        self.share("0/1", "a.mbj", *SMALL)
+        result = self.run_cli("merge", "a.mbj", "--verify", "1%", env={"TMPDIR": "/proc"})
+        self.assert_refused(result, 4, "--verify", "TMPDIR")
+
     def test_from_several_devices(self):
         self.render("cornell-box", "-o", "whole.png", *SMALL)
         self.share("0/2", "a.mbj", "--size", "90x70", "--device", "pocl")
