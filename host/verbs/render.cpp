@@ -80,11 +80,11 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     stats.phases.load = load_seconds;
     watch.lap();
     const std::string path = save_picture(rendered, options);
-    const bool has_aovs = write_aovs(scene, stats, options);
     stats.phases.write = watch.seconds();
     stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
     if (reference) stats.error = image_error(rendered.picture, *reference);
     print_results(stats, options);
+    const bool has_aovs = write_aovs(scene, stats, options);
     const int status = has_aovs ? verdict(rendered, path) : exit_code_of_stop(stop_flag());
     console.wait();
     return status;
