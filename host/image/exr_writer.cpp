@@ -77,7 +77,8 @@ Imf::FrameBuffer frame_buffer(const EncodeRequest& request) {
 int encode_exr(const EncodeRequest& request, const ByteSink& sink) {
     const int most = request.channel_names == nullptr ? 4 : 64;
     if (request.is_float == 0 || request.channels < 1 || request.channels > most) {
-        throw std::invalid_argument("EXR files are written from floats of 1 to 4 channels");
+        throw std::invalid_argument(
+            "EXR files are written from floats of 1 to 4 channels, or 64 with names");
     }
     const ExrThreads threads(request.height);
     try {
