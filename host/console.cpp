@@ -24,7 +24,7 @@ std::atomic<bool> bar_shown = false;
                                       std::strerror(errno) + "; send them elsewhere");
 }
 
-/// Bytes at the start of a text that people may see, line ends and tabs among them.
+/// Length of the printable prefix of a text, line ends and tabs included.
 std::size_t shown_length(std::string_view text) {
     std::size_t length = 0;
     while (length < text.size()) {
@@ -36,7 +36,7 @@ std::size_t shown_length(std::string_view text) {
     return length;
 }
 
-/// Whatever files and drivers had to say. Allocates nothing.
+/// Writes text of any origin, escaped where unprintable. Allocates nothing.
 void write_lines(std::string_view text) {
     while (!text.empty()) {
         const std::size_t shown = shown_length(text);

@@ -6,30 +6,30 @@
 
 namespace rt {
 
-/// Opens /dev/null in place of a standard stream that came closed, so that no file of ours takes
-/// its number. Call it first.
+/// Opens /dev/null on each standard stream that is closed, so that no file of ours gets its number.
+/// Call it first.
 void open_missing_streams();
 
-/// Text for people, to stderr: but for line ends, tabs, and a carriage return in front, what may
-/// not be shown is escaped (printable). Never throws: a lost message must not lose a picture.
+/// Prints text to stderr. Line ends, tabs and a leading carriage return are kept; other unprintable
+/// characters are escaped (printable). Never throws: a lost message must not lose a picture.
 void print_message(const std::string& text);
 
-/// Each as a message of its own: what a scene's reader left out.
+/// Prints each note as a separate message: what a scene reader left out.
 void print_notes(const std::vector<std::string>& notes);
 
-/// Instead of the line that the cursor is on, without an end: a progress bar. `last` ends the line.
+/// Overwrites the cursor's line, without a line end: a progress bar. `last` ends the line.
 void print_bar(const std::string& text, bool last);
 
-/// Whether the cursor is at the end of a bar; may be asked in a signal handler.
+/// Whether the cursor is at the end of a progress bar; safe in a signal handler.
 bool bar_is_shown();
 
-/// "mirrorball: MESSAGE". Allocates nothing: memory may be what is lacking.
+/// Prints "mirrorball: MESSAGE". Allocates nothing, since memory may have run out.
 void print_error(const char* message) noexcept;
 
-/// Results, to stdout as they stand. Throws Error (ExitCode::output) when they cannot be written.
+/// Writes results to stdout unchanged. Throws Error (ExitCode::output) when they cannot be written.
 void print_result(const std::string& text);
 
-/// Sees the results through to whatever stdout is; throws like print_result.
+/// Flushes stdout; throws like print_result.
 void flush_results();
 
 }  // namespace rt

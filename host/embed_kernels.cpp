@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Build tool: embed_kernels ROOT ENTRY OUT NAME
-// Flattens ENTRY (a path beneath ROOT) and what it includes, each file once, into one OpenCL C text
-// with #line marks, and writes OUT, a C++ source that defines `extern const char* const NAME` in
-// namespace rt; an ENTRY that is not .cl, as it stands. Only includes of the form #include "path"
-// are resolved, with paths beneath ROOT.
+// Flattens ENTRY (a path beneath ROOT) and its includes, each file once, into one OpenCL C text
+// with #line directives, and writes OUT, a C++ source that defines `extern const char* const NAME`
+// in namespace rt; an ENTRY that is not .cl is embedded unchanged. Only includes of the form
+// #include "path" are resolved, with paths beneath ROOT.
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -46,7 +46,7 @@ void flatten_file(const std::string& root, const std::string& path, std::set<std
     }
 }
 
-/// A raw string, in pieces: compilers limit the length of one literal.
+/// Writes raw string literals, split up: compilers limit the length of a literal.
 void write_literal(const std::string& text, std::ostream& out) {
     constexpr std::size_t piece = 8000;
     for (std::size_t at = 0; at < text.size(); at += piece) {

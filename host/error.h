@@ -20,9 +20,9 @@ enum class ExitCode : int {
     bug = 70,
 };
 
-/// The one exception of the program: what is wrong, where, and what to do, in one line
-/// (several lines when several mistakes are reported together). Caught in main, where one device
-/// stands in for another, and between the pictures of a batch.
+/// The program's only exception type: what is wrong, where, and what to do, in one line (several
+/// lines when several mistakes are reported together). Caught for main (exit_status_of), when
+/// falling back to another device, and between the pictures of a batch.
 class Error : public std::runtime_error {
    public:
     Error(ExitCode exit_code, const std::string& message)

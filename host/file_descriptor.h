@@ -8,7 +8,7 @@
 
 namespace rt {
 
-/// An open file of the system's, or none (-1). Closed with this; close() is for when its result
+/// Owns a file descriptor, or none (-1), and closes it on destruction; call close() when the result
 /// matters.
 class FileDescriptor {
    public:
@@ -22,7 +22,7 @@ class FileDescriptor {
         if (number_ >= 0) ::close(number_);
     }
 
-    /// False with errno when that fails; an interruption is no failure, the file is closed.
+    /// False with errno on failure; EINTR is no failure, since the file is closed anyway.
     bool close() { return ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
 
     int number() const { return number_; }

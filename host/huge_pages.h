@@ -6,12 +6,12 @@
 
 namespace rt {
 
-/// Asks for large pages under memory that is not touched yet, if there is enough of it; a system
-/// without them is asked in vain.
+/// Asks for huge pages for memory that is not touched yet, if there is enough of it; has no effect
+/// on systems without them.
 void advise_huge_pages(void* memory, std::size_t bytes);
 
-/// Grows a vector that will be used to its end: on large pages, since most of what filling many
-/// small ones costs is the system's work, and rays that jump about in them wait for their tables.
+/// Grows a vector that will be filled, on huge pages: with small pages most of the fill cost is
+/// page faults, and incoherent rays suffer TLB misses.
 template <typename Item>
 void resize_huge(std::vector<Item>& items, std::size_t count) {
     items.reserve(count);

@@ -5,8 +5,8 @@
 
 namespace rt {
 
-/// Runs the work on a thread that leaves most of a busy processor to the others, and waits for it;
-/// rethrows what it throws. A thread of its own, since priorities cannot be raised again.
+/// Runs the work on a thread with lowered priority and waits for it; rethrows its exception. It
+/// needs its own thread because a lowered priority cannot be raised again.
 void run_at_low_priority(const std::function<void()>& work);
 
 }  // namespace rt

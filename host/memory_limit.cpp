@@ -34,7 +34,7 @@ std::optional<std::uint64_t> number_of(const fs::path& path, const std::string& 
     return std::nullopt;
 }
 
-/// A file that is one number; none for other words, such as "max".
+/// Reads a file that holds one number; empty for anything else, such as "max".
 std::optional<std::uint64_t> number_in(const fs::path& path) {
     std::ifstream file(path);
     std::uint64_t number = 0;
@@ -50,7 +50,7 @@ std::uint64_t difference(std::uint64_t limit, std::uint64_t used) {
 struct GroupFiles {
     const char* limit;
     const char* usage;
-    const char* cache;  ///< pages of files, which the system drops first: no use of ours
+    const char* cache;  ///< file cache, which the system reclaims first: not counted as used
 };
 
 constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
@@ -66,8 +66,8 @@ void take_group(FreeMemory& least, const fs::path& group, const GroupFiles& file
                "are left by the memory limit of the container or job (cgroup)");
 }
 
-/// A group and those it is in. In a container the path may be one of the machine's, and its own
-/// group is mounted at the top.
+/// Visits a group and its ancestors. In a container the path may be the host's, with the
+/// container's own group mounted at the top.
 void take_groups(FreeMemory& least, const fs::path& mount, const std::string& path,
                  const GroupFiles& files) {
     fs::path group = fs::path(path).relative_path();

@@ -15,12 +15,12 @@ struct Range {
     char32_t first, last;
 };
 
-/// Unicode 15: what a terminal obeys, or what makes a text look like another.
+/// Unicode 15: characters that terminals act on, or that make text look like other text.
 constexpr Range hidden[] = {{0x00, 0x1F},      {0x7F, 0x9F},                        // C0, DEL, C1
                             {0xAD, 0xAD},                                           // soft hyphen
                             {0x061C, 0x061C},  {0x200E, 0x200F}, {0x202A, 0x202E},  // directions
                             {0x2066, 0x2069},                                       // isolates
-                            {0x200B, 0x200B},  {0x2060, 0x2064},                    // of no width
+                            {0x200B, 0x200B},  {0x2060, 0x2064},                    // zero width
                             {0x2028, 0x2029},                     // line and paragraph separators
                             {0xFEFF, 0xFEFF},  {0xFFF9, 0xFFFB},  // byte order mark, annotations
                             {0xE0000, 0xE007F}};                  // tags

@@ -7,13 +7,13 @@
 
 namespace rt {
 
-/// Bytes of the character at the start of a text that may be shown as it is; 0 where there is none:
-/// control characters (C0, C1), bytes that are not UTF-8, line separators, and what turns the
-/// direction of writing or is invisible.
+/// Bytes of the text's first character if it is safe to show, else 0: control characters (C0, C1),
+/// invalid UTF-8, line separators, and characters that are invisible or change the writing
+/// direction.
 std::size_t printable_length(std::string_view text);
 
-/// Text from outside, such as a file's name or a device's, for messages and tables: each byte of
-/// what may not be shown becomes "\xNN". So it breaks no line and does not talk to the terminal.
+/// Makes untrusted text, such as a file or device name, safe for messages and tables: each
+/// unprintable byte becomes "\xNN". It cannot break a line or send the terminal escape sequences.
 std::string printable(std::string_view text);
 
 }  // namespace rt

@@ -5,8 +5,8 @@
 
 namespace rt {
 
-/// Seconds that all threads of the program together have computed. What else runs on the machine
-/// disturbs them less than those of the clock.
+/// Processor time of all threads of the program together, in seconds. Other load on the machine
+/// affects it less than wall-clock time.
 inline double processor_seconds() {
     timespec time{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

@@ -9,7 +9,7 @@
 
 namespace rt {
 
-/// An empty folder that goes with this, files and all; without a name where there could be none.
+/// An empty folder, deleted with its files on destruction; has no name if it could not be created.
 class TemporaryFolder {
    public:
     TemporaryFolder() {

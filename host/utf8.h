@@ -7,7 +7,7 @@
 
 namespace rt {
 
-/// What some editors put in front of a UTF-8 file.
+/// The byte order mark that some editors put at the start of a UTF-8 file.
 inline constexpr std::string_view utf8_byte_order_mark = "\xEF\xBB\xBF";
 
 /// Continuation bytes belong to the character before them and take no column of their own.
@@ -15,12 +15,12 @@ constexpr bool is_utf8_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
 }
 
-/// Bytes of the well-formed character (Unicode 15, table 3-7) that the text starts with; 0 where
-/// none does, a NUL included.
+/// Bytes of the well-formed character (Unicode 15, table 3-7) at the start of the text; 0 if there
+/// is none or it is NUL.
 std::size_t utf8_character_length(std::string_view text);
 
-/// Where the text stops being well-formed UTF-8 (Unicode 15, table 3-7), a NUL byte included;
-/// empty when all of it is good.
+/// Offset of the first NUL or byte that is not well-formed UTF-8 (Unicode 15, table 3-7); empty
+/// when the whole text is valid.
 std::optional<std::size_t> find_invalid_utf8(std::string_view text);
 
 }  // namespace rt

@@ -3,7 +3,7 @@
 
 namespace rt {
 
-/// Of the project ("0.1.0"), and of the source this was built from ("unknown" outside git).
+/// The project's version ("0.1.0") and the source revision built ("unknown" outside git).
 extern const char* const version;
 extern const char* const git_revision;
 

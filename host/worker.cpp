@@ -30,12 +30,12 @@ namespace rt {
 
 namespace {
 
-// What a worker says, a byte each but for the end, which has the exit code after it.
+// The worker's messages: one byte each, except that the exit code follows `ended`.
 constexpr char watched = 'w', unwatched = 'u', progressed = 'p', ended = 'e';
 
 constexpr double poll_seconds = 0.2;
 
-/// Less than this is what waiting costs, in all of a deadline.
+/// Processor time that mere waiting may use up within a deadline.
 constexpr double idle_seconds = 0.1;
 
 constexpr const char* link_name = "MIRRORBALL_WORKER";
@@ -49,13 +49,13 @@ void tell(std::string_view bytes) {
     }
 }
 
-/// Of a process, as /proc has it.
+/// A process's state, from /proc.
 struct ProcessState {
     bool is_busy = false;  ///< a thread runs, waits for a disk or a child, or is stopped
     double processor_seconds = 0;
 };
 
-/// The fields of a stat file from the state on.
+/// The fields of a stat file, starting at the state.
 std::istringstream fields_of(const std::string& file) {
     std::ifstream stream(file);
     std::string text;
@@ -88,7 +88,7 @@ ProcessState state_of(pid_t process) {
     return result;
 }
 
-/// Whether a process does nothing for too long.
+/// Detects that a watched process has been idle for too long.
 class Watchdog {
    public:
     Watchdog(pid_t process, double deadline) : process_(process), deadline_(deadline) {}
@@ -98,7 +98,7 @@ class Watchdog {
         was_heard_ = true;
     }
 
-    /// To be asked every poll_seconds or sooner. Time in which nobody ran does not count.
+    /// Call at least every poll_seconds. Time in which this process did not run does not count.
     bool is_late() {
         const double passed = std::min(watch_.lap(), 2 * poll_seconds);
         if (!is_watched_) return false;
@@ -141,7 +141,7 @@ std::vector<std::string> changed_environment(const std::vector<std::string>& cha
     return variables;
 }
 
-/// 0 where none could be started.
+/// Returns 0 if none could be started.
 pid_t start(std::vector<std::string> command, const std::vector<std::string>& changes) {
     std::vector<std::string> variables = changed_environment(changes);
     posix_spawnattr_t attributes;
@@ -163,12 +163,12 @@ bool has_ended(pid_t process) {
            info.si_pid == process;
 }
 
-/// Listens to the worker until it says that it ends, is gone, or is late. Returns the exit code
-/// that it gave, if it did.
+/// Listens to the worker until it reports its end, is gone, or is late. Returns the exit code it
+/// reported, if any.
 std::optional<int> listen(int pipe, pid_t process, Watchdog& watchdog, bool& is_late) {
     bool is_end_next = false;
     for (;;) {
-        const bool is_gone = has_ended(process);  // what it said last is in the pipe by then
+        const bool is_gone = has_ended(process);  // its last message is in the pipe by then
         pollfd waited{pipe, POLLIN, 0};
         const int patience = is_gone ? 0 : static_cast<int>(1000 * poll_seconds);
         if (::poll(&waited, 1, patience) > 0) {
@@ -245,7 +245,7 @@ bool become_worker(const std::string& link) {
     ::unsetenv(link_name);
     if (::fcntl(pipe, F_SETFD, FD_CLOEXEC) != 0) return false;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);  // it has gone already
+    if (::getppid() != parent) ::_exit(1);  // it has already ended
     link_pipe = pipe;
     heed_stop_signals_of(parent, note_worker_end);
     return true;
@@ -257,7 +257,7 @@ double seconds_before_worker() { return link_pipe < 0 ? 0 : link_seconds; }
 
 void watch_worker(bool is_watched) { tell({is_watched ? &watched : &unwatched, 1}); }
 
-/// Ten times a second at most, so that the pipe is never full.
+/// Sends at most ten messages a second, so that the pipe never fills up.
 void note_worker_progress() {
     static const Stopwatch watch;
     static std::atomic<std::int64_t> last = -1;

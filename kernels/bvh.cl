@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The leaves of a bounding volume hierarchy that a packet of rays meets, the nearer ones first.
+// Visits the leaves of a bounding volume hierarchy that a packet of rays meets, nearer ones first.
 //
-// Nothing is ever missed: the host enlarges boxes by 16 half-ulps of their largest coordinate
-// (host/flatten/boxes.cpp) and here they grow by 16 half-ulps of the origin's. That is more than
-// the rounding of the vertices in the rays' frames and of the slab test together (after Ize, Robust
-// BVH Ray Traversal, JCGT 2(2), 2013, whose bound is relative to the distance; with a bound
+// Never misses a hit: the host enlarges boxes by 16 half-ulps of their largest coordinate
+// (host/flatten/boxes.cpp), and here they grow by 16 half-ulps of the origin's. That exceeds the
+// combined rounding errors of the vertices in the rays' frames and of the slab test (after Ize,
+// Robust BVH Ray Traversal, JCGT 2(2), 2013, whose bound is relative to the distance; with a bound
 // relative to the coordinates a plane's distance may be one fma).
 #ifndef RT_BVH_CL
 #define RT_BVH_CL
@@ -14,24 +14,24 @@
 
 typedef struct {
     real3 inverse;  // of the direction
-    // A box's planes lie at t = plane x inverse + at, of those met first and last.
+    // Rays meet a box's planes at t = plane x inverse + first_at (entry) or last_at (exit).
     real3 first_at, last_at;
-    bool is_uniform;       // along each axis all rays run the same way; else first_at is of the
-                           // low planes and last_at of the high ones
-    Index low_or_high[3];  // where the planes met first are in a node: 0 for low, 4 for high
-    Index whole;           // primitives of the kind in hand, when it has no hierarchy
+    bool is_uniform;       // along each axis all rays go the same way; else first_at is for the
+                           // low planes and last_at for the high ones
+    Index low_or_high[3];  // entry planes' place in a node: 0 for low, 4 for high
+    Index whole;           // primitives of the current kind, if it has no hierarchy
     Index size;            // of the stack
     Index stack[RT_BVH_STACK];  // nodes to visit
 } Traversal;
 
-// 1 / d, finite: a direction this small does not leave the boxes' margin.
+// 1 / d, kept finite: a direction component this small never leaves the boxes' margin.
 Reals finite_inverse(Reals d) {
     Reals least = (Reals)RT_LEAST_DIRECTION;
     Reals away = d < (Reals)0 ? -least : least;
     return (Reals)1 / (fabs(d) < least ? away : d);
 }
 
-// Whether v is positive in all live lanes, or in none of them; in all: sets *positive.
+// Whether v has the same sign in all live lanes; then *positive tells which.
 bool is_one_way(Reals v, Mask live, bool* positive) {
     bool any_positive = any_lane(live & (v > (Reals)0));
     *positive = any_positive;
@@ -71,21 +71,21 @@ Traversal begin_traversal(const Ray* ray, Mask live) {
     return traversal;
 }
 
-// Turns to a kind of primitive: `count` of them under the node `root`, or under none.
+// Starts on a kind of primitive: `count` of them, under the node `root` or without a hierarchy.
 void enter_kind(Traversal* traversal, Index root, Index count) {
     traversal->whole = count;
     traversal->size = 1;
     if (RT_HAS_HIERARCHY) traversal->stack[0] = root;
 }
 
-// Where the rays meet planes of a box; p points at its x.
+// Where the rays meet three planes of a box; p points at the node's low.x.
 real3 plane_distances(__global const Real* p, Index x, Index y, Index z, real3 inverse, real3 at) {
     return make3(fma((Reals)p[x], inverse.x, at.x), fma((Reals)p[1 + y], inverse.y, at.y),
                  fma((Reals)p[2 + z], inverse.z, at.z));
 }
 
-// The lanes whose rays meet the box no later than t_max, and where they enter it. The order of the
-// operands is such that a NaN leaves the interval as it is.
+// The lanes whose rays meet the box no later than t_max, and where they enter it. The operands are
+// ordered so that a NaN leaves the interval unchanged.
 Mask meets_box(const Traversal* traversal, __global const BvhNode* node, Reals t_max,
                Reals* entry) {
     __global const Real* p = &node->low.x;
@@ -105,8 +105,8 @@ Mask meets_box(const Traversal* traversal, __global const BvhNode* node, Reals t
     return near <= far;
 }
 
-// The next node after an inner one whose children start at `first`: the child that some ray meets,
-// of two the nearer one, and the other one goes on the stack. -1 when no ray meets either.
+// The next node after an inner one whose children start at `first`: the child that some ray meets;
+// if both are met, the nearer one, and the other is pushed. -1 when no ray meets either.
 Index enter_children(Traversal* traversal, __global const BvhNode* nodes, Index first,
                      Reals t_max) {
     Reals entry, other_entry;
@@ -129,8 +129,8 @@ Index pop_node(Traversal* traversal) {
     return RT_HAS_HIERARCHY ? traversal->stack[traversal->size] : 0;
 }
 
-// The next primitives that some ray may meet no later than its t_max: first.., before end. False
-// when there are no more.
+// The next primitives, [first, end), that some ray may meet no later than its t_max. False when
+// there are no more.
 bool next_range(Traversal* traversal, __global const BvhNode* nodes, Reals t_max, Index* first,
                 Index* end) {
     Index place = pop_node(traversal);

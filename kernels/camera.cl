@@ -4,8 +4,8 @@
 // cameras. sx and sy are exact in the sample position, so a square picture has equal sx and sy on
 // its diagonal, to the bit.
 //
-// A direction comes with what rounding took from it, all the way from the author's camera: seen
-// from a ball a thousandth of its distance wide, half an ulp of the direction is a thousand.
+// A direction carries the part lost to rounding, traced back to the author's camera: at a ball a
+// thousandth of its distance wide, half an ulp of the direction counts a thousandfold.
 #ifndef RT_CAMERA_CL
 #define RT_CAMERA_CL
 

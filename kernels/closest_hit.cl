@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays against the scene: one kind of primitive after the other, through its hierarchy where it has
-// one; what they find goes to kernels/search.cl.
+// Rays against the scene: one kind of primitive after the other, through its hierarchy if it has
+// one; hits go to kernels/search.cl.
 #ifndef RT_CLOSEST_HIT_CL
 #define RT_CLOSEST_HIT_CL
 
@@ -131,8 +131,8 @@ bool blocked_by_cones(const SceneView* scene, const Ray* ray, Traversal* travers
     return false;
 }
 
-// Triangles without a hierarchy come from the light's list of those that can cast a shadow, where
-// it has one.
+// Triangles without a hierarchy come from the light's list of those that can cast a shadow, if it
+// has one.
 bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* traversal,
                           Reals* t_max, Index first_caster, Index caster_count) {
     bool is_brute = !RT_HAS_HIERARCHY || scene->params.triangle_root == 0;
@@ -158,8 +158,8 @@ bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
     return false;
 }
 
-// Whether anything lies on the rays in (0, t_max]. The triangles to test, where they have no
-// hierarchy: caster_count of the list of casters from first_caster on, or all of them.
+// Whether anything lies on the rays in (0, t_max]. Without a hierarchy, tests caster_count
+// triangles of the caster list from first_caster on, or all triangles if that is their number.
 Mask any_hit(const SceneView* scene, const Ray* ray, Index first_caster, Index caster_count) {
     Reals t_max = ray->t_max;
     Traversal traversal = begin_traversal(ray, t_max > (Reals)0);

@@ -2,20 +2,20 @@
 //
 // Rays against the side of a cone's frustum, open at both ends; a cylinder has slope 0.
 //
-// With w from the base to the ray's origin, g = w x axis and c = dir x axis are the parts across
-// the axis, turned by a quarter, and a point at t lies on the (double) cone where |g + t c| = |R +
-// m t|, R being the radius at the origin's height and m = slope (dir.axis). The cross products are
-// made of differences of products, so they keep their digits when the ray runs along the axis.
+// With w from the base to the ray's origin, g = w x axis and c = dir x axis are the components
+// across the axis, turned by 90 degrees, and a point at t lies on the (double) cone where |g + t c|
+// = |R + m t|, R being the radius at the origin's height and m = slope (dir.axis). The cross
+// products use differences of products, hence keep their digits when the ray runs along the axis.
 //
-// All is moved to where the ray comes closest to the axis first, or as near to there as the frustum
-// reaches, so that nothing much larger than the frustum is ever subtracted. The discriminant is
-// |R c - m g|^2 - |g x c|^2: no difference but the one that decides between hit and miss (for a
-// cylinder it is P (R^2 - l^2) with l the ray's distance from the axis). The equation is solved
-// without cancellation, and each root counts if its height is on the frustum and the radius there
-// is not negative, which is the other half of the double cone. A ray that leaves the cone it starts
-// on has the roots 0 and -2 b / a, where -2 b comes with the ray (self_hit), made from the normal
-// there: origin - base has rounded away what matters on a small cone far from the eye. A ray from
-// an eye on the cone makes it itself.
+// The origin is first moved to the ray's closest approach to the axis, or as near to it as the
+// frustum reaches, so that nothing much larger than the frustum is ever subtracted. The
+// discriminant is |R c - m g|^2 - |g x c|^2: its only subtraction is the one that decides hit or
+// miss (for a cylinder it is P (R^2 - l^2) with l the ray's distance from the axis). The equation
+// is solved without cancellation, and a root counts if its height is on the frustum and the radius
+// there is not negative, which would be the other half of the double cone. A ray that starts on the
+// cone has the roots 0 and -2 b / a, where -2 b comes with the ray (self_hit), computed from the
+// normal there: origin - base has lost the digits that matter on a small cone far from the eye. For
+// a ray from an eye on the cone, -2 b is computed here.
 #ifndef RT_CONE_CL
 #define RT_CONE_CL
 

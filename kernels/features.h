@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a scene can need, and which entry points a renderer launches. Each switch is 1 unless the
-// build says -DRT_HAS_...=0, so a kernel built without options renders everything. The host decides
-// (host/flatten/flat_scene.cpp), from the flat scene alone. Used as `if (RT_HAS_X)` in plain code,
-// so every build type-checks every branch; but each entry point holds the whole tracer, so those
-// that are not launched are not even compiled.
+// The features a scene can need, and the entry points a renderer can launch. Each switch is 1
+// unless the build says -DRT_HAS_...=0, so a kernel built without options renders everything. The
+// host decides (host/flatten/flat_scene.cpp), from the flat scene alone. Used as `if (RT_HAS_X)` in
+// plain code, so every build type-checks every branch; but each entry point holds the whole tracer,
+// so those that are not launched are not even compiled.
 #ifndef RT_FEATURES_H
 #define RT_FEATURES_H
 
@@ -54,7 +54,7 @@
      RT_HAS_FILTERS << 11)
 #endif
 
-// Samples of a pixel, where a packet holds them all and their number is compiled in; else 0.
+// Samples per pixel, if compiled in (then a packet holds them all); else 0.
 #ifndef RT_SAMPLES
 #define RT_SAMPLES 0
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Between packets and memory: which pixels of a tile a packet holds, and its colors lane by lane.
+// Between packets and memory: which pixels of a tile a packet covers, and its colors lane by lane.
 #ifndef RT_FILM_CL
 #define RT_FILM_CL
 
@@ -18,8 +18,8 @@ void add_counts(__global RayCounts* counts, size_t slot, RayCounts add) {
     counts[slot].transmitted += add.transmitted;
 }
 
-// Where the lanes of packet number `item` lie in a tile, columns and rows from its upper left
-// corner; live where they lie in it.
+// The lanes' places in a tile for packet number `item`, columns and rows from its upper left
+// corner; live if inside the tile.
 typedef struct {
     Indices column, row;
     Mask live;
@@ -39,15 +39,15 @@ TileLanes tile_lanes(const Tile* tile, const Packet* packet, Index item) {
     return lanes;
 }
 
-// The picture's row, counted from the bottom, of a tile's row. What is the same for all lanes comes
-// first: PoCL would read tile->y as part of a vector, wider than it was stored, and wait (3 % of
-// the paper's scene).
+// The picture row, counted from the bottom, of a tile row. Terms common to all lanes come first:
+// otherwise PoCL reads tile->y as part of a vector, wider than the store before it, and stalls (3 %
+// of the paper's scene).
 Indices picture_y(const LaunchParams* params, const Tile* tile, Indices row) {
     Index top = params->height - 1 - tile->y;
     return top - row;
 }
 
-// Stores `count` lanes' colors at their places, where these are not negative.
+// Stores the colors of the first `count` lanes at their places, skipping negative ones.
 void store_lanes(__global Real* to, real3 color, Indices places, Index count) {
     RealLanes x, y, z;
     IndexLanes at;
@@ -60,7 +60,7 @@ void store_lanes(__global Real* to, real3 color, Indices places, Index count) {
     }
 }
 
-// The samples at 3 x places of a packet of pixels.
+// The samples of a packet of pixels, at 3 x places.
 real3 load_lanes(__global const Real* from, Indices places) {
     RealLanes x, y, z;
     IndexLanes at;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the rays of a packet hit, and where further rays start from there.
+// The surfaces a packet's rays hit, and the origins of secondary rays there.
 //
-// A further ray starts as far off the surface as the point may lie off it, along the geometric
+// A secondary ray starts off the surface by the bound on the point's error, along the geometric
 // normal, and one ulp further (after Pharr, Jakob and Humphreys, PBR 4th ed., 6.8). Where the ray
-// met several surfaces at once, or a triangle within rounding of its edge, that
-// offset clears only one of them, and whether the neighbor is in the way would be decided by
-// rounding. There the point moves eight offsets back along the ray, and as far as surfaces that
-// count as one may lie apart, to the viewer's side of all of them.
+// met several surfaces at once, or a triangle within rounding error of its edge, that offset clears
+// only one of them, and rounding would decide whether the neighbor is in the way. There the point
+// moves back along the ray, by eight offsets plus the tie distance, to the viewer's side of all of
+// them.
 #ifndef RT_HIT_SURFACE_CL
 #define RT_HIT_SURFACE_CL
 
@@ -51,14 +51,14 @@ Surface hit_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Mask
     return surface;
 }
 
-// Where a triangle was hit within rounding of its edge, where a neighbor may begin.
+// Whether a triangle was hit within rounding error of its edge, where a neighbor may begin.
 Mask is_on_edge(const SceneView* scene, const Hit* hit) {
     Reals rim = (Reals)((Real)64 * (Real)RT_ROUNDOFF);
     Mask at_rim = (hit->u < rim) | (hit->v < rim) | ((Reals)1 - hit->u - hit->v < rim);
     return at_rim & (hit->prim >= first_triangle(scene));
 }
 
-// The hits' surfaces, their points moved clear of other surfaces they touch.
+// The hits' surfaces, with the points moved clear of other surfaces they touch.
 Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
     Surface surface = hit_surface(scene, ray, hit, live);
     Mask touching = live & (hit->tied | is_on_edge(scene, hit));
@@ -71,7 +71,7 @@ Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask 
     return surface;
 }
 
-// Where a ray starts that leaves the surface on the side that `side` points to.
+// The origin of a ray that leaves the surface on the side that `side` points to.
 real3 offset_origin(const Surface* surface, real3 side) {
     Mask behind = dot3(surface->geometric, side) < (Reals)0;
     real3 step = scale3(behind ? -surface->offset : surface->offset, surface->geometric);

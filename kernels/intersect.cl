@@ -3,25 +3,25 @@
 // One ray against one primitive. No absolute epsilon anywhere.
 //
 // Spheres: the discriminant comes from the point of closest approach, D = r^2 - |f + b d|^2, which
-// keeps small distant spheres (Haines, Gunther and Akenine-Moller, Ray Tracing Gems 7). A ray that
-// leaves the sphere it starts on carries its chord with it, made from the normal there: origin -
-// center has rounded away what matters on a small sphere far from the eye.
+// keeps small distant spheres accurate (Haines, Gunther and Akenine-Moller, Ray Tracing Gems 7). A
+// ray that starts on a sphere carries its chord through it, computed from the normal there: on a
+// small sphere far from the eye, origin - center has lost the digits that matter.
 //
 // Triangles: sheared into the ray's frame (Woop, Benthin and Wald 2013), the three edge functions
-// by difference_of_products. They depend on two vertices and the ray alone and their signs are
-// right, so neighbors agree about a shared edge: nothing leaks, whatever the compiler contracts. A
-// ray through a shared edge hits both neighbors; closest_hit settles the tie. The distance is the
-// edge functions' mean of the vertices'; on a triangle much larger than the distance that would be
-// a small difference of large numbers, so there it comes from the plane.
+// by difference_of_products. Each depends only on two vertices and the ray and has the correct
+// sign, so neighbors agree on a shared edge: nothing leaks, whatever the compiler contracts. A ray
+// through a shared edge hits both neighbors; closest_hit settles the tie. The distance is the
+// vertices' mean weighted by the edge functions; on a triangle much larger than the distance that
+// would be a small difference of large numbers, so there it comes from the plane.
 #ifndef RT_INTERSECT_CL
 #define RT_INTERSECT_CL
 
 #include "kernels/math.cl"
 #include "kernels/scene_view.h"
 
-// A huge sphere by the constant term of its quadratic, |origin|^2 - 2 origin.center + power: the
-// host made the power, |center|^2 - radius^2, in double, and near the surface origin - center would
-// round away the height above it.
+// A huge sphere, by the constant term of its quadratic, |origin|^2 - 2 origin.center + power. The
+// host computes the power, |center|^2 - radius^2, in double; near the surface, origin - center
+// would round away the height above it.
 Mask intersect_huge_sphere(const Ray* ray, __global const Sphere* sphere, Reals* t) {
     real3 center = load3(sphere->center);
     Reals squared_radius = (Reals)(sphere->radius * sphere->radius);
@@ -39,7 +39,7 @@ Mask intersect_huge_sphere(const Ray* ray, __global const Sphere* sphere, Reals*
     return discriminant >= (Reals)0;
 }
 
-// The lanes whose rays start on the sphere, and how far they run inside it.
+// The lanes whose rays start on the sphere, and their chords through it.
 Mask leaves_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Reals* chord) {
     Mask leaving = ray->from == prim;
     *chord = ray->self_hit;
@@ -53,7 +53,7 @@ Mask leaves_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Re
 }
 
 // Whether the rays' lines meet sphere number prim, and at which distance t: the nearer one in front
-// of the origin, else the farther one. From the sphere they start on, the far end of the chord.
+// of the origin, else the farther one. For rays that start on it, the far end of the chord.
 Mask intersect_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Reals* t) {
     Reals chord;
     Mask leaving = leaves_sphere(ray, sphere, prim, &chord);
@@ -76,20 +76,20 @@ Mask intersect_sphere(const Ray* ray, __global const Sphere* sphere, Index prim,
     return met;
 }
 
-// Where a ray to a light ends on the sphere rather than being blocked by it: the light lies on the
-// sphere, within the rounding of its nearer root.
+// Whether a shadow ray ends on the sphere rather than being blocked by it: the light lies on the
+// sphere, within the rounding error of its nearer root.
 Mask ends_on_sphere(const Ray* ray, __global const Sphere* sphere, Reals t, Reals t_max) {
     Reals b = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
     Reals slack = (Reals)((Real)8 * (Real)RT_ROUNDOFF * sphere->radius * sphere->radius);
     return (t < b) & ((t_max - t) * (b - t) <= slack);
 }
 
-// The rays' frames: axis z is where a ray's direction is largest, x and y the next two in order.
+// The rays' frames: z is the direction's largest component, x and y the next two in order.
 typedef struct {
     real3 origin;  // its components in that order
     Reals sx, sy, sz;
-    Indices axis;  // the scene's axis that is z
-    Index axes;    // which of them the packet's rays use: (axis + 1), two bits each
+    Indices axis;  // the scene axis used as z
+    Index axes;    // those the packet's rays use: axis + 1 in two bits each
 } RayShear;
 
 Reals component3(real3 v, Indices k) {
@@ -115,7 +115,7 @@ Index used_axes(Indices axis, Mask live) {
 #endif
 }
 
-// v's components in the order that makes axis z the last.
+// v's components, reordered so that axis z comes last.
 real3 in_frame(real3 v, Indices z) {
     Indices x = next_axis(z);
     return make3(component3(v, x), component3(v, next_axis(x)), component3(v, z));
@@ -145,7 +145,7 @@ RayShear make_shear(const Ray* ray, Mask live) {
     return shear;
 }
 
-// The vertex in the frame of the rays along axis z. Its components are picked as they are loaded.
+// The vertex in the frame of the rays with axis z. Its components are picked as they are loaded.
 real3 shear_vertex(const RayShear* shear, Index z, __global const Packed3* vertex) {
     __global const Real* p = &vertex->x;
     Index x = z == 2 ? 0 : z + 1;
@@ -155,8 +155,7 @@ real3 shear_vertex(const RayShear* shear, Index z, __global const Packed3* verte
                  fma(-shear->sy, depth, p[y] - shear->origin.y), depth);
 }
 
-// Distance along the rays whose axis is z to the triangle's plane; NaN or infinite where they run
-// in it.
+// Distance along the rays with axis z to the triangle's plane; NaN or infinite if parallel to it.
 Reals plane_distance(const RayShear* shear, Index z, __global const Triangle* triangle) {
     __global const Real* n = &triangle->normal.x;
     Index x = z == 2 ? 0 : z + 1;
@@ -167,8 +166,8 @@ Reals plane_distance(const RayShear* shear, Index z, __global const Triangle* tr
     return (triangle->plane - height) * shear->sz / slope;
 }
 
-// Whether the lines of the rays whose axis is z meet the triangle, at which distance t, and the
-// weights u and v of its second and third vertex there.
+// Whether the lines of the rays with axis z meet the triangle, at which distance t, and the
+// barycentric coordinates u and v of its second and third vertex there.
 Mask intersect_triangle(const RayShear* shear, Index z, __global const Triangle* triangle, Reals* t,
                         Reals* u, Reals* v) {
     real3 a = shear_vertex(shear, z, &triangle->p0);

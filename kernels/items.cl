@@ -3,15 +3,15 @@
 // What one work item does: trace a packet of pixels with all their samples (pixels_item), a packet
 // of samples (samples_item, averaged by resolve_item), or a packet of chosen pixels (list_item).
 // All add a pixel's samples in the same order, so they give the same bits. The film holds three
-// Reals a pixel, row 0 at the top. The entry points of render.cl and native.cl call these.
+// Reals per pixel, row 0 at the top. The entry points of render.cl and native.cl call these.
 #ifndef RT_ITEMS_CL
 #define RT_ITEMS_CL
 
-#include "kernels/builtins.h"  // before the attributes below, which are not for declarations
+#include "kernels/builtins.h"  // first: the attributes below must not apply to declarations
 
-// Many small functions on structs: 1.35 times faster on PoCL when all are inlined, which it does
-// not do by itself. Without linkage to other programs they then vanish, and PoCL loads the built
-// program in two thirds of the time.
+// Many small functions on structs: PoCL runs 1.35 times faster when all are inlined, which it does
+// not do by itself. With internal linkage they then vanish, and PoCL loads the built program in two
+// thirds of the time.
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((always_inline)), apply_to = function)
 #if __has_attribute(internal_linkage)
@@ -78,8 +78,8 @@ void resolve_item(__global Real* film, __global const Real* samples, const Launc
     store_lanes(film, divide3(sum, total), lanes.live ? places : (Indices)-1, RT_LANES);
 }
 
-// tile->width chosen pixels: pixels[i] counts through a film of tile->film_width columns whose
-// upper left corner is pixel (tile->x, tile->y) of the picture. Pixel i goes to colors[i].
+// Traces tile->width chosen pixels: pixels[i] is an index into a film of tile->film_width columns
+// whose upper left corner is pixel (tile->x, tile->y) of the picture. Pixel i goes to colors[i].
 RayCounts list_item(__global Real* colors, __global const int* pixels, const SceneView* scene,
                     const Tile* tile, Index item) {
     RayCounts used = {0, 0, 0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a packet's lanes have in common.
+// Reductions over a packet's lanes, and access to single lanes.
 #ifndef RT_LANES_H
 #define RT_LANES_H
 
@@ -38,7 +38,7 @@ Index sum_lanes(Indices v) { return v; }
 #define RT_LANE_NUMBERS ((Indices)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #endif
 
-// Folds a packet in halves.
+// Reduces a packet by halves.
 #define RT_FOLD2(v, op) op((v).lo, (v).hi)
 #if RT_LANES == 2
 #define RT_FOLD(v, op) RT_FOLD2(v, op)
@@ -59,7 +59,7 @@ bool any_lane(Mask mask) {
 #endif
 }
 
-// The least of v in the lanes of the mask; there is one.
+// The smallest v in the mask's lanes, at least one of which must be set.
 Index least_lane(Mask mask, Indices v) {
     Indices candidates = mask ? v : (Indices)RT_MAX_INDEX;
 #ifdef RT_HAS_REDUCTIONS

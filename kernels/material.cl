@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the surfaces of a packet are made of.
+// The materials of a packet's surfaces.
 #ifndef RT_MATERIAL_CL
 #define RT_MATERIAL_CL
 
@@ -45,8 +45,8 @@ Materials select_materials(Mask mask, Materials yes, Materials no) {
     return chosen;
 }
 
-// The materials of the live lanes, of which there is one at least: the first material for all, then
-// the others one by one for the lanes that wear them. Compilers drop what a scene does not use.
+// The materials of the live lanes (at least one): loads one for all of them, then the others one by
+// one for their lanes. Compilers drop what a scene does not use.
 Materials materials_of(const SceneView* scene, Indices number, Mask live) {
     Index one = least_lane(live, number);
     Materials material = load_material(&scene->materials[one]);

@@ -2,7 +2,7 @@
 //
 // Vectors. Our own dot and normalize, since the built-in ones round differently from vendor to
 // vendor (numerics: normalize is off by 2.8 ulp on one runtime and 0.5 on another). Explicit fma is
-// correctly rounded everywhere, hence both exact in its definition and fast.
+// correctly rounded everywhere, so these are well defined and fast.
 #ifndef RT_MATH_CL
 #define RT_MATH_CL
 
@@ -45,11 +45,11 @@ real3 add_scaled(real3 a, Reals s, real3 b) {
     return make3(fma(s, b.x, a.x), fma(s, b.y, a.y), fma(s, b.z, a.z));
 }
 
-// Infinite components become the largest number, so that times 0 they are 0.
+// Clamps infinite components to the largest number, so that times 0 they give 0.
 Reals limited(Reals x) { return x < (Reals)RT_LARGEST ? x : (Reals)RT_LARGEST; }
 real3 limit3(real3 v) { return make3(limited(v.x), limited(v.y), limited(v.z)); }
 
-// a + s b less its rounded value `sum`, all but exactly (Knuth's sum, and the product by fma).
+// The rounding error a + s b - sum, almost exactly (Knuth's TwoSum, and the product by fma).
 Reals lost(Reals a, Reals s, Reals b, Reals sum) {
     Reals product = s * b;
     Reals product_low = fma(s, b, -product);
@@ -59,7 +59,7 @@ Reals lost(Reals a, Reals s, Reals b, Reals sum) {
     return (total - sum) + (total_low + product_low);
 }
 
-// What add_scaled(a, s, b) has lost by rounding to `sum`.
+// The part of add_scaled(a, s, b) lost by rounding to `sum`.
 real3 fma_error3(real3 a, Reals s, real3 b, real3 sum) {
     return make3(lost(a.x, s, b.x, sum.x), lost(a.y, s, b.y, sum.y), lost(a.z, s, b.z, sum.z));
 }
@@ -69,7 +69,7 @@ Reals length3(real3 v) { return sqrt(dot3(v, v)); }
 real3 normalize3(real3 v) { return scale3((Reals)1 / length3(v), v); }
 
 // a b - c d with an error below 1.5 ulp and hence the right sign (Kahan; Jeannerod, Louvet and
-// Muller 2013), whatever cancels.
+// Muller 2013), even under cancellation.
 Reals difference_of_products(Reals a, Reals b, Reals c, Reals d) {
     Reals cd = c * d;
     return fma(a, b, -cd) + fma(-c, d, cd);

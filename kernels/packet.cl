@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How the lanes of a packet share out pixels and samples: four samples of each pixel where their
-// number allows it, else two, else one, and the pixels in a block as square as can be, so that the
+// How the lanes of a packet divide up pixels and samples: four samples of each pixel if their
+// number allows, else two, else one, with the pixels in a block as square as possible, so that the
 // rays stay close together. Chosen pixels may be far apart, so there a packet holds as many samples
-// of a pixel as it can. The samples of a pixel are added in their order, whatever the packet,
-// so the sums have the same bits.
+// of a pixel as it can. A pixel's samples are added in order, whatever the packet, so the sums have
+// the same bits.
 #ifndef RT_PACKET_CL
 #define RT_PACKET_CL
 
@@ -27,10 +27,10 @@ typedef struct {
     Index pixels;   // in a block of width x height
     Index width, height;
     Index log_width;
-    Indices pixel, sample;  // each lane's, counted from the packet's first; pixels row by row
+    Indices pixel, sample;  // per lane, counted from the packet's first; pixels row by row
 } Packet;
 
-// For pixels of so many samples, at most most_samples of each pixel together: a power of two.
+// For pixels with `samples` samples each, of which a packet holds at most most_samples.
 Packet make_packet(Index samples, Index most_samples) {
     Index log_samples = 0;
     Index together = 2;
@@ -51,8 +51,8 @@ Packet make_packet(Index samples, Index most_samples) {
     return packet;
 }
 
-// sum + weight x v of a pixel's first sample, then of its second..; wanted and made in the first
-// lanes, those of the first sample.
+// sum + weight x v over a pixel's samples in order; valid only in the first lanes, those of the
+// first sample.
 Reals add_samples(Reals sum, Reals weight, Reals v, Index samples) {
 #if RT_LANES >= 4
     if (samples == 4) {
@@ -89,7 +89,7 @@ Reals add_samples(Reals sum, Reals weight, Reals v, Index samples) {
     return fma(weight, v, sum);
 }
 
-// sum / total, wanted and made in the first lanes, those of the pixels.
+// sum / total; valid only in the first lanes, one per pixel.
 Reals average(Reals sum, Reals total, Index samples) {
 #if RT_LANES >= 4
     if (samples == 4) {
@@ -107,7 +107,7 @@ void count_lanes(RayCounts* counts, const PacketCounts* used) {
     counts->transmitted += (RT_COUNT)sum_lanes(used->transmitted);
 }
 
-// The pixels (x, y) of a packet, in its first lanes: their samples weighed and averaged.
+// The colors of a packet's pixels (x, y), in its first lanes: weighted means of their samples.
 real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indices y, Mask live,
                    RayCounts* counts) {
     real3 sum = make3((Reals)0, (Reals)0, (Reals)0);

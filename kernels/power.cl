@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The Blinn lobe max(0, n.h)^e from + - * / and fma alone: pow differs between vendors and costs
-// more. The half vector is never made unit: with s = l + v, n.h is n.s / |s|, and
+// The Blinn lobe max(0, n.h)^e by + - * / and fma alone: pow differs between vendors and costs
+// more. The half vector is never normalized: with s = l + v, n.h is n.s / |s|, and
 //   log(n.h) = atanh(z), z = ((n.s)^2 - s.s) / ((n.s)^2 + s.s): one division and no square root.
-// Near the peak the numerator is -|s - (n.s) n|^2: nothing cancels, and the rounding of n.s moves
-// the difference at right angles to itself. Farther off (n.s)^2 is first scaled by a power of 2 to
-// about s.s. All to the base 2, where the whole part of a logarithm is exact. Error below 9e-8 for
-// every exponent up to 1e6, where pow(dot(n, h), e) is off by 0.45. Series: minimax polynomials.
+// Near the peak the numerator is -|s - (n.s) n|^2: nothing cancels, and the rounding error of n.s
+// is perpendicular to that difference. Farther off (n.s)^2 is first scaled by a power of 2 to about
+// s.s. All in base 2, where the integer part of a logarithm is exact. Error below 9e-8 for every
+// exponent up to 1e6, where pow(dot(n, h), e) is off by 0.45. Series: minimax polynomials.
 #ifndef RT_POWER_CL
 #define RT_POWER_CL
 
@@ -16,9 +16,9 @@
 #ifdef RT_DOUBLE
 #define RT_LOG2_E 0x1.71547652b82fep+0
 #define RT_EXP2_LOWEST -1021.0
-#define RT_ROUNDER 0x1.8p52        // the lowest bits of x + this are x, rounded
-#define RT_LEAST_SQUARED 0x1p-900  // |l + v|^2 below it: l and v are opposite
-#define RT_LOW 0x1p-500            // n.s below it, its square may be subnormal
+#define RT_ROUNDER 0x1.8p52        // the low bits of x + this are x, rounded to an integer
+#define RT_LEAST_SQUARED 0x1p-900  // |l + v|^2 is below it only if l and v are opposite
+#define RT_LOW 0x1p-500            // if n.s is below it, its square may be subnormal
 #define RT_LIFT 0x1p600
 #define RT_LIFTED_BINADES (1200.0 * 0x1p52)
 
@@ -82,13 +82,13 @@ Reals log2_series(Reals z) {
 }
 
 // log2 of the cosine between the unit vector n and s, from n.s > 0, |s - (n.s) n|^2 and
-// s.s >= RT_LEAST_SQUARED. Never above 0. Subnormal cosines are right.
+// s.s >= RT_LEAST_SQUARED. Never above 0. Correct for subnormal cosines, too.
 Reals log2_cosine(Reals along, Reals across, Reals squared) {
     Mask low = along < (Reals)RT_LOW;
     Reals lifted = low ? along * (Reals)RT_LIFT : along;
     Indices bits = RT_AS_INDICES(lifted * lifted);
-    // A number's bits are its logarithm to the base 2, but for 0.09. The difference of two, rounded
-    // to whole binades, leaves a ratio within 2/3 and 3/2.
+    // A number's bits are its base-2 logarithm to within 0.09. Rounding the difference of two to
+    // whole binades leaves a ratio between 2/3 and 3/2.
     Indices ratio = bits - RT_AS_INDICES(squared);
     Indices binades = (ratio + RT_BINADE / 2) & -RT_BINADE;
     Reals scaled = RT_AS_REALS(bits - binades);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Single rays through the tracer, packed as in pictures: what the stress suite and the tests ask of
-// every device. A query's ray is traced to its closest hit and, where `next` says so, on from there
-// as a mirror ray would be.
+// Traces single rays, in packets as for pictures, for the stress suite and the tests on every
+// device. A query's ray is traced to its closest hit and, if `next` says so, on from there as a
+// mirror ray would be.
 #ifndef RT_RAYS_CL
 #define RT_RAYS_CL
 
@@ -12,7 +12,7 @@
 #define RT_QUERY_FIELDS 12
 #define RT_ANSWER_FIELDS 16
 
-// As many integers as numbers: they keep every bit on their way.
+// Fields are moved as integers, which preserve every bit.
 real3 field3(const IndexLanes* fields) {
     return make3(RT_AS_REALS(fields[0].all), RT_AS_REALS(fields[1].all),
                  RT_AS_REALS(fields[2].all));

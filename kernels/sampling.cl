@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a pixel is sampled, and what each sample counts.
+// Sample positions in a pixel, and sample weights.
 //
 // Grid: grid x grid regular positions. Sobol: the first two dimensions of Sobol's sequence,
-// Owen-scrambled by hashing and shuffled, seeded by the pixel (Burley, Practical Hash-based Owen
+// Owen-scrambled by hashing and shuffled, seeded per pixel (Burley, Practical Hash-based Owen
 // Scrambling, JCGT 9(4), 2020, with its constants). Offsets are multiples of 2^-13, so that float
-// and double sample the same places in pictures up to 2048 pixels wide.
+// and double sample the same positions in pictures up to 2048 pixels wide.
 //
-// A filter wider than the pixel spreads the samples over its square footprint and weighs them: a
-// pixel is sum(weight x color) / sum(weight) over samples of its own (Mitchell and Netravali 1988
-// for the cubic, B = C = 1/3; the Gaussian is exp(-2 d^2), cut off at 1.5 pixels).
+// A filter wider than the pixel spreads the samples over its square footprint and weights them: a
+// pixel is sum(weight x color) / sum(weight) over its own samples (Mitchell and Netravali 1988 for
+// the cubic, B = C = 1/3; the Gaussian is exp(-2 d^2), cut off at 1.5 pixels).
 #ifndef RT_SAMPLING_CL
 #define RT_SAMPLING_CL
 
 #include "kernels/power.cl"
 #include "kernels/scene_view.h"
 
-// v with the bits under mask and those `shift` above them exchanged.
+// v with the bits under mask swapped with those `shift` above them.
 Uints swap_bits(Uints v, Uints mask, Uints shift) {
     Uints difference = ((v >> shift) ^ v) & mask;
     return v ^ difference ^ (difference << shift);
 }
 
-// Bits in reverse order. By exclusive ors, since compilers make an intrinsic of the usual ands and
-// ors, which Oclgrind does not know.
+// Bits in reverse order. Uses XOR: compilers turn the usual ands and ors into an intrinsic that
+// Oclgrind does not know.
 Uints reverse_bits(Uints v) {
     v = swap_bits(v, (Uints)0x55555555u, (Uints)1);
     v = swap_bits(v, (Uints)0x33333333u, (Uints)2);
@@ -32,8 +32,7 @@ Uints reverse_bits(Uints v) {
     return swap_bits(v, (Uints)0x0000ffffu, (Uints)16);
 }
 
-// A hash in which every bit of the input moves about half the bits of the output (Wellons'
-// triple32).
+// A hash in which every input bit flips about half the output bits (Wellons' triple32).
 Uints hash_bits(Uints v) {
     v ^= v >> 17;
     v *= 0xed5ad4bbu;
@@ -69,7 +68,7 @@ typedef struct {
     Reals x, y;
 } Position;
 
-// The 12 leading bits as a number in the middle of its 4096th of (0, 1).
+// The leading 12 bits as a number in (0, 1): the middle of its 4096th.
 Reals unit_from_bits(Uints bits) {
     return (RT_TO_REALS(bits >> 20) + (Reals)0.5) * (Reals)0x1p-12f;
 }
@@ -82,8 +81,8 @@ Position sobol_position(Uints seed, Uints k) {
     return position;
 }
 
-// By the reciprocal: one division of two numbers. It is near enough for the row to be right
-// (tests/kernel_sampling_test.cpp); a division of integers would be slow.
+// Uses the reciprocal: one scalar division. It is accurate enough for the row to be right
+// (tests/kernel_sampling_test.cpp); integer division would be slow.
 Position grid_position(Index grid, Indices k) {
     Reals step = (Reals)((Real)1 / (Real)grid);
     Indices row = RT_TO_INDICES((RT_TO_REALS(k) + (Reals)0.5) * step);
@@ -103,14 +102,14 @@ Position unit_position(const LaunchParams* params, Indices x, Indices y, Indices
     return sobol_position(hash_bits(pixel ^ seed), RT_TO_UINTS(k));
 }
 
-// Half the side of a filter's footprint, in pixels.
+// Half the width of a filter's footprint, in pixels.
 Real filter_radius(Index filter) {
     if (filter == RT_FILTER_TENT) return (Real)1;
     if (filter == RT_FILTER_GAUSSIAN) return (Real)1.5f;
     return filter == RT_FILTER_MITCHELL ? (Real)2 : (Real)0.5f;
 }
 
-// Twice the cubic: only ratios of weights count.
+// Twice the cubic: only ratios of weights matter.
 Reals mitchell_weight(Reals d) {
     Real third = (Real)1 / (Real)3;
     Reals inner = fma((Reals)((Real)7 * third), d, (Reals)-4);
@@ -141,7 +140,7 @@ Position sample_position(const LaunchParams* params, Indices x, Indices y, Indic
     return position;
 }
 
-// What sample k of pixel (x, y) counts; 1 under the box filter.
+// The weight of sample k of pixel (x, y); 1 under the box filter.
 Reals sample_weight(const LaunchParams* params, Indices x, Indices y, Indices k) {
     if (!RT_HAS_FILTERS || params->filter == RT_FILTER_BOX) return (Reals)1;
     Position position = sample_position(params, x, y, k);

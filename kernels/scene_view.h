@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene as device functions see it: the arrays and the frame, gathered once in the entry
-// point.
+// The scene as device functions see it: the arrays and launch parameters, gathered once in the
+// entry point.
 #ifndef RT_SCENE_VIEW_H
 #define RT_SCENE_VIEW_H
 
 #include "kernels/features.h"
 #include "kernels/lanes.h"
 
-// With hierarchies, order[i] is the number that primitive i had in the scene's own order; casters
-// lists each light's triangles that can cast a shadow.
+// With hierarchies, order[i] is primitive i's number in the scene's own order; casters lists each
+// light's triangles that can cast a shadow.
 #define RT_SCENE_FIELD(type, name, what) __global const type* name;
 typedef struct {
     RT_SCENE_ARRAYS(RT_SCENE_FIELD)
@@ -24,11 +24,11 @@ Index first_triangle(const SceneView* scene) {
 typedef struct {
     real3 origin;
     real3 dir;         // unit
-    real3 dir_low;     // of eye rays: what rounding took from dir; else 0
-    real3 origin_low;  // of others: from the origin to the point left; of eye rays 0
+    real3 dir_low;     // eye rays: the part of dir lost to rounding; others: 0
+    real3 origin_low;  // eye rays: 0; others: from the origin to the surface point left
     Reals t_max;       // hits lie in (0, t_max]; a negative one switches the lane off
-    // Known of its other hit with the curved surface that it leaves: a sphere's distance to it; of
-    // a cone -2 b, where a t^2 + 2 b t is what it solves.
+    // For the second hit with the curved surface the ray leaves: on a sphere its distance; on a
+    // cone -2 b, where the ray solves a t^2 + 2 b t = 0.
     Reals self_hit;
     Indices from;  // the primitive the origin lies on, or RT_NONE
 } Ray;

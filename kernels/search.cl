@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a pass over the primitives keeps of their hits.
+// What a pass over the primitives keeps of its hits.
 //
-// Ties: surfaces within 32 half-ulps of the nearest one are one surface, and the first in the scene
-// among them is hit. That set does not depend on the order of the tests, so neither does the
-// picture: a first pass finds the two smallest distances, and only where they lie that close a
-// second pass looks for the first in the scene. Rays through the shared edges of the paper's box do
-// it (they project onto the picture's diagonals); hardly any other ray does.
+// Ties: surfaces within 32 half-ulps of the nearest one count as one surface, and the first of them
+// in the scene is hit. That set does not depend on the order of the tests, so neither does the
+// picture: a first pass finds the two smallest distances, and only if they lie that close does a
+// second pass look for the first in the scene. Rays through the shared edges of the paper's box
+// need it (they project onto the picture's diagonals); hardly any other rays do.
 #ifndef RT_SEARCH_CL
 #define RT_SEARCH_CL
 
@@ -18,10 +18,10 @@
 // What a pass over the primitives has found.
 typedef struct {
     Hit hit;
-    Reals second;      // nearest: the next distance after hit.t
-    Indices number;    // finding the first: of the hit's primitive in the scene
-    Reals limit;       // hits further away do not count; negative: the lane is off
-    bool finds_first;  // look for the first in the scene, not for the nearest
+    Reals second;      // first pass: the next distance after hit.t
+    Indices number;    // second pass: the hit primitive's number in the scene
+    Reals limit;       // farther hits do not count; negative: the lane is off
+    bool finds_first;  // second pass: find the first in the scene, not the nearest
 } Search;
 
 // A primitive's number in the scene: hierarchies reorder them.
@@ -32,8 +32,8 @@ Index scene_number(const SceneView* scene, Index prim) {
     return reordered ? scene->order[prim] : prim;
 }
 
-// Takes note of primitive prim, which the lines of some lanes meet at t (behind the origin,
-// or NaN, perhaps).
+// Records primitive prim, which the lines of some lanes meet at t (possibly behind the origin, or
+// NaN).
 void offer_hit(const SceneView* scene, Search* search, Mask lanes, Reals t, Reals u, Reals v,
                Index prim) {
     Mask met = lanes & (t > (Reals)0) & (t <= search->limit);

@@ -2,7 +2,7 @@
 //
 // Local light at a point (Phong 1975 with Blinn's half vector, 1977; shadows as in Whitted 1980):
 //   ka Ia + sum over the lights that reach it of Ii (kd max(0, n.l) + ks max(0, n.h)^p).
-// A light reaches a point when it lies on the front of both the shading and the geometric normal
+// A light reaches a point if it lies in front of both the shading and the geometric normal's plane
 // and nothing lies between. Shadow rays end 16 half-ulps before the light.
 #ifndef RT_SHADE_CL
 #define RT_SHADE_CL
@@ -12,7 +12,7 @@
 #include "kernels/material.cl"
 #include "kernels/power.cl"
 
-#ifndef RT_EXPLAIN  // what kernels/native/explain.cl does with an event of a path
+#ifndef RT_EXPLAIN  // kernels/native/explain.cl reports path events with it
 #define RT_EXPLAIN(live, what, index, bounce, distance, weight, point, normal, color)
 #endif
 
@@ -24,7 +24,7 @@ Reals specular_lobe(real3 normal, real3 to_light, real3 to_eye, Reals shininess)
     return blinn_lobe(along, dot3(across, across), dot3(sum, sum), shininess);
 }
 
-// What one light adds at the surfaces of the live lanes; `origin` is where shadow rays start.
+// One light's contribution in the live lanes; `origin` is where shadow rays start.
 real3 light_contribution(const SceneView* scene, const Surface* surface, const Materials* material,
                          __global const Light* light, real3 origin, real3 to_eye, Indices prim,
                          Mask live, PacketCounts* counts) {

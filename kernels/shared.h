@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The structs and limits that the host and the kernels share. Included by OpenCL C once per program
-// and by C++ twice (host/flatten/flat_types.h): whoever includes it first defines
+// and by C++ twice (host/flatten/flat_types.h). The includer must first define
 //   RT_REAL   float or double
 //   RT_INDEX  int or long, the integer as wide as RT_REAL
-//   RT_COUNT  ulong, 64 bits without sign
-// so that every struct is made of rows of four numbers of one width: a packed 3-vector and a named
+//   RT_COUNT  an unsigned 64-bit integer
+// so that every struct consists of rows of four equally wide numbers: a packed 3-vector and a named
 // scalar. No float3 here (16 bytes in OpenCL, 12 in GLM) and no data hidden in a fourth component.
 // Positions are in the renderer's frame: the eye is the origin and the scene has been scaled by a
 // power of two (host/flatten). This header includes nothing and has no include guard on purpose.
@@ -22,9 +22,9 @@ typedef struct {
     Real radius;
     Index material;
     Index is_huge;       // far larger than its distance: kernels/intersect.cl
-    Real power;          // of the eye: |center|^2 - radius^2, made in double
+    Real power;          // of the eye's position: |center|^2 - radius^2, computed in double
     Index touches_eye;   // the eye lies on it
-    Packed3 center_low;  // what rounding took from the center
+    Packed3 center_low;  // part of center lost to rounding
     Index pad;
 } Sphere;
 
@@ -34,7 +34,7 @@ typedef struct {
     Real base_radius;
     Packed3 axis;  // unit, from the base to the other rim
     Real length;
-    Real slope;  // what the radius grows by along a unit of the axis
+    Real slope;  // change in radius per unit length along the axis
     Index material;
     Index touches_eye;  // the eye lies on it
     Index pad;
@@ -47,8 +47,8 @@ typedef struct {
     Index smooth;  // index into the vertex normals, or RT_NONE for a flat triangle
     Packed3 p2;
     Real offset;     // bound on how far a barycentric hit point lies off the plane
-    Packed3 normal;  // unit, made in double from the unrounded vertices
-    Real plane;      // signed distance of the plane from the eye: dot(normal, p0), likewise
+    Packed3 normal;  // unit, computed in double from the unrounded vertices
+    Real plane;      // signed distance of the plane from the eye: dot(normal, p0); likewise
 } Triangle;
 
 typedef struct {
@@ -75,15 +75,15 @@ typedef struct {
 
 typedef struct {
     Packed3 position;
-    Index first_caster;  // of its triangles in the caster list
+    Index first_caster;  // index in the caster list of its first triangle
     Packed3 intensity;
     Index caster_count;
 } Light;
 
-// A node of a bounding volume hierarchy over one kind of primitive. Leaves hold primitives
-// first.. (count of them, at least 1); inner nodes (count 0) hold two nodes, first and first + 1.
-// Roots lie at odd places and pairs at even ones, so that a pair fills a cache line; node 0 is
-// none.
+// A node of a bounding volume hierarchy over one kind of primitive. A leaf holds `count` primitives
+// (at least 1), starting at `first`; an inner node (count 0) has the children first and first + 1.
+// Roots have odd indices and pairs of children start at even ones, so that a pair fills a cache
+// line. Node 0 means none.
 typedef struct {
     Packed3 low;
     Index first;
@@ -91,16 +91,16 @@ typedef struct {
     Index count;
 } BvhNode;
 
-// What stays the same for a whole picture. A sample at (x, y) pixels from the lower left corner
-// starts at sx * origin_dx + sy * origin_dy and goes along direction + sx * direction_dx
-// + sy * direction_dy, where sx = 2 x - width and sy = 2 y - height are exact.
+// Constant for a whole picture. A sample at (x, y) pixels from the lower left corner starts at
+// sx * origin_dx + sy * origin_dy and goes along direction + sx * direction_dx + sy * direction_dy,
+// where sx = 2 x - width and sy = 2 y - height are exact.
 typedef struct {
     Packed3 direction;
     Index width;
     Packed3 direction_dx;
     Index height;
     Packed3 direction_dy;
-    Index grid;  // samples along a side of RT_SAMPLES_GRID
+    Index grid;  // samples per side, for RT_SAMPLES_GRID
     Packed3 origin_dx;
     Index max_bounces;
     Packed3 origin_dy;
@@ -111,14 +111,14 @@ typedef struct {
     Index light_count;
     Index samples;  // of a pixel
     Index filter;   // RT_FILTER_...
-    Index seed;     // of the Sobol samples
+    Index seed;     // for Sobol samples
     Index cone_count;
-    Index sphere_root;  // the node that holds all spheres, or 0: test each of them
+    Index sphere_root;  // root node over all spheres, or 0: test each sphere
     Index cone_root;
     Index triangle_root;
-    Index eye_on_surface;   // 1: the eye of a perspective camera lies on a sphere, a cone or in a
-                            // plane
-    Packed3 direction_low;  // what rounding took from the direction, and from its steps
+    Index eye_on_surface;   // 1: a perspective camera's eye lies on a sphere or cone or in a
+                            // triangle's plane
+    Packed3 direction_low;  // parts of direction and its steps lost to rounding
     Index sampling;         // RT_SAMPLES_...
     Packed3 direction_dx_low;
     Index pad0;
@@ -126,8 +126,8 @@ typedef struct {
     Index pad1;
 } LaunchParams;
 
-// The pixels of one launch: picture columns x.., rows y.. counted from the top; its first pixel
-// goes to film[first], its next row film_width pixels further on.
+// The pixels of one launch: picture columns from x, rows from y, counted from the top. Its first
+// pixel goes to film[first], each further row film_width pixels later.
 typedef struct {
     Index x, y, width, height;
     Index first, film_width;
@@ -141,20 +141,20 @@ typedef struct {
 // A ray to trace by itself, outside a picture (kernels/rays.cl).
 typedef struct {
     Packed3 origin;
-    Real t_max;     // whether anything lies in (0, t_max] is asked, too, where it is finite
+    Real t_max;     // where finite, also find out whether anything lies in (0, t_max]
     Packed3 dir;    // unit
     Index from;     // the primitive the origin lies on, or RT_NONE
-    Packed3 next;   // unit: trace on from the hit in this direction; 0: do not
-    Real self_hit;  // of the primitive it leaves (Ray in kernels/scene_view.h)
+    Packed3 next;   // unit: continue from the hit in this direction; 0: do not
+    Real self_hit;  // as in Ray (kernels/scene_view.h)
 } RayQuery;
 
 typedef struct {
     Real t, u, v;
-    Index prim;     // RT_NONE: a miss, and nothing else counts but is_blocked
+    Index prim;     // RT_NONE: a miss; then only is_blocked is meaningful
     Packed3 point;  // on the surface
     Index is_blocked;
     Packed3 normal;   // shading normal
-    Index next_prim;  // of the ray traced on
+    Index next_prim;  // hit by the continued ray
     Real next_t;
     Real pad[3];
 } RayAnswer;
@@ -173,20 +173,20 @@ typedef struct {
 
 enum { RT_NONE = -1 };
 
-// What a ray leaves that starts at an eye on some surface (LaunchParams::eye_on_surface).
+// Ray::from of rays that start at an eye on some surface (LaunchParams::eye_on_surface).
 enum { RT_EYE = -2 };
 
-// Nodes that a traversal has put aside, at most: what a stack must hold.
+// Capacity of the traversal stack: the most nodes ever deferred.
 enum { RT_BVH_STACK = 64 };
 
-// Refracted rays that wait for their turn, at most: one for each bounce where light is both
-// reflected and transmitted (kernels/whitted.cl).
+// Most refracted rays pending at once: one for each bounce where light is both reflected and
+// transmitted (kernels/whitted.cl).
 enum { RT_TREE_STACK = 16 };
 
-// Samples of a pixel in a packet of neighboring pixels, at most (kernels/packet.cl).
+// Most samples per pixel in a packet of neighboring pixels (kernels/packet.cl).
 enum { RT_SAMPLES_TOGETHER = 4 };
 
-// How samples lie in a pixel (kernels/sampling.cl).
+// Sample positions in a pixel (kernels/sampling.cl).
 enum { RT_SAMPLES_GRID = 0, RT_SAMPLES_SOBOL = 1 };
 
 // Reconstruction filters (kernels/sampling.cl).

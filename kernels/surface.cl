@@ -4,8 +4,8 @@
 //
 // A triangle's point is its barycentric combination, 10 to 10^5 times nearer to the plane than
 // origin + t dir; except on triangles much larger than the distance, where origin + t dir projected
-// onto the plane is nearer. A sphere's point is put back at distance r from the center, a cone's at
-// its radius from the axis. Each point carries a bound on how far it may lie off its surface.
+// onto the plane is nearer. A sphere's point is moved to distance r from the center, a cone's to
+// its radius from the axis. Each point carries a bound on its distance from the surface.
 #ifndef RT_SURFACE_CL
 #define RT_SURFACE_CL
 
@@ -14,19 +14,19 @@
 
 typedef struct {
     real3 point;
-    real3 point_low;  // of a sphere: what rounding took from the point; else 0
+    real3 point_low;  // spheres: the part of point lost to rounding; else 0
     real3 normal;     // shading normal, unit: interpolated where the triangle has vertex normals
     real3 geometric;  // geometric normal, unit, on the shading normal's side
     Reals offset;     // bound on the distance between point and surface
-    // Of a sphere, and what stands for it on a cone: the length of the gradient of the terms that
-    // vanish on it. Positive where the geometric normal points outwards; 0 on triangles.
+    // A sphere's diameter, and its analog on a cone: the length of the gradient of the implicit
+    // function. Positive where the geometric normal points outwards; 0 on triangles.
     Reals signed_diameter;
     Indices material;
 } Surface;
 
-// The normal where the ray meets the sphere at t, from the closest approach and the half chord.
-// What rounding took from the ray and from the center is added where only lengths of the radius are
-// left, so that small, distant balls keep their normals, and mirror rays between them their ways.
+// The normal where the ray meets the sphere at t, from the closest approach and the half chord. The
+// low parts of the ray and of the center are added where only lengths of about the radius are left,
+// so that small, distant spheres keep accurate normals, and mirror rays between them their paths.
 real3 sphere_normal(const Ray* ray, Reals t, __global const Sphere* sphere) {
     real3 f = sub3(ray->origin, load3(sphere->center));
     Reals b = -dot3(f, ray->dir);
@@ -63,7 +63,7 @@ Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
     return surface;
 }
 
-// The point is put back on the cone at its height; on the axis, where the radius is 0, the normal
+// The point is moved onto the cone at its height; on the axis, where the radius is 0, the normal
 // faces the viewer.
 Surface cone_surface(const Ray* ray, Reals t, __global const Cone* cone) {
     real3 base = load3(cone->base);
@@ -93,7 +93,7 @@ Surface cone_surface(const Ray* ray, Reals t, __global const Cone* cone) {
     return surface;
 }
 
-// The normal blended from the vertices, or the face's own where the blend vanishes.
+// The normal interpolated from the vertices, or the face normal where the interpolation vanishes.
 real3 blended_normal(__global const VertexNormals* normals, real3 face, Reals u, Reals v) {
     real3 blend = scale3((Reals)1 - u - v, load3(normals->n0));
     blend = add_scaled(blend, u, load3(normals->n1));
@@ -102,7 +102,7 @@ real3 blended_normal(__global const VertexNormals* normals, real3 face, Reals u,
     return select3(squared > (Reals)1e-12, scale3((Reals)1 / sqrt(squared), blend), face);
 }
 
-// Not fmax, which PoCL makes many instructions of.
+// Not fmax, which PoCL compiles to many instructions.
 Real larger_of(Real a, Real b) { return a > b ? a : b; }
 
 Real largest_of(Packed3 p) { return larger_of(larger_of(fabs(p.x), fabs(p.y)), fabs(p.z)); }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The types of a program. Real is float, or double with -DRT_DOUBLE=1. A work item traces a packet
-// of RT_LANES rays, one a lane: Real and Index are one number for all of them, Reals and Indices
-// one a lane, Mask says which lanes something holds for. With one lane (GPUs) they are scalars.
-// real3 lives in registers, memory holds Packed3. real3 is three numbers, not the built-in vector:
-// Intel's CPU compiler gets the built-in one wrong when it vectorizes across work items
+// of RT_LANES rays, one per lane: Real and Index are shared by all lanes, Reals and Indices hold
+// one number per lane, Mask says in which lanes a condition holds. With one lane (GPUs) they are
+// scalars. real3 lives in registers, memory holds Packed3. real3 is three numbers, not the built-in
+// vector: Intel's CPU compiler gets the built-in one wrong when it vectorizes across work items
 // (components land in the next pixel).
 // Contraction is off for the whole program: with + - * / sqrt and explicit fma alone, every device
-// and every lane rounds the same way and the picture has one set of bits (docs/design.md, "Strict
+// and every lane rounds the same way and every picture has one set of bits (docs/design.md, "Strict
 // arithmetic"). -DRT_FAST_MATH=1 lets the compiler contract.
 #ifndef RT_TYPES_H
 #define RT_TYPES_H
@@ -28,7 +28,7 @@
 #define RT_INDEX long
 #define RT_ROUNDOFF 0x1p-53  // half an ulp of 1
 #define RT_LARGEST DBL_MAX
-#define RT_LEAST_DIRECTION 0x1p-523  // over it, no position overflows (host/flatten)
+#define RT_LEAST_DIRECTION 0x1p-523  // no position divided by it overflows (host/flatten)
 #else
 #define RT_REAL float
 #define RT_INDEX int
@@ -48,15 +48,15 @@
 
 #include "kernels/shared.h"
 
-#ifndef RT_REALS  // scripts/embree/kernel_flops.cpp counts what is done to them
+#ifndef RT_REALS  // scripts/embree/kernel_flops.cpp counts the operations on them
 #define RT_REALS RT_LANES_OF(RT_REAL)
 #endif
 typedef RT_REALS Reals;
 typedef RT_LANES_OF(RT_INDEX) Indices;
 typedef RT_LANES_OF(uint) Uints;
 
-// What a comparison of Reals gives: 1 or 0, with several lanes -1 or 0. Combined by & | !, taken
-// apart by lanes.h, and chosen by as in `mask ? a : b`.
+// The result of comparing Reals: 1 or 0; with several lanes -1 or 0. Combine with & | !, reduce
+// with lanes.h, select with `mask ? a : b`.
 #if RT_LANES == 1
 typedef int Mask;
 #define RT_ALL_LANES ((Mask)1)

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whitted's recursion, as a loop: the color seen along a ray is the local light plus mirror x what
-// the mirror ray sees plus transmission x what the refracted ray sees. `throughput` is the product
-// of these weights so far; a path ends when it is black, when a ray misses, or after max_bounces
-// mirror and refracted rays together.
+// Whitted's recursion, as a loop: the color seen along a ray is the local light plus mirror x the
+// color along the mirror ray plus transmission x the color along the refracted ray. `throughput` is
+// the product of these weights so far; a path ends when it is black, when a ray misses, or after
+// max_bounces mirror and refracted rays together.
 //
-// Where a hit sends on both, the refracted ray is put on a stack and the mirror ray followed; when
-// no lane of the packet lives the last ray put aside is taken up. So each lane walks its tree, and
+// Where a hit spawns both, the refracted ray is pushed on a stack and the mirror ray followed; when
+// no lane of the packet is live, the ray on top is resumed. So each lane walks its ray tree, and
 // adds up its colors, in the same order whatever the packet. A branch at a transmitting surface
-// that is too faint to change a picture is left out.
+// that is too faint to change a picture is dropped.
 //
-// A ray enters where it meets the front of the geometric normal, whichever way two_sided turns it.
-// Total internal reflection adds the transmitted weight to the mirror ray's.
+// A ray enters where it meets the front of the geometric normal, whether or not two_sided flips it.
 #ifndef RT_WHITTED_CL
 #define RT_WHITTED_CL
 
@@ -22,7 +21,7 @@
 #define RT_OUT_OF_LINE
 #endif
 
-// The mirror ray at a surface. Where a blended normal would send it under the surface, it is
+// The mirror ray at a surface. Where an interpolated normal would send it below the surface, it is
 // reflected about the geometric normal instead.
 Ray mirror_ray(const Surface* surface, real3 dir, Indices prim) {
     real3 mirrored = reflect3(dir, surface->normal);
@@ -35,10 +34,10 @@ Ray mirror_ray(const Surface* surface, real3 dir, Indices prim) {
     return spawn_ray(surface, offset_origin(surface, mirrored), mirrored, prim);
 }
 
-// The refracted ray at a surface, where `eta` is the index of refraction on the side the ray comes
-// from over that on the other side: p is the part of dir along the surface, and eta p that of the
-// refracted direction. *total where all light is reflected instead. Where a blended normal would
-// leave the ray on the side it came from, it is refracted about the geometric normal.
+// The refracted ray at a surface. `eta` is the ratio of the indices of refraction, incident over
+// transmitted side: it scales the part of dir along the surface. *total: total internal reflection.
+// Where an interpolated normal would leave the ray on the side it came from, it is refracted about
+// the geometric normal.
 Ray refracted_ray(const Surface* surface, real3 dir, Reals eta, Indices prim, Mask* total) {
     real3 refracted;
     real3 normal = surface->normal;
@@ -58,7 +57,7 @@ Ray refracted_ray(const Surface* surface, real3 dir, Reals eta, Indices prim, Ma
     return spawn_ray(surface, offset_origin(surface, refracted), refracted, prim);
 }
 
-// A ray of each live lane, and how much of what it sees counts.
+// Each live lane's ray, and its weight in the lane's color.
 typedef struct {
     Ray ray;
     real3 throughput;
@@ -66,7 +65,7 @@ typedef struct {
     Index bounce;
 } Path;
 
-// Refracted rays put aside while the mirror rays of the same hits are followed. Bounces grow from
+// Refracted rays pushed while the mirror rays of the same hits are followed. Bounces increase from
 // entry to entry.
 typedef struct {
     Path paths[RT_TREE_STACK];
@@ -91,8 +90,8 @@ Mask is_faint(real3 weight) {
     return !(largest >= (Reals)(Real)RT_ROUNDOFF);
 }
 
-// Sends the path on from a surface, of which geometric and normal face as the material has them;
-// `inside` where the ray came from behind it. Lanes where it ends are switched off.
+// Continues the path from a surface whose normal and geometric normal are already flipped for
+// two_sided; `inside` where the ray came from behind it. Lanes whose paths end are switched off.
 void scatter(const Surface* surface, const Materials* material, Indices prim, Mask inside,
              Path* path, Pending* pending, PacketCounts* counts) {
     real3 throughput = path->throughput;
@@ -133,7 +132,7 @@ void scatter(const Surface* surface, const Materials* material, Indices prim, Ma
                (Reals)0, path->throughput, path->ray.origin, path->ray.dir, path->throughput);
 }
 
-// What the hits of a path add to the color, and the path from there on.
+// Adds the local light at a path's hits to the color, and continues the path.
 real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* path,
                    Pending* pending, PacketCounts* counts) {
     Surface surface = surface_at(scene, &path->ray, hit, path->live);
@@ -157,7 +156,7 @@ real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* pa
     return color;
 }
 
-// Turns to the ray put aside last. False when there is none.
+// Pops the ray pushed last. False when there is none.
 bool resume(Path* path, Pending* pending) {
     if (!(RT_HAS_GLASS && RT_HAS_MIRRORS) || pending->size == 0) return false;
     pending->size -= 1;

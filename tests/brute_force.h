@@ -9,9 +9,9 @@
 
 #include "host/flatten/flat_scene.h"
 
-// The textbook's tracer: every primitive in closed form, in long double, written apart from the
-// kernels. Each place where a ray's line may meet a primitive comes with a bound on what rounding
-// in T may do to its distance, and with whether rounding may decide if it is there at all.
+// A textbook tracer: every primitive in closed form, in long double, written independently of the
+// kernels. Each intersection with a ray's line comes with a bound on the error that rounding in T
+// may cause in its distance, and with whether rounding may decide if it exists at all.
 namespace rt {
 
 using Wide = long double;
@@ -23,12 +23,12 @@ Wide3 wide(const P& p) {
 }
 
 struct Meeting {
-    Wide t, slack;  ///< distance, and how far off it may be
+    Wide t, slack;  ///< distance, and its error bound
     bool is_sure;
     std::int64_t prim;
 };
 
-/// A ray with the roundoff of the arithmetic it is traced in, and all it may meet.
+/// A ray with the roundoff of the arithmetic that traces it, and all it may hit.
 class BruteForce {
    public:
     template <typename T>
@@ -41,19 +41,19 @@ class BruteForce {
         }
     }
 
-    /// No surely met place ends before this distance.
+    /// The smallest upper bound on the distance of a sure hit.
     Wide nearest_end() const {
         Wide end = std::numeric_limits<Wide>::infinity();
         for (const Meeting& m : meetings_) end = m.is_sure ? std::min(end, m.t + m.slack) : end;
         return end;
     }
-    /// Whether something that is perhaps not met may lie within this distance.
+    /// Whether an uncertain hit may lie within this distance.
     bool has_doubt_within(Wide distance) const {
         return std::any_of(meetings_.begin(), meetings_.end(), [&](const Meeting& m) {
             return !m.is_sure && m.t - m.slack <= distance;
         });
     }
-    /// Whether a tracer may say that the nearest hit is this one; there is no doubt up to there.
+    /// Whether a tracer may report this as the nearest hit; nothing is uncertain up to there.
     bool agrees(std::int64_t prim, Wide t) const {
         const Wide end = nearest_end();
         if (prim < 0) return std::isinf(end);
@@ -62,7 +62,7 @@ class BruteForce {
                    m.t - m.slack <= end * (1 + error_);
         });
     }
-    /// Whether a place may be met or not, or lies too close to the distance to say on which side.
+    /// Whether a hit is uncertain, or lies too close to this distance to say on which side.
     bool is_unsure_at(Wide distance) const {
         if (nearest_end() < distance) return false;
         return std::any_of(meetings_.begin(), meetings_.end(), [&](const Meeting& m) {
@@ -72,10 +72,10 @@ class BruteForce {
     bool is_blocked(Wide distance) const { return nearest_end() < distance; }
 
    private:
-    /// A place at t, of a primitive as large as `size` and as far from the eye, where the ray
-    /// leaves the surface by `steep` of what it runs along; `clear`: how far from where it ends.
+    /// Adds a hit at t. `size`: how far from the eye the primitive extends; `steep`: how fast the
+    /// ray leaves the surface, per unit length; `clear`: distance from the primitive's boundary.
     void add(Wide t, Wide size, Wide steep, Wide clear) {
-        const Wide reach = 2 * (glm::length(origin_) + size);  // past it, it cannot be met
+        const Wide reach = 2 * (glm::length(origin_) + size);  // no hit can lie beyond it
         const Wide slack = error_ * reach / std::max(steep, error_);
         if (t < -slack || t > reach + slack || clear < -slack) return;
         const bool is_sure = steep > 2 * error_ && t > slack && clear > slack;
@@ -90,7 +90,7 @@ class BruteForce {
         const Wide size = glm::length(center) + r;
         const Wide s = std::sqrt(std::max(left, Wide(0)) / squared);
         if (left > -2 * error_ * r * (size + glm::length(origin_))) {
-            // Both ends of the chord, which are one within rounding where the ray grazes.
+            // Both ends of the chord, which coincide within rounding error where the ray grazes.
             const Wide steep = left > 0 ? s / r : 0;
             const Wide far_off = std::numeric_limits<Wide>::infinity();
             add(b / squared - s, size, steep * steep, far_off);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// An OpenCL driver that goes wrong: a library to put between the program and the loader
+// An OpenCL driver that misbehaves: a library to load between the program and the OpenCL loader
 // (LD_PRELOAD).
-//   CL_SHIM_OLD, CL_SHIM_NEW   program texts have NEW in place of OLD, which they must contain
-//   CL_SHIM_FROM               from this program on, counted from 1; from the first unless given
-//   CL_SHIM_LOG                a file that gets the options of each build, a line each
+//   CL_SHIM_OLD, CL_SHIM_NEW   NEW replaces OLD in program texts, which must contain it
+//   CL_SHIM_FROM               the first program to change, counted from 1; 1 if not given
+//   CL_SHIM_LOG                a file for the options of each build, one line each
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
-//   CL_SHIM_FAIL_READ          if not empty, nothing can be read or mapped once a launch failed
-//   CL_SHIM_DIE_IN             a function's name: its call goes wrong as CL_SHIM_DIE_BY says:
-//   abort,
-//                              segfault, exit, hang; calls before the CL_SHIM_DIE_AT-th do not,
-//                              nor those in the first CL_SHIM_DIE_AFTER seconds
-//   CL_SHIM_DIE_ONCE           a file that is made by then; where it is, nothing goes wrong
-// Nothing in mirrorball knows of it.
+//   CL_SHIM_FAIL_READ          if not empty, reads and maps fail once a launch has failed
+//   CL_SHIM_DIE_IN             the function whose call fails
+//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang
+//   CL_SHIM_DIE_AT             the first call that may fail, counted from 1
+//   CL_SHIM_DIE_AFTER          seconds since that call before which none fails
+//   CL_SHIM_DIE_ONCE           a file made on failure; if it exists, nothing fails
+// Nothing in mirrorball knows about it.
 #include <dlfcn.h>
 #include <unistd.h>
 

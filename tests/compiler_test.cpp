@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the compiler does to our arithmetic unless CMakeLists.txt tells it not to.
+// What the compiler would do to our arithmetic without the flags in CMakeLists.txt.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,15 +8,15 @@
 
 namespace {
 
-// GCC 12 drops the rounding of two neighboring doubles to float in its SLP vectorizer, unless asked
-// not to vectorize so (CMakeLists.txt): a double renderer would be fed unrounded numbers.
+// GCC 12's SLP vectorizer drops the rounding of two neighboring doubles to float, unless it is
+// turned off (CMakeLists.txt): a double renderer would be fed unrounded numbers.
 __attribute__((noinline)) void round_pair(const double* in, double* out) {
     const float x = static_cast<float>(in[0]), y = static_cast<float>(in[1]);
     out[0] = x;
     out[1] = y;
 }
 
-/// A number that the compiler cannot reckon with beforehand.
+/// A number hidden from constant folding.
 template <typename T>
 T hidden(T number) {
     volatile T copy = number;
@@ -31,7 +31,7 @@ TEST(Compiler, RoundsNeighboringDoublesToFloat) {
     EXPECT_EQ(out[1], 0.300000011920928955078125);
 }
 
-// a * b + c must not become one fma behind our back, or host and kernels part.
+// a * b + c must not silently become one fma, or host and kernels diverge.
 __attribute__((noinline)) float multiply_add(float a, float b, float c) { return a * b + c; }
 
 TEST(Compiler, DoesNotContract) {

@@ -11,8 +11,7 @@
 #include "host/flatten/flat_types.h"
 
 // The reference arithmetic of the kernel tests: 113 bits, enough for exact products of two doubles
-// and for any formula here with 2^-50 of a double's error to spare. Written apart from the
-// renderer.
+// and for any formula here with 2^-50 of a double's error to spare. Independent of the renderer.
 namespace rt {
 
 using Quad = __float128;
@@ -35,7 +34,7 @@ inline Quad3 cross(Quad3 a, Quad3 b) {
 }
 inline Quad magnitude(Quad x) { return x < 0 ? -x : x; }
 
-/// Newton from the long double root: 64 bits become 128.
+/// One Newton step from the long double root: 64 bits become 128.
 inline Quad square_root(Quad x) {
     if (!(x > 0)) return 0;
     const Quad root = std::sqrt(static_cast<long double>(x));
@@ -63,7 +62,8 @@ double vector_error(const P& value, Quad3 exact_value, Quad scale) {
                      error_in_roundoffs<T>(value.z, exact_value.z, scale)});
 }
 
-/// The largest of many errors. Notes it in the test's report, so that bars can be set close to it.
+/// The largest of many errors, noted in the test's report so that tolerances can be set close to
+/// it.
 class WorstError {
    public:
     void add(double error) { worst_ = std::max(worst_, error >= 0 ? error : double(INFINITY)); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ray trees of pixels, against pictures in double, whose bits they must add up to.
+// Ray trees of pixels, against pictures in double, which they must reproduce to the bit.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -11,7 +11,7 @@
 namespace rt::test {
 namespace {
 
-/// Sums what the tree says of itself: local light is ambient light and what lights add.
+/// Checks the tree's own sums: local light is ambient light plus the lights' contributions.
 void check_parts(const RayNode& ray) {
     if (ray.hit) {
         glm::dvec3 sum = ray.ambient;

@@ -7,7 +7,7 @@ namespace rt::test {
 
 namespace {
 
-/// Enough of a shape that the scene has for a hierarchy.
+/// Adds enough of a shape that the scene has to require a hierarchy.
 void add_a_row(Scene& scene) {
     for (int i = 0; i < 30; ++i) {
         const glm::dvec3 p(0.1 * i - 1.5, 0.8 - 0.05 * (i % 5), -0.5);

@@ -10,7 +10,7 @@ namespace rt::test {
 /// A small scene that needs exactly these features.
 Scene scene_needing(const Features& features);
 
-/// Whether some scene needs exactly these.
+/// Whether any scene needs exactly these.
 bool is_possible(const Features& features);
 
 }  // namespace rt::test

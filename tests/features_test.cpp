@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every feature alone is built for the device, with warnings as errors, and rendered; leaving out
-// changes no bit. Every possible set of them is rendered natively in switches_test.
+// Each feature alone is built for the device, with warnings as errors, and rendered; leaving
+// features out changes no bit. switches_test renders every possible set natively.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace rt::test {
 namespace {
 
-/// No feature, every one that a scene can need alone, and all.
+/// No features, each one that a scene can need alone, and all.
 std::vector<Features> lone_features() {
     std::vector<Features> sets;
     for (unsigned bits = 0; bits < 1u << feature_names.size(); ++bits) {
@@ -50,7 +50,7 @@ std::string set_name(const testing::TestParamInfo<Features>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Features, OneFeatureAlone, testing::ValuesIn(lone_features()), set_name);
 
-/// Their number is compiled in where a packet holds them; 1 and 4 are in lanes_test.
+/// The number of samples is compiled in if a packet holds them; 1 and 4 are in lanes_test.
 TEST(RenderPixels, GivesTheSameBitsWithTwoSamples) {
     Features features = no_features();
     features.spheres = features.lights = features.sobol = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// libFuzzer target: whatever the bytes, the EXR reader gives as many values as it announced or
-// throws, and takes no more memory than the file is worth.
+// libFuzzer target: whatever the bytes, the EXR reader returns as many values as it announced or
+// throws, and takes no more memory than the file justifies.
 // Build with clang++ -fsanitize=fuzzer,address,undefined; seeds: tests/pictures/.
 
 #include <sys/mman.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// libFuzzer target: whatever the bytes, the journal reader gives records that fit the picture, or
-// throws rt::Error. CRCs are made right first, else none would ever be.
+// libFuzzer target: whatever the bytes, the journal reader returns records that fit the picture, or
+// throws rt::Error. CRCs are fixed first, or every record would be rejected.
 // Build with clang++ -fsanitize=fuzzer,address,undefined; seeds: tests/journals/.
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// Gives records the CRCs that they should have.
+/// Gives the records correct CRCs.
 void mend(std::string& bytes) {
     for (std::size_t at = rt::journal_magic.size(); at + 12 <= bytes.size();) {
         std::uint32_t head[3];

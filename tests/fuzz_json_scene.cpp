@@ -17,7 +17,7 @@
 
 namespace {
 
-/// A mistake in the reader, as opposed to one in the text.
+/// Traps on a bug in the reader, as opposed to an error in the text.
 void require(bool condition) {
     if (!condition) __builtin_trap();
 }
@@ -56,7 +56,7 @@ void check_offsets(const rt::JsonValue& value, std::string_view text) {
     }
 }
 
-/// What both readers of JSON read is the same.
+/// Whether both JSON readers read the same.
 bool same(const rt::JsonValue& a, const rt::JsonValue& b) {
     if (a.offset != b.offset || a.data.index() != b.data.index()) return false;
     if (const auto* items = a.as<rt::JsonValue::Array>()) {

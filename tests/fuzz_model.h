@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzz targets of the model readers share.
+// Shared by the fuzz targets of the model readers.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@
 
 namespace rt::fuzz {
 
-/// A mistake in the reader, as opposed to one in the text.
+/// Traps on a bug in the reader, as opposed to an error in the text.
 inline void require(bool condition) {
     if (!condition) __builtin_trap();
 }
@@ -62,8 +62,8 @@ inline void render(Scene scene) {
     render_all(*renderer, scene.aa, queue, whole, film);
 }
 
-/// Runs a reader, and renders what it gives alone and mirrored. Whatever the bytes, there is a
-/// picture, or an rt::Error that names a file.
+/// Runs a reader and renders its model alone and mirrored. Any bytes give either a picture or an
+/// rt::Error that names a file.
 template <typename Read>
 void try_model(Read read) {
     bool is_read = false;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t most_primitives = 200;
 
-/// A mistake in the reader, as opposed to one in the text.
+/// Traps on a bug in the reader, as opposed to an error in the text.
 void require(bool condition) {
     if (!condition) __builtin_trap();
 }

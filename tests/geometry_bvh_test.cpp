@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// host/flatten/bvh: every box in one leaf, boxes inside their parents, the depth bounded and the
-// outcome the same for any number of threads, whatever the boxes are.
+// host/flatten/bvh: every box in one leaf, boxes inside their parents, bounded depth, and the same
+// result for any number of threads, whatever the boxes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -196,7 +196,7 @@ TYPED_TEST(BuildBvh, BeatsHalvingOnASoup) {
     EXPECT_LT(shape.depth, 40);
 }
 
-/// Half the surface.
+/// Half the surface area.
 template <typename Node>
 double area_of(const Node& box) {
     const double x = double(box.high.x) - box.low.x, y = double(box.high.y) - box.low.y;
@@ -216,7 +216,7 @@ double cost_of_side(std::span<const BvhBox<T>> boxes) {
     return area_of(whole) * static_cast<double>(boxes.size());
 }
 
-/// The least cost of a split of the boxes in the order of their centers along some axis.
+/// The least cost of splitting the boxes, sorted by their centers along some axis.
 template <typename T>
 double least_cost(Boxes<T> boxes) {
     using Packed3 = typename Flat<T>::Packed3;

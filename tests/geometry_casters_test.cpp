@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// host/flatten/casters: lists of the triangles that may cast a light's shadow leave out what
+// host/flatten/casters: the lists of triangles that may cast a light's shadow leave out those that
 // cannot, and change no picture.
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ class CasterLists : public testing::Test {};
 using Precisions = testing::Types<float, double>;
 TYPED_TEST_SUITE(CasterLists, Precisions);
 
-// Sanitizers look for other mistakes than a wrong pixel, and make rays 13 times as slow.
+// Sanitizer runs look for other bugs than wrong pixels, and trace rays 13 times as slowly.
 #ifdef MIRRORBALL_SANITIZED
 constexpr int divisor = 3;
 #else
@@ -81,7 +81,7 @@ TEST(ShadowCasters, AreThePyramidAloneInThePapersScene) {
     for (const auto& list : lists) EXPECT_EQ(list.size(), 3u);
 }
 
-/// A floor at z = 0 seen and lit from above, and what `more` puts there.
+/// A floor at z = 0 seen and lit from above, plus the triangles `more`.
 Scene floor_scene(const std::vector<Scene::Triangle>& more) {
     Scene scene;
     scene.materials.resize(1);
@@ -93,7 +93,7 @@ Scene floor_scene(const std::vector<Scene::Triangle>& more) {
     return scene;
 }
 
-// Listing takes time in the number of triangles squared.
+// Listing takes time quadratic in the number of triangles.
 TEST(ShadowCasters, AreNotListedAmongManyTrianglesWithoutAHierarchyEither) {
     Scene scene = floor_scene({});
     FlattenOptions options;
@@ -115,7 +115,7 @@ TEST(ShadowCasters, LeaveOutAFloorUnlessInDoubt) {
     const Scene::Triangle leaning{{{{-1, 1, 0}, {1, 1, 0}, {0, 0, 1}}}, {}, 0};  // over the floor
     EXPECT_EQ(casters(floor_scene({leaning})), (Lists{{2}}));
     Scene scene = floor_scene({leaning});
-    scene.lights[0].position = {0, 0, 0.25};  // beneath it: first steps lead through
+    scene.lights[0].position = {0, 0, 0.25};  // beneath it: a shadow ray's offset may cross it
     EXPECT_EQ(casters(scene), (Lists{{0, 1, 2}}));
     scene = floor_scene({});
     scene.lights[0].position = {0, 0, 0.001};

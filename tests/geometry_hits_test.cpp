@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What rays hit on pthreads: in packets of every width, with hierarchies and by testing every
-// primitive, the same bits; and what the textbook's tracer in long double hits.
+// What rays hit on pthreads: the same bits in packets of every width, with hierarchies and by
+// testing every primitive; and the same hits as a textbook tracer in long double.
 // MIRRORBALL_TEST_RAYS sets how many rays each scene gets.
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ Query<T> query_of(const ProbeRay<T>& ray) {
     return {ray.origin, ray.t_max, ray.dir, ray.from, {}, ray.self_hit};
 }
 
-/// Rays in the author's numbering; every other one is traced on from where it hits.
+/// Rays in the author's numbering; every other one is continued from its hit.
 template <typename T>
 std::vector<Query<T>> some_queries(const FlatScene<T>& scene, std::size_t count) {
     Random random(1);
@@ -40,7 +40,7 @@ std::vector<Query<T>> some_queries(const FlatScene<T>& scene, std::size_t count)
     });
 }
 
-/// Answers in the author's numbering, and what does not count blanked.
+/// Answers in the author's numbering, with meaningless fields blanked.
 template <typename T>
 std::vector<Answer<T>> answers(const Numbered<T>& numbered, std::vector<Query<T>> queries,
                                int lanes) {
@@ -64,7 +64,7 @@ std::vector<Answer<T>> answers(const Numbered<T>& numbered, std::vector<Query<T>
     return found;
 }
 
-/// Answers that differ in any bit.
+/// The number of answers that differ in any bit.
 template <typename T>
 std::size_t differing(const std::vector<Answer<T>>& a, const std::vector<Answer<T>>& b) {
     std::size_t count = 0;
@@ -91,7 +91,7 @@ constexpr int lane_widths[] = {1, 16};
 constexpr int lane_widths[] = {1, 2, 4, 8, 16};
 #endif
 
-/// One answer on all ways: it is returned.
+/// Expects the same answers by every method, and returns them.
 template <typename T>
 std::vector<Answer<T>> expect_one_answer(const BothWays<T>& both,
                                          const std::vector<Query<T>>& queries) {
@@ -128,7 +128,7 @@ TYPED_TEST(Hits, AreThoseOfTestingEveryPrimitive) {
     EXPECT_GT(found_next, ray_count(5000) / 10);
 }
 
-/// Rounding in the frame of a ray grows with its origin's distance from the eye.
+/// Rounding error in a ray's frame grows with its origin's distance from the eye.
 TYPED_TEST(Hits, AreThoseOfTestingEveryPrimitiveFromFarAway) {
     using T = TypeParam;
     Scene scene;
@@ -170,7 +170,7 @@ struct Compared {
     std::size_t hits = 0, skipped = 0, blocked = 0, unsure = 0;
 };
 
-/// Holds an answer to what the textbook says, unless rounding decides.
+/// Compares an answer with the textbook tracer's, unless rounding decides.
 template <typename T>
 void compare(const BruteForce& right, const Query<T>& query, const Answer<T>& found, Index<T> prim,
              Compared& compared) {

@@ -17,7 +17,7 @@ using Positions = std::vector<glm::dvec3>;
 using Faces = std::vector<Scene::Mesh::Face>;
 using Strings = std::vector<std::string>;
 
-/// Twice the area of each triangle along z; all must be positive.
+/// The triangles' total area seen along z; each area must be positive.
 double total_area(const Positions& corners, const Faces& triangles) {
     double total = 0;
     for (const auto& [a, b, c] : triangles) {

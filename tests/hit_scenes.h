@@ -8,7 +8,7 @@
 #include "tests/test_random.h"
 #include "tests/test_shapes.h"
 
-// Scenes in which a hierarchy could miss something, and rays that look for it.
+// Scenes in which a hierarchy could miss hits, and rays that look for such misses.
 namespace rt {
 
 struct HitScene {
@@ -18,21 +18,21 @@ struct HitScene {
 
 const std::vector<HitScene>& hit_scenes();
 
-/// With a material and a camera.
+/// The scene, with a material and a camera.
 Scene make_scene(const HitScene& made_of);
 
 void add_triangle(Scene& scene, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
-/// n x n squares of the plane z about the origin, two triangles each.
+/// n x n squares in the plane at height z, centered on the z axis, two triangles each.
 void add_floor(Scene& scene, int n, double half, double z = 0);
 
-/// A flat scene and, for each of its primitives, the number in the scene and back.
+/// A flat scene, and its primitives' numbers in the original scene, both ways.
 template <typename T>
 struct Numbered {
     using Index = typename Flat<T>::Index;
 
     FlatScene<T> scene;
-    std::vector<Index> place;  ///< of the primitive with a number
+    std::vector<Index> place;  ///< index of the primitive with a given number
 
     explicit Numbered(FlatScene<T> flat)
         : scene(std::move(flat)),
@@ -45,7 +45,7 @@ struct Numbered {
     }
 };
 
-/// A scene whose primitives are all tested, and the same through hierarchies.
+/// A scene flattened without hierarchies (every primitive is tested) and with them.
 template <typename T>
 struct BothWays {
     Numbered<T> plain, bvh;
@@ -60,7 +60,7 @@ struct BothWays {
     }
 };
 
-/// A ray that starts or ends somewhere interesting, in the author's numbering.
+/// A ray that starts or ends at a critical place, in the author's numbering.
 template <typename T>
 ProbeRay<T> some_ray(const FlatScene<T>& scene, Random& random) {
     const auto vertex = [&]() -> glm::dvec3 {
@@ -81,7 +81,7 @@ ProbeRay<T> some_ray(const FlatScene<T>& scene, Random& random) {
         origin = vertex();
         dir = vertex() - origin;
     }
-    if (kind == 3 || kind == 4) {  // along one axis, or across it, often in a box's plane
+    if (kind == 3 || kind == 4) {  // parallel or perpendicular to an axis, often in a box's plane
         if (kind == 4) origin = vertex();
         for (int axis = 0; axis < 3; ++axis) {
             if (random.coin()) dir[axis] = random.coin() ? 0.0 : -0.0;

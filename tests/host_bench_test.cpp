@@ -63,7 +63,7 @@ TEST(Pareto, SlopeOfRandomSamplingIsMinusAHalf) {
     EXPECT_NEAR(log_log_slope(costs).value(), -0.5, 1e-12);
 }
 
-/// Smooth, with an edge: a bright disc on a gradient.
+/// A bright disc on a gradient: smooth, with an edge.
 Picture test_picture(int width = 40, int height = 30) {
     Picture picture{width, height, 3, {}};
     for (int y = 0; y < height; ++y) {

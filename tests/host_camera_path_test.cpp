@@ -40,8 +40,8 @@ TEST(CameraPath, LinearIsAStraightLine) {
     EXPECT_DOUBLE_EQ(camera.field_of_view.amount, 50);
 }
 
-/// Keys on a parabola, equally far apart: central differences are its slopes, so that a Catmull-Rom
-/// spline between two inner keys is the parabola.
+/// Equally spaced keys on a parabola: central differences are its slopes, so a Catmull-Rom spline
+/// between two inner keys is the parabola.
 TEST(CameraPath, SplineRunsAlongAParabola) {
     std::string keys;
     for (int frame = 0; frame <= 3; ++frame) {

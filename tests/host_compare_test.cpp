@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of `compare` against numbers worked by hand.
+// The metrics of `compare` against numbers worked out by hand.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -28,7 +28,7 @@ Picture row(int channels, std::vector<float> values) {
 }
 
 TEST(ImageError, RelativeMseDividesByTheReference) {
-    // (0.5 / 0.51)^2 and (0.25 / 0.26)^2, over four values; turned round, (0.5 / 1.01)^2 and so on.
+    // (0.5 / 0.51)^2 and (0.25 / 0.26)^2, over four values; swapped, (0.5 / 1.01)^2 and so on.
     const Picture a = row(1, {1, 0.5f, 0.75f, 0}), b = row(1, {0.5f, 0.25f, 0.75f, 0});
     EXPECT_NEAR(image_error(a, b).rel_mse, (0.961168781 + 0.924556213) / 4, 1e-9);
     EXPECT_NEAR(image_error(b, a).rel_mse, (0.245074012 + 0.240292195) / 4, 1e-9);
@@ -127,7 +127,7 @@ TEST(HeatMap, OfEqualPicturesIsBlack) {
     EXPECT_EQ(heat_map(gray, gray, 0).pixels, colors({heat_color(0), heat_color(0)}).pixels);
 }
 
-/// A folder with a python3 of ours, and PATH set to it.
+/// A folder with a fake python3, and PATH set to it.
 class Flip : public testing::Test {
    protected:
     Flip() : path_(std::getenv("PATH")) {

@@ -17,7 +17,7 @@ namespace {
 const Rect picture{0, 0, 40, 30};
 const StopFlag never = 0;
 
-/// Paints its tiles and pixels in one color; fails after some.
+/// Fills its tiles and pixels with one color; fails after a number of them.
 struct Painter : Renderer<float> {
     float color = 1;
     int fails_after = -1;  ///< tiles or calls of refine; -1: never
@@ -82,7 +82,7 @@ CrewMember<float> failing_to_open(const std::string& name) {
     return painter;
 }
 
-/// A crew with what it says and what it painted.
+/// A crew, its messages and its picture.
 struct Painting {
     std::vector<std::string> said;
     Film<float> film{picture.width, picture.height};
@@ -101,7 +101,7 @@ struct Painting {
         for (std::int32_t i = 0; i < picture.pixels(); ++i) all.push_back(i);
         crew.refine(all, 2, queue, picture, film);
     }
-    /// Pixels of a color.
+    /// The number of pixels of this color.
     std::int64_t count(float color) const {
         std::int64_t found = 0;
         for (std::size_t at = 0; at < film.rgb.size(); at += 3) found += film.rgb[at] == color;

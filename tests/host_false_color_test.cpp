@@ -63,7 +63,7 @@ TEST(ColorNormals, HasXyzAsRedGreenBlue) {
     expect_near(color_at(picture, 0, 0), {0.5f, 0.5f, 1});
     expect_near(color_at(picture, 1, 0), {0, 0.5f, 0.5f});
     EXPECT_EQ(color_at(picture, 2, 0), black);
-    const Color facing = color_at(picture, 10, 11);  // the middle of the legend's ball
+    const Color facing = color_at(picture, 10, 11);  // center of the legend's ball
     EXPECT_GT(facing[2], 0.99f);
 }
 

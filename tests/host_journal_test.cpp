@@ -33,7 +33,7 @@ RenderSettings small(const std::string& aa, Precision precision = Precision::flo
     return settings;
 }
 
-/// On threads; what is said goes to `said`.
+/// Renders on threads; messages go to `said`.
 RenderStats render(const RenderSettings& settings, std::vector<std::string>* said = nullptr,
                    const StopFlag& stop = never_stopped) {
     static const Scene scene = load_scene(std::string(MIRRORBALL_SCENES_DIR) + "/cornell-box.json");
@@ -55,7 +55,7 @@ RenderStats render_shares(RenderSettings settings, const std::string& shares,
     return render(settings);
 }
 
-/// Where each record ends, the header's first.
+/// The end of each record, the header first.
 std::vector<std::size_t> record_ends(const std::string& bytes) {
     std::vector<std::size_t> ends;
     for (std::size_t at = journal_magic.size(); at + 12 <= bytes.size();) {
@@ -91,8 +91,8 @@ TEST_F(Journals, OfSharesMergeToTheWhole) {
     }
 }
 
-/// Cut anywhere, or with any byte changed, it is continued or restarted: the picture is the
-/// same.
+/// Truncated anywhere, or with any byte changed, it is continued or restarted with the same
+/// picture.
 TEST_F(Journals, OfAnyLengthAreGoneOnWith) {
     for (const char* aa : {"grid:2", "adaptive:0.02"}) {
         RenderSettings settings = small(aa);

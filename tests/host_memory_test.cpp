@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t mib = 1 << 20;
 
-/// A system of files, as far as free memory is reported in them.
+/// A fake file system, with the files that report free memory.
 class FreeMemoryTest : public ScratchFolder {
    protected:
     FreeMemoryTest() {

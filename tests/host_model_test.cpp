@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using Positions = std::vector<glm::dvec3>;
 
-/// A folder of its own, gone after the test.
+/// Gives each test a folder of its own, removed afterwards.
 class ModelFiles : public testing::Test {
    protected:
     ModelFiles() { fs::create_directories(folder_); }
@@ -130,7 +130,7 @@ TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
     EXPECT_EQ(triangle_count(load_scene(path)), 1u);
 }
 
-/// Exchanges two names, over and over, on a thread of its own.
+/// Keeps exchanging two file names on a thread of its own.
 class Exchanger {
    public:
     Exchanger(const fs::path& one, const fs::path& other)

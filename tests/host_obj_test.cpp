@@ -21,7 +21,7 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 Model obj(const std::string& text) { return parse_obj(text, "t.obj", {}); }
 
-/// An OBJ whose every library is this text.
+/// Parses an OBJ; every library it names contains `library`.
 Model obj_with(const std::string& text, const std::string& library) {
     return parse_obj(text, "t.obj", [&](const std::string& name) {
         return LibraryFile{name, library, {}};
@@ -160,7 +160,7 @@ TEST(ParseObj, LibrariesAreOneNameOrSeveralAndTheFirstDefinitionCounts) {
     EXPECT_EQ(model.materials[0].diffuse, glm::dvec3(1));
 }
 
-/// Everything that depends on lines before: indices, materials, joined lines, polygons.
+/// Everything that depends on earlier lines: indices, materials, joined lines, polygons.
 std::string long_obj(int times) {
     std::string text = "\xEF\xBB\xBFmtllib lib\n";
     for (int i = 0; i < times; ++i) {

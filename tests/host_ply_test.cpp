@@ -68,8 +68,8 @@ class PlyData {
 
 constexpr const char* formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
 
-/// Every scalar type, in vertices, lists and their lengths, with elements and properties between
-/// that nobody asked for.
+/// Every scalar type, in vertices, lists and list lengths, with unknown elements and properties in
+/// between.
 std::string ply_of_all_types(const std::string& format, const std::string& line_end) {
     PlyData data(format);
     data.add<std::int16_t>(2).add<double>(0.5).add<double>(0.25).end_row();
@@ -144,7 +144,7 @@ TEST(ParsePly, BytesAfterTheEndAreNoted) {
     EXPECT_EQ(model.notes[0], "t.ply: 10 bytes after the last element left out");
 }
 
-/// Two strips in one list, as in Stanford's models, and one that turns round a corner.
+/// Two strips in one list, as in Stanford's models, one of which turns a corner.
 std::string ply_of_strips(const std::string& format) {
     PlyData data(format);
     for (int i = 0; i < 6; ++i) {
@@ -185,7 +185,7 @@ TEST(ParsePly, PositionsAreFloatsExactly) {
     EXPECT_EQ(mesh.faces, (Faces{{2, 0, 1}}));
 }
 
-/// A grid of squares, each as two triangles or as one quadrilateral; the last face is as given.
+/// A grid of squares, each as two triangles or one quadrilateral; `last` is the last face.
 std::string ply_grid(const std::string& format, int side, bool quads,
                      const std::vector<int>& last = {}) {
     PlyData data(format);
@@ -216,7 +216,7 @@ std::string ply_grid(const std::string& format, int side, bool quads,
                      "property float quality\n");
 }
 
-/// Text is read row by row.
+/// ASCII is the reference: it is read row by row.
 TEST(ParsePly, RowsReadSideBySideAreTheSame) {
     for (const bool quads : {false, true}) {
         for (const std::vector<int>& last :

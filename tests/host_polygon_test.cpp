@@ -29,7 +29,7 @@ double area_of(const std::vector<glm::dvec3>& corners, const Face& face) {
     return glm::cross(corners[b] - corners[a], corners[c] - corners[a]).z / 2;
 }
 
-/// Triangulates a polygon in z = 0, which must go well: all parts face up and add up to `area`.
+/// Triangulates a polygon in z = 0, which must succeed: all parts face up and total `area`.
 std::vector<Face> expect_split(const std::vector<glm::dvec3>& corners, double area) {
     std::int64_t work = max_polygon_work;
     std::vector<Face> faces;

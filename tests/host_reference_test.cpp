@@ -17,7 +17,7 @@ namespace {
 
 constexpr ReferenceKind both_kinds[] = {ReferenceKind::quad, ReferenceKind::extended};
 
-/// A ball about the origin, the eye 4 before it, one light.
+/// A ball at the origin, the eye 4 in front of it, one light.
 Scene one_ball(glm::dvec3 light) {
     Scene scene = bare_scene();
     set_image_size(scene, 9, 9);
@@ -38,7 +38,7 @@ void expect_color(const std::array<double, 3>& color, const glm::dvec3& expected
     }
 }
 
-/// The normal is (0, 0, 1); light and eye lie 3 and 4 away at these angles.
+/// The normal is (0, 0, 1); the light lies at (0, 3, 4) from the hit, the eye above it.
 TEST(ReferenceTracer, ShadesTheMiddleOfABall) {
     const Scene scene = one_ball({0, 3, 5});
     const double cosine = 4 / 5.0;
@@ -85,7 +85,7 @@ TEST(ReferenceTracer, APlaneMirrorsWhatIsBehindTheEye) {
     }
 }
 
-/// Between two facing mirrors, n bounces take the n-th power of the reflectance.
+/// Between two facing mirrors, n bounces multiply by the n-th power of the reflectance.
 TEST(ReferenceTracer, FacingMirrorsCountTheirBounces) {
     Scene scene = bare_scene();
     set_view(scene, {0, 0, 1}, {0, 0, 0}, 30);
@@ -123,7 +123,7 @@ TEST(ReferenceTracer, BothKindsAgree) {
 
 // Cones
 
-/// A cylinder about the y axis seen from the side: its normal there is that of a ball.
+/// A cylinder about the y axis, seen from the side: its normal there is a ball's.
 TEST(ReferenceTracer, ShadesACylinderLikeABall) {
     const Scene ball = one_ball({0, 3, 5});
     Scene cylinder = ball;
@@ -135,8 +135,8 @@ TEST(ReferenceTracer, ShadesACylinderLikeABall) {
     }
 }
 
-/// Of a cone as wide as high, the normal rises by 45 degrees: a light straight along it gives the
-/// full diffuse color.
+/// The normal of a cone as wide as high is tilted up by 45 degrees: a light straight along it gives
+/// the full diffuse color.
 TEST(ReferenceTracer, ShadesASlantedSide) {
     Scene scene = one_ball({0, 3, 3.5});
     scene.spheres.clear();
@@ -147,8 +147,8 @@ TEST(ReferenceTracer, ShadesASlantedSide) {
                  0.25 * color + glm::dvec3(0.5, 0.25, 1) * color);
 }
 
-/// A frustum is open: rays along its axis pass, rays past its rims too, and its inside is seen
-/// behind the near side's rim.
+/// A frustum is open: rays along its axis pass through, as do rays beyond its rims, and its inside
+/// is seen past the near side's rim.
 TEST(ReferenceTracer, AFrustumIsOpen) {
     Scene scene = one_ball({0, 3, 5});
     scene.lights.clear();
@@ -162,7 +162,7 @@ TEST(ReferenceTracer, AFrustumIsOpen) {
     expect_color(center_color(scene, ReferenceKind::quad), glm::dvec3(0.125, 0.1875, 0.0625));
 }
 
-/// Beyond its tip the other half of a double cone does not count.
+/// The other half of the double cone, beyond the tip, does not count.
 TEST(ReferenceTracer, AConeHasOneHalf) {
     Scene scene = one_ball({0, 3, 5});
     scene.lights.clear();
@@ -184,7 +184,7 @@ Scene glass_ball(double height, double ior, double mirror = 0) {
     return scene;
 }
 
-/// Two passages halve the light twice.
+/// Each of the two refractions halves the light.
 TEST(ReferenceTracer, GlassShowsTheBackgroundBehind) {
     for (const ReferenceKind kind : both_kinds) {
         const Scene scene = glass_ball(0.3, 1.5);
@@ -192,8 +192,8 @@ TEST(ReferenceTracer, GlassShowsTheBackgroundBehind) {
     }
 }
 
-/// A ray at height b leaves the ball turned by 2 (asin b - asin(b / n)) from where it exits, at the
-/// angle asin b from its new direction. A wall with its edge there tells to 1e-12.
+/// A ray at height b is deflected by 2 (asin b - asin(b / n)) and leaves at the angle asin b to the
+/// normal of its exit point. A wall whose edge lies there verifies this to 1e-12.
 TEST(ReferenceTracer, ABallRefractsAsSnellSays) {
     for (const double ior : {1.5, 2.4, 0.9}) {
         const double b = 0.6, in = std::asin(b), through = std::asin(b / ior);
@@ -211,8 +211,8 @@ TEST(ReferenceTracer, ABallRefractsAsSnellSays) {
     }
 }
 
-/// A right-angled prism turns the view up where sin 45 exceeds 1 / n: one mirror with the weights
-/// of mirror and glass, and two passages. Else most of it leaves through the slope.
+/// A right-angled prism turns the view up by total internal reflection where sin 45 exceeds 1 / n:
+/// weight mirror + glass, and two refractions. Else most of it leaves through the slope.
 TEST(ReferenceTracer, APrismReflectsAll) {
     for (const double ior : {1.5, 1.4}) {
         Scene scene = bare_scene();
@@ -252,7 +252,7 @@ TEST(NaiveTracer, IsRightWithConesAndGlass) {
     EXPECT_LE(judge_stress_picture(naive.picture, reference).wrong, 2U);
 }
 
-/// Points of the surface, its rims and corners among them, from near and from far away.
+/// Rays to points of the surface, rims and corners included, from near and from far.
 template <typename Shape, typename PointOf, typename Hit>
 void expect_rays_are_not_left_out(const Shape& shape, const PointOf& point_of, const Hit& hit) {
     using stress::Quad;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Adaptive sampling: what the refined pixels reveal beside them is refined as well, once.
+// Adaptive sampling: edges that refining reveals next to refined pixels are refined too, once.
 #include <gtest/gtest.h>
 
 #include "host/render/picture_loop.h"
@@ -51,8 +51,8 @@ std::vector<Refined> refined(const char* aa) {
 }
 
 TEST(RenderAll, RefinesTwiceWhereRefiningRevealsAnEdge) {
-    // White against black, 1 / 8 <= .2; then beside the half that pixel 1 turned out to be. That
-    // pixel 2 is a quarter is not looked at.
+    // First white against black, 1 / 8 <= .2; then pixel 2, beside pixel 1, which became 1/2. That
+    // pixel 2 becomes 1/4 triggers nothing more.
     EXPECT_EQ(refined("adaptive:0.2"), (std::vector<Refined>{{{0, 1}, 8}, {{2}, 4}}));
     EXPECT_EQ(refined("adaptive:0.5"), (std::vector<Refined>{{{0, 1}, 2}}));
 }

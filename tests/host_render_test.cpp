@@ -67,7 +67,7 @@ TEST(TileQueue, HandsOutEveryTileOnceToManyThreads) {
     EXPECT_EQ(queue.rays().total(), 6u * 4800);
 }
 
-/// The runs of a queue whose launches may have at most so many pixels.
+/// The runs of a queue whose launches hold at most most_pixels pixels.
 std::vector<Rect> runs_of(const Rect& region, int tile_width, int tile_height,
                           std::int64_t most_pixels) {
     static const StopFlag go = 0;
@@ -84,10 +84,10 @@ std::vector<Rect> runs_of(const Rect& region, int tile_width, int tile_height,
 }
 
 TEST(TileQueue, RunsAreTheLargestRectanglesOfTilesInTheirOrder) {
-    // Whole rows of tiles, the last one flatter.
+    // Whole rows of tiles, the last one lower.
     EXPECT_EQ(runs_of({5, 7, 100, 35}, 100, 10, 2000),
               (std::vector<Rect>{{5, 7, 100, 20}, {5, 27, 100, 15}}));
-    // Two tiles of a row, then its third; then again.
+    // Two tiles of a row, then its third; the same for the next row.
     EXPECT_EQ(
         runs_of({0, 0, 100, 20}, 40, 10, 800),
         (std::vector<Rect>{{0, 0, 80, 10}, {80, 0, 20, 10}, {0, 10, 80, 10}, {80, 10, 20, 10}}));
@@ -103,7 +103,7 @@ TEST(LaunchPacer, SettlesOnLaunchesOfATenthOfASecond) {
         pacer.note(samples, static_cast<double>(samples) / 5e6);
     }
     EXPECT_EQ(pacer.samples(), 500000);
-    pacer.note(500000, 0.4);  // four times as hard from here
+    pacer.note(500000, 0.4);  // four times the work from here
     EXPECT_EQ(pacer.samples(), 125000);
 }
 

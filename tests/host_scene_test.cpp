@@ -32,13 +32,13 @@ namespace fs = std::filesystem;
 const std::string camera_text =
     R"("camera": {"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 90})";
 
-/// A scene with a camera and these further members.
+/// A scene with a camera and these additional members.
 Scene parse_with(const std::string& members) {
     return parse_json_scene("{" + camera_text + (members.empty() ? "" : ",\n") + members + "}",
                             "some/where/test.json");
 }
 
-/// A 400 x 100 scene with just this camera.
+/// A 400 x 100 scene with only this camera.
 Scene parse_camera(const std::string& members) {
     return parse_json_scene(
         R"({"image": {"width": 400, "height": 100}, "camera": {)" + members + "}}", "test.json");
@@ -247,7 +247,7 @@ TEST(LoadJsonScene, FileAboveTheSizeCapIsOverTheLimit) {
     EXPECT_NE(refusal.message.find("larger than 256 MiB"), std::string::npos);
 }
 
-/// Of the paper's scene: the geometric normal of each triangle, in file order.
+/// The geometric normals of the paper scene's triangles, in file order.
 std::vector<glm::dvec3> box_normals(const Scene& scene) {
     std::vector<glm::dvec3> normals;
     for (const Scene::Triangle& triangle : scene.triangles) {

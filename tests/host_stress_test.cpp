@@ -90,7 +90,7 @@ TEST(StressJudge, TheReferenceItselfIsRight) {
     EXPECT_EQ(exceeded_tolerance(figures, StressTolerance{}), "");
 }
 
-/// A pixel in the middle of the floor, and one of the background.
+/// One pixel off by 0.01, then by 0.001.
 TEST(StressJudge, ABrokenPictureFails) {
     ReferencePicture reference(small_still_life(), ReferenceKind::quad);
     const Picture right = reference.as_picture();
@@ -124,8 +124,8 @@ TEST(StressJudge, NaNIsWrongAndInfinityOnlySaturates) {
     EXPECT_EQ(exceeded_tolerance(figures, bright), "");
 }
 
-/// A floor's edge against the background runs through some pixels: a change there is forgiven, and
-/// a change beside it is not.
+/// A floor's edge against the background runs through some pixels: a change there is tolerated, a
+/// change next to it is not.
 TEST(StressJudge, EdgesAreWhereTheReferenceChanges) {
     Scene scene = bare_scene();
     scene.lights.clear();
@@ -157,7 +157,7 @@ TEST(StressVerdict, OneRowOrOneDisagreementBreaksIt) {
     EXPECT_FALSE(result.passed());
 }
 
-/// Two cases on threads, the second wrong, and textbook formulas beside each.
+/// Two cases on threads, the second wrong, and a naive tracer's row beside each.
 StressResult small_result() {
     StressResult result;
     StressFamily family{"scale-2", "scale", "absolute epsilons", {}};

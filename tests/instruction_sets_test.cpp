@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Kernels for every instruction set that this processor has give the same bits, as packets and as
-// lone rays, with all features and with what a scene needs.
+// Kernels for every instruction set of this processor give the same bits, as packets and as single
+// rays, with all features and with only those a scene needs.
 #include <gtest/gtest.h>
 
 #include "host/render/native_kernels.h"

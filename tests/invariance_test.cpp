@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The renderer's frame (host/flatten/view_frame.h): a scene moved with its camera, or scaled by a
-// power of two, gives the same bits.
+// The renderer's frame (host/flatten/view_frame.h): a scene translated with its camera, or scaled
+// by a power of two, gives the same bits.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// kernels/camera.cl against the closed form in 113 bits and its symmetries.
+// kernels/camera.cl against the closed form in 113 bits and against its symmetries.
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"
 #include "tests/probe_types.h"
@@ -14,7 +14,7 @@ namespace {
 template <typename T>
 using LaunchParams = typename Flat<T>::LaunchParams;
 
-/// A camera of any attitude; a pixel spans about 1e-2 of the view.
+/// A camera of any orientation; a pixel spans about 1e-2 of the view.
 template <typename T>
 LaunchParams<T> any_params(Random& random, bool orthographic, int grid) {
     const glm::dvec3 forward = random.unit_vector();
@@ -55,7 +55,7 @@ struct Samples {
     std::vector<ProbeRay<T>> device(const LaunchParams<T>& params) const {
         return run<T, ProbeRay<T>>("camera_ray", x.size(), std::vector{params}, x, y, k);
     }
-    /// 2 (position) - size, with the position of a sample k as the header of the kernel says.
+    /// 2 (position) - size, with the position of sample k as the kernel's header defines it.
     Quad sx(std::size_t i, const LaunchParams<T>& f) const {
         return 2 * (Quad(x[i]) + (Quad(k[i] % f.grid) + 0.5) / f.grid) - f.width;
     }
@@ -85,7 +85,7 @@ void expect_closed_form(bool orthographic, int grid) {
         ASSERT_TRUE(std::isinf(rays[i].t_max) && rays[i].from == Flat<T>::none);
     }
     dir.expect_at_most(4, "direction");
-    if (grid < 3) {  // positions of thirds are rounded themselves
+    if (grid < 3) {  // thirds are rounded themselves
         low.expect_at_most(3.4, "direction with its low part, in roundoffs squared");
     }
     origin.expect_at_most(orthographic ? 2 : 0, "origin");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// kernels/cone.cl and cone_surface against 113-bit arithmetic. Bars are in roundoffs and close to
-// the largest error found.
+// kernels/cone.cl and cone_surface against 113-bit arithmetic. Tolerances are in roundoffs and
+// close to the largest error found.
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"
 #include "tests/test_scenes.h"
@@ -32,7 +32,7 @@ Cone<T> make_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& 
 template <typename T>
 struct ExactCone {
     Quad a, b, k, at, rise, radius, m, length, widest;
-    Quad size;  ///< of the terms of the discriminant
+    Quad size;  ///< magnitude of the discriminant's terms
 
     ExactCone(const ProbeRay<T>& ray, const Cone<T>& cone, bool leaving) {
         const Quad3 d = exact(ray.dir), w = exact(ray.origin) - exact(cone.base);
@@ -51,8 +51,8 @@ struct ExactCone {
         size = dot(c, c) * widest * widest;
     }
     Quad discriminant() const { return b * b - a * k; }
-    /// The smallest part of the frustum's height, of its radius and of the discriminant that
-    /// decides about the root at t; negative when it does not count.
+    /// How clearly the root at t counts: the smallest relative margin of its height, radius and
+    /// distance; negative when it does not count.
     Quad margin(Quad t) const {
         const Quad height = at + t * rise, there = radius + t * m;
         const Quad scale = length * Quad(1e-12);
@@ -83,9 +83,9 @@ struct ConeCases {
     }
 };
 
-/// Rays aimed at frustums of a given size at distance 1: hit or miss is right, except where a root
-/// lies within `clear` of an end or of grazing, and so is the distance to `bar` roundoffs of the
-/// distance and of the frustum's size together, over how steeply the ray meets the surface.
+/// Rays aimed at frustums of a given size at distance 1. Hit or miss must be right, except where a
+/// root lies within `clear` of an end or of grazing; distances must be right to `bar` roundoffs of
+/// the distance plus the frustum's size, divided by the cosine between ray and normal.
 template <typename T>
 void expect_right_cones(const ConeCases<T>& cases, double clear, double bar, std::size_t least_hits,
                         const std::string& what = "worst") {
@@ -208,9 +208,9 @@ TYPED_TEST(IntersectCone, IsOpenAtTheEndsAndHasOneHalf) {
     const auto cone = make_cone<TypeParam>({0, 0, 0}, 1, {0, 0, 1}, 0);
     ConeCases<TypeParam> cases;
     cases.add(make_ray<TypeParam>({-4, 0, 0.5}, {1, 0, 0}), cone);  // across: at radius 1/2
-    cases.add(make_ray<TypeParam>({-4, 0, 1.5}, {1, 0, 0}), cone);  // over the tip: the other half
+    cases.add(make_ray<TypeParam>({-4, 0, 1.5}, {1, 0, 0}), cone);  // above the tip: the other half
     cases.add(make_ray<TypeParam>({-4, 0, -0.5}, {1, 0, 0}), cone);
-    cases.add(make_ray<TypeParam>({0.5, 0, -1}, {0, 0, 1}), cone);  // in at the bottom
+    cases.add(make_ray<TypeParam>({0.5, 0, -1}, {0, 0, 1}), cone);  // in through the base
     cases.add(make_ray<TypeParam>({0.25, 0, -1}, {0, 0, -1}), cone);
     cases.add(make_ray<TypeParam>({4, 0, 0.5}, {1, 0, 0}), cone);
     EXPECT_EQ(cases.device(), (std::vector<TypeParam>{3.5, -1, -1, 1.5, -1, -1}));
@@ -240,8 +240,8 @@ TYPED_TEST(IntersectCone, LeavingFollowsTheChordItCarries) {
         expect_right_cones(leaving, 1e-2, 14, 100, shape.name);
     }
 }
-// The origin, rounded a thousand radii from the eye, no longer lies on the cylinder; the chord
-// does.
+// The origin, rounded a thousand radii from the eye, no longer lies on the cylinder, but
+// self_hit still gives the chord accurately.
 TYPED_TEST(IntersectCone, LeavingASmallOneFarAwayKeepsTheDigitsOfItsChord) {
     Random random(9);
     ConeCases<TypeParam> cases;

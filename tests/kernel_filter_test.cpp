@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a pixel's samples lie and what each counts, by formulas written out here: Burley's hashed
-// Owen scrambling (JCGT 9(4), 2020) with a seed for each pixel, and filters in both directions.
+// A pixel's sample positions and weights, by formulas written out here: Burley's hashed Owen
+// scrambling (JCGT 9(4), 2020) with a seed per pixel, and filters along both axes.
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -79,7 +79,7 @@ struct Samples {
     std::vector<T> unit_x, unit_y, at_x, at_y, weight;
 };
 
-/// 3000 samples of pixels anywhere in a large picture.
+/// 3000 samples of random pixels in a large picture.
 template <typename T>
 Samples<T> random_samples(int filter, Word seed) {
     using Index = typename Flat<T>::Index;
@@ -143,7 +143,7 @@ TYPED_TEST(SampleWeight, IsTheProductOfTheFilterInBothDirections) {
         for (std::size_t i = 0; i < samples.x.size(); ++i) {
             const long double exact = weight_along(filter, samples.at_x[i] - 0.5L) *
                                       weight_along(filter, samples.at_y[i] - 0.5L);
-            // Each factor is off by 32 u at most (FilterWeight) and below 2.
+            // Each factor is off by at most 32 u (FilterWeight) and below 2.
             ASSERT_NEAR(double(samples.weight[i]), double(exact), 128 * u) << filter;
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Refraction in kernels/whitted.cl: Snell's law and the critical angle in closed form, trees worked
-// out by hand, energy, and the focus of a ball.
+// Refraction in kernels/whitted.cl: Snell's law and the critical angle in closed form, ray trees
+// worked out by hand, energy conservation, and the focus of a ball lens.
 #include <algorithm>
 
 #include "tests/exact.h"
@@ -17,7 +17,7 @@ constexpr std::size_t count = 20000;
 template <typename T>
 using Counts = typename Flat<T>::RayCounts;
 
-/// Rays that meet surfaces, with an index each.
+/// Rays that hit surfaces, each with an index of refraction.
 template <typename T>
 struct Meetings {
     std::vector<ProbeSurface<T>> surfaces;
@@ -117,7 +117,7 @@ TYPED_TEST(RefractedRay, CrossesTheFaceWhateverTheShadingNormal) {
     }
 }
 
-/// A scene of one material, with no light of its own.
+/// A scene of one material, without lights or ambient light.
 template <typename T>
 FlatScene<T> unlit(double mirror, double transmission, double ior, double background) {
     FlatScene<T> scene{};
@@ -140,7 +140,7 @@ auto trace_paths(const FlatScene<T>& scene, const std::vector<ProbeRay<T>>& rays
 KERNEL_SUITE(TraceTree);
 TYPED_TEST(TraceTree, AddsUpAPaneByHand) {
     using T = TypeParam;
-    // Two panes of index 1 across the ray: every hit sends a quarter back and half on.
+    // Two planes of index 1 across the ray: every hit reflects a quarter and transmits half.
     auto scene = unlit<T>(0.25, 0.5, 1, 1);
     scene.triangles = {make_triangle<T>({-9, -9, -1}, {9, -9, -1}, {0, 9, -1}),
                        make_triangle<T>({-9, -9, -2}, {9, -9, -2}, {0, 9, -2})};
@@ -151,7 +151,7 @@ TYPED_TEST(TraceTree, AddsUpAPaneByHand) {
         double color;
         std::uint64_t mirror, transmitted;
     };
-    // back 1/4, then through 1/4, back and out 1/16, back in the pane and so on
+    // reflected 1/4, then through both 1/4, back out 1/16, inside again and so on
     const Case cases[] = {{0, 0, 0, 0},
                           {1, 0.25, 1, 1},
                           {2, 0.25 + 0.25, 2, 2},
@@ -167,7 +167,7 @@ TYPED_TEST(TraceTree, AddsUpAPaneByHand) {
 }
 TYPED_TEST(TraceTree, ReflectsWithBothWeightsBeyondTheCriticalAngle) {
     using T = TypeParam;
-    // From inside of index 1.5, where total reflection begins at 41.8 degrees.
+    // From inside index 1.5, where total internal reflection begins at 41.8 degrees.
     auto scene = unlit<T>(0.125, 0.5, 1.5, 1);
     scene.triangles = {make_triangle<T>({-9, -9, -1}, {0, 9, -1}, {9, -9, -1})};
     count_primitives(scene);
@@ -232,7 +232,7 @@ TYPED_TEST(TraceTree, FocusesABallWhereTheoryHasIt) {
         const double focus = h / std::sin(2 * (i - r));
         auto scene = unlit<T>(0, 1, n, 1);
         scene.spheres = {make_sphere<T>({0, 0, 0}, 1)};
-        // A black target a little before and behind the focus, above the axis and below it.
+        // A black target just before and just behind the focus, above the axis and below it.
         typename Flat<T>::Material black{};
         scene.materials.push_back(black);
         const auto upper_half = [&](double z) {
@@ -248,7 +248,7 @@ TYPED_TEST(TraceTree, FocusesABallWhereTheoryHasIt) {
     }
 }
 
-/// A crowd of spheres, cones and triangles, mirroring and transmitting.
+/// Many spheres, cones and triangles, all reflecting and transmitting.
 template <typename T>
 FlatScene<T> glass_crowd() {
     Random random(6);

@@ -14,10 +14,10 @@ namespace {
 template <typename T>
 using Rays = std::vector<ProbeRay<T>>;
 
-/// Rays of one launch, so that a large count takes no more memory.
+/// Most rays per launch, so that a large count takes no more memory.
 constexpr std::size_t most_rays = 1 << 17;
 
-/// The same rays, with what they leave numbered as in the hierarchy.
+/// The same rays, with the primitive they leave renumbered for the hierarchy.
 template <typename T>
 Rays<T> renumbered(Rays<T> rays, const Numbered<T>& bvh) {
     for (ProbeRay<T>& ray : rays) {
@@ -26,7 +26,7 @@ Rays<T> renumbered(Rays<T> rays, const Numbered<T>& bvh) {
     return rays;
 }
 
-/// Hits with the author's numbers.
+/// Hits in the author's numbering.
 template <typename T>
 std::vector<ProbeHit<T>> closest_hits(const Numbered<T>& numbered, const Rays<T>& rays) {
     auto hits = run<T, ProbeHit<T>>("closest_hit", rays.size(), numbered.scene, rays);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// kernels/intersect.cl, spheres and the shear, against 113-bit arithmetic. Bars are in roundoffs
-// (half an ulp of 1) and close to the largest error found; the regimes are those of
+// kernels/intersect.cl, spheres and the shear, against 113-bit arithmetic. Tolerances are in
+// roundoffs (half an ulp of 1) and close to the largest error found; the regimes are those of
 // docs/numerics.md.
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"
@@ -35,7 +35,7 @@ struct SphereCases {
     }
 };
 
-/// The exact answer: both roots, and how deep the ray dives, 1 - (closest distance / radius)^2.
+/// The exact answer: both roots, and the ray's depth, 1 - (closest distance / radius)^2.
 struct SphereRoots {
     Quad near, far, depth;
 };
@@ -65,8 +65,8 @@ SphereCases<T> sphere_cases(Random& random, double r, bool inside) {
     return cases;
 }
 
-/// Hit and miss must be right for rays that clear the silhouette by `margin` (of r^2), and so must
-/// the distance to `bar` roundoffs.
+/// Hit or miss must be right for rays that clear the silhouette by `margin` (of r^2), and the
+/// distance must be right to `bar` roundoffs.
 template <typename T>
 void expect_right_spheres(const SphereCases<T>& cases, double margin, double bar,
                           const std::string& what = "worst") {
@@ -92,7 +92,7 @@ TYPED_TEST(IntersectSphere, IsRightAtAHundredthOfTheDistance) {
 }
 TYPED_TEST(IntersectSphere, IsRightAtATenThousandthOfTheDistance) {
     Random random(3);
-    // The ray itself is rounded, by a thousandth of such a sphere.
+    // The ray's own rounding error is a thousandth of such a sphere.
     expect_right_spheres(sphere_cases<TypeParam>(random, 1e-4, false), 2e-2, 8);
 }
 TYPED_TEST(IntersectSphere, IsRightFromInside) {
@@ -165,7 +165,7 @@ TYPED_TEST(IntersectSphere, OfAHugeOneIsWhereTheExactGroundLies) {
         const Quad3 d = exact(ray.dir);
         const Quad squared = dot(d, d), b = d.y * Quad(center.y) / squared;
         const Quad c = Quad(height) * (2 * Quad(r) + height) / squared;
-        if (b * b < 4 * c) continue;  // over the horizon, or nearly
+        if (b * b < 4 * c) continue;  // above the horizon, or nearly so
         expected.push_back(c / (b + square_root(b * b - c)));
         cases.add(ray, sphere);
     }

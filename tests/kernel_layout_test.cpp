@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The device's idea of the structs of kernels/shared.h against C++'s: the size of each, and offset
-// and size of each member.
+// The device's layout of the structs of kernels/shared.h against C++'s: the size of each, and
+// offset and size of each member.
 #include <cstddef>
 #include <numeric>
 

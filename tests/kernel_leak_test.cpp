@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Closed meshes on a device: no ray from inside finds a way out at an edge or a vertex, in strict
+// Closed meshes on a device: no ray from inside escapes at an edge or a vertex, in strict
 // arithmetic and where the compiler may contract. MIRRORBALL_TEST_RAYS sets how many rays are aimed
 // at each mesh's edges, and how many at its vertices.
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace rt {
 namespace {
 
-/// Rays of one launch, so that a large count takes no more memory.
+/// Most rays per launch, so that a large count takes no more memory.
 constexpr std::size_t most_rays = 1 << 20;
 
 struct ClosedShape {
@@ -44,7 +44,7 @@ FlatScene<T> flat_scene(const ClosedShape& shape) {
     return flatten<T>(scene);
 }
 
-/// The middle of the flat triangles' box, and half its width.
+/// The center of the flat triangles' bounding box, and half its width.
 template <typename T>
 std::pair<glm::dvec3, double> middle_and_reach(const FlatScene<T>& flat) {
     glm::dvec3 low(1e300), high(-1e300);
@@ -57,7 +57,7 @@ std::pair<glm::dvec3, double> middle_and_reach(const FlatScene<T>& flat) {
     return {0.5 * (low + high), 0.5 * (high.x - low.x)};
 }
 
-/// How many rays that start inside find a way out at an edge (or at a vertex).
+/// How many rays that start inside escape at an edge (or at a vertex).
 template <typename T>
 std::size_t leaks(const FlatScene<T>& flat, bool at_vertices, std::size_t rays) {
     const auto [middle, reach] = middle_and_reach(flat);
@@ -100,7 +100,7 @@ TYPED_TEST(ClosedMesh, NeverLeaksInFastArithmetic) {
     expect_no_leaks<TypeParam>();
 }
 
-// A mesh with a hole is one that the test sees.
+// The test detects a hole in a mesh.
 TYPED_TEST(ClosedMesh, WithATriangleMissingLeaks) {
     ClosedShape open = shapes()[0];
     open.mesh.faces.pop_back();

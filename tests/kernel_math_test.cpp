@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // kernels/math.cl and two helpers of kernels/film.cl, against 113-bit arithmetic and closed forms.
-// Bars are in roundoffs (half an ulp of 1).
+// Tolerances are in roundoffs (half an ulp of 1).
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"
 #include "tests/probe_types.h"
@@ -54,7 +54,7 @@ TYPED_TEST(AddCounts, AddsEachKindIn64Bits) {
     }
 }
 
-/// One rounding of the C++ operator for each component: IEEE 754 leaves no choice.
+/// Each component is the C++ operator's result, rounded once: IEEE 754 leaves no choice.
 template <typename T, typename F>
 testing::AssertionResult rounds_once(const std::string& function, F f) {
     Random random(2);
@@ -143,7 +143,7 @@ TYPED_TEST(AddScaled, HasTheSameBitsEverywhere) {
     run<TypeParam, Packed3<TypeParam>>("add_scaled", count, a, any_numbers<TypeParam>(random), b);
 }
 
-// a * b + c must not become one fma behind our back, or devices give pictures of their own.
+// a * b + c must not silently become one fma, or devices give different pictures.
 KERNEL_SUITE(Contraction);
 TYPED_TEST(Contraction, IsOff) {
     // (1 + e)^2 = 1 + 2 e + e^2, of which e^2 is rounded away
@@ -198,7 +198,7 @@ TYPED_TEST(DifferenceOfProducts, HasTheRightSignAndTwoRoundingsWhateverCancels) 
         return static_cast<TypeParam>(random.coin() ? x : -x);
     };
     const auto a = many(count, number), b = many(count, number), c = many(count, number);
-    // d makes both products equal but for its rounding, and a few ulps
+    // d makes both products equal, up to its rounding error and a few ulps
     std::vector<TypeParam> d(count);
     for (std::size_t i = 0; i < count; ++i) {
         d[i] = a[i] * b[i] / c[i] * (1 + TypeParam(random.index(3)) * Flat<TypeParam>::roundoff);

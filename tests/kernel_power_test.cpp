@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // kernels/bits.cl and kernels/power.cl: against nextafter and the C library's long double
-// logarithms and exponentials (64 bits). Bars are in roundoffs (half an ulp of 1), each a little
-// above the largest error found.
+// logarithms and exponentials (64 bits). Tolerances are in roundoffs (half an ulp of 1), each a
+// little above the largest error found.
 #include <functional>
 #include <numbers>
 
@@ -15,7 +15,7 @@ namespace rt {
 
 namespace {
 
-/// `count` numbers from low to high, both included.
+/// `count` evenly spaced numbers from low to high, inclusive.
 template <typename T>
 std::vector<T> evenly(double low, double high, std::size_t count) {
     std::vector<T> values;
@@ -52,7 +52,7 @@ WorstError sweep(const std::string& function, const std::vector<T>& x,
     return worst;
 }
 
-/// A bar that is not the same in float and in double.
+/// A tolerance that differs between float and double.
 template <typename T>
 double bar(double in_float, double in_double) {
     return std::is_same_v<T, float> ? in_float : in_double;
@@ -83,8 +83,8 @@ constexpr long double log2_e = std::numbers::log2e_v<long double>;
 
 KERNEL_SUITE(Log2Tail);
 TYPED_TEST(Log2Tail, IsItsSeries) {
-    // (atanh(z) / z - 1) / z^2 = 1/3 + w/5 + w^2/7 + ... What the polynomial is off by here makes
-    // 0.05 roundoffs of the logarithm in float, 0.01 in double.
+    // (atanh(z) / z - 1) / z^2 = 1/3 + w/5 + w^2/7 + ... The polynomial's error here causes 0.05
+    // roundoffs in the logarithm in float, 0.01 in double.
     const auto x = evenly<TypeParam>(0, 0.04, 60000);
     sweep<TypeParam>("log2_tail", x, [](long double w) {
         long double sum = 0;
@@ -114,11 +114,11 @@ TYPED_TEST(Log2Series, IsAtanhToTheBaseTwoOverItsInterval) {
     }).expect_at_most(2.5);
 }
 
-/// Vectors s beside a unit vector n, and what shading knows of them.
+/// Vectors s beside a unit vector n, by what shading knows of them.
 template <typename T>
 struct Vectors {
     std::vector<T> along, across, squared;  ///< n.s, |s - (n.s) n|^2, s.s
-    std::vector<long double> log2;          ///< of the cosine, from the rounded numbers
+    std::vector<long double> log2;          ///< log2 of the cosine, from the rounded numbers
 
     /// The vector with this square and sine.
     void add_sine(T square, long double sine) {
@@ -126,7 +126,7 @@ struct Vectors {
         push(static_cast<T>(std::sqrt(static_cast<long double>(square) - off)), off, square);
         log2.push_back(log2_e / 2 * std::log1p(-static_cast<long double>(off) / square));
     }
-    /// The one with this square and n.s.
+    /// The vector with this square and n.s.
     void add_along(T square, T length) {
         const long double l = length;
         push(length, static_cast<T>(square - l * l), square);
@@ -141,23 +141,23 @@ struct Vectors {
     }
 };
 
-/// The least square that counts: below it, light and viewer are opposite.
+/// The smallest square that counts: below it, light and viewer are opposite.
 template <typename T>
 constexpr T least_squared = std::is_same_v<T, float> ? T(0x1p-100f) : T(0x1p-900);
 
-/// Powers of two below this one may be 0: they are hardly normal numbers.
+/// Powers of two below this exponent may be 0: they are barely normal numbers.
 template <typename T>
 constexpr T exp2_lowest = std::numeric_limits<T>::min_exponent;
 
-/// Squares of sums of two unit vectors: all mantissas, and the least.
+/// Squares of sums of two unit vectors: all mantissas, and the smallest.
 template <typename T>
 T any_square(Random& random) {
     if (random.index(10) == 0) return least_squared<T>;
     return static_cast<T>(random.coin() ? random.uniform(0.25, 4) : random.log_uniform(1e-12, 4));
 }
 
-/// Near the peak: the cosine is above sqrt(3)/2, the sine between 0.5 and `least`, evenly and by
-/// its logarithm.
+/// Near the peak: cosines above sqrt(3)/2, with sines between `least` and 0.5, spaced evenly and
+/// logarithmically.
 template <typename T>
 Vectors<T> near_the_peak(double least) {
     Random random(4);
@@ -207,7 +207,7 @@ TYPED_TEST(Log2Cosine, IsRightForSubnormalCosines) {
     expect_log2(vectors, 1.25);
 }
 
-/// 2^x; the whole part of a large x would cost long double its digits.
+/// 2^x; the integer part of a large x would cost long double precision.
 Quad exact_exp2(Quad x) {
     const long double whole = std::rint(static_cast<long double>(x));
     const auto rest = static_cast<long double>(x - Quad(whole));

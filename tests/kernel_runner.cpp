@@ -22,12 +22,12 @@ extern const char* const probe_kernels;
 
 namespace {
 
-/// One work-group size and few items a launch: PoCL compiles a kernel again for another size, and
+/// One work-group size and few items per launch: PoCL recompiles a kernel for any other size, and
 /// again for more than 64 K items.
 constexpr std::size_t local_size = 64;
 constexpr std::size_t launch_items = 65536 - local_size;
 
-/// While a FastMath lives.
+/// Set while a FastMath lives.
 bool fast_math = false;
 
 /// What MIRRORBALL_TEST_DEVICE says, or nothing.
@@ -36,7 +36,7 @@ std::string asked_device() {
     return spec == nullptr ? "" : spec;
 }
 
-/// Without OpenCL: the native probes alone.
+/// Whether to run without OpenCL, with the native probes only.
 bool is_native_alone() { return asked_device() == "none"; }
 
 ClDevice default_device(const std::vector<ClDevice>& devices) {
@@ -66,8 +66,8 @@ ClDevice test_device() {
     return choice.device;
 }
 
-/// A device with its queue and the probes in both precisions and either arithmetic, each built when
-/// first asked for.
+/// A device with its queue and the probes in both precisions and both arithmetics, each built on
+/// first use.
 class ProbeDevice {
    public:
     ProbeDevice() : device_(test_device()), context_(handle_of(device_)), queue_(context_) {}
@@ -116,7 +116,7 @@ class ProbeDevice {
         }
     }
 
-    /// Makes the buffers, the inputs' first, and passes them on from argument 2. An empty array is
+    /// Makes the buffers, inputs first, and binds them from argument 2 on. An empty array becomes
     /// one unused byte, since OpenCL has no empty buffers.
     std::vector<cl::Buffer> bind(cl::Kernel& kernel, std::span<const ProbeInput> inputs,
                                  std::span<const ProbeOutput> outputs) {
@@ -139,8 +139,8 @@ class ProbeDevice {
     std::array<std::optional<cl::Program>, 4> programs_;
 };
 
-/// Opens the device on first use and lets go of it after the last test, while the OpenCL library is
-/// still whole: static destructors would be too late.
+/// Opens the device on first use and releases it after the last test, while the OpenCL library is
+/// still intact: static destructors would be too late.
 class ProbeEnvironment : public testing::Environment {
    public:
     ProbeDevice& open() {
@@ -157,7 +157,7 @@ class ProbeEnvironment : public testing::Environment {
 ProbeEnvironment* const environment = new ProbeEnvironment;
 [[maybe_unused]] const auto* const registered = testing::AddGlobalTestEnvironment(environment);
 
-/// The native probe of one lane instead of a device's.
+/// Runs the one-lane native probe instead of a device's.
 void launch_native(bool double_precision, const std::string& function, std::size_t count,
                    std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
     const auto results = native_results(double_precision, 1, function, count, inputs, outputs);

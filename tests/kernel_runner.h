@@ -12,7 +12,7 @@
 
 #include "host/flatten/flat_scene.h"
 
-// Runs the probe kernels of tests/probes.cl. A test of a new device function is a probe there and
+// Runs the probe kernels of tests/probes.cl. To test a new device function, add a probe there and
 //
 //     KERNEL_SUITE(Dot3);
 //     TYPED_TEST(Dot3, IsExactOnSmallIntegers) {
@@ -33,21 +33,21 @@ struct ProbeInput {
 struct ProbeOutput {
     void* data;
     std::size_t count, item_bytes;
-    bool holds_numbers;  ///< and integers, perhaps; else integers alone
+    bool holds_numbers;  ///< possibly among integers; else integers only
 
     std::size_t bytes() const { return count * item_bytes; }
 };
 
 /// Runs probe_FUNCTION over `count` items; the kernel's arguments are first, count, the inputs and
 /// the outputs. Builds the probes on first use, once per precision and arithmetic, with warnings as
-/// errors. In strict arithmetic the same probe runs on this processor, too, in packets of every
-/// width, and the test fails where any bit differs; any NaN is like any other, since IEEE 754
-/// leaves sign and payload to the machine. Throws Error (ExitCode::device) that names the device,
-/// the probe and the OpenCL status.
+/// errors. In strict arithmetic the same probe also runs on this processor, in packets of every
+/// width, and the test fails if any bit differs; all NaNs are equal, since IEEE 754 leaves sign and
+/// payload to the machine. Throws Error (ExitCode::device) that names the device, the probe and the
+/// OpenCL status.
 void launch_probe(bool double_precision, const std::string& function, std::size_t count,
                   std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs);
 
-/// While it lives, probes are built for `--math fast`: the compiler may contract.
+/// During its lifetime, probes are built for `--math fast`: the compiler may contract.
 class FastMath {
    public:
     FastMath();
@@ -60,7 +60,7 @@ class FastMath {
 std::string test_device_name();
 bool test_device_has_double();
 
-/// Whether results of this type are integers alone.
+/// Whether results of this type hold integers only.
 template <typename X>
 inline constexpr bool is_integers = std::is_integral_v<X>;
 template <>
@@ -109,8 +109,8 @@ auto run(const std::string& function, std::size_t count, const Ins&... ins) {
     }
 }
 
-/// Whether two arrays of T, or of structs made of T and Flat<T>::Index, hold the same bits. Any NaN
-/// is like any other: IEEE 754 leaves sign and payload to the machine.
+/// Whether two arrays of T, or of structs made of T and Flat<T>::Index, hold the same bits. All
+/// NaNs are equal: IEEE 754 leaves sign and payload to the machine.
 template <typename T, typename X>
 testing::AssertionResult same_bits(const std::vector<X>& device, const std::vector<X>& expected) {
     static_assert(sizeof(X) % sizeof(T) == 0 && std::is_trivially_copyable_v<X>);

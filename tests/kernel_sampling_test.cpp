@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// kernels/sampling.cl: bits against the words of their definitions, Sobol's points by the property
-// that defines a (0, 2)-sequence, filters against their formulas in long double.
+// kernels/sampling.cl: bits against their definitions, Sobol points by the defining property of a
+// (0, 2)-sequence, filters against their formulas in long double.
 #include <algorithm>
 #include <bitset>
 #include <cmath>
@@ -25,7 +25,7 @@ std::vector<Word> random_words(std::size_t count) {
     return words;
 }
 
-/// Whether 2^bits points have one in each of the 2^bits boxes of every shape 2^-a by 2^-(bits-a).
+/// Whether each of the 2^bits boxes of every shape 2^-a by 2^-(bits-a) holds one of 2^bits points.
 template <typename T>
 bool is_net(const std::vector<T>& x, const std::vector<T>& y, int bits) {
     for (int a = 0; a <= bits; ++a) {
@@ -50,13 +50,13 @@ long double cubic(long double d) {
            6;
 }
 
-/// Half the side of a filter's footprint: box, tent, Gaussian and Mitchell's.
+/// Half the width of a filter's footprint: box, tent, Gaussian and Mitchell's.
 double radius_of(std::int64_t filter) {
     const double radii[] = {0.5, 1, 1.5, 2};
     return radii[filter];
 }
 
-/// The weight of one axis, in the kernel's scale.
+/// The weight along one axis, in the kernel's scale.
 long double exact_weight(std::int64_t filter, long double distance) {
     const long double x = std::fabs(distance);
     if (filter == 0) return 1;
@@ -64,7 +64,7 @@ long double exact_weight(std::int64_t filter, long double distance) {
     return filter == 2 ? std::exp(-2 * x * x) - std::exp(-4.5L) : 2 * cubic(x);
 }
 
-/// Sobol samples where `grid` is 0.
+/// Uses Sobol samples if `grid` is 0.
 template <typename T>
 typename Flat<T>::LaunchParams params_with(int grid, int samples, int filter) {
     typename Flat<T>::LaunchParams params{};

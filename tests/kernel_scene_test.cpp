@@ -16,11 +16,11 @@ namespace {
 template <typename T>
 using Hit = ProbeHit<T>;
 
-/// What a scene answers for one ray, by the definition of the rule: distances of all primitives
-/// first, from the device.
+/// The right answer for one ray, by the definition of the rule: from the device's distances to all
+/// primitives.
 template <typename T>
 struct AllHits {
-    std::vector<Hit<T>> hits;  ///< ray by ray, in each primitive by primitive
+    std::vector<Hit<T>> hits;  ///< by ray, then by primitive
     std::size_t primitives;
 
     AllHits(const FlatScene<T>& scene, const std::vector<ProbeRay<T>>& rays)
@@ -37,7 +37,7 @@ struct AllHits {
                               prim_of_item);
     }
     T distance(std::size_t ray, std::size_t prim) const { return hits[ray * primitives + prim].t; }
-    /// The lowest index within (0, limit], or none.
+    /// The lowest index hit within (0, limit], or none.
     Index<T> first_within(std::size_t ray, T limit) const {
         for (std::size_t prim = 0; prim < primitives; ++prim) {
             const T t = distance(ray, prim);
@@ -96,7 +96,7 @@ TYPED_TEST(ClosestHit, IsTheLowestIndexAmongTheNearest) {
     EXPECT_GT(ties, 100);
 }
 
-/// Triangles across the z axis at these distances, each a little turned.
+/// Triangles across the z axis at these distances, each rotated a little.
 template <typename T>
 std::vector<typename Flat<T>::Triangle> stack(const std::vector<T>& distances) {
     std::vector<typename Flat<T>::Triangle> triangles;
@@ -109,8 +109,8 @@ std::vector<typename Flat<T>::Triangle> stack(const std::vector<T>& distances) {
 }
 
 TYPED_TEST(ClosestHit, DoesNotDependOnTheOrderOfATie) {
-    // Each within 32 half-ulps of its neighbors, the last two not of the first: a rule that went
-    // by neighbors would depend on the order.
+    // Each is within 32 half-ulps of its neighbors, but the last two are not of the first: a rule
+    // that went by neighbors would depend on the order.
     const TypeParam ulp = std::numeric_limits<TypeParam>::epsilon();
     std::vector<TypeParam> distances;
     for (const int ulps : {0, 6, 12, 20, 28}) distances.push_back(1 + TypeParam(ulps) * ulp);
@@ -132,7 +132,7 @@ TYPED_TEST(ClosestHit, DoesNotDependOnTheOrderOfATie) {
     } while (std::next_permutation(order.begin(), order.end()));
 }
 TYPED_TEST(ClosestHit, ShowsTheFirstOfCoplanarTrianglesOnWhicheverDiagonal) {
-    // A tilted square cut along one diagonal, then along the other and turned round.
+    // A tilted square split along one diagonal, then along the other with reversed winding.
     const glm::dvec3 a{-1, -1.1, 3.1}, b{1.2, -1, 2.7}, c{1, 1.3, 3.3};
     const glm::dvec3 d = a + (c - b);
     for (const bool turned : {false, true}) {
@@ -154,8 +154,8 @@ TYPED_TEST(ClosestHit, ShowsTheFirstOfCoplanarTrianglesOnWhicheverDiagonal) {
     }
 }
 
-/// Two triangles in the planes z = -3 and z = -4, and a ray towards them that starts in front of
-/// the nearer one by rounding, leaving it or not.
+/// Two triangles in the planes z = -3 and z = -4, and a ray towards them that rounding starts in
+/// front of the nearer one, with and without leaving it.
 template <typename T>
 struct Doorstep {
     FlatScene<T> scene{};
@@ -178,7 +178,7 @@ TYPED_TEST(ClosestHit, SkipsTheTriangleItLeaves) {
     EXPECT_EQ(hits[1].prim, 1);
 }
 
-/// A floor of 8 x 8 squares, and rays at its vertices from a thousand times as far as it is wide.
+/// A floor of 8 x 8 squares, and rays at its vertices from a thousand times its width away.
 struct FarFloor {
     Scene scene;
 
@@ -237,8 +237,8 @@ TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
     const auto scene = crowd<TypeParam>(random);
     auto rays = rays_about<TypeParam>(random, 20000);
     const AllHits<TypeParam> all(scene, rays);
-    // Half the rays end exactly on the nearest triangle or well behind the nearest ball (on it, the
-    // light is on it), or one number before.
+    // Half the rays end exactly on the nearest triangle or well behind the nearest ball (ending on
+    // it, the light would be on it), or one number before.
     for (std::size_t i = 0; i < rays.size(); i += 2) {
         const auto prim = all.first_within(i, all.nearest(i));
         const bool is_ball = prim < static_cast<Index<TypeParam>>(scene.spheres.size());
@@ -252,7 +252,7 @@ TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
     }
 }
 TYPED_TEST(AnyHit, IsNotBlockedByTheBallItsLightLiesOn) {
-    // Lights all over a ball, seen from points outside on their side of it.
+    // Lights all over a ball, seen from points outside, on their side of it.
     Random random(11);
     FlatScene<TypeParam> scene{};
     scene.spheres = {make_sphere<TypeParam>({0, 0, 0}, 1)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// kernels/shade.cl against the formula of local light evaluated in 113 bits (the power in long
+// kernels/shade.cl against the local light formula evaluated in 113 bits (the power in long
 // double).
 #include <algorithm>
 
@@ -33,7 +33,7 @@ typename Flat<T>::Material any_material(Random& random, double shininess) {
 
 constexpr double powers[] = {0, 1e-3, 1, 10, 100, 1e4, 1e6};
 
-/// Surfaces of all attitudes within the unit cube, lit from near their mirror direction, so that
+/// Surfaces of all orientations within the unit cube, lit from near their mirror direction, so that
 /// highlights show at every shininess.
 template <typename T>
 struct Surfaces {
@@ -70,7 +70,7 @@ FlatScene<T> lights_alone(Random& random, const std::vector<glm::dvec3>& positio
     return scene;
 }
 
-/// max(0, n.h)^p, the unit vectors made unit in 113 bits.
+/// max(0, n.h)^p, with the vectors normalized in 113 bits.
 Quad exact_lobe(Quad3 n, Quad3 l, Quad3 e, long double power) {
     if (power == 0) return 1;
     const Quad cosine = dot(unit(n), unit(unit(l) + unit(e)));
@@ -78,13 +78,13 @@ Quad exact_lobe(Quad3 n, Quad3 l, Quad3 e, long double power) {
     return std::exp(power * std::log1p(static_cast<long double>(cosine - 1)));
 }
 
-/// What one roundoff of the vectors does to the lobe: on its flank it moves by sqrt(power) of them,
-/// and the half vector of nearly opposite vectors by their cancellation.
+/// How much one roundoff of the vectors changes the lobe: sqrt(power) on its flank, amplified by
+/// cancellation in the half vector of nearly opposite vectors.
 Quad lobe_condition(Quad3 l, Quad3 e, double power) {
     return (1 + std::sqrt(power)) * (1 + 1 / length(unit(l) + unit(e)));
 }
 
-/// Ii (kd max(0, n.l) + ks max(0, n.h)^p), nothing for a light behind.
+/// Ii (kd max(0, n.l) + ks max(0, n.h)^p); 0 for a light behind the surface.
 template <typename T>
 Quad3 exact_light(const FlatScene<T>& scene, std::size_t light, const ProbeSurface<T>& s,
                   const Packed3<T>& to_eye) {
@@ -161,8 +161,8 @@ TYPED_TEST(LightContribution, IsTheFormulaAndOneShadowRayInFront) {
     }
     worst.expect_at_most(2);
 }
-/// What one light at (0, 0, z) gives the origin, which looks up, with a ball of radius 1 at (0, 0,
-/// 4).
+/// The contribution of a light at (0, 0, z) to a surface at the origin facing up, below a ball of
+/// radius 1 at (0, 0, 4).
 template <typename T>
 Results<T> light_at_height(double z) {
     Random random(3);
@@ -181,7 +181,7 @@ TYPED_TEST(LightContribution, IsShadowedByWhatLiesBetweenAndNothingElse) {
         bool lit;
         std::uint64_t rays;
     };
-    // Behind, on the surface, in front of the ball, on it, in it, past it.
+    // Behind, on the surface, in front of the ball, on it, in it, beyond it.
     for (const auto& [z, lit, rays] : {Case{-1, false, 0}, Case{0, false, 0}, Case{2, true, 1},
                                        Case{3, true, 1}, Case{4, false, 1}, Case{6, false, 1}}) {
         const auto [light, counts] = light_at_height<TypeParam>(z);

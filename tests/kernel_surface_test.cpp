@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // kernels/surface.cl and hit_surface.cl: points, normals and the offset of secondary rays against
-// 113-bit geometry. Bars are in roundoffs.
+// 113-bit geometry. Tolerances are in roundoffs.
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"
 #include "tests/test_scenes.h"
@@ -21,7 +21,7 @@ using VertexNormals = typename Flat<T>::VertexNormals;
 template <typename T>
 using Hit = ProbeHit<T>;
 
-/// The origins of rays that leave to `sides`.
+/// The origins of rays that leave towards `sides`.
 template <typename T>
 std::vector<Packed3<T>> offset_origins(const std::vector<ProbeSurface<T>>& surfaces,
                                        const std::vector<Packed3<T>>& sides) {
@@ -52,7 +52,7 @@ Hit<T> triangle_hit(const ProbeRay<T>& ray, const Triangle<T>& triangle) {
     return {T(dot(a, n) / dot(d, n)), T(wb / sum), T(wc / sum), 0, 0};
 }
 
-/// Rays that hit balls of all sizes and places, from outside and from inside, and where.
+/// Rays that hit balls of all sizes and positions, from outside and from inside, and their hits.
 template <typename T>
 struct BallHits {
     std::vector<ProbeRay<T>> rays;
@@ -70,7 +70,7 @@ struct BallHits {
             offer(random, origin, target, center, r);
         }
     }
-    /// Takes the ray if it hits the ball. Directions and centers get low parts.
+    /// Adds the ray if it hits the ball. Directions and centers get low parts.
     void offer(Random& random, const glm::dvec3& origin, const glm::dvec3& target,
                const glm::dvec3& center, double r) {
         constexpr double low = 0.4 * Flat<T>::roundoff;
@@ -134,8 +134,8 @@ TYPED_TEST(SphereSurface, HasItsPointOnTheSphereAndTheNormalThere) {
     bound.expect_at_most(5, "offset");
 }
 
-// However small the ball is beside its distance from the eye; a point origin + t dir would be off
-// by a roundoff of the distance, ten thousand of the radius.
+// However small the ball is relative to its distance from the eye; a point origin + t dir would be
+// off by a roundoff of the distance, ten thousand of the radius.
 TYPED_TEST(SphereSurface, OfASmallBallFarFromTheEyeKeepsItsNormal) {
     Random random(6);
     BallHits<TypeParam> hits;
@@ -173,7 +173,7 @@ TYPED_TEST(OffsetOrigin, LiesOutsideOrInsideTheSphereAsAsked) {
     }
 }
 
-// An offset below the point's rounding still moves it by one ulp.
+// An offset too small to change the rounded point still moves it by one ulp.
 TYPED_TEST(OffsetOrigin, MovesEvenWhereTheOffsetIsRoundedAway) {
     Random random(12);
     std::vector<ProbeSurface<TypeParam>> surfaces;
@@ -209,7 +209,7 @@ struct TriangleHits {
             const glm::dvec3 p = scale * reach * random.in_cube(1);
             const auto along = [&] { return scale * size * random.unit_vector(); };
             const glm::dvec3 e1 = along(), e2 = along();
-            // The triangle lies about p, so that a large one is seen from near.
+            // The triangle surrounds p, so that a large one is seen from nearby.
             const glm::dvec3 p0 = p - random.uniform(0.1, 0.4) * e1 - random.uniform(0.1, 0.4) * e2;
             const auto triangle = make_triangle<T>(p0, p0 + e1, p0 + e2);
             const glm::dvec3 origin = p + scale * reach * random.unit_vector();
@@ -228,7 +228,7 @@ struct TriangleHits {
     }
 };
 
-/// How far p lies above the plane of the rounded vertices, seen from the triangle's normal.
+/// The height of p above the plane of the rounded vertices, on the triangle normal's side.
 template <typename T>
 Quad above(const Packed3<T>& p, const Triangle<T>& t) {
     const Quad3 a = exact(t.p0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// intersect_triangle of kernels/intersect.cl, against integer and 113-bit arithmetic. Bars are in
-// roundoffs.
+// intersect_triangle of kernels/intersect.cl, against integer and 113-bit arithmetic. Tolerances
+// are in roundoffs.
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"
 #include "tests/probe_types.h"
@@ -93,7 +93,7 @@ TYPED_TEST(IntersectTriangle, OnIntegersHitsInsidesEdgesAndVerticesAndNothingEls
     EXPECT_GT(on_edge, 2000);
 }
 
-/// The exact hit: distance and weights, all of them positive inside.
+/// The exact hit: distance and barycentric weights, all positive inside.
 struct ExactHit {
     Quad t, weight[3];
 };
@@ -126,8 +126,8 @@ TriangleCases<T> triangles_of_height(Random& random, double height) {
     return cases;
 }
 
-/// Hit and miss are right wherever the ray clears the edges by `margin` roundoffs, distances are
-/// within `bar` of the right one.
+/// Hit or miss must be right wherever the ray clears the edges by `margin` roundoffs, and distances
+/// must be within `bar` roundoffs.
 template <typename T>
 void expect_right_triangles(double height, double margin, double bar) {
     Random random(static_cast<std::uint64_t>(1 / height));

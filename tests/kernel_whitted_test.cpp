@@ -14,7 +14,7 @@ constexpr std::size_t count = 20000;
 template <typename T>
 using Counts = typename Flat<T>::RayCounts;
 
-/// Surfaces met by rays: flat ones first, then ones whose shading normal leans, up to right over.
+/// Surfaces hit by rays: flat ones first, then ones whose shading normal leans by up to 90 degrees.
 template <typename T>
 struct Meetings {
     std::vector<ProbeSurface<T>> surfaces;
@@ -64,7 +64,7 @@ TYPED_TEST(MirrorRay, LeavesOnTheSideItCameFromAndNeverUnderTheFace) {
 }
 
 /// Two mirrors that send a ray from the origin along -z to +x, and then up to the background. All
-/// numbers are dyadic, so that the colors are exact.
+/// numbers are dyadic, so the colors are exact.
 template <typename T>
 FlatScene<T> two_mirrors(int max_bounces) {
     FlatScene<T> scene{};
@@ -133,7 +133,7 @@ TYPED_TEST(TracePath, LightsTheBackOfATwoSidedSurfaceAlone) {
     }
 }
 
-/// A crowd of mirrors, some with vertex normals, with two lights and a camera.
+/// Many mirrors, some with vertex normals, with two lights and a camera.
 template <typename T>
 FlatScene<T> mirror_crowd() {
     Random random(3);
@@ -184,7 +184,7 @@ TYPED_TEST(TraceSample, HasTheSameBitsEverywhereInAMirrorCrowd) {
     EXPECT_GT(shadow, 4000u);
 }
 
-/// The weighed means of pixels' samples, in quad.
+/// The weighted means of the pixels' samples, in quad.
 template <typename T>
 std::vector<Quad3> means_of_samples(const FlatScene<T>& scene, const std::vector<Index<T>>& x,
                                     const std::vector<Index<T>>& y) {

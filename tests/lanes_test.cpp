@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Packets of any number of lanes give the bits of lone rays, on devices as on threads.
+// Packets of any number of lanes give the same bits as single rays, on devices as on threads.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -50,8 +50,8 @@ class EveryLaneWidth : public testing::TestWithParam<int> {
 };
 
 /// One, two and four samples of a pixel in a packet. All features: one program for every scene and
-/// number of samples that is compiled in. Samples as work items at the widths that GPUs and CPUs
-/// run; double where a vector of it is as wide.
+/// compiled-in number of samples. Samples as work items at the widths that GPUs and CPUs use;
+/// double where its vectors are as wide.
 TEST_P(EveryLaneWidth, GivesTheBitsOfLoneRays) {
     std::vector<Launch> launches{Launch::pixel};
     if (GetParam() == 1 || GetParam() == 16) launches.push_back(Launch::sample);
@@ -67,9 +67,9 @@ TEST_P(EveryLaneWidth, GivesTheBitsOfLoneRays) {
     }
 }
 
-/// The number of samples is compiled in where a packet holds them. How work is launched does not
-/// depend on the scene: both ways with two programs are enough. One lane, as GPUs run, and 16 for
-/// the paper's scene: picture_test has the others at the width of this processor.
+/// The number of samples is compiled in if a packet holds them. How work is launched does not
+/// depend on the scene, so both ways with two programs are enough. One lane, as on GPUs, and 16 for
+/// the paper's scene: picture_test has the others at this processor's width.
 TEST_P(EveryLaneWidth, GivesTheBitsOfLoneRaysWithWhatTheSceneNeedsAlone) {
     if (GetParam() != 1 && GetParam() != 16) GTEST_SKIP() << "with all features alone";
     for (const char* aa : {"grid:1", "grid:2", "grid:3"}) {

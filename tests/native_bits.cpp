@@ -12,10 +12,10 @@ namespace rt {
 
 namespace {
 
-/// Of a large launch, as many items are compared with the native probes: enough.
+/// The most items of a launch that are compared with the native probes.
 constexpr std::size_t compared_items = 65536;
 
-/// Whether two items hold the same bits; as numbers T, any NaN is like any other.
+/// Whether two items hold the same bits; as numbers T, all NaNs are equal.
 template <typename T>
 bool is_same_item(const std::byte* a, const std::byte* b, const ProbeOutput& output) {
     if (std::memcmp(a, b, output.item_bytes) == 0) return true;

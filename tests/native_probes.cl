@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The probes as plain functions, compiled ahead of time as pthreads' kernels are
-// (tests/CMakeLists.txt): one packet a call, its number given as `first`.
+// The probes as plain functions, compiled ahead of time like the pthreads kernels
+// (tests/CMakeLists.txt): one packet per call, its number given as `first`.
 #define RT_OUT_OF_LINE __attribute__((noinline))
 #define __kernel
 

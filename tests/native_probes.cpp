@@ -42,7 +42,7 @@ void* library(bool double_precision, int lanes) {
 template <std::size_t>
 using Array = void*;
 
-/// Calls a probe of so many arrays.
+/// Calls a probe with sizeof...(I) arrays.
 template <std::size_t... I>
 void call(void* probe, std::uint32_t packet, std::uint32_t count, void* const* arrays,
           std::index_sequence<I...>) {

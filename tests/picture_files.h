@@ -15,10 +15,10 @@
 
 #include "host/image/picture.h"
 
-// Files to write and read, and pictures to put into them.
+// Scratch files and test pictures.
 namespace rt {
 
-/// An empty directory of its own for each test.
+/// Gives each test an empty directory of its own.
 class ScratchFolder : public testing::Test {
    protected:
     ScratchFolder() {
@@ -53,7 +53,7 @@ inline std::vector<std::uint32_t> bits(const Picture& picture) {
     return result;
 }
 
-/// Values a film may hold and 8 bits may not, no two rows alike.
+/// Values that a film can hold but 8 bits cannot, no two rows alike.
 inline Picture difficult_picture(int channels = 3) {
     using Limits = std::numeric_limits<float>;
     const float values[] = {0.0f,

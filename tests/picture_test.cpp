@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whole pictures: one set of bits from every renderer, and how far float is from double.
+// Whole pictures: the same bits from every renderer, and how far float is from double.
 #include <gtest/gtest.h>
 
 #include "host/scene/json_file.h"
@@ -9,7 +9,7 @@
 namespace rt::test {
 namespace {
 
-/// A scene at a size that keeps the tests short: 160 pixels wide.
+/// The scene at 160 pixels wide, to keep the tests short.
 Scene load_small(const std::filesystem::path& file) {
     Scene scene = load_json_scene(file.string());
     set_image_size(scene, 160, std::max(1, 160 * scene.height / scene.width));
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_files()),
                              return name;
                          });
 
-/// Every way to sample, on two scenes, from every renderer.
+/// Every sampling mode, on two scenes, with every renderer.
 class EveryAaMode : public testing::TestWithParam<std::tuple<const char*, Filter>> {
    protected:
     Scene scene(const char* stem) const {

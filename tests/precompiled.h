@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What nearly every test includes, compiled once a program. Each test still includes what it uses.
+// Headers nearly every test needs, compiled once per program. Each test still includes what it
+// uses.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How the items of a probe (tests/probes.cl) get into a packet's lanes and back: items at, at + 1..
-// of `count`. Where there are no more, lanes take the last one again, and nothing is kept of them.
+// Moves the items of a probe (tests/probes.cl) into a packet's lanes and back: items at, at + 1..
+// of `count`. Lanes past the end take the last item again, and their results are discarded.
 #ifndef RT_PROBE_LANES_H
 #define RT_PROBE_LANES_H
 
@@ -10,7 +10,7 @@
     const uint at = (first + (uint)get_global_id(0)) * RT_LANES; \
     if (at >= count) return
 
-// The items one by one, for what is done to one at a time.
+// The items one by one, for functions that take one at a time.
 #define PROBE_EACH_ITEM for (uint i = at; i < count && i < at + RT_LANES; ++i)
 
 // The lanes one by one.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What travels between the kernel tests and the probes besides the structs of kernels/shared.h, and
-// how it gets into lanes and back. tests/probe_types.h has the same structs in C++.
+// The structs passed between the kernel tests and the probes besides those of kernels/shared.h, and
+// how they get into lanes and back. tests/probe_types.h has the same structs in C++.
 #ifndef RT_PROBE_STRUCTS_H
 #define RT_PROBE_STRUCTS_H
 
@@ -111,7 +111,7 @@ void put_surface(__global ProbeSurface* surfaces, Surface surface, uint at, uint
     PUT_REALS_OF(surfaces, diameter, surface.signed_diameter);
 }
 
-// What lanes hold before they are met one by one.
+// Initial values of lanes that are then filled one by one.
 
 Hit no_hit() {
     Hit hit = {(Reals)-1, (Reals)0, (Reals)0, (Indices)0, RT_NO_LANES};

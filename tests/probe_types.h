@@ -8,8 +8,8 @@
 
 #include "host/flatten/flat_types.h"
 
-// What travels between the kernel tests and the probes besides the shared structs
-// (tests/probe_structs.h), and short ways to make it.
+// The structs passed between the kernel tests and the probes besides the shared ones
+// (tests/probe_structs.h), and short ways to make them.
 namespace rt {
 
 template <typename T>
@@ -50,7 +50,7 @@ Packed3<T> round_to(const glm::dvec3& v) {
     return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
 }
 
-/// An endless ray from nowhere in particular; its direction is made unit in double and rounded.
+/// An unbounded ray that leaves no surface; its direction is normalized in double and rounded.
 template <typename T>
 ProbeRay<T> make_ray(const glm::dvec3& origin, const glm::dvec3& dir) {
     const double size = std::sqrt(dir.x * dir.x + dir.y * dir.y + dir.z * dir.z);

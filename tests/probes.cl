@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One tiny entry point per device function, for the kernel tests: probe_FUNCTION takes the numbers
-// of the first packet and of all items, then one array for each argument and one for each result.
-// A host test runs it with run<...>("FUNCTION", ...) (tests/kernel_runner.h). 3-vectors, rays and
-// surfaces travel packed, as everything in memory does.
+// One tiny entry point per device function, for the kernel tests: probe_FUNCTION takes the number
+// of the first packet and the number of items, then one array for each argument and one for each
+// result. A host test runs it with run<...>("FUNCTION", ...) (tests/kernel_runner.h). 3-vectors,
+// rays and surfaces are passed packed, as everything in memory is.
 //
-// A packet holds RT_LANES items, one a lane. Where a function takes one primitive for all lanes, it
-// is called for each lane with that lane's, and that lane's result kept.
+// A packet holds RT_LANES items, one per lane. A function that takes one primitive for all lanes is
+// called once per lane with that lane's primitive, and only that lane's result is kept.
 #include "kernels/render.cl"
 #include "tests/probe_structs.h"
 
@@ -424,7 +424,7 @@ __kernel void probe_specular_lobe(PROBE_ITEMS, __global const Packed3* normals,
     PUT_REALS(out, specular_lobe(REAL3(normals), REAL3(to_light), REAL3(to_eye), REALS(shininess)));
 }
 
-// Light 0 of the scene; the surface says which material and, where it is one, which primitive.
+// Light 0 of the scene; the surface gives the material and, if it is on one, the primitive.
 __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
                                        __global const ProbeSurface* surfaces,
                                        __global const Packed3* origins,
@@ -495,7 +495,7 @@ __kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index*
 
 // packet.cl, film.cl
 
-// Pixels in any places, so many at a time as a packet holds.
+// Pixels anywhere, as many at a time as a packet holds.
 __kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
                                 __global const Index* y, __global Packed3* out) {
     PROBE_PACKET;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How many rays every scene of scenes/ takes, as numbers: work that changes no pixel is seen here
-// alone, such as mirror rays that are too faint to matter.
+// The number of rays that every scene of scenes/ takes: only this test sees work that changes no
+// pixel, such as mirror rays that are too faint to matter.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,7 @@ namespace {
 /// Primary, shadow, mirror and transmitted rays.
 using Counts = std::array<std::uint64_t, 4>;
 
-/// At 40 x 30 pixels of 2 x 2 samples, in float; as version 0.1 traced them.
+/// At 40 x 30 pixels of 2 x 2 samples, in float, as version 0.1 traced them.
 const std::map<std::string, Counts> expected{
     {"cones", {4800, 6652, 2351, 0}},
     {"cornell-box", {4800, 14620, 2873, 0}},

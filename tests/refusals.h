@@ -7,7 +7,7 @@
 
 #include "host/error.h"
 
-// Input that must be refused, and what is to be said about it.
+// Input that must be refused, and the expected messages.
 namespace rt {
 
 struct Refusal {
@@ -15,7 +15,7 @@ struct Refusal {
     std::string message;
 };
 
-/// Of the Error an action throws; done and no message when it throws none.
+/// The refusal in the Error that an action throws; `done` and no message if it throws none.
 template <typename Action>
 Refusal refusal_of(const Action& action) {
     try {
@@ -26,13 +26,13 @@ Refusal refusal_of(const Action& action) {
     return {};
 }
 
-/// The files of tests/scenes_bad whose names end in the extension, such as ".nff", and begin so.
+/// The files of tests/scenes_bad whose names begin with `start` and end in `extension` (".nff").
 std::vector<std::filesystem::path> malformed_files(const std::string& extension,
                                                    const std::string& start = "");
 
-/// Expects a refusal as input, with the messages that the file itself announces and no others: its
-/// lines "// expect TEXT", "# expect TEXT" or "comment expect TEXT" (a PLY's stand in its header),
-/// or the lines of the .expect file beside it. TEXT follows "FILE:" in a message.
+/// Expects a refusal of input, with exactly the messages that the file itself announces: its lines
+/// "// expect TEXT", "# expect TEXT" or "comment expect TEXT" (in the header of a PLY), or the
+/// lines of the .expect file beside it. TEXT follows "FILE:" in a message.
 void expect_announced(const std::filesystem::path& file, const Refusal& refusal);
 
 }  // namespace rt

@@ -41,7 +41,7 @@ ClDevice find_test_device() {
     return devices.front();
 }
 
-/// Contexts and programs for the whole test program, never destroyed: drivers may end before it.
+/// Contexts and programs for the whole test run, never destroyed: drivers may unload first.
 OpenDevices& open_devices() {
     static OpenDevices& devices = *new OpenDevices;
     return devices;

@@ -19,11 +19,11 @@ std::vector<std::filesystem::path> scene_files();
 /// A scene from scenes/ by its stem, such as "cornell-box".
 Scene load_scene(const std::string& stem);
 
-/// The device under test: what MIRRORBALL_TEST_DEVICE says (as --device), else PoCL's, else the
-/// first. The tests that use it fail when there is none.
+/// The device under test: the one MIRRORBALL_TEST_DEVICE names (as --device does), else PoCL's,
+/// else the first. Tests that use it fail if there is none.
 const ClDevice& test_device();
 
-/// Whole pictures. A tile of 0 x 0 is the renderer's own.
+/// Renders whole pictures. A tile of 0 x 0: the renderer's default.
 template <typename T>
 Film<T> render_on_threads(const Scene& scene, const ThreadsOptions& options = {}, Rect tile = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The feature switches of kernels/features.h as variables, in the same order, so that one
-// compilation renders with every set of them (tests/switches_test.cpp).
+// The feature switches of kernels/features.h as variables, in the same order, so that one build
+// renders with every set of them (tests/switches_test.cpp).
 extern __constant int rt_switches[12];
 #define RT_HAS_SPHERES rt_switches[0]
 #define RT_HAS_HUGE_SPHERES rt_switches[1]

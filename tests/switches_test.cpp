@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every set of features that a scene can need gives the bits of all of them: the kernels with their
-// switches as variables, in packets and one ray at a time.
+// Every set of features that a scene can need gives the same bits as all features: the kernels with
+// their switches as variables, in packets and one ray at a time.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -68,7 +68,7 @@ TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
     EXPECT_GT(sets, 2000);
 }
 
-/// Else the test above would compare a picture with itself.
+/// Otherwise the test above would compare a picture with itself.
 TEST(Switches, DoSomething) {
     const FlatScene<float> flat = flatten<float>(scene_needing(features_of(0xfff)));
     set_switches(features_of(0xfff));

@@ -11,7 +11,7 @@
 
 namespace rt {
 
-/// Rays for each scene of a test: MIRRORBALL_TEST_RAYS where that is a number, or this many.
+/// Rays per scene of a test: MIRRORBALL_TEST_RAYS if that is a number, else `otherwise`.
 inline std::size_t ray_count(std::size_t otherwise = 20000) {
     const char* count = std::getenv("MIRRORBALL_TEST_RAYS");
     const std::size_t asked = count ? std::strtoul(count, nullptr, 10) : 0;
@@ -43,7 +43,7 @@ class Random {
         return {x, y, uniform(-half, half)};
     }
 
-    /// Of any sign and exponent: mostly within 2^-20..2^20, sometimes a special value.
+    /// Any sign and exponent: mostly within 2^-20..2^20, sometimes a special value.
     template <typename T>
     T any_number() {
         const auto& special = special_numbers<T>();
@@ -57,7 +57,7 @@ class Random {
         return {x, y, any_number<T>()};
     }
 
-    /// Zeros, subnormals, the ends of the range, infinities, NaN and what lies next to 1.
+    /// Zeros, subnormals, the ends of the range, infinities, NaN and the neighbors of 1.
     template <typename T>
     static const std::vector<T>& special_numbers() {
         using Limits = std::numeric_limits<T>;

@@ -20,7 +20,7 @@ void count_primitives(FlatScene<T>& scene) {
     for (auto& light : scene.lights) light.caster_count = scene.params.triangle_count;
 }
 
-/// Balls and triangles about the origin, some of them twice.
+/// Spheres and triangles around the origin, some of them duplicated.
 template <typename T>
 FlatScene<T> crowd(Random& random) {
     FlatScene<T> scene{};

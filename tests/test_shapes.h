@@ -7,7 +7,7 @@
 #include "tests/exact.h"
 #include "tests/probe_types.h"
 
-// Shapes for the kernel tests, made as host/flatten makes them but with no frame of its own.
+// Shapes for the kernel tests, made as in host/flatten but without a view frame.
 namespace rt {
 
 template <typename T>
@@ -28,7 +28,7 @@ inline Quad3 exact_normal(const glm::dvec3& p0, const glm::dvec3& p1, const glm:
     return unit(cross(exact(p1) - exact(p0), exact(p2) - exact(p0)));
 }
 
-/// A flat triangle; normal, plane and the bound on the offset come from the unrounded vertices.
+/// A flat triangle; normal, plane and offset bound come from the unrounded vertices.
 template <typename T>
 typename Flat<T>::Triangle make_triangle(const glm::dvec3& p0, const glm::dvec3& p1,
                                          const glm::dvec3& p2, int material = 0) {

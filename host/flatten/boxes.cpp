@@ -43,7 +43,7 @@ BvhBox<T> box_of(const typename Flat<T>::Cone& cone) {
     const T end_radius = std::fabs(cone.base_radius + cone.slope * cone.length);
     Vec3<T> low, high;
     for (int i = 0; i < 3; ++i) {
-        // A disc's half-width along an axis; a little more than sqrt(1 - a^2) rounds to.
+        // A disc's half-width along an axis, slightly more than sqrt(1 - a^2) rounds to.
         const T width = std::sqrt(std::max(T(0), T(1) - axis[i] * axis[i]) + 8 * Flat<T>::roundoff);
         low[i] = std::min(base[i] - cone.base_radius * width, end[i] - end_radius * width);
         high[i] = std::max(base[i] + cone.base_radius * width, end[i] + end_radius * width);

@@ -7,11 +7,11 @@
 // Minima, maxima and counts are exact in any order, and boxes are moved in runs of one length, so
 // the outcome does not depend on the number of threads.
 //
-// Where the heuristic sees nothing to gain (coincident centers), or would dig too deep, a node is
+// Where the heuristic sees nothing to gain (coincident centers), or would go too deep, a node is
 // halved by number instead: that bounds the depth.
 //
-// Here is who works on which node; how one is split stands in bvh_split, at which plane in
-// bvh_bins and bvh_few, how its boxes are moved in bvh_partition.
+// This file assigns nodes to threads; bvh_split splits a node, bvh_bins and bvh_few choose the
+// plane, bvh_partition moves the boxes.
 #include "host/flatten/bvh.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace rt {
 
 namespace {
 
-/// With fewer boxes than this a subtree is always one thread's work.
+/// A subtree with fewer boxes than this is always one thread's work.
 constexpr std::size_t smallest_task = 1 << 12;
 
 template <typename T>
@@ -53,14 +53,14 @@ class Builder {
     }
 
    private:
-    /// A range whose node is known.
+    /// A range and the node assigned to it.
     struct Task {
         bvh::Range<T> range;
         std::size_t node;
     };
 
-    /// Splits what is too large for one thread, level by level: the largest with all threads on
-    /// one node, the others side by side.
+    /// Splits what is too large for one thread, level by level: the largest ranges one by one, each
+    /// with all threads, the others in parallel.
     void split_large(std::vector<Task> level, std::vector<Node>& nodes) {
         const std::size_t task_size = std::max(smallest_task, boxes_.size() / 64);
         const auto threads = static_cast<std::size_t>(settings_.threads);
@@ -95,14 +95,15 @@ class Builder {
         }
     }
 
-    /// A subtree under way: its root is node 1, children in pairs from 2 on, as in `nodes`.
+    /// A subtree under construction: its root is node 1, children in pairs from 2 on, as in
+    /// `nodes`.
     struct Subtree {
         std::span<Node> nodes;
         std::size_t size = 2;
     };
 
-    /// Builds the subtrees side by side in one block, each in the part that its boxes leave room
-    /// for, and appends them. One block, since what many threads allocate and free stays with them.
+    /// Builds the subtrees in parallel in one block, each in the space reserved for its boxes, and
+    /// appends them. One block, since memory that many threads allocate and free stays with them.
     void finish_tasks(std::vector<Node>& nodes) {
         const auto block = std::make_unique_for_overwrite<Node[]>(2 * boxes_.size());
         std::vector<Subtree> subtrees;

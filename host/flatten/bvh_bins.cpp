@@ -17,7 +17,7 @@ void fill_run(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, Bins<
     for (const BvhBox<T>& box : boxes) {
         const Bounds<T> added = bounds_of<T>(box);
         const Mask<T> bin = binning.all(added.low + added.high);
-        // Constant lanes, not a loop over them: those would go through memory.
+        // Constant lane indices: a loop over them would go through memory.
         const auto x = static_cast<std::size_t>(bin[0]), y = static_cast<std::size_t>(bin[1]);
         const auto z = static_cast<std::size_t>(bin[2]);
         bins.bounds[x][0].add(added);
@@ -29,7 +29,7 @@ void fill_run(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, Bins<
     }
 }
 
-/// For each axis half the surface of its bounds, lengths being multiplied by `scale` first.
+/// Half the surface area of each axis's bounds, with lengths multiplied by `scale` first.
 template <typename T>
 Vector<T> areas(const std::array<Bounds<T>, 3>& bounds, T scale) {
     const Vector<T> a = (bounds[0].high - bounds[0].low) * scale;
@@ -53,7 +53,7 @@ struct Side {
         for (std::size_t axis = 0; axis < 3; ++axis) bounds[axis].add(bins.bounds[bin][axis]);
         boxes += bins.boxes[bin];
     }
-    /// Area times count; NaN, which is less than nothing, when the side is empty.
+    /// Area times count; NaN, which never compares as less, if the side is empty.
     Vector<T> costs(T scale) const {
         return areas<T>(bounds, scale) * __builtin_convertvector(boxes, Vector<T>);
     }

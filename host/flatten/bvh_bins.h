@@ -13,7 +13,7 @@
 namespace rt::bvh {
 
 inline constexpr std::size_t most_bins = 16;
-inline constexpr std::size_t run_length = 1 << 14;  ///< boxes that a thread goes through at once
+inline constexpr std::size_t run_length = 1 << 14;  ///< boxes that a thread processes at a time
 
 /// Which of most_bins bins a center (times two) falls into, on each axis.
 template <typename T>
@@ -36,7 +36,7 @@ struct Binning {
     }
 };
 
-/// What lies in each bin, on each axis.
+/// The contents of each bin, on each axis.
 template <typename T>
 struct Bins {
     std::size_t count = 0;
@@ -44,12 +44,12 @@ struct Bins {
     std::array<Mask<T>, most_bins> boxes;  ///< how many
 };
 
-/// Makes `threads` threads go through the boxes; the outcome does not depend on how many.
+/// Bins the boxes with `threads` threads; the outcome does not depend on how many.
 template <typename T>
 void fill_bins(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, int threads,
                Bins<T>& bins);
 
-/// The boxes in bins up to `bin` on `axis` go left; -1 where no split puts boxes on both sides.
+/// The boxes in bins up to `bin` on `axis` go left; -1 if no split leaves boxes on both sides.
 template <typename T>
 struct Split {
     int axis = -1, bin = 0;
@@ -57,7 +57,7 @@ struct Split {
     std::array<Bounds<T>, 2> bounds{Bounds<T>::none(), Bounds<T>::none()};  ///< of the sides
 };
 
-/// The split of least cost. Lengths are multiplied by `scale` before areas are made of them.
+/// The split of least cost. Lengths are multiplied by `scale` before areas are computed.
 template <typename T>
 Split<T> best_split(const Bins<T>& bins, T scale);
 

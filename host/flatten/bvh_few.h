@@ -7,14 +7,12 @@
 
 #include "host/flatten/bvh_bins.h"
 
-// Boxes that are few enough to be sorted, with a bin for each: every split between two of them is
-// looked at.
+// Few enough boxes to sort, with one bin each: every split between two of them is considered.
 namespace rt::bvh {
 
 inline constexpr std::size_t few_boxes = 8;
 
-/// Which place each box takes, on each axis, when they are sorted by their centers; equal ones stay
-/// in order.
+/// The rank of each box on each axis when sorted by center; ties keep their order.
 template <typename T>
 using Places = std::array<Mask<T>, few_boxes>;
 

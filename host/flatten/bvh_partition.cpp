@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Long runs are cut in pieces of a length that depends on nothing. Each is partitioned for itself;
-// then what lies before the middle but belongs behind it changes places with what lies behind it
-// but belongs before.
+// Long runs are cut into pieces of fixed length. Each is partitioned on its own; then what lies
+// before the middle but belongs after it is swapped with what lies after it but belongs before.
 #include "host/flatten/bvh_partition.h"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace rt::bvh {
 
 namespace {
 
-/// No branch waits for where a box goes: which could not be foretold.
+/// Branch-free, because where a box goes is unpredictable.
 template <typename T>
 Partition<T> partition_piece(std::span<BvhBox<T>> boxes, const Binning<T>& binning,
                              const Split<T>& split) {

@@ -10,7 +10,7 @@
 // Vectors wider than the build's instruction set are passed around, but only within the bvh_ files.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-// The vocabulary of build_bvh: bounds in registers, and a run of boxes with its own.
+// Basic types of build_bvh: bounds in registers, and a run of boxes with its bounds.
 namespace rt::bvh {
 
 /// Four numbers in one register; the fourth is 0.
@@ -47,7 +47,7 @@ struct Bounds {
         high = point_high > high ? point_high : high;
     }
     void add(const Bounds& other) { add(other.low, other.high); }
-    /// Adds the point where `where` is -1; it is 0 elsewhere.
+    /// Adds the point in the lanes where `where` is -1; it is 0 in the others.
     void add_where(const Mask<T>& where, const Vector<T>& point) {
         const auto point_or_nan = (Vector<T>)((Mask<T>)point | ~where);
         add(point_or_nan, point_or_nan);

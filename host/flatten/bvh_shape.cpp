@@ -18,7 +18,7 @@ BvhShape shape_of(std::span<const typename Flat<T>::BvhNode> nodes, typename Fla
     const auto start = static_cast<std::size_t>(root);
     const double whole = area(nodes[start]);
     BvhShape shape;
-    std::vector<std::uint8_t> depths(nodes.size() - start);  // plus one; 0: of another hierarchy
+    std::vector<std::uint8_t> depths(nodes.size() - start);  // plus one; 0: not in this hierarchy
     depths[0] = 1;
     for (std::size_t i = start; i < nodes.size(); ++i) {
         const std::uint8_t depth = depths[i - start];

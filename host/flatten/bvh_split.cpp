@@ -16,7 +16,7 @@ namespace rt::bvh {
 
 namespace {
 
-/// Puts the lower half along the axis on which the centers spread most to the front.
+/// Moves the lower half along the axis of widest center spread to the front.
 template <typename T>
 void halve_by_center(std::span<BvhBox<T>> boxes, const Range<T>& range, std::size_t middle) {
     const Vector<T> spread = range.centers.high - range.centers.low;
@@ -42,7 +42,7 @@ Halves<T> halves_at(const Range<T>& range, std::size_t middle) {
     return halves;
 }
 
-/// The sides of a range whose boxes are in order already.
+/// The two sides of a range whose boxes are already in order.
 template <typename T>
 Halves<T> cut_at(std::span<const BvhBox<T>> boxes, const Range<T>& range, std::size_t middle) {
     Halves<T> halves = halves_at(range, middle);
@@ -52,7 +52,7 @@ Halves<T> cut_at(std::span<const BvhBox<T>> boxes, const Range<T>& range, std::s
     return halves;
 }
 
-/// Halves a range by number.
+/// Splits a range into halves of equal count.
 template <typename T>
 Halves<T> halve(std::span<BvhBox<T>> boxes, const Range<T>& range) {
     const std::size_t middle = range.first + range.count() / 2;
@@ -98,7 +98,7 @@ class Splitting {
     }
 
    private:
-    /// Whether a split is cheaper than a leaf, if one may be made.
+    /// Whether a split is cheaper than a leaf, if a leaf is allowed.
     bool pays(const Split<T>& split) const {
         if (own_.size() > static_cast<std::size_t>(settings_.most_in_leaf)) return true;
         const Vector<T> d = (range_.bounds.high - range_.bounds.low) * scale_;

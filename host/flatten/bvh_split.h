@@ -9,7 +9,7 @@
 
 namespace rt::bvh {
 
-/// What becomes of a range: a leaf, or two ranges whose boxes lie one behind the other.
+/// The outcome for a range: a leaf, or two adjacent ranges.
 template <typename T>
 struct Halves {
     bool is_leaf = true;
@@ -20,7 +20,7 @@ struct Halves {
 template <typename T>
 Range<T> whole_range(std::span<const BvhBox<T>> boxes, int threads);
 
-/// Chooses what a range becomes, and puts its boxes in order. A leaf holds at most
+/// Chooses what a range becomes, and reorders its boxes to match. A leaf holds at most
 /// settings.most_in_leaf, and none lies deeper than max_bvh_depth. Uses `threads` threads, not
 /// settings.threads; the outcome depends on neither.
 template <typename T>

@@ -9,9 +9,9 @@ namespace rt {
 
 namespace {
 
-/// What a distance to a plane through rounded points may be wrong by, relative to coordinates.
+/// Error of a distance to a plane through rounded points, relative to coordinates.
 constexpr double rounding = 0x1p-48;
-/// Relative to the scene: a light this near to a plane, or a surface, is in doubt.
+/// Relative to the scene: closer to a plane than this, a light, or a surface, is in doubt.
 constexpr double near_light = 0x1p-8, near_surface = 0x1p-12;
 
 double largest(const glm::dvec3& v) {
@@ -29,10 +29,10 @@ struct Plane {
     double doubt(const glm::dvec3& p) const { return rounding * (largest(p) + largest(point)); }
 };
 
-/// The heights above a plane of all that is in the scene.
+/// The range of heights over a plane of everything in the scene.
 struct Heights {
-    double lowest = 0, highest = 0;  ///< with what rounding explains taken as 0
-    double extent = 0;               ///< how far from the plane's point anything is
+    double lowest = 0, highest = 0;  ///< with heights within rounding error taken as 0
+    double extent = 0;               ///< largest coordinate distance from the plane's point
 
     void add(const Plane& plane, const glm::dvec3& center, double reach) {
         const double height = plane.height(center);
@@ -67,7 +67,7 @@ Heights heights_over(const Plane& plane, const Scene& scene, const TriangleList&
 }
 
 /// Whether a shadow ray that starts on the other triangle, where that meets the plane, may begin
-/// beyond the plane: points leave a surface along its normal, on the light's side.
+/// beyond the plane: start points are offset along the surface normal, to the light's side.
 bool steps_through(const Plane& plane, double side, const TriangleList::Corners& other,
                    const glm::dvec3& light, double extent) {
     double nearest = extent, farthest = 0;

@@ -11,11 +11,11 @@
 
 namespace rt {
 
-/// The triangles that may cast a shadow in the light of a point, ascending. Left out is a triangle
-/// whose plane has all geometry, where eye rays start (`eyes`), and the light on one closed side:
-/// the walls of a room lit from within. In doubt a triangle is kept: where the light lies near the
-/// plane, or where another triangle meets the plane so that a shadow ray's first step, off that
-/// triangle, leads through it. Takes time in the number of triangles squared.
+/// The triangles that may cast a shadow from a point light, ascending. Omits a triangle if its
+/// plane has all geometry, the origins of eye rays (`eyes`), and the light on one closed side: the
+/// walls of a room lit from within. When in doubt, keeps it: if the light is near the plane, or if
+/// another triangle meets the plane so that the offset of a shadow ray's origin from it crosses the
+/// plane. Takes quadratic time in the number of triangles.
 std::vector<std::size_t> shadow_casters(const Scene& scene, const TriangleList& triangles,
                                         std::span<const glm::dvec3> eyes, const glm::dvec3& light);
 

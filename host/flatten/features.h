@@ -7,8 +7,8 @@
 
 namespace rt {
 
-/// What a scene needs of the kernels; the switches of kernels/features.h. Coarse and few: a test
-/// builds and renders each alone, each two, and all but each one.
+/// What a scene needs from the kernels; the switches of kernels/features.h. Coarse and few: a test
+/// builds and renders each alone, each pair, and all but each one.
 struct Features {
     bool spheres = true;
     bool huge_spheres = true;    ///< far larger than their distance; implies spheres
@@ -21,7 +21,7 @@ struct Features {
     bool mirrors = true;         ///< the bounce loop
     bool glass = true;           ///< refracted rays, and with mirrors the stack of a ray tree
     bool sobol = true;           ///< scattered samples; else a regular grid's
-    bool filters = true;         ///< samples that do not all count the same
+    bool filters = true;         ///< samples with unequal weights
 
     bool operator==(const Features&) const = default;
 };
@@ -48,13 +48,13 @@ inline constexpr std::array<FeatureName, 12> feature_names{{
     {&Features::filters, "wide filters", "RT_HAS_FILTERS"},
 }};
 
-/// Nothing at all.
+/// No features.
 Features no_features();
 
-/// Those whose bits are set: the first of feature_names is bit 0 (RT_FEATURE_BITS).
+/// The features whose bits are set: the first of feature_names is bit 0 (RT_FEATURE_BITS).
 Features features_of(int bits);
 
-/// What either has.
+/// The union of both.
 Features either_of(const Features& a, const Features& b);
 
 /// The names of the switches that are on (used) or off (left out).

@@ -10,7 +10,7 @@ namespace rt {
 
 namespace {
 
-/// Which materials some primitive wears.
+/// Which materials are used by some primitive.
 std::vector<bool> worn_materials(const Scene& scene) {
     std::vector<bool> worn(scene.materials.size(), false);
     const auto wear = [&](int material) { worn[static_cast<std::size_t>(material)] = true; };

@@ -13,7 +13,7 @@ inline bool is_black(const glm::dvec3& color) { return color == glm::dvec3(0); }
 template <typename T>
 typename Flat<T>::Material flatten_material(const Scene::Material& material);
 
-/// What the materials that some primitive wears do with light.
+/// What the materials used by some primitive do with light.
 struct MaterialUse {
     bool reflects_lights = false;  ///< one is diffuse or specular
     bool mirrors = false, transmits = false;

@@ -10,8 +10,8 @@ namespace rt {
 
 namespace {
 
-/// Half a pixel's sides on the view plane. Pixels are square, to the last bit, unless the author
-/// gave a window: else rays on a picture's diagonal would miss edges that lie there by 1e-16.
+/// Half a pixel's size on the view plane. Pixels are exactly square unless the author gave a
+/// window: otherwise rays on a picture's diagonal would miss edges there by 1e-16.
 glm::dvec2 half_pixel(const Scene& scene, const Scene::Window& window) {
     using Fixed = Scene::FieldOfView::Fixed;
     const double x = (window.right - window.left) / (2.0 * scene.width);

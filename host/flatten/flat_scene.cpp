@@ -23,10 +23,10 @@ namespace rt {
 
 namespace {
 
-/// Primitives that a thread works on at once.
+/// Primitives that a thread processes at a time.
 constexpr std::size_t run_length = 1 << 13;
 
-/// One flattening: what its steps share.
+/// One flattening: the state its steps share.
 template <typename T>
 class Flattener {
    public:
@@ -63,7 +63,7 @@ class Flattener {
     }
 
    private:
-    /// For one kind, the number of each primitive in the scene; empty when the order was kept.
+    /// For one kind, the number of each primitive in the scene; empty if the order was kept.
     using Order = std::vector<Index>;
 
     /// Primitives and nodes (fewer than two a primitive) are numbered in a 32-bit Index.
@@ -102,8 +102,8 @@ class Flattener {
         });
     }
 
-    /// Builds the hierarchy over `count` primitives with the boxes box(i) if there are enough;
-    /// sets its root and says how it came out.
+    /// Builds the hierarchy over `count` primitives with the boxes box(i) if there are enough; sets
+    /// its root and its shape.
     template <typename Box>
     Order build_hierarchy(std::size_t count, std::size_t crossover, const Box& box, Index& root,
                           BvhShape& shape) {
@@ -161,8 +161,8 @@ class Flattener {
         return order;
     }
 
-    /// The boxes come first, from vertices rounded for them alone, so that the triangles can be
-    /// made in the order of the leaves: memory never holds them twice, nor beside the boxes.
+    /// The boxes come first, from vertices rounded just for them, so that triangles can be made in
+    /// leaf order: memory never holds them twice, nor along with the boxes.
     void flatten_triangles() {
         const auto count = static_cast<std::size_t>(triangles_.size());
         triangles_order_ = build_hierarchy(
@@ -196,7 +196,7 @@ class Flattener {
         return triangles_order_.empty() ? i : static_cast<std::size_t>(triangles_order_[i]);
     }
 
-    /// How many triangles with vertex normals come before each run, and in all.
+    /// How many triangles with vertex normals precede each run, and the total.
     std::vector<std::size_t> smooth_before_runs(std::size_t count) const {
         std::vector<std::size_t> before((count + run_length - 1) / run_length + 1, 0);
         for_each_run(count, run_length, options_.threads, [&](std::size_t first, std::size_t last) {

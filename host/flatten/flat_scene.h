@@ -27,7 +27,7 @@ struct FlattenStats {
 };
 
 /// A scene as arrays of shared structs in the renderer's frame, in the precision of T (float or
-/// double): everything a renderer reads, and all it reads. Primitives are numbered spheres first,
+/// double): everything a renderer reads, and nothing else. Primitives are numbered spheres first,
 /// then cones, then triangles.
 template <typename T>
 struct FlatScene {
@@ -37,14 +37,14 @@ struct FlatScene {
     std::vector<typename Flat<T>::VertexNormals> vertex_normals;
     std::vector<typename Flat<T>::Material> materials;
     std::vector<typename Flat<T>::Light> lights;
-    /// Hierarchies over those kinds of primitive that have one (LaunchParams::..._root). Leaves
-    /// count a kind's primitives from 0.
+    /// Hierarchies over the kinds of primitive that have one (LaunchParams::..._root). Leaves index
+    /// a kind's primitives from 0.
     std::vector<typename Flat<T>::BvhNode> nodes;
-    /// The number each primitive would have if the arrays kept the author's order: ties go to the
-    /// lowest. Empty where they do, for want of a hierarchy.
+    /// Each primitive's number in the author's order: ties go to the lowest. Empty if the arrays
+    /// are in that order, for lack of a hierarchy.
     std::vector<typename Flat<T>::Index> order;
     /// Each light's triangles that may cast a shadow (Light::first_caster, caster_count), as
-    /// indices into `triangles`, ascending. A light with as many as there are has no list: all do.
+    /// indices into `triangles`, ascending. A light that counts all triangles has no list.
     std::vector<typename Flat<T>::Index> casters;
     typename Flat<T>::LaunchParams params;
     Features features;
@@ -54,16 +54,16 @@ struct FlatScene {
 };
 
 struct FlattenOptions {
-    int threads = 0;  ///< 0: all cores; changes no bit
-    /// Over which kinds of primitives: those with enough of them (not given), any with two (true),
-    /// or none (false).
+    int threads = 0;  ///< 0: all cores; does not affect the result
+    /// Which kinds get a hierarchy: those with enough primitives (unset), any with two (true), or
+    /// none (false).
     std::optional<bool> hierarchies;
     bool caster_lists = true;  ///< false: every triangle casts shadows
 };
 
 /// Flattens a scene with its picture size, sampling and bounce limit. Lights that shine on nothing
-/// are left out. Throws Error (ExitCode::input) when something lies too far away for T,
-/// (ExitCode::limit) when there is more than can be numbered or than fits into memory.
+/// are left out. Throws Error (ExitCode::input) if something lies too far away for T,
+/// (ExitCode::limit) if there is more than can be numbered or than fits into memory.
 template <typename T>
 FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options = {});
 

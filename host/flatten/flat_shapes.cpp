@@ -17,11 +17,11 @@ namespace {
 template <typename T>
 constexpr double farthest = sizeof(T) == sizeof(float) ? 0x1p60 : 0x1p500;
 
-/// A sphere this large in the renderer's frame, where distances are about 1, and the eye within a
-/// radius of its surface: intersect_huge_sphere of kernels/intersect.cl.
+/// A sphere is huge above this radius in the renderer's frame, where distances are about 1, if the
+/// eye is within a radius of its surface: intersect_huge_sphere of kernels/intersect.cl.
 constexpr double huge_radius = 32;
 
-/// How far a point may be off for having been moved to the eye's frame.
+/// The error of a point from moving it to the eye's frame.
 double recentring_error(const ViewFrame& view, const glm::dvec3& scene_point) {
     return 0x1p-52 * view.scale * (glm::length(scene_point) + glm::length(view.eye));
 }
@@ -83,7 +83,7 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
     return flat;
 }
 
-/// Whether the eye lies on the side of the cone, as far as double can tell.
+/// Whether the eye lies on the lateral surface of the cone, as far as double can tell.
 bool eye_is_on(const ViewFrame& view, const Scene::Cone& cone) {
     const glm::dvec3 base = view.to_view(cone.base);
     const glm::dvec3 along = view.to_view(cone.apex) - base;

@@ -17,7 +17,7 @@ typename Flat<T>::Packed3 pack(const glm::dvec3& v) {
     return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
 }
 
-/// What pack() takes from v by rounding; 0 in double.
+/// The part of v that pack() loses by rounding; 0 in double.
 template <typename T>
 typename Flat<T>::Packed3 pack_low(const glm::dvec3& v) {
     const auto high = pack<T>(v);

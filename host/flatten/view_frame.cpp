@@ -13,7 +13,7 @@ namespace rt {
 
 namespace {
 
-/// v / |v| without overflow or underflow on the way.
+/// v / |v| without intermediate overflow or underflow.
 glm::dvec3 unit(const glm::dvec3& v) {
     const double largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
     return glm::normalize(v / largest);
@@ -36,7 +36,7 @@ double farthest_rim(const Scene::Cone& cone, const glm::dvec3& eye) {
                      cone.apex_radius});
 }
 
-/// To the sphere's surface, and not 0 where the eye lies on it.
+/// The distance to the sphere's surface, but not 0 if the eye lies on it.
 double surface_distance(const Scene::Sphere& sphere, const glm::dvec3& eye) {
     const double distance = std::abs(length_of(sphere.center - eye) - sphere.radius);
     return std::max(distance, 0x1p-30 * sphere.radius);
@@ -52,7 +52,7 @@ class Octaves {
     void add(const Octaves& other) {
         for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
     }
-    /// The k of the median; 0 when there is none.
+    /// The k of the median; 0 if there are no distances.
     int median() const {
         std::uint64_t total = 0;
         for (const std::uint64_t count : counts_) total += count;

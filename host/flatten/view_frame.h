@@ -11,12 +11,12 @@ namespace rt {
 
 /// The frame the renderer works in, and the camera's axes in it. The eye becomes the origin and
 /// lengths are scaled by a power of two that brings the median distance to a primitive near 1; both
-/// are done in double before anything is rounded to float. A scene that is moved, or scaled by a
-/// power of two, with its camera then gives the same bits (docs/numerics.md).
+/// are done in double before anything is rounded to float. A scene moved, or scaled by a power of
+/// two, together with its camera then gives the same bits (docs/numerics.md).
 struct ViewFrame {
     glm::dvec3 eye{0};           ///< in scene units; an orthographic window's center
     double scale = 1;            ///< a power of two
-    bool is_perspective = true;  ///< eye rays start at the eye, all of them
+    bool is_perspective = true;  ///< all eye rays start at the eye
     glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  ///< orthonormal
 
     glm::dvec3 to_view(const glm::dvec3& scene_point) const { return (scene_point - eye) * scale; }
@@ -25,7 +25,7 @@ struct ViewFrame {
 /// `triangles` are the scene's.
 ViewFrame make_view_frame(const Scene& scene, const TriangleList& triangles, int threads);
 
-/// Points, in scene units, that have all starts of eye rays among or between them.
+/// Points, in scene units, whose convex hull contains the origins of all eye rays.
 std::vector<glm::dvec3> eye_ray_origins(const ViewFrame& view, const Scene& scene);
 
 }  // namespace rt

@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// fsync, except where the file system has no such thing.
+/// fsync, except where the file system does not support it.
 bool flush_to_disk(int file) {
     return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
 }
 
-/// Best effort: only root may give a file away, and some file systems know no modes.
+/// Best effort: only root may change owners, and some file systems have no modes.
 void keep_owner_and_mode(int file, const struct stat& existing) {
     if (::fchown(file, existing.st_uid, existing.st_gid) != 0) errno = 0;
     if (::fchmod(file, existing.st_mode & 0777) != 0) errno = 0;

@@ -11,9 +11,9 @@
 
 namespace rt {
 
-/// Writes a file whole or not at all: into a temporary file next to it, fsync, rename over it.
-/// A reader sees the old bytes or the new ones; without commit() the old ones are still there and
-/// no temporary is left (those of killed processes go when the next file is written there).
+/// Writes a file whole or not at all: to a temporary file next to it, then fsync and rename. A
+/// reader sees the old bytes or the new ones; without commit() the old ones stay and no temporary
+/// is left (those of killed processes are removed the next time a file is written there).
 ///
 /// A symlink is written through, never replaced. An existing file keeps its permissions and must
 /// be writable; a new one gets 0666 less the umask. A hard link to the old file keeps the old
@@ -35,7 +35,7 @@ class AtomicFile {
     FileDescriptor file_;  ///< the temporary one, or the destination itself
 };
 
-/// All of it at once.
+/// Writes the whole file in one call.
 void write_file_atomically(const std::string& path, std::span<const std::byte> bytes);
 
 }  // namespace rt

@@ -39,8 +39,8 @@ namespace {
 
 std::uint8_t round_8bit(double stored) { return static_cast<std::uint8_t>(stored * 255.0 + 0.5); }
 
-/// The sRGB byte of every float in (0, 1) without its curve, which takes 10 times as long: floats
-/// that share their first 16 bits have at most two bytes between them.
+/// A lookup table from floats in (0, 1) to sRGB bytes, 10 times as fast as the curve: floats with
+/// the same first 16 bits map to at most two different bytes.
 class SrgbTable {
    public:
     SrgbTable() {
@@ -62,7 +62,7 @@ class SrgbTable {
 
     struct Entry {
         std::uint8_t byte;
-        std::uint32_t boundary;  ///< from here on one more
+        std::uint32_t boundary;  ///< from this value on, byte + 1
     };
 
     static std::uint8_t byte_of(std::uint32_t bits) {

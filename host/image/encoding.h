@@ -13,7 +13,7 @@ namespace rt {
 
 /// How 8-bit files store the linear-light film. Float files (.exr, .pfm) ignore it.
 ///
-/// - display: value * 255 as it is, as the paper does; the file declares nothing.
+/// - display: value * 255, no curve, as in the paper; the file declares no color space.
 /// - srgb: the transfer curve of IEC 61966-2-1, then * 255; the file declares sRGB.
 /// - linear: the same numbers as display; the file declares linear light (PNG gAMA 1.0).
 enum class Encoding { display, srgb, linear };
@@ -27,8 +27,8 @@ Encoding parse_encoding(std::string_view name);
 /// The transfer curve of IEC 61966-2-1 from linear light to the stored value, both in [0, 1].
 double srgb_from_linear(double linear);
 
-/// One value as 8 bits: clamped to [0, 1], through the curve of the encoding, then
-/// floor(x * 255 + 0.5). NaN becomes 0; callers count non-finite pixels before they get here.
+/// Encodes one value: clamped to [0, 1], through the encoding's curve, then floor(x * 255 + 0.5).
+/// NaN becomes 0; callers count non-finite pixels first.
 std::uint8_t encode_8bit(float value, Encoding encoding);
 
 /// Row y of the picture as 8 bits, into as many bytes as it has values. The last of 2 or 4

@@ -54,8 +54,7 @@ bool send_attributes(const Imf::Header& header, const PictureSink& sink) {
     return true;
 }
 
-/// Reads the picture in bands of rows, so that one that ends too early costs no more memory than
-/// it fills.
+/// Reads the picture in bands of rows, so that a truncated file costs no more memory than it fills.
 bool send_rows(Imf::InputFile& file, const PictureSink& sink) {
     const Imath::Box2i window = file.header().dataWindow();
     const std::vector<std::string> names = channel_names(file.header());

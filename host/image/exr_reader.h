@@ -5,8 +5,8 @@
 
 namespace rt::module {
 
-/// Reads the first part of an OpenEXR file as floats, colors first. 0 when the sink stopped it;
-/// throws std::exception for all that is wrong with the file.
+/// Reads the first part of an OpenEXR file as floats, color channels first. Returns 0 when the sink
+/// stopped it; throws std::exception for any error in the file.
 int decode_exr(const char* path, const PictureSink& sink);
 
 }  // namespace rt::module

@@ -3,8 +3,8 @@
 
 namespace rt::module {
 
-/// OpenEXR's threads, one a core, while a picture is compressed or expanded; none where it has few
-/// rows or the system starts no more threads, and then all is done by the caller.
+/// Runs OpenEXR with one thread per core while a picture is compressed or decompressed; with no
+/// extra threads if it has few rows or the system can start no more.
 class ExrThreads {
    public:
     explicit ExrThreads(int rows);

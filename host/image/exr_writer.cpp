@@ -18,7 +18,7 @@
 namespace rt::module {
 namespace {
 
-/// Thrown where the sink takes no more.
+/// Thrown when the sink refuses more bytes.
 struct SinkStopped {};
 
 class SinkStream : public Imf::OStream {

@@ -5,8 +5,8 @@
 
 namespace rt::module {
 
-/// Writes the picture as OpenEXR: 32-bit float, zip, no date. 0 when the sink stopped it; throws
-/// std::exception for all that goes wrong in the library.
+/// Writes the picture as OpenEXR: 32-bit float, zip, no date. Returns 0 when the sink stopped it;
+/// throws std::exception for any error in the library.
 int encode_exr(const EncodeRequest& request, const ByteSink& sink);
 
 }  // namespace rt::module

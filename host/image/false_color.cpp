@@ -17,11 +17,11 @@ namespace {
 using Color = std::array<float, 3>;
 
 constexpr int legend_height = 20;
-constexpr int least_width = 200;  ///< for three numbers of the legend and a scale between them
-constexpr int letter_scale = 2;   ///< pixels of a dot
+constexpr int least_width = 200;  ///< for the legend's three numbers and a scale
+constexpr int letter_scale = 2;   ///< pixels per font dot
 constexpr int letter_width = 4 * letter_scale;
 
-/// Of matplotlib's viridis, at equal distances.
+/// Samples of matplotlib's viridis at equal distances.
 constexpr std::array<Color, 5> viridis{{{0.267f, 0.005f, 0.329f},
                                         {0.230f, 0.322f, 0.546f},
                                         {0.128f, 0.567f, 0.551f},
@@ -43,7 +43,7 @@ Color normal_color(float x, float y, float z) {
     return {0.5f * x + 0.5f, 0.5f * y + 0.5f, 0.5f * z + 0.5f};
 }
 
-/// Rows of three dots, the top one first, of what numbers are written with.
+/// A 3-dot-wide bitmap of a character used in numbers, top row first.
 std::uint16_t dots_of(char letter) {
     static constexpr std::string_view letters = "0123456789.-+e";
     static constexpr std::array<std::uint16_t, letters.size()> dots{
@@ -57,7 +57,7 @@ std::uint16_t dots_of(char letter) {
 
 class Canvas {
    public:
-    /// Black, with room for a legend below if there is one.
+    /// A black canvas, with room for a legend below if needed.
     Canvas(int width, int height, bool has_legend) : top_(height) {
         picture_.width = has_legend ? std::max(width, least_width) : width;
         picture_.height = height + (has_legend ? legend_height : 0);
@@ -73,7 +73,7 @@ class Canvas {
                   picture_.pixels.begin() + static_cast<std::ptrdiff_t>(3 * at));
     }
 
-    /// White, in the legend, from x on.
+    /// Writes white text in the legend, starting at x.
     void write(int x, std::string_view text) {
         constexpr int across = 3, down = 5;
         for (const char letter : text) {
@@ -95,7 +95,7 @@ class Canvas {
     Picture picture_;
 };
 
-/// Colors each pixel that has one.
+/// Colors each pixel that has a value.
 template <typename ColorOf>
 Canvas colored(int width, int height, bool has_legend, const ColorOf& color_of) {
     Canvas canvas(width, height, has_legend);
@@ -109,7 +109,7 @@ Canvas colored(int width, int height, bool has_legend, const ColorOf& color_of) 
     return canvas;
 }
 
-/// The map with its two ends, and what is half-way between them.
+/// The color map's range: both ends and the midpoint.
 class Range {
    public:
     Range(std::span<const float> values, Scale scale) : is_log_(scale == Scale::logarithmic) {

@@ -29,7 +29,7 @@ bool is_finite_pixel(const Picture& picture, std::size_t pixel) {
     return std::all_of(first, first + picture.channels, [](float v) { return std::isfinite(v); });
 }
 
-/// A few instructions a value, where pixels are looked at one by one only if this is false.
+/// A fast scan, so that pixels need individual checks only if it returns false.
 bool is_all_finite(const Picture& picture) {
     constexpr std::uint32_t exponent = 0x7f800000;
     bool any = false;
@@ -39,8 +39,8 @@ bool is_all_finite(const Picture& picture) {
     return !any;
 }
 
-/// Levels of an 8-bit picture. Twice the rounding of a value below 1 to float on top: pictures that
-/// were stored with 8 bits, one level apart, are not over 1/255.
+/// Steps of an 8-bit picture, plus two float ulps below 1: pictures stored with 8 bits that are one
+/// step apart do not count as over 1/255.
 constexpr double levels(int count) { return count / 255.0 + 0x1p-23; }
 
 std::size_t pixel_count(const Picture& picture) {

@@ -8,8 +8,8 @@
 
 namespace rt {
 
-/// How far one picture is from another. Channel values are compared as they are stored, unclamped;
-/// pixels that are not finite in either picture are counted and left out of the rest.
+/// The difference between two pictures. Channel values are compared as stored, unclamped; pixels
+/// that are not finite in either picture are counted and otherwise ignored.
 struct ImageError {
     double rmse = 0;             ///< root of the mean squared difference over channels
     double mean = 0;             ///< mean absolute difference

@@ -12,16 +12,16 @@ struct InputFile {
     std::uintmax_t size = 0;  // in bytes
 };
 
-/// Opens a regular file, and nothing else (a pipe would wait for ever, a device never end).
+/// Opens a regular file only (a pipe could block forever, a device never end).
 /// Throws Error(ExitCode::input) "path: cannot read: reason; what to do".
 InputFile open_input_file(const std::string& path);
 
-/// Refuses what would not be a picture (empty, more than 64 channels) or not fit in memory:
-/// at most 65536 x 65536, 2^28 pixels, 2^30 values. Throws Error(ExitCode::input).
+/// Refuses sizes that are not a picture (empty, more than 64 channels) or too large: at most 65536
+/// x 65536, 2^28 pixels, 2^30 values. Throws Error(ExitCode::input).
 void check_picture_size(const std::string& path, int width, int height, int channels);
 
-/// Refuses a file whose header promises more bytes of pixels than it could hold, compressed
-/// `best_ratio` to 1 as its format allows at most. Throws Error(ExitCode::input).
+/// Refuses a file whose header promises more pixel bytes than it could hold at its format's best
+/// compression ratio, `best_ratio` to 1. Throws Error(ExitCode::input).
 void check_stored_size(const std::string& path, std::uintmax_t pixel_bytes,
                        std::uintmax_t best_ratio, std::uintmax_t file_size);
 

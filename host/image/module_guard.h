@@ -14,7 +14,7 @@ inline int fail(ErrorText error, const std::string& message) {
     return 0;
 }
 
-/// Runs one call of the border: nothing may be thrown across it.
+/// Runs one call into a module; no exception may cross the module boundary.
 template <typename Call>
 int guarded(ErrorText error, Call call) {
     fail(error, "");

@@ -8,11 +8,8 @@
 namespace rt {
 
 /// The module that reads and writes the format, loaded on the first call: OpenEXR's takes a
-/// millisecond or two, OpenImageIO's, with 260 libraries, 150 and more. It is looked for
-/// 1. in the directory of the executable,
-/// 2. in the directories of MIRRORBALL_MODULE_DIR, a list separated by colons fixed when the
-///    program was built; a relative one starts at the directory of the executable.
-/// Only for formats that need one (needs_module). Throws Error(failure) naming the missing file.
+/// millisecond or two, OpenImageIO's, with 260 libraries, 150 and more. Only for formats that need
+/// one (needs_module). Throws Error(failure) naming the missing file.
 const module::Module& picture_module(PictureFormat format, ExitCode failure);
 
 }  // namespace rt

@@ -41,8 +41,8 @@ bool is_on_procfs(const fs::path& directory) {
     return ::statfs(directory.c_str(), &status) == 0 && status.f_type == PROC_SUPER_MAGIC;
 }
 
-/// The file behind the symlinks, whether it exists or not; nothing when a link is one of the
-/// kernel's (/dev/stdout ends in one): these lead to open files, not to names.
+/// Follows symlinks to a file that may not exist; empty when a link is one of the kernel's
+/// (/dev/stdout leads to one): these lead to open files, not to names.
 std::optional<fs::path> follow_links(const std::string& path) {
     fs::path file = path;
     for (int depth = 0; depth < 40; ++depth) {

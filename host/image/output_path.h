@@ -10,18 +10,18 @@
 
 namespace rt {
 
-/// The name of standard output among paths.
+/// The path that means standard output.
 constexpr const char* stdout_path = "-";
 
 /// Where the bytes written to a path really go.
 struct OutputDestination {
-    std::filesystem::path file;  // behind all symlinks
+    std::filesystem::path file;  // after following all symlinks
     bool in_place = false;       // a device, a pipe, an open file: never renamed over
     std::optional<struct stat> existing;
 };
 
-/// Finds it, and throws Error(ExitCode::output) where nothing could be written: a directory, a
-/// disk, a read-only file.
+/// Resolves the path; throws Error(ExitCode::output) if it cannot be written: a directory, a block
+/// device, a read-only file.
 OutputDestination find_output_destination(const std::string& path);
 
 /// "." for a bare name.
@@ -30,16 +30,16 @@ std::filesystem::path directory_of(const std::filesystem::path& file);
 /// Throws Error(ExitCode::output) "path: cannot write: reason; what to do".
 [[noreturn]] void fail_to_write(const std::string& path, int error);
 
-/// Throws the Error of write_file_atomically when that could not even start: the directory is
-/// missing or not writable, the path is a directory, the file there is read-only.
-/// Writes nothing; meant to be asked before a long computation.
+/// Throws the Error that write_file_atomically would throw before writing: the directory is missing
+/// or not writable, the path is a directory, the file there is read-only. Writes nothing; meant to
+/// be called before a long computation.
 void check_output_path(const std::string& path);
 
 /// Where an unfinished picture goes: "dir/out.partial.png" for "dir/out.png".
 std::string partial_path(const std::string& path);
 
-/// Throws Error(ExitCode::usage) when the output is one of the inputs, by whatever name or link:
-/// the same device and inode. Empty names and "-" are none.
+/// Throws Error(ExitCode::usage) when the output is one of the inputs under any name or link: the
+/// same device and inode. Empty names and "-" never match.
 void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs);
 
 }  // namespace rt

@@ -9,8 +9,8 @@
 namespace rt {
 
 /// Writes the picture as a Portable Float Map: "PF" (3 channels) or "Pf" (1 channel), little-endian
-/// 32-bit floats, bottom row first; every bit of every float is kept. The format has no place for
-/// metadata. Takes next to no memory. Other channel counts throw Error(ExitCode::output).
+/// 32-bit floats, bottom row first; every bit of every float is kept. The format cannot hold
+/// metadata. Needs almost no memory. Other channel counts throw Error(ExitCode::output).
 void write_pfm(const std::string& path, const Picture& picture);
 
 /// Reads a Portable Float Map of either byte order. The magnitude of the scale in its header is

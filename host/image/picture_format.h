@@ -16,20 +16,20 @@ std::string_view to_string(PictureFormat format);
 /// OpenImageIO's name of the format: "png", "openexr", "targa", ...
 const char* module_name(PictureFormat format);
 
-/// Whether it holds floats: .exr and .pfm every bit, .tif too, .hdr 8 bits of each. The others
+/// Whether it holds floats: .exr, .pfm and .tif exactly, .hdr with 8-bit mantissas. The others
 /// hold 8-bit integers.
 bool stores_floats(PictureFormat format);
 
 /// Whether reading and writing it takes a module (module_loader.h).
 bool needs_module(PictureFormat format);
 
-/// The format the ending of a name stands for, in upper or lower case; nothing for other names.
+/// The format of a file name's extension, case-insensitive; empty if unknown.
 std::optional<PictureFormat> known_picture_format(const std::string& path);
 
-/// The same; other names throw Error(ExitCode::usage) with the list.
+/// The same; throws Error(ExitCode::usage) with the list of formats if unknown.
 PictureFormat picture_format_of_name(const std::string& path);
 
-/// What the first 16 bytes of a file say it is; nothing where they do not tell, as in TGA.
+/// The format that a file's first 16 bytes identify; empty if they do not, as in TGA.
 std::optional<PictureFormat> picture_format_of_bytes(std::string_view first_bytes);
 
 }  // namespace rt

@@ -38,7 +38,7 @@ void check_picture(const std::string& path, const Picture& picture) {
 
 void check_metadata(const std::string& path, Metadata metadata) {
     constexpr std::string_view prefix = "mirrorball:";
-    constexpr std::size_t longest = 31;  // of an EXR attribute
+    constexpr std::size_t longest = 31;  // for EXR attribute names
     const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
     for (const auto& [name, text] : metadata) {
         const std::string_view rest = std::string_view(name).substr(std::min(11ul, name.size()));
@@ -77,7 +77,7 @@ std::vector<std::byte> encode(const std::string& path, PictureFormat format,
     request.attribute_names = names.data();
     request.attribute_texts = texts.data();
     std::vector<std::byte> bytes;
-    // Address space only, so that growing copies nothing: most files are smaller than the pixels.
+    // Reserves address space only, so that growing never copies: most files are smaller than this.
     bytes.reserve(sizeof(float) * static_cast<std::size_t>(request.width) * request.height *
                   request.channels);
     const module::ByteSink sink{&bytes, put_bytes};

@@ -34,12 +34,12 @@ class PngReader {
         check(read_header());
         const auto width = static_cast<int>(png_get_image_width(png_, info_));
         const auto height = static_cast<int>(png_get_image_height(png_, info_));
-        // Expanded by then: a palette is 3 channels, a transparent color one more.
+        // After expansion: a palette is 3 channels, a transparent color one more.
         const bool has_palette = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE;
         const bool has_key = png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
         const int channels = (has_palette ? 3 : png_get_channels(png_, info_)) + (has_key ? 1 : 0);
         check_picture_size(path_, width, height, channels);
-        // Deflate makes nothing smaller than a 1032nd.
+        // Deflate's best ratio is 1032:1.
         const std::uintmax_t stored = png_get_rowbytes(png_, info_) * std::uintmax_t(height);
         check_stored_size(path_, stored, 1032, file_size);
         check_picture_memory(path_, width, height, channels);
@@ -80,8 +80,8 @@ class PngReader {
     bool read_header() {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
         png_set_read_fn(png_, this, read_bytes);
-        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // ours come after
-#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // checksums would keep out nearly all inputs
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // we check the size ourselves
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // bad checksums would stop nearly all inputs
         png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
 #endif
         png_read_info(png_, info_);

@@ -62,8 +62,8 @@ void declare_encoding(png_structp png, png_infop info, Encoding encoding) {
     if (encoding == Encoding::linear) png_set_gAMA(png, info, 1.0);
 }
 
-/// Rendered pictures have areas of one color and edges again and again: unfiltered they take half
-/// the time of the best filter, and 1 to 13 % more bytes (docs/dependencies.md).
+/// Rendered pictures have many uniform areas and repeated edges: unfiltered they compress in half
+/// the time of the best filter, to 1 to 13 % more bytes (docs/dependencies.md).
 void choose_compression(png_structp png) {
     png_set_compression_level(png, 6);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view prefix = ".mirrorball-";
 constexpr std::string_view suffix = ".tmp";
 
-/// Names of the temporary files that are open; more than there are slots are left out.
+/// Names of the open temporary files; those beyond the last slot are not listed.
 std::array<std::atomic<const char*>, 16> open_names;
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
@@ -38,8 +38,8 @@ std::atomic<const char*>* list_name(const char* name) {
     return nullptr;
 }
 
-/// Takes the lock of a file just created; whether the file is still there. Who looks for abandoned
-/// files may have come first. Where the file system knows no locks, nobody removes anything.
+/// Locks a file just created and returns whether it still exists: a cleanup may have removed it
+/// first. Without file system locks, cleanup removes nothing.
 bool lock_new_file(int file) {
     while (::flock(file, LOCK_EX) != 0 && errno == EINTR) {
     }
@@ -47,7 +47,7 @@ bool lock_new_file(int file) {
     return ::fstat(file, &status) == 0 && status.st_nlink > 0;
 }
 
-/// The process that a temporary file's name says it is of; 0 for other names.
+/// The process ID in a temporary file's name; 0 for other names.
 pid_t process_of(std::string_view name) {
     if (!name.starts_with(prefix) || !name.ends_with(suffix)) return 0;
     pid_t process = 0;
@@ -58,7 +58,7 @@ pid_t process_of(std::string_view name) {
 
 bool is_running(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
 
-/// Whoever gets the lock of a file removes it while holding the lock.
+/// Unlinks only while holding the lock, so that no live file is removed.
 void remove_if_abandoned(const fs::path& file) {
     const FileDescriptor open(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
@@ -105,7 +105,7 @@ void unlink_temporaries() {
 }
 
 bool TemporaryFile::rename_to(const fs::path& name) {
-    // Renamed while the lock is held: nobody takes it for abandoned in between.
+    // Keeps the lock while renaming, so that nobody takes the file for abandoned in between.
     const FileDescriptor lock(::dup(file_.number()));
     if (!file_.close() || ::rename(name_.c_str(), name.c_str()) != 0) return false;
     if (listed_ != nullptr) *std::exchange(listed_, nullptr) = nullptr;

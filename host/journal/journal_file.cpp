@@ -19,7 +19,7 @@ namespace rt {
 
 namespace {
 
-/// Who wrote last.
+/// The last process to write to it.
 std::string last_writer(const std::string& path, std::uint64_t size) {
     try {
         std::ifstream stream(path, std::ios::binary);
@@ -62,7 +62,7 @@ void JournalFile::open_existing() {
     const ssize_t got = ::pread(file.number(), magic, sizeof(magic), 0);
     const std::string_view bytes(magic, got > 0 ? static_cast<std::size_t>(got) : 0);
     if (is_start_of_magic(bytes)) {
-        found_ = Found::nothing;  // its process ended before the first record
+        found_ = Found::nothing;  // the process that created it ended before its first record
     } else if (bytes.starts_with(journal_magic.substr(0, 6))) {
         found_ = Found::journal;
     } else {
@@ -72,8 +72,8 @@ void JournalFile::open_existing() {
     end_ = size;
 }
 
-/// Whether nobody else holds it, and it still is the file of that name. Where the file system knows
-/// no locks nobody does.
+/// Locks the file if no other process has, and checks that it still has that name. Succeeds on file
+/// systems without locks.
 bool JournalFile::lock(const FileDescriptor& file) const {
     if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
     struct stat ours {
@@ -132,7 +132,7 @@ void JournalFile::append(std::span<const std::byte> records) {
     const std::uint64_t before = end_;
     if (::ftruncate(file_.number(), static_cast<off_t>(end_)) != 0) return fail("cut", errno);
     if (!write_all(start_ ? start_() : std::vector<std::byte>()) || !write_all(records)) {
-        // What is there stays good for the next time; if this fails, too, a reader cuts it.
+        // The old contents stay valid; if this fails too, readers stop at the first bad record.
         [[maybe_unused]] const int ignored =
             ::ftruncate(file_.number(), static_cast<off_t>(before));
         return;

@@ -12,9 +12,9 @@
 
 namespace rt {
 
-/// A journal on disk that one process appends to, and holds a lock on (flock) meanwhile. It is made
-/// when the first record is written. What fails from then on is kept as a sentence, not thrown: a
-/// picture goes on without its journal.
+/// An on-disk journal that one process appends to while holding a lock on it (flock). It is created
+/// with the first record. Later failures are stored as a message, not thrown: rendering continues
+/// without the journal.
 class JournalFile {
    public:
     /// What was found in the place of a journal.
@@ -26,29 +26,29 @@ class JournalFile {
     Found found() const { return found_; }
     const std::string& path() const { return path_; }
 
-    /// Calls `read` with the journal that was found. What follows its last good record goes when
-    /// the next is written. Throws Error (ExitCode::input) when its header cannot be read.
+    /// Calls `read` with the existing journal. Anything after its last good record is cut off on
+    /// the next write. Throws Error (ExitCode::input) when its header cannot be read.
     void read(const std::function<void(JournalReader&)>& read);
 
-    /// Empties it when it is next written, which begins with what `start` gives.
+    /// Replaces its contents on the next write, which begins with what `start` returns.
     void restart(std::function<std::vector<std::byte>()> start);
 
     /// Whether a file is there.
     bool exists() const { return static_cast<bool>(file_); }
 
-    /// Appends whole records and has the disk keep them.
+    /// Appends whole records and flushes them to disk.
     void append(std::span<const std::byte> records);
 
-    /// Makes the file that is there empty at once; restart says what is written next.
+    /// Truncates the existing file at once; restart sets what is written next.
     void empty();
 
     /// Removes the file.
     void remove();
 
-    /// Writes no more, and keeps why.
+    /// Stops writing and stores the reason.
     void give_up(const std::string& why) { failure_ = path_ + ": " + why; }
 
-    /// Why it is no longer written; empty while all is well.
+    /// Why writing stopped; empty if it did not.
     const std::string& failure() const { return failure_; }
 
    private:
@@ -62,7 +62,7 @@ class JournalFile {
     FileDescriptor file_;
     Found found_ = Found::nothing;
     std::string failure_;
-    std::uint64_t end_ = 0;                          ///< bytes that are good
+    std::uint64_t end_ = 0;                          ///< length of the good part
     std::function<std::vector<std::byte>()> start_;  ///< empty once it is written
 };
 

@@ -87,7 +87,7 @@ std::uint32_t record_crc(RecordKind kind, std::span<const std::byte> body) {
     const std::uint32_t head[2] = {static_cast<std::uint32_t>(kind),
                                    static_cast<std::uint32_t>(body.size())};
     const uLong start = crc32_z(0, reinterpret_cast<const Bytef*>(head), sizeof(head));
-    if (body.empty()) return static_cast<std::uint32_t>(start);  // zlib restarts at null
+    if (body.empty()) return static_cast<std::uint32_t>(start);  // null would reset zlib's CRC
     return static_cast<std::uint32_t>(
         crc32_z(start, reinterpret_cast<const Bytef*>(body.data()), body.size()));
 }
@@ -145,7 +145,7 @@ JournalHeader parse_header(std::span<const std::byte> body) {
     header.scene = text_of(json, "scene");
     header.scene_hash = text_of(json, "scene_hash");
     header.settings = text_of(json, "settings");
-    if (!json.contains("scene_file")) return header;  // none but merge --verify asks for the rest
+    if (!json.contains("scene_file")) return header;  // only merge --verify needs the rest
     header.scene_file = text_of(json, "scene_file");
     header.aa = text_of(json, "aa");
     header.filter = text_of(json, "filter");

@@ -33,7 +33,7 @@ JournalKeeper<T>::~JournalKeeper() {
     stop();
 }
 
-/// The mutex is held.
+/// Starts the thread when it is time. Requires the mutex.
 template <typename T>
 void JournalKeeper<T>::have_thread() {
     if (has_thread_ || is_stopped_ || !is_time()) return;

@@ -15,37 +15,37 @@
 
 namespace rt {
 
-/// Writes what is finished of a film to its journal every second, from a thread of its own, which
-/// is started when `delay` seconds have passed: what takes less writes nothing.
+/// Appends the finished parts of a film to its journal every second, on its own thread, started
+/// after `delay` seconds: quicker renders write nothing.
 template <typename T>
 class JournalKeeper {
    public:
-    /// `writer` is the record that says who we are. The film must outlive this and shows `shown`.
+    /// `writer` identifies this process. The film covers `shown` and must outlive this.
     JournalKeeper(JournalFile& file, const JournalWriterInfo& writer, const Film<T>& film,
                   const Rect& shown, double delay);
     JournalKeeper(const JournalKeeper&) = delete;
     JournalKeeper& operator=(const JournalKeeper&) = delete;
     ~JournalKeeper();
 
-    /// A rectangle of the picture is in the film. From any thread.
+    /// A rectangle of the picture is now in the film. Callable from any thread.
     void tile_finished(const Rect& tile);
 
-    /// It is there no longer; to be called before others may render it. From any thread.
+    /// It is no longer; call before it may be rendered again. Callable from any thread.
     void tile_lost(const Rect& tile);
 
-    /// Takes what is finished of the first pass out of the film: its pixels may change now.
+    /// Copies what the first pass finished out of the film, whose pixels may now change.
     void first_pass_ended();
 
     /// Pixels of the film were refined in this pass.
     void refined(int pass, std::span<const std::int32_t> pixels);
 
-    /// Ends the thread and writes what is left, if it was worth writing before.
+    /// Ends the thread and writes what is left, if `delay` has passed.
     void close();
 
-    /// As close, and notes that all is there.
+    /// As close, and marks the journal as finished.
     void close_finished();
 
-    /// Ends the thread; what is left need not be kept.
+    /// Ends the thread and discards what is left.
     void stop();
 
    private:
@@ -60,15 +60,15 @@ class JournalKeeper {
     const Rect shown_;
     const double delay_;
     const Stopwatch watch_;
-    std::mutex mutex_;         ///< of what follows
-    std::vector<Rect> tiles_;  ///< finished, not taken yet
+    std::mutex mutex_;         ///< guards what follows
+    std::vector<Rect> tiles_;  ///< finished, not yet copied
     std::vector<std::byte> records_;
-    std::size_t bare_bytes_;  ///< of records that say nothing yet
+    std::size_t bare_bytes_;  ///< size of records_ while it holds only the writer
     bool is_stopped_ = false;
     std::condition_variable stopped_;
-    std::mutex write_mutex_;  ///< one write at a time, in order
+    std::mutex write_mutex_;  ///< serializes writes
     std::thread thread_;
-    bool has_thread_ = false;  ///< or could have none: all is written at the end
+    bool has_thread_ = false;  ///< or failed to start it: close() then writes everything
 };
 
 }  // namespace rt

@@ -54,7 +54,7 @@ JournalReader::JournalReader(std::istream& stream, std::uint64_t size)
     header_ = parse_header(body_);
 }
 
-/// Whether there is another whole one.
+/// Reads the next record; false if it is truncated or damaged.
 bool JournalReader::read_record() {
     if (size_ - good_bytes_ < head_bytes) return false;
     std::byte head[head_bytes];

@@ -14,8 +14,8 @@
 
 namespace rt {
 
-/// A record that fits its journal: its rectangle or pixels lie in the film, and its body is as long
-/// as they say. What it points to is there until the next one is read.
+/// A record checked against its journal: its rectangle or pixels lie in the film, and its body has
+/// the right length. Its spans stay valid until the next record is read.
 struct JournalRecord {
     RecordKind kind;
     Rect rect;                           ///< of tile and lost
@@ -25,16 +25,16 @@ struct JournalRecord {
     JournalWriterInfo writer;            ///< of writer
 };
 
-/// Reads a journal record by record, whatever its bytes.
+/// Reads a journal record by record; safe for arbitrary bytes.
 class JournalReader {
    public:
-    /// Reads the header. Throws Error (ExitCode::input), without a file's name, when there is none
-    /// that this version can read. `size`: bytes of the stream.
+    /// Reads the header. Throws Error (ExitCode::input), without a file name, when this version
+    /// cannot read it. `size`: bytes of the stream.
     JournalReader(std::istream& stream, std::uint64_t size);
 
     const JournalHeader& header() const { return header_; }
 
-    /// The next record; empty at the end and before the first bad one.
+    /// The next record; empty at the end or at the first bad record.
     std::optional<JournalRecord> next();
 
     /// Bytes up to the end of the last good record.
@@ -59,25 +59,25 @@ struct RefinedPixels {
     std::vector<T> colors;
 };
 
-/// What a journal holds of a picture, all together.
+/// All that a journal holds of a picture.
 template <typename T>
 struct KnownPixels {
-    Film<T> film{0, 0};  ///< after the first pass; black where is_rendered is 0
+    Film<T> film{0, 0};  ///< after the first pass
     std::vector<std::uint8_t> is_rendered;
     RefinedPixels<T> refined[refine_passes];
     bool is_finished = false;
     std::vector<JournalWriterInfo> writers;
 
-    /// Of the film, how much was rendered in the first pass: 0 to 1.
+    /// The fraction of the film rendered in the first pass: 0 to 1.
     double share_rendered() const;
 
-    /// The film with what was refined; takes it from here.
+    /// The film with the refined pixels applied; moves it out.
     Film<T> take_refined_film();
 };
 
-/// Reads the rest. A film that is no longer needed may be given for its memory; where it has the
-/// right size, pixels that are not rendered keep what it had. Throws Error (ExitCode::limit) when
-/// memory is short.
+/// Reads the remaining records. Reuses the memory of `used`, a film no longer needed; if it has the
+/// right size, pixels not rendered keep its values, else they are black. Throws Error
+/// (ExitCode::limit) when memory is short.
 template <typename T>
 KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used = {0, 0});
 

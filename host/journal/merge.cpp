@@ -22,7 +22,7 @@ namespace {
     throw Error(ExitCode::input, path + ": " + what);
 }
 
-/// Calls read(reader, bytes) with a part, and names it in errors.
+/// Calls read(reader, bytes) with a part, and adds its name to errors.
 template <typename Read>
 void read_part(const std::string& path, const Read& read) {
     InputFile file = open_input_file(path);
@@ -128,8 +128,8 @@ class Merger {
                static_cast<std::size_t>(region_.x - film.x) + i % width;
     }
 
-    /// The rendered pixels of a block; `rendered` is of the part's film, `film` is cut to the
-    /// region.
+    /// Copies the rendered pixels of a block; `rendered` covers the part's film, `film` is cropped
+    /// to the region.
     void take_block(const Rect& block, const Rect& part_film,
                     const std::vector<std::uint8_t>& rendered, const Film<T>& film) {
         for (int y = block.y - region_.y; y < block.y - region_.y + block.height; ++y) {
@@ -163,7 +163,7 @@ class Merger {
         return who.empty() ? part.path : fmt::format("{} ({})", part.path, who);
     }
 
-    /// The shares, of so many, that have missing pixels.
+    /// Which shares, out of `of`, have missing pixels.
     Shares missing(int of) const {
         Shares shares{{}, of};
         const std::vector<int> share_of = block_shares(blocks_.size(), of);
@@ -185,8 +185,8 @@ class Merger {
 
     const Rect region_;
     Film<T> film_;
-    Film<T> used_film_{0, 0};  ///< of the part before: 100 MB for a picture of 4K are not for free
-    std::vector<int> owner_;   ///< of each pixel the part that it is from; -1: none
+    Film<T> used_film_{0, 0};         ///< the previous part's, reused: 100 MB at 4K
+    std::vector<int> owner_;          ///< index of the part that each pixel came from; -1: none
     const std::vector<Rect> blocks_;  ///< that shares are made of
     std::vector<Part> parts_;
     std::map<std::pair<int, int>, Difference> differences_;

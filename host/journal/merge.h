@@ -13,18 +13,18 @@
 
 namespace rt {
 
-/// The parts of one picture, put together.
+/// A picture merged from its parts.
 struct MergedPicture {
     JournalHeader header;  ///< of the first part
     Picture picture;       ///< black where a part is missing
     std::uint64_t image_hash = 0;
     std::size_t missing_pixels = 0;
-    std::optional<Shares> missing;   ///< the shares to render again, of as many as the first part's
-    std::vector<std::string> notes;  ///< about parts that are not whole
+    std::optional<Shares> missing;   ///< the shares to render again, numbered as in the first part
+    std::vector<std::string> notes;  ///< about incomplete parts
 };
 
-/// Puts parts together, in any order. Pixels that several have must be the same in each. Throws
-/// Error: input for what is no journal or is of another picture than the first; different, with
+/// Merges parts in any order. Pixels present in several parts must be equal. Throws Error: input
+/// for a part that is no journal or belongs to another picture than the first; different, with
 /// files, hosts and devices, where parts differ; limit.
 MergedPicture merge_journals(const std::vector<std::string>& parts);
 

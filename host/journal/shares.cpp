@@ -25,7 +25,7 @@ std::optional<int> parse_number(std::string_view text) {
     return number;
 }
 
-/// "7" or "20-25" into `numbers`; false when it is neither or not below `of`.
+/// Appends "7" or "20-25" to `numbers`; false when it is neither or not below `of`.
 bool parse_range(std::string_view text, int of, std::vector<int>& numbers) {
     const std::size_t dash = text.find('-');
     const auto first = parse_number(text.substr(0, dash));
@@ -35,7 +35,7 @@ bool parse_range(std::string_view text, int of, std::vector<int>& numbers) {
     return true;
 }
 
-/// A well-mixed number (the finalizer of SplitMix64; Steele, Lea and Flood 2014).
+/// Hashes a number (the finalizer of SplitMix64; Steele, Lea and Flood 2014).
 std::uint64_t mixed(std::uint64_t number) {
     number += 0x9e3779b97f4a7c15u;
     number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -48,7 +48,7 @@ std::size_t index_in(const Rect& film, int x, int y) {
            static_cast<std::size_t>(x - film.x);
 }
 
-/// Gives `level` to what is 0 and a neighbor of what is level + 1.
+/// Sets to `level` each 0 that has a neighbor of level + 1.
 void grow(std::vector<std::uint8_t>& needs, const Rect& film, std::uint8_t level) {
     for (int y = 0; y < film.height; ++y) {
         for (int x = 0; x < film.width; ++x) {

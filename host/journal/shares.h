@@ -11,8 +11,8 @@
 
 namespace rt {
 
-/// Some of the shares that a picture is cut into: those of one machine. A picture of one share is
-/// whole.
+/// Some of the shares that a picture is cut into: those of one machine. A picture with one share is
+/// not divided.
 struct Shares {
     static constexpr int most = 100000;
 
@@ -32,18 +32,18 @@ std::string to_string(const Shares& shares);
 /// squares of 16, 32, 64, 128 or 256 pixels, smaller at the edges.
 std::vector<Rect> share_blocks(const Rect& region);
 
-/// The share that each of so many blocks belongs to: equally many to each, spread at random (always
-/// the same way), since what costs much lies together.
+/// The share of each block: equally many blocks per share, at random (always the same way), since
+/// expensive blocks cluster.
 std::vector<int> block_shares(std::size_t blocks, int shares);
 
-/// What the shares need of a film, a number a pixel: 0 nothing; d + 1 a pixel from which it takes
-/// refine_passes - d steps to one of their own, which has refine_passes + 1. Where nothing is
-/// refined all but their own are 0.
+/// What the shares need of a film, a number per pixel: 0 for nothing, refine_passes + 1 for their
+/// own pixels, d + 1 for pixels refine_passes - d steps away from those. Without refining, all but
+/// their own are 0.
 std::vector<std::uint8_t> share_needs(const Shares& shares, const Rect& region, const Rect& film,
                                       bool refines);
 
-/// Cuts each cell, which lies in the film, into the largest rectangles, more or less, of those of
-/// its pixels that are not 0 in `wanted`.
+/// Greedily covers the pixels of each cell that are not 0 in `wanted` with rectangles. Cells must
+/// lie in the film.
 std::vector<Rect> wanted_tiles(const std::vector<Rect>& cells,
                                const std::vector<std::uint8_t>& wanted, const Rect& film);
 

@@ -10,7 +10,7 @@
 
 namespace rt {
 
-/// What an earlier bench measured of a right row.
+/// What an earlier bench measured for a row with verdict right.
 struct BaselineRow {
     Spread trace, total;  ///< seconds
 };
@@ -21,8 +21,8 @@ using Baseline = std::map<std::string, BaselineRow>;
 /// Reads the JSON of an earlier bench. Throws Error (ExitCode::input).
 Baseline load_baseline(const std::string& path);
 
-/// Whether a row has become slower: its median exceeds the old one by more than the share
-/// `max_regress`, and by more than 3 times both MADs together, so that noise alone does not say so.
+/// Whether a row has become slower: its median exceeds the old one by more than the fraction
+/// `max_regress`, and by more than 3 times the summed MADs, so that noise alone does not count.
 bool is_slower(const Spread& before, const Spread& now, double max_regress);
 
 /// A row that has become slower.
@@ -35,8 +35,8 @@ struct Regression {
 /// One line: what, from, to, and the noise.
 std::string to_string(const Regression& regression);
 
-/// The rows of the result that are in the baseline and slower now, in total or, when that is not,
-/// in trace. Throws Error (ExitCode::input) when they have no row in common.
+/// The rows of the result that are in the baseline and slower now, in total or else in trace.
+/// Throws Error (ExitCode::input) if they have no row in common.
 std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,
                                     double max_regress);
 

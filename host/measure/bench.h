@@ -11,7 +11,7 @@ namespace rt {
 
 const char* to_string(Verdict verdict);
 
-/// What is measured of a right row. Every figure is of medians over its repeats.
+/// Figures of a right row, each computed from medians over its repeats.
 struct BenchFigures {
     Spread trace, total;         ///< seconds
     double rays_per_second = 0;  ///< rays over the median trace seconds
@@ -28,24 +28,23 @@ struct BenchFigures {
 /// Empty unless the row is right and has a repeat: a wrong picture has no timing.
 std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow& row);
 
-/// What a row of an ablation comes to.
+/// Figures of a row of an ablation.
 struct AblationFigures {
     Spread trace;            ///< seconds
     double first_build = 0;  ///< seconds to build the kernels before the first picture
-    double ratio = 0;        ///< median trace over that of the row as usual: over 1, slower
+    double ratio = 0;        ///< median trace over that of the usual row: above 1, slower
 };
 
-/// The row that this one of result.ablation is a change of; itself when it is as usual.
+/// The usual row that this row of result.ablation is a variation of; the row itself if it is one.
 const BenchRow& usual_row(const BenchResult& result, const BenchRow& row);
 
 /// Empty unless the row and the usual one are right and have a repeat.
 std::optional<AblationFigures> ablation_figures(const BenchResult& result, const BenchRow& row);
 
-/// Finds pictures of an ablation that differ from the usual one: their rows become wrong.
+/// Marks rows of the ablation whose picture differs from the usual one as wrong.
 void judge_ablation(BenchResult& result);
 
-/// What a row is recognized by in another result: scene hash, size, AA, precision, device,
-/// schedule.
+/// Identifies a row across results: scene hash, size, AA, precision, device, schedule.
 std::string key_of(const BenchCase& asked);
 
 /// Whether any row has this verdict.

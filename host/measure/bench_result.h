@@ -8,7 +8,7 @@
 
 namespace rt {
 
-/// What became of a row.
+/// Outcome of a row.
 enum class Verdict {
     right,       ///< every picture agrees with the reference
     wrong,       ///< a picture does not: no timing is given
@@ -29,28 +29,28 @@ struct BenchCase {
     int threads = 0;            ///< asked for; 0 for OpenCL
     std::string schedule;       ///< "tiles", "buffers" or "scalar" (tiles, one ray at a time);
                                 ///< empty for OpenCL
-    std::string change;         ///< of an ablation: what is not as usual; empty: nothing
+    std::string change;         ///< in an ablation: what differs from the usual; empty: nothing
 };
 
 /// A row: one case, with every run kept. RenderStats::error is against the double reference, on
 /// values clamped to [0,1]. RenderStats::phases.start and .write are 0, .total is timed_total().
 struct BenchRow {
     BenchCase asked;
-    std::vector<RenderStats> warm_up;  ///< the first round, kept apart; no figure comes from it
-    std::vector<RenderStats> repeats;  ///< one a round, in order
+    std::vector<RenderStats> warm_up;  ///< the first round, kept separately; not used in any figure
+    std::vector<RenderStats> repeats;  ///< one per round, in order
     Verdict verdict = Verdict::unfinished;
     std::string why;  ///< what is wrong or what failed; empty when right
 };
 
-/// All that `mirrorball bench` found out. Figures are functions over it (bench.h).
+/// All results of `mirrorball bench`. Figures are computed from it (bench.h).
 struct BenchResult {
     int repeats_asked = 0;
     bool interrupted = false;
     double load_before = -1;  ///< one-minute load average when it began; below 0: unknown
-    std::vector<RenderStats> references;  ///< double, strict, threads; a scene, size, AA mode each
+    std::vector<RenderStats> references;  ///< double, strict, threads; one per scene, size, AA mode
     std::vector<BenchRow> rows;           ///< by scene, size, AA, precision; then devices
-    /// With --ablate, and then `rows` is empty: a picture on a device as usual, then with each
-    /// change. Every picture must have the usual one's bits.
+    /// With --ablate (`rows` is then empty): a picture on a device as usual, then with each change.
+    /// Every picture must have the same bits as the usual one.
     std::vector<BenchRow> ablation;
 };
 

@@ -16,30 +16,30 @@ namespace rt {
 /// The RMSEs that "seconds to reach" are given for.
 inline constexpr std::array<double, 4> rmse_targets{1e-2, 3e-3, 1e-3, 3e-4};
 
-/// What is measured of a right point.
+/// Figures of a right point.
 struct PointFigures {
     Spread seconds;            ///< picture_seconds: without open and build
     double rmse = 0;           ///< median over the repeats (equal in strict arithmetic)
-    bool below_floor = false;  ///< closer to the reference than the reference is known to be right
+    bool below_floor = false;  ///< closer to the reference than the reference's estimated error
 };
 
 /// Empty unless the point is right and has a repeat.
 std::optional<PointFigures> figures_of(const ConvergeResult& result, const ConvergePoint& point);
 
-/// Indices into ConvergeResult::points of those that no other point beats, by rising seconds.
+/// Indices into ConvergeResult::points of the Pareto front, by increasing seconds.
 std::vector<std::size_t> front_of(const ConvergeResult& result);
 
-/// Points that differ in sampling alone, in the order of the sweep.
+/// Points that differ only in sampling, in sweep order.
 struct Curve {
     ConvergeCase of;     ///< its device, precision, math and bounces
     std::string family;  ///< "grid" (with none), "sobol", "adaptive"
     std::vector<std::size_t> points;
-    std::optional<double> slope;  ///< of log RMSE over log seconds; none of a single point
+    std::optional<double> slope;  ///< of log RMSE over log seconds; none for a single point
 };
 
 std::vector<Curve> curves_of(const ConvergeResult& result);
 
-/// What comes on top of a device's first picture, in seconds.
+/// Extra seconds of a device's first picture.
 struct BuildOffset {
     ConvergeCase of;          ///< its device, precision and math
     double open = 0;          ///< median
@@ -50,16 +50,16 @@ struct BuildOffset {
 
 std::vector<BuildOffset> build_offsets(const ConvergeResult& result);
 
-/// How soon a device reaches an RMSE: with the fastest setting measured that does.
+/// How soon a device reaches an RMSE, with the fastest measured setting that does.
 struct TargetTime {
     std::string device, device_name;
     double target = 0;
     std::optional<std::size_t> point;  ///< empty when no setting reached it
     double seconds = 0;                ///< its median picture_seconds
-    bool below_floor = false;          ///< the target itself is below the floor: not to be decided
+    bool below_floor = false;          ///< the target itself is below the floor: undecidable
 };
 
-/// Devices in the order of the points, targets from the largest.
+/// Devices in the order of the points; targets from the largest down.
 std::vector<TargetTime> target_times(const ConvergeResult& result);
 
 }  // namespace rt

@@ -22,8 +22,8 @@ struct ConvergeCase {
 /// converged reference, on values clamped to [0,1].
 struct ConvergePoint {
     ConvergeCase asked;
-    std::vector<RenderStats> warm_up;  ///< the first round, kept apart
-    std::vector<RenderStats> repeats;  ///< one a round, in order
+    std::vector<RenderStats> warm_up;  ///< the first round, kept separately
+    std::vector<RenderStats> repeats;  ///< one per round, in order
     Verdict verdict = Verdict::unfinished;
     std::string why;  ///< what is wrong or what failed; empty when right
 };
@@ -38,12 +38,12 @@ struct ConvergeReference {
     double seconds = 0;      ///< to render the halves, or to read them from the cache
     std::string cache_path;  ///< of half a; empty when nothing could be cached
 
-    /// The reference's own RMSE, estimated: errors of independent halves add in square, so their
-    /// mean is off by half their distance. Below it nothing can be said of any picture.
+    /// The reference's own RMSE, estimated: errors of independent halves add in quadrature, so
+    /// their mean is off by half their difference. Below it, nothing can be said about a picture.
     double floor() const { return halves_rmse / 2; }
 };
 
-/// All that `mirrorball converge` found out. Figures are functions over it (converge.h).
+/// All results of `mirrorball converge`. Figures are computed from it (converge.h).
 struct ConvergeResult {
     std::string scene_path, scene_name;
     std::vector<std::string> notes;  ///< Scene::notes

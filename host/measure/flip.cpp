@@ -23,7 +23,7 @@ namespace rt {
 namespace {
 
 /// Reads two pictures of float RGB from stdin, the reference first, and ends with one line on
-/// stdout: "flip MEAN VERSION" or "missing MODULE". The current folder is no place for modules.
+/// stdout: "flip MEAN VERSION" or "missing MODULE". Imports no modules from the current folder.
 constexpr const char* program = R"(
 import sys
 sys.path = [p for p in sys.path if p]
@@ -44,7 +44,7 @@ print("\nflip", repr(float(mean)), importlib.metadata.version("flip-evaluator"))
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
-/// An open file without a name: it is gone when it is closed, or with the process.
+/// An unnamed open file, which vanishes when it is closed or the process ends.
 using NamelessFile = std::unique_ptr<std::FILE, CloseFile>;
 
 [[noreturn]] void fail(const char* what, int error) {
@@ -82,7 +82,7 @@ std::string contents(std::FILE* file) {
     return text;
 }
 
-/// What a python3 is started with: its streams are our files, and it dies of closed pipes again.
+/// How python3 is started: its streams are our files, and SIGPIPE and SIGXFSZ kill it again.
 class SpawnSettings {
    public:
     SpawnSettings(std::FILE* in, std::FILE* out) {
@@ -113,7 +113,7 @@ class SpawnSettings {
     posix_spawnattr_t attributes_;
 };
 
-/// Runs python3 to its end; its error number when it cannot be started, else 0.
+/// Runs python3 until it exits; returns the error number if it cannot be started, else 0.
 int run_python(std::vector<std::string> arguments, std::FILE* in, std::FILE* out) {
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -129,7 +129,7 @@ int run_python(std::vector<std::string> arguments, std::FILE* in, std::FILE* out
     return 0;
 }
 
-/// The last line of a text, without its end.
+/// The last line of a text, without its newline.
 std::string_view last_line(std::string_view text) {
     while (text.ends_with('\n')) text.remove_suffix(1);
     return text.substr(text.rfind('\n') + 1);

@@ -13,8 +13,8 @@ struct Cost {
     double seconds = 0, rmse = 0;
 };
 
-/// The ways that no other beats: none is both as fast and as exact, and better in one. Indices by
-/// rising seconds, so by falling error; of equals the first.
+/// The Pareto front: ways for which no other is at least as fast and as accurate, and better in
+/// one. Indices by increasing seconds, hence decreasing error; of equals, the first.
 std::vector<std::size_t> pareto_front(std::span<const Cost> costs);
 
 /// The slope of log RMSE over log seconds, by least squares: -0.5 for plain random sampling. Costs

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double off = 1.0 / 255;
 constexpr double most_off_share = 0.001;
-constexpr double most_off_anyway = 2;  // pixels, however small the picture
+constexpr double most_off_anyway = 2;  // pixels, even in a small picture
 constexpr double largest_rounding_rmse = 2e-4;
 
 std::string shape_mistake(const Picture& picture, const Picture& reference) {
@@ -34,8 +34,8 @@ float value_at(const Picture& picture, int x, int y, int c) {
     return picture.pixels[static_cast<std::size_t>(index)];
 }
 
-/// Mean squared distance of picture(x, y) from reference(x - dx, y - dy), over the pixels one away
-/// from every edge, so that all shifts are measured on the same pixels.
+/// Mean squared difference between picture(x, y) and reference(x - dx, y - dy), without a border of
+/// one pixel, so that all shifts are measured on the same pixels.
 double shifted_mse(const Picture& picture, const Picture& reference, int dx, int dy) {
     double squares = 0;
     for (int y = 1; y < picture.height - 1; ++y) {
@@ -52,8 +52,8 @@ double shifted_mse(const Picture& picture, const Picture& reference, int dx, int
     return squares / values;
 }
 
-/// "1 right, 0 down" when the picture is more like the reference shifted so than like the
-/// reference itself; empty otherwise.
+/// "1 right, 0 down" if the reference shifted so fits the picture with less than half the RMSE;
+/// empty otherwise.
 std::string shift_of(const Picture& picture, const Picture& reference) {
     if (picture.width < 4 || picture.height < 4) return "";
     double best = shifted_mse(picture, reference, 0, 0) / 4;  // half the RMSE
@@ -83,8 +83,8 @@ double rounding_rmse(const Picture& picture, const Picture& reference) {
     return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
 }
 
-/// Pixels that roundings may decide: they lie along the edges of what is seen, so a small picture
-/// has a larger share of them.
+/// The number of pixels that rounding may decide: they lie along edges, so a small picture has a
+/// larger share of them.
 double most_pixels_off(const Picture& picture) {
     const double pixels = static_cast<double>(picture.width) * picture.height;
     return std::max(most_off_share * pixels, most_off_anyway);

@@ -18,15 +18,15 @@ struct Judgement {
     ImageError error;       ///< of the clamped values
 };
 
-/// Measures a picture against a converged one, both clamped to [0,1]: sampled otherwise, it may be
-/// far off. Wrong are only another size and pixels that are not finite.
+/// Measures a picture against a converged one, both clamped to [0,1]. Different sampling may put it
+/// far off, so only a different size and non-finite pixels are wrong.
 Judgement judge_estimate(const Picture& picture, const Picture& converged);
 
 /// Judges a picture against the double reference of the same samples, both clamped to [0,1]. The
-/// same scene in other arithmetic differs by roundings everywhere, and by more only where a
-/// rounding decides what a sample hits. Wrong are therefore: another size; a pixel that is not
-/// finite; all black where the reference is not; the reference shifted by a pixel; more pixels off
-/// by over 1/255 than both 0.1 % and two; the rest off by more than RMSE 2e-4.
+/// same scene in other arithmetic differs by rounding everywhere, and by more only where rounding
+/// decides what a sample hits. So a picture is wrong for: a different size; a non-finite pixel; all
+/// black where the reference is not; a shift by one pixel; more pixels off by over 1/255 than both
+/// 0.1 % and two; an RMSE of the rest above 2e-4.
 Judgement judge_picture(const Picture& picture, const Picture& reference);
 
 }  // namespace rt

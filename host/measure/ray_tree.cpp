@@ -12,8 +12,8 @@ namespace {
 
 glm::dvec3 triple(const double (&numbers)[3]) { return {numbers[0], numbers[1], numbers[2]}; }
 
-/// Makes trees of events. A ray after a hit is the child of the last hit with one bounce less: rays
-/// that wait are taken up last in, first out.
+/// Builds trees from events. A secondary ray is the child of the last hit with one bounce less:
+/// pending rays are processed last in, first out.
 class TreeBuilder {
    public:
     TreeBuilder(const Scene& scene, const FlatScene<double>& flat)
@@ -78,7 +78,7 @@ class TreeBuilder {
         return ray;
     }
 
-    /// The ray that was started last.
+    /// The ray started last.
     static RayNode& last(RayNode& ray) {
         RayNode* found = &ray;
         while (!found->children.empty()) found = &found->children.back();
@@ -104,7 +104,7 @@ class TreeBuilder {
         seen_.clear();
     }
 
-    /// Those that a shadow ray was traced to, and the others, which lie behind the surface.
+    /// The lights that a shadow ray was traced to, and the others, which lie behind the surface.
     std::vector<LightAtHit> all_lights() const {
         std::vector<LightAtHit> lights;
         for (std::size_t i = 0, next = 0; i < flat_.lights.size(); ++i) {
@@ -118,7 +118,7 @@ class TreeBuilder {
         return scene_.materials[static_cast<std::size_t>(index)];
     }
 
-    /// Says what the author calls primitive number `prim` of the flat scene.
+    /// Sets the ray's object to the author's name for primitive number `prim` of the flat scene.
     const Scene::Material& name_object(long prim, RayNode& ray) const {
         auto number = static_cast<std::size_t>(prim);
         if (!flat_.order.empty()) number = static_cast<std::size_t>(flat_.order[number]);
@@ -143,8 +143,8 @@ class TreeBuilder {
     const FlatScene<double>& flat_;
     const TriangleList triangles_;
     const ViewFrame frame_;
-    std::vector<std::size_t> lights_;  ///< the scene's number of each light that shines
-    std::vector<LightAtHit> seen_;     ///< from the hit that is yet to come
+    std::vector<std::size_t> lights_;  ///< scene index of each light of nonzero intensity
+    std::vector<LightAtHit> seen_;     ///< lights of the upcoming hit
 };
 
 }  // namespace

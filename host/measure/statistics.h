@@ -15,11 +15,11 @@ double median(std::vector<double> values);
 /// The median distance from the median: noise, in the values' own unit; 0 for none.
 double median_absolute_deviation(const std::vector<double>& values);
 
-/// How repeated measurements lie.
+/// Distribution of repeated measurements.
 struct Spread {
     double median = 0, mad = 0, min = 0, max = 0;
 
-    /// MAD in per cent of the median; 0 when the median is 0.
+    /// MAD in percent of the median; 0 when the median is 0.
     double noise_percent() const { return median > 0 ? 100 * mad / median : 0; }
 };
 
@@ -30,7 +30,7 @@ Spread spread_of(std::span<const RenderStats> runs,
                  const std::function<double(const RenderStats&)>& figure);
 
 /// What the benchmarks call total, in seconds: flatten, open, build, upload, trace, resolve and
-/// read back. No process start, no reading of the scene, no picture file.
+/// read back. Excludes process start, loading the scene and writing the picture.
 double timed_total(const RenderStats& run);
 
 /// The same without open and build, in seconds: what one more picture costs once the device is

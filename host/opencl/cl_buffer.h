@@ -8,9 +8,9 @@
 
 namespace rt {
 
-/// A buffer of that many bytes; an empty one is no buffer at all (a null argument). `host`: what
-/// flags like CL_MEM_USE_HOST_PTR speak of. Throws Error (ExitCode::limit) naming `what` when the
-/// device gives less in one piece.
+/// A buffer of that many bytes, or a null one (a null argument) for 0. `host`: the pointer for
+/// flags such as CL_MEM_USE_HOST_PTR. Throws Error (ExitCode::limit) naming `what` if it exceeds
+/// the device's largest allocation.
 cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, std::size_t bytes,
                           const char* what, cl_mem_flags flags = CL_MEM_READ_WRITE,
                           void* host = nullptr);

@@ -10,7 +10,7 @@ namespace rt {
 
 namespace {
 
-/// Device strings may come with padding and a closing zero, and are not to be trusted.
+/// Device strings may have padding and a trailing zero, and are not to be trusted.
 std::string trimmed(const std::string& text) {
     const char* blanks = " \t\n\r";
     const std::string whole(text.c_str());
@@ -19,7 +19,7 @@ std::string trimmed(const std::string& text) {
     return printable(whole.substr(first, whole.find_last_not_of(blanks) - first + 1));
 }
 
-/// "OpenCL 1.1 ..." and older cannot take the kernels.
+/// "OpenCL 1.1 ..." and older cannot run the kernels.
 bool is_too_old(const std::string& version) {
     return version.rfind("OpenCL 1.0", 0) == 0 || version.rfind("OpenCL 1.1", 0) == 0;
 }

@@ -11,7 +11,7 @@ namespace rt {
 
 inline constexpr const char* pocl_platform = "Portable Computing Language";
 
-/// An OpenCL device with what matters of it.
+/// An OpenCL device and its relevant properties.
 struct ClDevice {
     int index = 0;           ///< flat, as `mirrorball devices` prints it
     int platform_index = 0;  ///< platform, and device within it
@@ -19,7 +19,7 @@ struct ClDevice {
     std::string name, vendor, driver, version, platform;
     bool is_cpu = false, is_gpu = false;
     unsigned compute_units = 0;
-    unsigned float_lanes = 0, double_lanes = 0;  ///< native vector widths; 0 lanes: no such type
+    unsigned float_lanes = 0, double_lanes = 0;  ///< native vector widths; 0: no such type
     std::uint64_t memory_bytes = 0, max_buffer_bytes = 0;
     bool has_double = false;
     bool rounds_correctly = false;  ///< promises correctly rounded float division and sqrt

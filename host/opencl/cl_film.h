@@ -7,9 +7,9 @@
 
 namespace rt {
 
-/// A black film on a device: the film's own memory on a CPU that no other device renders beside
-/// (where the driver takes that), else a copy that is read back rectangle by rectangle. The film
-/// must outlive it. Throws Error (ExitCode::limit) when the device gives less in one piece.
+/// A black film on a device: the film's own memory on a CPU that renders alone (if the driver
+/// supports that), else a copy that is read back rectangle by rectangle. The film must outlive it.
+/// Throws Error (ExitCode::limit) if it exceeds the device's largest allocation.
 template <typename T>
 class ClFilm {
    public:
@@ -22,10 +22,10 @@ class ClFilm {
 
     const cl::Buffer& buffer() const { return buffer_; }
 
-    /// Brings a rectangle of the film, finished on the device, back; waits for nothing else.
+    /// Copies a rectangle of the film, finished on the device, back; waits for nothing else.
     void read_back(const Rect& rect, const cl::CommandQueue& reads);
 
-    /// Brings back what is in shared memory.
+    /// Brings back a film in shared memory.
     void finish();
 
    private:

@@ -29,12 +29,12 @@ struct ProgramOptions {
     bool fast_math = false;            ///< let the compiler contract a * b + c
     bool warnings_are_errors = false;  ///< for tests
     int lanes = 1;                     ///< rays of a packet: 1, 2, 4, 8 or 16
-    int samples = 0;  ///< of a pixel, where a packet holds them all: compiled in; 0: any number
+    int samples = 0;  ///< per pixel, if a packet holds them all: compiled in; 0: any number
     Features features;
     EntryPoints entries;
 };
 
-/// The options of clBuildProgram; the same for the same arguments, since drivers cache by them.
+/// The options for clBuildProgram; the same for the same arguments, since drivers cache by them.
 std::string build_options(const ClDevice& device, const ProgramOptions& options);
 
 /// Compiles the source for the device. Throws Error (ExitCode::device) with device, options and the

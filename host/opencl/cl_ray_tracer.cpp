@@ -13,7 +13,7 @@ namespace rt {
 
 namespace {
 
-/// Rays of a launch: few enough items that PoCL does not compile the kernel again.
+/// Rays per launch: few enough items that PoCL does not compile the kernel again.
 constexpr std::size_t rays_of_a_launch = 1 << 15;
 
 template <typename T>

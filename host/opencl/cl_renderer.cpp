@@ -25,22 +25,22 @@ namespace rt {
 
 namespace {
 
-/// Work items of a group: of single rays, and of packets, which are wide enough by themselves
-/// (Intel's compiler would vectorize them once more, and slow them down).
+/// Work items per group: for single rays, and for packets, which are wide enough by themselves
+/// (Intel's compiler would vectorize them again and slow them down).
 constexpr std::size_t single_group = 64;
 constexpr std::size_t packet_group = 1;
 
-/// Samples of the first launch, of which nothing is known, and of the longest.
+/// Samples of the first launch, when nothing is known yet, and of the largest.
 constexpr std::int64_t cpu_first_samples = 1 << 17, cpu_most_samples = 1 << 22;
 constexpr std::int64_t gpu_first_samples = 1 << 20, gpu_most_samples = 1 << 24;
 
-/// One runs and one waits; more would only make an interrupt wait.
+/// One runs and one waits; more would only delay an interrupt.
 constexpr std::size_t launches_in_flight = 2;
 constexpr double progress_seconds = 0.2;
 
 std::size_t divided_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
-/// The wall-clock seconds that the device spent between two commands' start and end.
+/// The seconds that a command took, by the device's profiling clock.
 double device_seconds(const cl::Event& event) {
     const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
     const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
@@ -122,7 +122,7 @@ class ClRenderer : public Renderer<T> {
         std::vector<cl::Event> events;
     };
 
-    /// Of one call of render.
+    /// The state of one call of render.
     struct Progress {
         TileQueue& queue;
         ClFilm<T>& film;
@@ -141,7 +141,7 @@ class ClRenderer : public Renderer<T> {
         return packet_shape(lanes_, static_cast<int>(samples));
     }
 
-    /// Whether a launch may have so many pixels.
+    /// Whether a rectangle is small enough for one launch.
     bool fits(const Rect& rect) const {
         const std::int64_t traced = rect.pixels() * static_cast<std::int64_t>(samples());
         if (traced > pacer_.samples()) return false;
@@ -193,8 +193,8 @@ class ClRenderer : public Renderer<T> {
         times_.upload = watch.seconds();
     }
 
-    /// Builds the program and launches each kernel once over nothing, since some drivers finish
-    /// compiling only then.
+    /// Builds the program and launches each kernel once over an empty tile, since some drivers
+    /// finish compiling only then.
     void build(const FlatScene<T>& scene, const ClOptions& options) {
         ProgramOptions program_options;
         program_options.double_precision = sizeof(T) == sizeof(double);
@@ -234,7 +234,7 @@ class ClRenderer : public Renderer<T> {
         times_.build_cache = is_pocl ? pocl_build_since(start) : BuildCache::unknown;
     }
 
-    /// All arguments that stay for a picture; the tile's comes next.
+    /// Sets all arguments that stay the same for a picture; the tile's comes next.
     void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::LaunchParams& params) {
         kernel.setArg(1, counts_);
         const cl_uint params_argument = scene_->set_arguments(kernel, 2);
@@ -277,7 +277,7 @@ class ClRenderer : public Renderer<T> {
         return event;
     }
 
-    /// Three numbers for each of the pixels, rendered with a grid of their own.
+    /// RGB of each of the pixels, rendered with a grid of their own.
     std::vector<T> refined_colors(std::span<const std::int32_t> pixels, int grid,
                                   const Rect& region) {
         const std::size_t bytes = pixels.size() * 3 * sizeof(T);
@@ -312,7 +312,7 @@ class ClRenderer : public Renderer<T> {
         count_rays(progress.queue);
     }
 
-    /// Reads it back while the next launch runs.
+    /// Reads the oldest launch back while the next one runs.
     void finish_oldest(Progress& progress, const Rect& region) {
         const InFlight& oldest = progress.in_flight.front();
         oldest.events.back().wait();
@@ -333,8 +333,8 @@ class ClRenderer : public Renderer<T> {
         progress.in_flight.pop_front();
     }
 
-    /// After a failure: what was launched before stays if it can still be waited for and read, rays
-    /// and all; the rest is for others.
+    /// After a failure: keeps earlier launches, with their rays, that can still be waited for and
+    /// read; the rest is for other devices.
     void save_finished(Progress& progress, const Rect& region) {
         try {
             if (is_half_launched_) throw cl::Error(CL_INVALID_OPERATION, "its rays are counted");
@@ -354,7 +354,7 @@ class ClRenderer : public Renderer<T> {
         for (const InFlight& launch : progress.in_flight) progress.queue.give_back(launch.run);
     }
 
-    /// Tells the queue of the rays traced since the last time.
+    /// Adds to the queue the rays traced since the last call.
     void count_rays(TileQueue& queue) {
         auto* const mapped = static_cast<FlatCounts*>(queue_.enqueueMapBuffer(
             counts_, CL_TRUE, CL_MAP_READ, 0, used_slots_ * sizeof(FlatCounts)));
@@ -375,9 +375,9 @@ class ClRenderer : public Renderer<T> {
     const ClOptions options_;
     typename Flat<T>::LaunchParams params_;
     bool launch_samples_ = false;
-    bool is_half_launched_ = false;  ///< samples, and not yet their average
+    bool is_half_launched_ = false;  ///< samples are launched, but not their average
     int lanes_ = 1;
-    std::size_t group_ = 1;  ///< work items of a group
+    std::size_t group_ = 1;  ///< work items per group
     LaunchPacer pacer_;
     cl::Context context_;
     cl::CommandQueue queue_, reads_;

@@ -13,8 +13,8 @@
 namespace rt {
 
 /// A renderer on an OpenCL device: builds the kernels for the scene's features and uploads it. The
-/// scene may go once this returns. Throws Error: ExitCode::device when the device cannot do it,
-/// ExitCode::limit when the scene does not fit, with the numbers.
+/// scene need not outlive the call. Throws Error: ExitCode::device if the device cannot do it,
+/// ExitCode::limit, with the numbers, if the scene does not fit.
 template <typename T>
 std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const ClDevice& device,
                                               const ClOptions& options);

@@ -13,7 +13,7 @@ namespace rt {
 template <typename T>
 class ClScene {
    public:
-    /// Uploads; the scene may go once this returns. Throws Error (ExitCode::limit) when a list does
+    /// Uploads; the scene need not outlive the call. Throws Error (ExitCode::limit) if a list does
     /// not fit.
     ClScene(const FlatScene<T>& scene, const cl::Context& context, const cl::CommandQueue& queue,
             const ClDevice& device);

@@ -10,11 +10,11 @@ namespace rt {
 
 namespace {
 
-/// Below 64 K by a work group of 64.
+/// One work group of 64 less than 64 K.
 constexpr std::size_t cpu_items = 65536 - 64;
 constexpr std::size_t gpu_items = 1u << 20;
 
-/// Samples of a tile: what an interrupt may lose, and what launches are put together from.
+/// Samples per tile: what an interrupt may lose, and the unit that launches are made of.
 constexpr std::size_t tile_samples = 1u << 14;
 
 }  // namespace

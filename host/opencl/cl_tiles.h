@@ -14,16 +14,16 @@ namespace rt {
 /// Whether a launch on this device has a work item per sample.
 bool launches_samples(Launch launch, const ClDevice& device);
 
-/// Rays of a packet on this device: what was asked for, or (0) its native vector width on CPUs and
-/// one on GPUs, which run a packet's rays side by side themselves.
+/// Rays per packet on this device: as requested, or (0) its native vector width on CPUs and one on
+/// GPUs, which themselves run rays side by side.
 template <typename T>
 int packet_lanes(int asked_for, const ClDevice& device);
 
-/// Work items of one launch, at most. PoCL compiles a kernel again when a grid passes 64 K items,
-/// so a CPU launch stays below; a GPU wants more to fill up.
+/// The most work items in one launch. PoCL compiles a kernel again when a grid exceeds 64 K items,
+/// so CPU launches stay below; a GPU needs more to fill up.
 std::size_t most_items(const ClDevice& device);
 
-/// What Renderer::tile_size and most_tile_pixels say of the renderer that make_cl_renderer makes.
+/// Renderer::tile_size and most_tile_pixels for the renderer that make_cl_renderer makes.
 struct ClTiles {
     Rect best;
     std::int64_t most_pixels;

@@ -102,7 +102,7 @@ DeviceChoice threads_choice() {
     return choice;
 }
 
-/// The choices of a list, while devices are listed at most once.
+/// Resolves a list of specs, listing devices at most once.
 class DeviceFinder {
    public:
     DeviceFinder(int threads, const std::function<void()>& loaded)
@@ -117,7 +117,7 @@ class DeviceFinder {
                 continue;
             }
             found.push_back(find_one(spec));
-            // Threads trace while the device that was chosen for us still compiles.
+            // Threads trace while the automatically chosen device still compiles.
             if (is_auto(spec) && !found.back().use_threads) found.push_back(threads_choice());
         }
         return found;
@@ -158,7 +158,7 @@ class DeviceFinder {
     std::vector<std::string> problems_;
 };
 
-/// A GPU before any other accelerator; CPUs never: threads run the same kernels there.
+/// GPUs before other accelerators; never CPUs: threads run the same kernels there.
 DeviceChoice best_device(const std::vector<ClDevice>& devices) {
     DeviceChoice choice;
     choice.use_threads = true;
@@ -248,7 +248,7 @@ std::future<std::vector<DeviceChoice>> find_devices(const std::string& list, int
         prepare_pocl(threads);
         try {
             return std::async(std::launch::async, find);
-        } catch (const std::system_error&) {  // no thread is to be had: later, then
+        } catch (const std::system_error&) {  // no thread available: search later
         }
     }
     return std::async(std::launch::deferred, find);

@@ -16,32 +16,32 @@ struct DeviceChoice {
     bool use_threads = false;
     int threads = 0;   ///< from threads:N; 0 when not given
     ClDevice device;   ///< meaningless for threads
-    std::string note;  ///< why it is not what one might expect, for stderr; often empty
+    std::string note;  ///< why it may be unexpected, for stderr; often empty
 };
 
-/// Whether the text names the pthreads baseline ("threads" or "threads:N"), so that OpenCL need not
-/// be looked for. Throws Error (ExitCode::usage) for threads:0 and the like.
+/// Whether the text names the pthreads baseline ("threads" or "threads:N"), which needs no OpenCL.
+/// Throws Error (ExitCode::usage) for threads:0 and the like.
 bool names_threads(const std::string& spec, DeviceChoice& choice);
 
 /// Whether the text leaves the choice to the program: "auto" or "".
 bool is_auto(const std::string& spec);
 
-/// What can be chosen without loading OpenCL: threads where the text names them, or where it leaves
-/// the choice and this machine shows no GPU. Throws as names_threads.
+/// The choice, if it does not require loading OpenCL: threads if the text names them, or if it is
+/// automatic and this machine shows no GPU. Throws like names_threads.
 std::optional<DeviceChoice> choose_without_opencl(const std::string& spec);
 
-/// Whether it takes OpenCL to find the devices of a list. Throws as names_threads.
+/// Whether finding the devices of a list needs OpenCL. Throws like names_threads.
 bool needs_opencl(const std::string& list);
 
-/// Throws Error (ExitCode::usage) unless the text is a spec or a list of them with commas, whatever
-/// devices there are.
+/// Throws Error (ExitCode::usage) unless the text is a spec or a comma-separated list of them,
+/// whether or not such devices exist.
 void check_device_list(const std::string& list);
 
-/// The devices that a list of specs with commas names; "all": threads and every usable device. They
-/// are looked for on another thread: drivers take their time to load (PoCL 0.03 s), and a scene can
-/// be read meanwhile. `threads`: of threads and of PoCL; 0: all cores. `loaded` is called when
-/// drivers were loaded, by that thread. get() throws what goes wrong (Error); who drops the future
-/// waits until the drivers are loaded.
+/// The devices that a comma-separated list of specs names; "all": threads and every usable device.
+/// Another thread searches: drivers take time to load (PoCL 0.03 s), and a scene can be read
+/// meanwhile. `threads`: for threads and for PoCL; 0: all cores. That thread calls `loaded` after
+/// loading drivers. get() throws Error on failure; destroying the future waits until the drivers
+/// are loaded.
 std::future<std::vector<DeviceChoice>> find_devices(const std::string& list, int threads,
                                                     const std::function<void()>& loaded);
 

@@ -5,8 +5,8 @@
 
 namespace rt {
 
-/// Whether the kernel shows a GPU or another accelerator among its device files, so that OpenCL is
-/// worth loading to find it: NVIDIA's, direct rendering's, AMD's compute, WSL's, accelerators'.
+/// Whether the folder shows device files of a GPU or another accelerator, so that OpenCL is worth
+/// loading to find it: NVIDIA, AMD compute, WSL, Mali, PowerVR, DRI render or accel nodes.
 bool gpu_may_be_here(const std::string& folder = "/dev");
 
 }  // namespace rt

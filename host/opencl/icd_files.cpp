@@ -45,7 +45,7 @@ std::string library_of(const fs::path& file) {
     return end == std::string::npos ? "" : line.substr(0, end + 1);
 }
 
-// What a child says when it has come so far.
+// What a child process reports at each step.
 constexpr char loaded = '\1', listed = '\2';
 
 [[noreturn]] void try_in_child(const fs::path& file, const std::string& library, int answer) {
@@ -80,7 +80,7 @@ std::string answer_of(int pipe_end) {
 }
 
 struct Attempt {
-    std::string problem;  ///< empty where there is none, or where it cannot be tried
+    std::string problem;  ///< empty if there is none, or if it cannot be tried
     bool is_dangerous = false;
 };
 

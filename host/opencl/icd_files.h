@@ -9,19 +9,19 @@
 
 namespace rt {
 
-/// What became of the drivers that .icd files name.
+/// The state of the drivers that .icd files name.
 struct IcdFiles {
     std::vector<std::string> usable;    ///< files whose drivers load and list their devices
-    std::vector<std::string> problems;  ///< a line for each other
-    bool any_dangerous = false;         ///< one of those crashes or hangs whoever loads it
+    std::vector<std::string> problems;  ///< one line for each of the others
+    bool any_dangerous = false;         ///< one of those crashes or hangs its process
 };
 
-/// Tries each driver in a child process: OpenCL passes over those that cannot be loaded in silence,
-/// and some crash or hang. `place` is an .icd file, or a folder of them. Call it before OpenCL or
-/// any thread has started.
+/// Tries each driver in a child process: OpenCL silently skips those that cannot be loaded, and
+/// some crash or hang. `place` is an .icd file, or a folder of them. Call it before OpenCL or any
+/// thread has started.
 IcdFiles try_icd_files(const std::string& place);
 
-/// A folder of the usable files alone, as long as this lives.
+/// A folder of only the usable files, for the lifetime of this object.
 class UsableIcdFiles {
    public:
     explicit UsableIcdFiles(const IcdFiles& files);
@@ -31,8 +31,8 @@ class UsableIcdFiles {
     TemporaryFolder folder_;
 };
 
-/// The devices of all drivers; where one is dangerous, of the usable ones alone, in this process
-/// and those that it starts from then on. Problems of listing are added to the files'.
+/// The devices of all drivers; if one is dangerous, only of the usable ones, in this process and
+/// those that it starts from then on. Adds problems of listing to the files'.
 std::vector<ClDevice> list_devices_of(IcdFiles& files, const UsableIcdFiles& usable);
 
 }  // namespace rt

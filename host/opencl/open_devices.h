@@ -10,7 +10,7 @@
 
 namespace rt {
 
-/// Contexts and programs that stay from picture to picture. For any thread.
+/// Contexts and programs kept from picture to picture. Thread-safe.
 class OpenDevices {
    public:
     cl::Context context(const ClDevice& device);

@@ -8,14 +8,14 @@ namespace rt {
 class CommandLine;
 struct RenderOptions;
 
-/// What render --aov tells of each pixel besides its color.
+/// What render --aov saves for each pixel besides its color.
 enum class Aov { depth, normal, id, rays, samples };
 
 const char* to_string(Aov aov);
 
 void add_aov(const CommandLine& verb, std::vector<Aov>& aovs);
 
-/// Throws Error (ExitCode::usage) where there is no file to put them beside.
+/// Throws Error (ExitCode::usage) if there is no file to put them beside.
 void settle_aovs(const RenderOptions& render);
 
 }  // namespace rt

@@ -42,7 +42,7 @@ void add_baseline(const CommandLine& verb, BenchOptions& bench) {
                 });
 }
 
-/// What an ablation does not say otherwise: one picture on every device.
+/// Defaults of an ablation: one picture on every device.
 void settle_ablation(const CommandLine& verb, BenchOptions& bench) {
     if (!bench.baseline.empty()) {
         throw Error(ExitCode::usage, "give --ablate or --baseline, not both");

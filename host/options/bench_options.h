@@ -26,11 +26,11 @@ struct BenchOptions {
     std::vector<Schedule> schedules{Schedule::tiles, Schedule::buffers};
     bool scalar = true;  ///< also threads without vectors: one ray at a time
     LightOverrides light;
-    int repeats = 5;  ///< without the warm-up
+    int repeats = 5;  ///< not counting the warm-up
     ResultFiles results;
     std::string baseline;       ///< an earlier --json file; empty: none
-    double max_regress = 0.05;  ///< share of the old median that a row may lose
-    bool ablate = false;        ///< measure what leaving things out saves, instead of devices
+    double max_regress = 0.05;  ///< allowed loss of a row, as a share of the old median
+    bool ablate = false;        ///< measure what leaving features out saves, instead of devices
     bool quiet = false;
 };
 

@@ -43,7 +43,7 @@ VerbText text_of(const CLI::App& verb) {
 }  // namespace
 
 struct CommandLineParser {
-    /// An option that may stand alone.
+    /// An option whose value may be omitted.
     struct OptionalValue {
         const CLI::App* verb;
         std::string name, bare;
@@ -52,7 +52,7 @@ struct CommandLineParser {
 
     CLI::App app;
     std::vector<OptionalValue> optional_values;
-    std::string place;  ///< "mirrorball render": whose help to read
+    std::string place;  ///< "mirrorball render": whose help to consult
 
     explicit CommandLineParser(const CommandLineTexts& texts) : app(texts.about, texts.program) {
         app.set_version_flag("--version", texts.version);
@@ -72,7 +72,7 @@ struct CommandLineParser {
                     what + (what.ends_with("?") ? " See '" : "; see '") + place + " --help'");
     }
 
-    /// The verb that the words begin with, and its own; refuses what is none.
+    /// The verb or nested verb that the words begin with; rejects unknown ones.
     CLI::App& chosen_verb(const std::vector<std::string>& words, std::size_t& at) {
         CLI::App* verb = &app;
         while (at < words.size() && !words[at].starts_with("-") && !verbs_of(*verb).empty()) {
@@ -106,8 +106,7 @@ struct CommandLineParser {
         return found == optional_values.end() ? nullptr : &*found;
     }
 
-    /// Every optional value joined to its option by "=", so that none is taken for a scene or the
-    /// other way round.
+    /// Joins each optional value to its option by "=", so that values and scenes are not mixed up.
     std::vector<std::string> joined(const std::vector<std::string>& words) {
         std::size_t at = 0;
         const CLI::App& verb = chosen_verb(words, at);
@@ -128,7 +127,7 @@ struct CommandLineParser {
         return result;
     }
 
-    /// What belongs to an installation, by the option that stands first; empty for another.
+    /// The man page or completion script, if the first word asks for one; else empty.
     std::string installed_text(const std::vector<std::string>& words) {
         const VerbText program = text_of(app);
         if (words.size() == 1 && words[0] == "--man") return man_page(program, app.version());

@@ -12,31 +12,30 @@ using AcceptsText = std::function<bool(const std::string&)>;
 
 struct CommandLineParser;
 
-/// The program's command line, or one verb of it, being described; a handle, to be copied. It hides
+/// The program's command line, or one verb of it, under construction; a copyable handle. Hides
 /// CLI11, whose header takes ten seconds to compile: only command_line.cpp includes it.
 class CommandLine {
    public:
     CommandLine verb(const std::string& name, const std::string& help) const;
 
-    /// An option that takes a value; `take` throws Error (ExitCode::usage) for one it does not
-    /// like.
+    /// An option that takes a value; `take` throws Error (ExitCode::usage) to reject it.
     void option(const std::string& name, const std::string& type, const std::string& help,
                 const TakeText& take, bool required = false) const;
 
-    /// An option that may stand alone and then means `bare`. The next word is its value where
-    /// `accepts` says so; `--name=VALUE` always is.
+    /// An option that may stand alone and then means `bare`. The next word is its value if
+    /// `accepts` returns true for it; in `--name=VALUE` it always is.
     void optional_value(const std::string& name, const std::string& type, const std::string& help,
                         const std::string& bare, const AcceptsText& accepts,
                         const TakeText& take) const;
 
     void flag(const std::string& names, bool& value, const std::string& help) const;
 
-    /// A word by its place.
+    /// A positional argument.
     void argument(const std::string& name, std::string& value, const std::string& help) const;
     void arguments(const std::string& name, std::vector<std::string>& values,
                    const std::string& help, bool required) const;
 
-    /// Called when all of this verb's command line has been read.
+    /// Called after this verb's whole command line has been read.
     void when_chosen(const std::function<void()>& action) const;
 
     bool given(const std::string& option) const;
@@ -53,8 +52,8 @@ struct CommandLineTexts {
     std::string program, about, version;
 };
 
-/// Has `describe` add the verbs and reads the command line. Returns help or the version, to be
-/// printed, where that was asked for; else "". Throws Error (ExitCode::usage).
+/// Lets `describe` add the verbs, then reads the command line. Returns the help or version text to
+/// print if it was requested, else "". Throws Error (ExitCode::usage).
 std::string read_command_line(const CommandLineTexts& texts,
                               const std::function<void(const CommandLine&)>& describe, int argc,
                               const char* const* argv);

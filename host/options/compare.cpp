@@ -10,7 +10,7 @@ namespace rt {
 
 namespace {
 
-/// A finite number, not negative; 8-bit levels may be written as in 2/255.
+/// A finite number >= 0; 8-bit levels may be written as in 2/255.
 double parse_limit(const std::string& option, const std::string& text) {
     std::string_view digits = text;
     const bool is_level = digits.ends_with("/255");

@@ -19,7 +19,7 @@ std::vector<AaMode> default_modes() {
     return modes;
 }
 
-/// Where references are kept: the XDG Base Directory rule.
+/// Where references are kept, by the XDG Base Directory specification.
 std::string reference_folder() {
     if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) {
         return xdg + "/mirrorball/references";

@@ -17,13 +17,13 @@ struct ConvergeOptions {
     std::vector<AaMode> aa;
     std::vector<std::string> devices{"all"};
     int threads = 0;      ///< of the pthreads renderer; 0: all cores
-    bool scalar = false;  ///< threads also one ray at a time, in float
+    bool scalar = false;  ///< also threads one ray at a time, in float
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
     std::vector<bool> fast_math{false};
     std::vector<int> max_bounces;  ///< empty: the scene's
     LightOverrides light;
-    int repeats = 5;               ///< without the warm-up
-    int reference_samples = 1024;  ///< of a pixel, in each of the reference's two halves
+    int repeats = 5;               ///< not counting the warm-up
+    int reference_samples = 1024;  ///< per pixel, in each half of the reference
     std::string cache_folder;      ///< of references; empty: none
     ResultFiles results;
     bool quiet = false;

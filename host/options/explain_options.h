@@ -15,7 +15,7 @@ struct ExplainOptions {
     std::string scene;
     LightOverrides light;
     int x = 0, y = 0;         ///< the pixel, from the top left
-    RenderSettings settings;  ///< size, AA and bounces alone
+    RenderSettings settings;  ///< only size, AA and bounces
     bool json = false;
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int most_digits = 9;
 
-/// At the '%' at `at`.
+/// The frame number that starts with the '%' at `at`.
 std::optional<FrameNumber> frame_number_at(const std::string& name, std::size_t at) {
     std::size_t end = at + 1;
     int digits = 0;

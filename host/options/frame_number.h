@@ -7,13 +7,13 @@
 
 namespace rt {
 
-/// "%d" or "%04d" in the name of an output, in which a frame's number takes its place.
+/// "%d" or "%04d" in the name of an output, to be replaced by a frame's number.
 struct FrameNumber {
-    std::size_t at = 0, length = 0;  ///< of the characters that stand for it
-    int digits = 1;                  ///< at least; zeros in front
+    std::size_t at = 0, length = 0;  ///< where it stands in the name
+    int digits = 1;                  ///< at least; padded with zeros
 };
 
-/// Nothing where the name has none, or several.
+/// Empty if the name has none, or several.
 std::optional<FrameNumber> find_frame_number(const std::string& name);
 
 }  // namespace rt

@@ -8,7 +8,7 @@ namespace rt {
 
 namespace {
 
-/// Letters to insert, drop, replace, or swap with their neighbor to get from one word to the other.
+/// Edit distance: letters to insert, drop, replace, or swap with their neighbor.
 std::size_t edits_between(const std::string& a, const std::string& b) {
     std::vector<std::size_t> before, row(b.size() + 1), next(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;

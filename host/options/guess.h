@@ -6,7 +6,7 @@
 
 namespace rt {
 
-/// What a mistyped word may have meant: "; did you mean '--size'?", or "" where nothing is near.
+/// What a mistyped word may have meant: "; did you mean '--size'?", or "" if nothing is close.
 std::string guess_text(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace rt

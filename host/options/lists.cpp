@@ -12,7 +12,7 @@ namespace rt {
 
 namespace {
 
-/// Whether results may go to what a word names: not where a scene or a picture is already.
+/// Whether a word names a place for results: not an existing scene or picture.
 bool may_take_results(const std::string& word) {
     if (word == "-") return true;
     if (word.starts_with("-")) return false;

@@ -13,7 +13,7 @@ namespace rt {
 /// The parts between commas. Throws Error (ExitCode::usage) for an empty part.
 std::vector<std::string> split_list(const std::string& option, const std::string& text);
 
-/// Comma-separated AA modes, equal ones once. Throws Error (ExitCode::usage).
+/// Comma-separated AA modes, without duplicates. Throws Error (ExitCode::usage).
 std::vector<AaMode> parse_aa_list(const std::string& option, const std::string& text);
 
 /// A whole number in a range. Throws Error (ExitCode::usage).
@@ -25,8 +25,8 @@ void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions)
 void add_count(const CommandLine& verb, const std::string& option, int& count, int least, int most,
                const std::string& help);
 
-/// --json or --csv: alone, the results go to stdout ("-"). The next word is the file unless
-/// something else than results is there: a scene or a picture.
+/// --json or --csv: alone, the results go to stdout ("-"). The next word is the file unless that
+/// exists and is not a result file: a scene or a picture.
 void add_result_file(const CommandLine& verb, const std::string& option, std::string& file,
                      const std::string& help);
 void add_result_files(const CommandLine& verb, ResultFiles& files);

@@ -7,7 +7,7 @@ namespace rt {
 
 namespace {
 
-/// Text as roff takes it for text.
+/// Text, escaped for roff.
 std::string roff(const std::string& text) {
     std::string escaped;
     for (const char c : text) {
@@ -16,7 +16,7 @@ std::string roff(const std::string& text) {
         } else if (c == '-') {
             escaped += "\\-";
         } else if (c == ',') {
-            escaped += ",\\:";  // lists may break there
+            escaped += ",\\:";  // lists may break here
         } else {
             escaped += c;
         }

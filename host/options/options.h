@@ -22,9 +22,9 @@ struct DevicesOptions {
 
 /// `mirrorball doctor`
 struct DoctorOptions {
-    std::string drivers;               ///< as DevicesOptions'
+    std::string drivers;               ///< as in DevicesOptions
     std::string device;                ///< empty: everything, each device in its own process
-    std::vector<std::string> command;  ///< the program's own
+    std::vector<std::string> command;  ///< the program's own, to start workers
     bool json = false;
 };
 
@@ -75,7 +75,7 @@ struct Options {
     std::string text;         ///< help or version, to be printed instead of doing anything
 };
 
-/// Reads the command line and the environment; nothing else in the program does. Throws Error
+/// Reads the command line and the environment, except for what PoCL and MPI look up. Throws Error
 /// (ExitCode::usage) for what it does not understand.
 Options parse_options(int argc, const char* const* argv);
 

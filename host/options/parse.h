@@ -14,20 +14,20 @@ namespace rt {
 [[noreturn]] void refuse(const std::string& option, const std::string& value,
                          const std::string& expected);
 
-/// Whole numbers with a separator between them; beyond int they become its largest, for range
-/// checks to refuse. Empty when the text is anything else.
+/// Integers with a separator between them; those too large for int become its largest value, for
+/// range checks to reject. Empty for any other text.
 std::optional<std::vector<int>> parse_integers(std::string_view text, char separator);
 
 /// WIDTHxHEIGHT or N. Throws Error: ExitCode::usage, or ExitCode::limit for too many pixels.
 PictureSize parse_size(const std::string& option, const std::string& text);
 
-/// Numbers from 0 to 1e30 with commas between them; empty when the text is anything else.
+/// Numbers from 0 to 1e30, separated by commas; empty for any other text.
 std::optional<std::vector<double>> parse_amounts(std::string_view text);
 
 /// Seconds from `least` to 1e8. Throws Error (ExitCode::usage).
 double parse_seconds(const std::string& option, const std::string& text, double least);
 
-/// "5%" or "5": 0.05. Throws Error (ExitCode::usage) beyond 0 to `most` per cent.
+/// "5%" or "5": 0.05. Throws Error (ExitCode::usage) outside 0 to `most` percent.
 double parse_percent(const std::string& option, const std::string& text, double most);
 
 /// The value of an environment variable, or "".

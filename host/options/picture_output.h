@@ -9,12 +9,12 @@
 
 namespace rt {
 
-/// Adds -o, whose help is given, and --format, which says what "-" is written in.
+/// Adds -o, with the given help, and --format, the format of "-".
 void add_picture_output(const CommandLine& verb, std::string& output,
                         std::optional<PictureFormat>& format, const std::string& help);
 
-/// Gives standard output its format. Throws Error (ExitCode::usage) for a terminal, and where
-/// --format is given for a file, whose ending says its format.
+/// Sets the format of standard output. Throws Error (ExitCode::usage) if it is a terminal, and if
+/// --format is given for a file, whose extension sets its format.
 void settle_picture_output(const std::string& output, std::optional<PictureFormat>& format);
 
 }  // namespace rt

@@ -15,9 +15,9 @@ struct ReportOptions {
     std::string output;               ///< the page
     std::optional<PictureSize> size;  ///< default: the scene's
     std::vector<std::string> devices{"all"};
-    int repeats = 5;      ///< without the warm-up
-    bool quick = false;   ///< fewer settings and a coarser reference: to see the page, not to quote
-    bool stress = false;  ///< with the stress suite
+    int repeats = 5;      ///< not counting the warm-up
+    bool quick = false;   ///< fewer settings and a coarser reference: a preview, not for quoting
+    bool stress = false;  ///< include the stress suite
     std::string cache_folder;  ///< of converged references; empty: none
     bool quiet = false;
 };

@@ -11,10 +11,10 @@ struct StressOptions {
     std::vector<std::string> cases;   ///< globs; empty: all
     std::vector<std::string> except;  ///< globs
     std::vector<std::string> devices{"all"};
-    bool quick = false;          ///< the cases and numbers of rays that take under a minute
-    bool all_features = false;   ///< one build of the kernels for all cases; as quick has it
+    bool quick = false;          ///< the cases and ray counts that take under a minute
+    bool all_features = false;   ///< one build of the kernels for all cases; quick implies it
     bool keep_pictures = false;  ///< in the result, for the report
-    bool naive = false;          ///< textbook formulas next to ours
+    bool naive = false;          ///< textbook formulas alongside ours
     bool list = false;           ///< name the cases, run none
     std::string json;            ///< empty: none; "-": stdout
     std::string output;          ///< folder for pictures; empty: none

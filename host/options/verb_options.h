@@ -6,8 +6,8 @@
 
 namespace rt {
 
-// One function per verb, one file per function: adds the verb to the command line and says where
-// its options go.
+// One function per verb, one file per function: adds the verb to the command line and binds its
+// options.
 void add_render(const CommandLine& program, Options& options);
 void add_merge(const CommandLine& program, Options& options);
 void add_compare(const CommandLine& program, Options& options);
@@ -23,7 +23,7 @@ void add_scene(const CommandLine& program, Options& options);
 /// Where OpenCL's loader looks for its drivers: a folder of .icd files, or one of them.
 std::string icd_place();
 
-/// --light-scale and --ambient, of every verb that reads scenes.
+/// --light-scale and --ambient, for every verb that reads scenes.
 void add_light_options(const CommandLine& verb, LightOverrides& light);
 
 /// --preview, --show and --tev.

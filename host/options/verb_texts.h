@@ -6,15 +6,15 @@
 
 namespace rt {
 
-/// What the command line tells of an option, or of a word that stands by its place.
+/// The command line's help on an option or positional argument.
 struct OptionText {
-    std::vector<std::string> names;  ///< "-o", "--output"; of a word its own: "SCENE"
-    std::string type;                ///< of its value: "FILE", "float|double"; empty: it has none
+    std::vector<std::string> names;  ///< "-o", "--output"; of an argument: "SCENE"
+    std::string type;                ///< of its value: "FILE", "float|double"; empty: no value
     std::string help;
     bool is_word = false;
 };
 
-/// What it tells of the program or of a verb.
+/// The help on the program or a verb.
 struct VerbText {
     std::string name, help;
     std::vector<OptionText> options;
@@ -24,7 +24,7 @@ struct VerbText {
 /// The manual page of section 1, in roff.
 std::string man_page(const VerbText& program, const std::string& version);
 
-/// What a shell completes verbs, options and their values by: "bash", "zsh" or "fish". Empty for
+/// The script that completes verbs, options and their values in "bash", "zsh" or "fish". Empty for
 /// another shell.
 std::string completions(const VerbText& program, const std::string& shell);
 

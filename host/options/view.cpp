@@ -25,7 +25,7 @@ const Mode* find_mode(const std::string& text) {
     return nullptr;
 }
 
-/// "HOST:PORT", "HOST", ":PORT" or "[IPv6]:PORT"; what is missing is tev's own.
+/// "HOST:PORT", "HOST", ":PORT" or "[IPv6]:PORT"; missing parts default to tev's.
 TevAddress parse_tev_address(const std::string& text) {
     TevAddress address;
     const std::size_t bracket = text.find(']');

@@ -19,10 +19,10 @@ namespace rt {
 
 namespace {
 
-/// Pixels that a member of several refines at once.
+/// Pixels that each of several members refines at a time.
 constexpr std::size_t refine_run = 4096;
 
-/// How often to see whether the picture was stopped while nobody works on it.
+/// How often to check for a stop while no member is working.
 constexpr std::chrono::milliseconds stop_interval{50};
 
 std::string message_of(std::exception_ptr failure) {
@@ -33,7 +33,7 @@ std::string message_of(std::exception_ptr failure) {
     }
 }
 
-/// Whether it is the device's failure, and not our caller's.
+/// Whether the device failed, rather than our caller.
 bool is_of_device(const std::exception_ptr& failure) {
     try {
         std::rethrow_exception(failure);
@@ -55,17 +55,17 @@ RendererTimes without(RendererTimes times, const RendererTimes& before) {
 
 }  // namespace
 
-/// A member with what has become of it.
+/// A member and its state.
 template <typename T>
 struct Crew<T>::Place {
     CrewMember<T> member;
     std::unique_ptr<Renderer<T>> renderer;
-    RendererTimes before;        ///< what its test took
+    RendererTimes before;        ///< up to the end of its test
     double check = 0;            ///< seconds of the test
     double ready = 0;            ///< seconds until it could begin
     std::exception_ptr failure;  ///< why it does not render
     bool failure_is_told = false;
-    int last_round = 0;  ///< of jobs it took part in
+    int last_round = 0;  ///< of jobs: the last one it took part in
     std::thread thread;
 
     bool is_able() const { return renderer != nullptr && failure == nullptr; }
@@ -79,8 +79,8 @@ struct Crew<T>::Team {
     std::condition_variable changed;
     std::deque<Place> places;
     const Job* job = nullptr;
-    int round = 0;    ///< of jobs; each member takes part once
-    int working = 0;  ///< members
+    int round = 0;    ///< of jobs; each member takes part in one once
+    int working = 0;  ///< members at work
     bool is_closed = false;
     const Stopwatch watch;
 
@@ -151,7 +151,7 @@ void Crew<T>::open() {
     }
 }
 
-/// A member's thread, which may outlive the crew while the member is being made.
+/// A member's thread, which may outlive the crew if the member is still being created.
 template <typename T>
 void Crew<T>::serve(const std::shared_ptr<Team>& team, Place& place) {
     const auto fail = [&] {
@@ -199,7 +199,7 @@ void Crew<T>::serve(const std::shared_ptr<Team>& team, Place& place) {
     }
 }
 
-/// After the failure of the only one, or the last: the spare, or the failure itself.
+/// When the only or last member fails: switches to the spare, or rethrows the failure.
 template <typename T>
 void Crew<T>::replace(Place& place, std::exception_ptr failure) {
     place.failure = failure;
@@ -243,7 +243,7 @@ void Crew<T>::work_together(const Job& job, const std::function<bool()>& is_unfi
         if (is_idle) {
             if (!is_unfinished()) break;
             if (team.any([](const Place& place) { return place.is_able(); })) {
-                ++team.round;  // one failed and gave tiles back when the others were done
+                ++team.round;  // one failed and gave tiles back after the others were done
                 team.changed.notify_all();
             } else if (!team.any([](const Place& place) { return place.is_in_the_making(); })) {
                 break;

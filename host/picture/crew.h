@@ -13,28 +13,28 @@
 
 namespace rt {
 
-/// A renderer that may still have to be made.
+/// A renderer that may not have been created yet.
 template <typename T>
 struct CrewMember {
-    std::string name;  ///< of the device, for people
-    Rect tile;         ///< as Renderer::tile_size
+    std::string name;  ///< of the device, for messages
+    Rect tile;         ///< as in Renderer::tile_size
     std::int64_t most_tile_pixels;
     std::function<std::unique_ptr<Renderer<T>>()> make;  ///< opens and compiles; throws Error
-    std::function<void(Renderer<T>&)> test;              ///< throws Error unless it is right
+    std::function<void(Renderer<T>&)> test;              ///< throws Error if results are wrong
 };
 
-/// The renderers of one picture. One renders on the caller's thread. Several take tiles from the
-/// same queue, each on a thread of its own as soon as it is made: those that are still compiling
-/// hold nobody up. One that fails is left out; when none is left the spare takes over.
+/// The renderers of one picture. A single one renders on the caller's thread. Several take tiles
+/// from the same queue, each on its own thread as soon as it is created; those still compiling
+/// delay nobody. One that fails is left out; when none is left the spare takes over.
 template <typename T>
 class Crew : public Renderer<T> {
    public:
     using Say = std::function<void(const std::string& line)>;
 
     Crew(std::vector<CrewMember<T>> members, std::optional<CrewMember<T>> spare, Say say);
-    ~Crew() override;  ///< does not wait for members that are still being made
+    ~Crew() override;  ///< does not wait for members still being created
 
-    /// Makes a single member; has several begin. Throws like render.
+    /// Creates a single member; starts creating several. Throws like render.
     void open();
 
     Rect tile_size(int film_width) const override;
@@ -50,7 +50,7 @@ class Crew : public Renderer<T> {
     /// Whether the spare had to take over.
     bool uses_spare() const { return uses_spare_; }
 
-    /// What each has done so far, in the order they were given, the spare last.
+    /// What each has done so far, in the given order, the spare last.
     std::vector<DeviceShare> shares() const;
 
    private:
@@ -69,7 +69,7 @@ class Crew : public Renderer<T> {
     std::optional<CrewMember<T>> spare_;
     Say say_;
     bool uses_spare_ = false;
-    double trace_seconds_ = 0;  ///< of several
+    double trace_seconds_ = 0;  ///< with several members
 };
 
 }  // namespace rt

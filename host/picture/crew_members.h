@@ -14,19 +14,19 @@ namespace rt {
 
 class OpenDevices;
 
-/// A scene ready to render, held by every renderer of it.
+/// A scene ready to render, shared by all its renderers.
 template <typename T>
 using SharedScene = std::shared_ptr<const FlatScene<T>>;
 
-/// The settings as the pthreads renderer takes them. `threads`: 0 means the settings'.
+/// The settings for the pthreads renderer. `threads`: 0 means the settings'.
 ThreadsOptions threads_options(const RenderSettings& settings, int threads);
 
 /// Threads, ready at once.
 template <typename T>
 CrewMember<T> threads_member(const SharedScene<T>& scene, const ThreadsOptions& options);
 
-/// An OpenCL device, made by opening it (or where `open` has it open), compiling and uploading, and
-/// tested by self_test. `loaded` is called when it is made: drivers replace signal handlers.
+/// An OpenCL device, created by opening it (or reusing it from `open`), compiling and uploading,
+/// and tested by self_test. `loaded` is called after creation: drivers replace signal handlers.
 template <typename T>
 CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& settings,
                             const ClDevice& device, bool refines, bool is_alone,

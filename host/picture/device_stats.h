@@ -11,7 +11,7 @@
 #include "host/picture/render_stats.h"
 #include "host/render/threads_renderer.h"
 
-// Who renders, for figures and messages.
+// Describes the devices that render, for figures and messages.
 namespace rt {
 
 template <typename T>
@@ -24,10 +24,10 @@ DeviceStats device_stats(const ClDevice& device, const RenderSettings& settings)
 /// "threads + NVIDIA H100".
 std::string joined_names(const std::vector<DeviceChoice>& devices);
 
-/// Of those whose bits may be their own; "" where there are none.
+/// The names of devices whose bits may differ from the others'; "" if there are none.
 std::string inexact_names(const std::vector<DeviceChoice>& devices);
 
-/// Names the settings that mean nothing on the device, which would be dropped in silence.
+/// Reports settings that do not apply to the device and would be dropped silently.
 void say_ignored_settings(const DeviceChoice& choice, const RenderSettings& settings,
                           const RenderEvents& events);
 

@@ -62,8 +62,8 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
     open();
 }
 
-/// Of all that the film's bits depend on: the flat scene, how it is sampled and refined, and the
-/// program. A tenth of a second for some million triangles.
+/// Hashes all that the film's bits depend on: the flat scene, how it is sampled and refined, and
+/// the program. Takes a tenth of a second for some million triangles.
 template <typename T>
 std::uint64_t PictureJournal<T>::key() const {
     Hasher hasher;
@@ -83,7 +83,7 @@ std::uint64_t PictureJournal<T>::key() const {
     return hasher.value();
 }
 
-/// Finds out what is there, and goes on with it if it is of this picture.
+/// Checks what file exists, and resumes from it if it is of this picture.
 template <typename T>
 void PictureJournal<T>::open() {
     file_ = std::make_shared<JournalFile>(settings_.journal);
@@ -125,7 +125,7 @@ void PictureJournal<T>::read() {
     try {
         file_->read(read_if_ours);
     } catch (const Error& error) {
-        if (error.exit_code() != ExitCode::input) throw;  // else its header is damaged
+        if (error.exit_code() != ExitCode::input) throw;  // otherwise its header is damaged
     }
     if (!known_) return;
     say_(fmt::format("resuming from {}, which has {:.0f} % of the first pass{}", file_->path(),
@@ -209,7 +209,7 @@ RefineEvents<T> PictureJournal<T>::refine_events() {
     return events;
 }
 
-/// Takes out of the plan what the shares do not need, and what is known.
+/// Removes from the plan what the shares do not need and what is already known.
 template <typename T>
 void PictureJournal<T>::plan_pass(int pass, std::vector<Refinement>& plan, Film<T>& film) {
     if (keeper_ && pass == 0) keeper_->first_pass_ended();

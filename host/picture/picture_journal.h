@@ -16,50 +16,49 @@
 
 namespace rt {
 
-/// What of a picture is still to be rendered, where a journal has some of it or where shares of it
-/// are asked for; and the keeping of what is finished. Without either it is all of the picture.
+/// What remains to be rendered of a picture, given a journal or a choice of shares, and saving what
+/// is finished. Without either, the whole picture remains.
 template <typename T>
 class PictureJournal {
    public:
     using Say = std::function<void(const std::string& line)>;
 
-    /// Opens settings.journal. `inexact_devices` names those that may compute bits of their own:
-    /// what they render is nobody else's to go on with. `stats` tells the picture; `film` is the
-    /// part that is rendered. Throws Error: output where another process renders the same picture,
-    /// or where the result of shares would replace something else; usage for shares that cannot be
-    /// kept.
+    /// Opens settings.journal. `inexact_devices` names those whose bits may differ: only they may
+    /// resume from what they render. `stats` describes the picture; `film` is the part that is
+    /// rendered. Throws Error: output if another process renders the same picture, or if the result
+    /// of shares would replace something else; usage for shares that cannot be kept.
     PictureJournal(const RenderSettings& settings, const RenderStats& stats,
                    const FlatScene<T>& scene, const Rect& film, std::string inexact_devices,
                    Say say);
 
-    /// Whether all of it is there.
+    /// Whether the journal has the whole picture.
     bool is_finished() const { return known_ && known_->is_finished; }
 
-    /// Of the film, what the journal has.
+    /// The share of the film that the journal has.
     double share_known() const { return known_ ? known_->share_rendered() : 0; }
 
-    /// The film with all that is known of it; once.
+    /// The film with all that is known of it; call once.
     Film<T> take_film();
 
-    /// The film's tiles that are to be rendered, cut from tiles of this size.
+    /// The film's tiles that remain to be rendered, cut from tiles of this size.
     std::vector<Rect> tiles(int width, int height) const;
 
-    /// Tiles of the region that have their final pixels when all is rendered.
+    /// Tiles of the region whose pixels are final when all is rendered.
     std::vector<Rect> final_tiles(int width, int height) const;
 
-    /// Keeps, from now on, what is finished of this film. `device`: who renders it.
+    /// Starts saving what is finished of this film. `device`: who renders it.
     void begin(const Film<T>& film, const std::string& device);
     TileEvents tile_events();
     RefineEvents<T> refine_events();
 
-    /// The film is as it will be, and need not stay.
+    /// The film is final, and need not stay alive.
     void hold();
 
-    /// Ends it, when what was rendered is known to be right. Throws Error (ExitCode::output) when
+    /// Closes it, once what was rendered is known to be right. Throws Error (ExitCode::output) if
     /// shares are not on disk.
     void end(bool is_complete);
 
-    /// Forgets all that was kept, here and on disk: it was wrong.
+    /// Drops all that was saved, here and on disk: it was wrong.
     void discard();
 
     std::shared_ptr<JournalFile> file() const { return file_; }

@@ -11,7 +11,7 @@
 
 namespace rt {
 
-/// Runs of pixels that several renderers take from each other.
+/// Runs of pixels shared out among several renderers.
 class PixelRuns {
    public:
     PixelRuns(std::span<const std::int32_t> pixels, std::size_t run) {

@@ -9,8 +9,8 @@
 
 namespace rt {
 
-/// What stays from picture to picture with the same settings: open devices, their programs, and the
-/// last scene as it was flattened.
+/// What is kept between pictures with the same settings: open devices, their programs, and the last
+/// flattened scene.
 struct RenderCache {
     template <typename T>
     struct Flattened {
@@ -20,8 +20,8 @@ struct RenderCache {
 
     RenderCache();
 
-    /// Of all in a scene that flattening reads; `hash` is its scene_hash, which leaves out the
-    /// settings.
+    /// A hash of all in a scene that flattening reads; `hash` is its scene_hash, which leaves out
+    /// the settings.
     static std::uint64_t flat_key(const Scene& scene, std::uint64_t hash);
 
     std::shared_ptr<OpenDevices> devices;

@@ -57,10 +57,10 @@ bool has_opencl(const Devices& devices) {
                        [](const DeviceChoice& choice) { return !choice.use_threads; });
 }
 
-/// Of a picture that was not rendered now, what is checked at once, pixels.
+/// Tile size in pixels for checking a picture that was not rendered in this run.
 constexpr PictureSize final_tile{32, 32};
 
-/// One flattened scene being rendered in the precision of T, with what is found out on the way.
+/// One flattened scene being rendered in the precision of T, and the figures gathered so far.
 template <typename T>
 class Job {
    public:
@@ -141,7 +141,7 @@ class Job {
         if (events_.message) events_.message(line);
     }
 
-    /// Threads that take tiles from others cannot render whole sample buffers.
+    /// Threads that share tiles with others cannot render whole sample buffers.
     ThreadsOptions threads_beside_others() const {
         ThreadsOptions options = threads_options(settings_, 0);
         options.schedule = Schedule::tiles;
@@ -170,7 +170,7 @@ class Job {
                        [this](const std::string& line) { say(line); });
     }
 
-    /// Renders the region; a device that failed is left out of what follows. `names`: who renders.
+    /// Renders the region; a device that fails is left out afterwards. `names`: who renders.
     void render_with(Crew<T>& crew, const std::string& names) {
         check_memory(
             static_cast<std::uint64_t>(rendered_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
@@ -201,7 +201,7 @@ class Job {
         if (region_ != rendered_) film_ = part_of(film_, rendered_, region_);
     }
 
-    /// The journal's, and our caller hears that something was done.
+    /// The journal's events, which also notify our caller.
     TileEvents tile_events() {
         TileEvents events = journal_->tile_events();
         if (!events_.progressed && !events_.rendered) return events;
@@ -213,7 +213,7 @@ class Job {
         return events;
     }
 
-    /// The pixels of a part that lie in the region, to our caller.
+    /// Reports the pixels of a part that lie in the region to our caller.
     void report_rendered(const Rect& part) const {
         if (!events_.rendered) return;
         const int left = std::max(part.x, region_.x), top = std::max(part.y, region_.y);
@@ -236,7 +236,7 @@ class Job {
         return events;
     }
 
-    /// The tile asked for, cut down to the region and to what the renderer takes.
+    /// The requested tile, reduced to the region and to the renderer's limit.
     PictureSize tile_size(const Renderer<T>& renderer) const {
         const Rect own = renderer.tile_size(rendered_.width);
         const PictureSize asked = settings_.tile.value_or(PictureSize{own.width, own.height});
@@ -268,8 +268,8 @@ class Job {
         }
     }
 
-    /// What is wrong with what devices have rendered: their count of rays, or a share of the tiles,
-    /// where that was asked for. Empty when nothing.
+    /// What is wrong with the devices' results: their ray count, or, if requested, a sample of the
+    /// tiles. Empty if nothing is.
     std::string what_is_wrong() {
         const std::string rays = impossible_rays(stats_.rays, stats_.scene.lights,
                                                  stats_.max_bounces, scene_->features.glass);
@@ -284,7 +284,7 @@ class Job {
                            check.wrong_tiles, check.tiles);
     }
 
-    /// Renders all of the picture again on threads when devices were wrong.
+    /// Renders the whole picture again on threads if the results were wrong.
     void check_again(const Devices& devices) {
         if (!has_opencl(devices) && stats_.resumed == 0) return;
         const std::string wrong = what_is_wrong();
@@ -325,8 +325,8 @@ class Job {
     const RenderEvents& events_;
     const StopFlag& stop_;
     RenderCache* const cache_;  ///< may be null
-    const Rect region_;         ///< asked for
-    const Rect rendered_;       ///< that, and what it takes to refine it
+    const Rect region_;         ///< requested
+    const Rect rendered_;       ///< that, plus what refining it needs
     SharedScene<T> scene_;
     std::optional<PictureJournal<T>> journal_;
     Film<T> film_{0, 0};
@@ -334,7 +334,7 @@ class Job {
     RenderStats stats_;
 };
 
-/// `devices` gives the devices when the scene is flattened.
+/// `devices` is called once the scene is flattened.
 template <typename T>
 RenderedPicture render_on(const Scene& scene, const RenderSettings& settings,
                           const std::function<Devices()>& devices, const RenderEvents& events,

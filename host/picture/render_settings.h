@@ -20,7 +20,7 @@ struct PictureSize {
     int width, height;
 };
 
-/// How to render a scene, on whatever device. What is not given is the scene's.
+/// How to render a scene, on any device. Values not given come from the scene.
 struct RenderSettings {
     std::optional<PictureSize> size;
     std::optional<AaMode> aa;
@@ -38,22 +38,22 @@ struct RenderSettings {
     std::optional<PictureSize> tile;
     bool all_features = false;
     Features also_features = no_features();  ///< compiled, needed or not
-    bool any_samples = false;                ///< compile the loop over them, needed or not
+    bool any_samples = false;                ///< compile the loop over samples, needed or not
     std::optional<bool> hierarchies;         ///< not given: where they are faster
     bool caster_lists = true;
     bool no_fallback = false;  ///< fail when the device fails, instead of using threads
-    bool self_test = true;     ///< compare a few of a device's pixels with threads' beforehand
-    /// Where finished tiles are kept, so that the same render goes on after it was interrupted;
-    /// empty: nowhere. Pictures by fast arithmetic or by sample buffers are not kept.
+    bool self_test = true;     ///< first compare a few of a device's pixels with threads'
+    /// Where finished tiles are kept, so that an interrupted render can resume; empty: nowhere.
+    /// Pictures with fast math or sample buffers are not kept.
     std::string journal;
-    std::string scene_file;        ///< for the journal to name: where the scene can be found again
-    double journal_delay = 2;      ///< seconds of tracing that are not worth keeping
-    bool fresh = false;            ///< ignore the journal that is there
-    std::optional<Shares> shares;  ///< render these alone, into the journal, which is the result
+    std::string scene_file;        ///< for the journal to record: where to find the scene again
+    double journal_delay = 2;      ///< seconds of tracing not worth saving
+    bool fresh = false;            ///< ignore an existing journal
+    std::optional<Shares> shares;  ///< render only these, into the journal, which is the result
     double check = 0;  ///< share of the tiles to trace again on threads and compare, 0 to 1
 };
 
-/// Gives the scene what the settings override: size, AA, filter, bounces. Throws Error
+/// Applies the settings' overrides to the scene: size, AA, filter, bounces. Throws Error
 /// (ExitCode::usage) for a filter that needs more samples.
 void apply_overrides(Scene& scene, const RenderSettings& settings);
 

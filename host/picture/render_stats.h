@@ -29,12 +29,12 @@ struct DeviceStats {
     std::string fallback_from;  ///< the device that failed before; empty when none did
 };
 
-/// What one of several devices did, or one that failed.
+/// What one of several devices did, or a device that failed.
 struct DeviceShare {
     std::string name;
-    std::int64_t pixels = 0;  ///< rendered, refined ones not among them
-    double ready = 0;     ///< seconds until it could begin, after opening and compiling; 0: never
-    std::string failure;  ///< empty when it did not fail
+    std::int64_t pixels = 0;  ///< rendered, not counting refined ones
+    double ready = 0;         ///< seconds to open and compile, until it could begin; 0: never
+    std::string failure;      ///< empty when it did not fail
 };
 
 /// What was rendered.
@@ -47,10 +47,10 @@ struct SceneStats {
     FlattenStats flatten;
 };
 
-/// Wall-clock seconds. Set-up, as the paper counts it, is all before `trace`; `resolve_and_write`
-/// is all after it.
+/// Wall-clock seconds. Set-up, as in the paper, is everything before `trace`; `resolve_and_write`
+/// is everything after it.
 struct PhaseStats {
-    double start = 0;  ///< before main, as seconds_since_process_start tells it
+    double start = 0;  ///< before main, from seconds_since_process_start
     double load = 0, flatten = 0;
     RendererTimes renderer;
     double write = 0;
@@ -76,15 +76,15 @@ struct RenderStats {
     int max_bounces = 0;
     bool double_precision = false, fast_math = false;
     Features features;                       ///< what the scene needs
-    bool all_features = false;               ///< compiled with everything all the same
-    Features also_features = no_features();  ///< compiled all the same
-    std::optional<bool> hierarchies;         ///< asked for; empty: where they are faster
+    bool all_features = false;               ///< compiled with everything anyway
+    Features also_features = no_features();  ///< compiled anyway
+    std::optional<bool> hierarchies;         ///< requested; empty: where they are faster
     bool caster_lists = true;
     RayCounts rays;
     std::size_t tiles = 0, tiles_finished = 0;
     double resumed = 0;             ///< share of the film's pixels that a journal had, 0 to 1
     std::size_t tiles_checked = 0;  ///< traced again on threads
-    bool refined = true;            ///< false when stopped before an adaptive mode came to its end
+    bool refined = true;            ///< false if stopped before an adaptive mode finished
     std::uint64_t image_hash = 0;
     std::size_t non_finite = 0;  ///< pixels
     std::optional<ImageError> error;
@@ -93,19 +93,19 @@ struct RenderStats {
     /// Rays per second while tracing; 0 when nothing was traced.
     double rays_per_second() const;
 
-    /// Whether kernels took less than half of the time of tracing, by the device's clock: the
-    /// driver did something else, as a rule compile. Not known of adaptive modes, which plan
-    /// between kernels, nor of short pictures.
+    /// Whether kernels took less than half of the tracing time, by the device's clock: the driver
+    /// spent the rest, usually compiling. Unknown, so false, for adaptive modes, which plan between
+    /// kernels, and for short pictures.
     bool driver_took_its_time() const;
 
     bool complete() const { return refined && tiles_finished == tiles; }
 };
 
-/// Seconds since the system started this process: what its one thread has computed since, as long
-/// as it has not waited; else up to 0.01 s less than passed, the step of the system's own record.
+/// Seconds since the system started this process: its processor time, if its one thread has not
+/// waited; else up to 0.01 s too little, the resolution of the system's own record.
 double seconds_since_process_start();
 
-/// All that says what was rendered but for the scene, for the metadata of pictures.
+/// All that defines what was rendered except the scene, for picture metadata.
 std::string settings_text(const RenderStats& stats);
 
 /// 16 hexadecimal digits.

@@ -35,7 +35,7 @@ Film<T> rendered(Renderer<T>& renderer, const AaMode& aa, const Rect& region) {
     return film;
 }
 
-/// In bits: a NaN is equal to itself, and 0 is not -0.
+/// Compares bits: a NaN equals itself, and 0 is not -0.
 template <typename T>
 std::size_t differing_pixels(const Film<T>& a, const Film<T>& b) {
     std::size_t count = 0;

@@ -17,20 +17,21 @@ template <typename T>
 void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
                const std::string& isa);
 
-/// Rays that no scene of so many lights needs after so many bounces: what a device has counted
-/// wrongly; empty when nothing. A path has at most a ray a bounce, with glass a binary tree; every
-/// surface at most a shadow ray a light. Interrupted pictures may have counted more.
+/// Describes a ray count too high for so many lights and bounces, which a device must have
+/// miscounted; empty if it is possible. A path has at most one ray per bounce, with glass a binary
+/// tree; every surface at most one shadow ray per light. Interrupted pictures may have counted
+/// more.
 std::string impossible_rays(const RayCounts& rays, std::size_t lights, int max_bounces,
                             bool has_glass);
 
-/// What of a finished picture was traced again on threads.
+/// The result of tracing part of a finished picture again on threads.
 struct TileCheck {
     std::size_t tiles = 0;
-    std::size_t wrong_tiles = 0;  ///< whose bits differ
+    std::size_t wrong_tiles = 0;  ///< with different bits
 };
 
-/// Traces `share` (0 to 1) of the tiles again, spread over the region of the picture that the film
-/// shows; the tiles lie in it.
+/// Traces `share` (0 to 1) of the tiles again, spread over the region that the film shows; the
+/// tiles lie in it.
 template <typename T>
 TileCheck check_tiles(const FlatScene<T>& scene, const AaMode& aa, const std::string& isa,
                       const std::vector<Rect>& tiles, double share, const Rect& region,

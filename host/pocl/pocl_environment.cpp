@@ -23,7 +23,7 @@ constexpr const char* cache_variable = "POCL_CACHE_DIR";
 constexpr const char* most_threads = "POCL_MAX_PTHREAD_COUNT";
 constexpr const char* least_threads = "POCL_PTHREAD_MIN_THREADS";
 
-/// The number of cores, where this process may use them all; else 0.
+/// The number of cores, if this process may use them all; else 0.
 int cores_to_use() {
     cpu_set_t usable;
     if (sched_getaffinity(0, sizeof(usable), &usable) != 0) return 0;
@@ -39,7 +39,7 @@ void set_threads(int count) {
     if (count == 0 && !getenv(most_threads) && !getenv(least_threads)) count = cores;
     if (count == 0) return;
     setenv(most_threads, std::to_string(count).c_str(), overwrite);
-    // PoCL puts thread i on core i, and ends the process where there is no such core.
+    // PoCL pins thread i to core i, and ends the process if there is no such core.
     if (count == cores && !getenv(least_threads)) setenv("POCL_AFFINITY", "1", !overwrite);
 }
 
@@ -48,14 +48,14 @@ std::string variable(const char* name) {
     return value == nullptr ? "" : value;
 }
 
-/// Whether others can put nothing there; what is not there yet will be made by us.
+/// Whether only we can write there; a missing folder will be made by us.
 bool is_ours(const fs::path& folder) {
     struct stat status {};
     if (stat(folder.c_str(), &status) != 0) return errno == ENOENT;
     return status.st_uid == geteuid() && (status.st_mode & S_IWOTH) == 0;
 }
 
-/// Empty where there is no home.
+/// Empty if there is no home.
 fs::path own_cache_folder() {
     if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) return xdg;
     const std::string home = variable("HOME");

@@ -7,8 +7,8 @@
 
 namespace rt {
 
-/// The shape of docs/bench.schema.json, format "mirrorball-bench", version 1: every raw run, and
-/// the figures made of them.
+/// Format "mirrorball-bench", version 1 (docs/bench.schema.json): every raw run, and the figures
+/// computed from them.
 nlohmann::ordered_json bench_json(const BenchResult& result);
 
 }  // namespace rt

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t device_columns = 19;
 
-/// Everything that heads a group of rows.
+/// The heading of a group of rows.
 std::string group_of(const BenchCase& asked) {
     return fmt::format("{} {}x{}, {}, {}", asked.scene_path, asked.width, asked.height,
                        to_string(asked.aa), asked.double_precision ? "double" : "float");
@@ -52,7 +52,7 @@ std::string row_text(const BenchResult& result, const BenchRow& row) {
                        ratio_cell(figures->amdahl), error ? error->rmse : 0);
 }
 
-/// Which rows gave which picture: in strict arithmetic all the same.
+/// Which rows gave which picture; in strict arithmetic they are all the same.
 std::string images_text(const std::map<std::string, std::vector<std::string>>& images) {
     std::string text;
     for (const auto& [hash, devices] : images) {

@@ -7,7 +7,7 @@
 
 namespace rt {
 
-/// The tables for people, at most 100 columns wide.
+/// Human-readable tables, at most 100 columns wide.
 std::string bench_text(const BenchResult& result);
 
 }  // namespace rt

@@ -23,7 +23,7 @@ Json reference_json(const ConvergeReference& reference) {
             {"seconds", reference.seconds}};
 }
 
-/// What sets a point's build apart from others'.
+/// What distinguishes a point's build from others.
 Json build_json(const ConvergeCase& of) {
     return {{"device", of.device},
             {"device_name", of.device_name},

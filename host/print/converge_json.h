@@ -7,8 +7,8 @@
 
 namespace rt {
 
-/// The shape of docs/converge.schema.json, format "mirrorball-converge", version 1: every raw run,
-/// and the figures made of them.
+/// Format "mirrorball-converge", version 1 (docs/converge.schema.json): every raw run, and the
+/// figures computed from them.
 nlohmann::ordered_json converge_json(const ConvergeResult& result);
 
 }  // namespace rt

@@ -25,7 +25,7 @@ std::string who(const ConvergeCase& of) {
                        of.double_precision ? "double" : "float", of.fast_math ? "fast" : "strict");
 }
 
-/// Everything that heads the points of one setting.
+/// The heading of the points of one setting.
 std::string group_of(const ConvergeCase& of) {
     return fmt::format("{}, {}, {}, {}", device_text(of.device, of.device_name),
                        of.double_precision ? "double" : "float",

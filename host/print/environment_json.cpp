@@ -24,7 +24,7 @@ constexpr const char* compiler = __VERSION__;  // "Debian Clang 14.0.6"
 constexpr const char* compiler = "GCC " __VERSION__;
 #endif
 
-/// What follows `key` and `separator` in the first line that begins with the key.
+/// The text after `separator` in the first line of the file that begins with `key`.
 std::string value_in(const char* path, const std::string& key, const std::string& separator) {
     std::ifstream file(path);
     std::string line;
@@ -49,14 +49,14 @@ std::string kernel_name() {
     return std::string(system.sysname) + " " + system.release + " " + system.machine;
 }
 
-/// null where the system does not tell.
+/// null where the system does not report it.
 Json memory_json() {
     const long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
     if (pages <= 0 || page_size <= 0) return nullptr;
     return static_cast<std::int64_t>(pages) * page_size;
 }
 
-/// The one-minute load average, in hundredths as the system tells it; null where it does not.
+/// The one-minute load average, in hundredths as the system reports it; null where it does not.
 Json load_json() {
     double load = 0;
     return getloadavg(&load, 1) == 1 ? Json(std::round(load * 100) / 100) : Json(nullptr);

@@ -6,7 +6,7 @@
 
 namespace rt {
 
-/// The processor's own name; "unknown" where the system does not tell.
+/// The processor's name; "unknown" where the system does not report it.
 std::string cpu_name();
 
 /// The machine and program behind a result: program, git revision, compiler, CPU, cores, memory,

@@ -7,8 +7,8 @@
 
 namespace rt {
 
-/// The table of `compare`: a line for each figure of an image error between pictures of that many
-/// pixels. Where no pixel was finite in both, it says so instead.
+/// The table of `compare`: one line per figure of an image error between pictures with that many
+/// pixels. If no pixel was finite in both, it says so instead.
 std::string error_table(const ImageError& error, std::size_t pixels);
 
 }  // namespace rt

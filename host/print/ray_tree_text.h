@@ -9,7 +9,7 @@
 
 namespace rt {
 
-/// The trees as indented lines: a ray, what it met, what each light adds, and the rays from there.
+/// The trees as indented lines: a ray, what it hit, what each light adds, and the secondary rays.
 std::string ray_trees_text(const std::vector<SampleTree>& trees);
 
 /// "samples" of `explain --json` (docs/results-format.md).

@@ -5,14 +5,13 @@
 
 namespace rt {
 
-/// Refuses, before anything is measured, what write_result could not write or should not: Error
-/// (output) for a place that cannot be written, Error (usage) for a file that is there and does
-/// not begin as results do with `first_bytes`: "--json scene.json" must not replace a scene.
-/// Nothing for "" and "-".
+/// Rejects, before anything is measured, a path that write_result could not or should not write:
+/// Error (output) for a place that cannot be written, Error (usage) for an existing file that does
+/// not begin with `first_bytes` as results do: "--json scene.json" must not replace a scene.
+/// Accepts "" and "-".
 void check_result_path(const std::string& path, const std::string& first_bytes);
 
-/// Writes results to stdout ("-"), to a file, whole or not at all, or nowhere (""). Throws Error
-/// (output).
+/// Writes results to stdout ("-"), atomically to a file, or nowhere (""). Throws Error (output).
 void write_result(const std::string& path, const std::string& text);
 
 }  // namespace rt

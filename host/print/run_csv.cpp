@@ -57,7 +57,7 @@ std::vector<std::string> figure_cells(const RenderStats& run) {
     return cells;
 }
 
-/// What made the numbers: processor, driver, program.
+/// What produced the numbers: processor, driver, program.
 std::vector<std::string> maker_cells(const RenderStats& run) {
     static const std::string machine = cpu_name();
     return {quoted(machine), quoted(run.device.driver),

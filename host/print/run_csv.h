@@ -10,7 +10,7 @@ namespace rt {
 /// The first line of the CSV of bench and converge, without its newline.
 std::string run_csv_header();
 
-/// What a CSV line says beside the run itself.
+/// What a CSV line holds besides the run itself.
 struct RunPlace {
     std::string device;   ///< spec
     std::string verdict;  ///< of the row or point

@@ -22,8 +22,8 @@ nlohmann::ordered_json runs_json(std::span<const RenderStats> runs);
 /// {"median", "mad", "min", "max"}
 nlohmann::ordered_json spread_json(const Spread& spread);
 
-/// environment_json with the load before the measurements too, and whether it makes the machine
-/// busy; the load next to it is after them.
+/// environment_json plus the load before the measurements and whether it makes the machine busy;
+/// "load" itself is from after them.
 nlohmann::ordered_json bench_environment_json(double load_before);
 
 }  // namespace rt

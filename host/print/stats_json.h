@@ -7,11 +7,11 @@
 
 namespace rt {
 
-/// The text of a JSON value, indented, with a newline; bytes that are not UTF-8 (a file name may
-/// hold them) become replacement characters.
+/// A JSON value as indented text with a newline; invalid UTF-8 (a file name may hold it) becomes
+/// replacement characters.
 std::string json_text(const nlohmann::ordered_json& json);
 
-/// One rendering in the shape of docs/results-format.md, format "mirrorball-render", version 1.
+/// One rendering in format "mirrorball-render", version 1 (docs/results-format.md).
 nlohmann::ordered_json stats_json(const RenderStats& stats);
 
 }  // namespace rt

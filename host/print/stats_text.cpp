@@ -11,7 +11,7 @@ namespace rt {
 namespace {
 
 std::string device_text(const DeviceStats& device) {
-    if (device.lanes == 0) return device.name;  // several
+    if (device.lanes == 0) return device.name;  // several devices
     if (!device.schedule.empty()) {
         return fmt::format("{} thread{}, {}, {} lane{} ({})", device.threads,
                            device.threads == 1 ? "" : "s", device.schedule, device.lanes,

@@ -11,7 +11,7 @@ namespace rt {
 /// "spheres, cones", the switches that are on (used) or off; "nothing" when there are none.
 std::string names_text(const Features& features, bool used);
 
-/// "4 spheres, 4 cones, 128 triangles, 2 lights, mirrors, glass": how much of what can be seen.
+/// "4 spheres, 4 cones, 128 triangles, 2 lights, mirrors, glass": what the scene holds.
 std::string holdings_text(const RenderStats& stats);
 
 /// One line: what was rendered where, how fast, and the picture's hash.
@@ -20,7 +20,7 @@ std::string summary_line(const RenderStats& stats);
 /// One line: every figure of an image error.
 std::string error_line(const ImageError& error);
 
-/// Where stats.driver_took_its_time(): what that means for the speed shown.
+/// If stats.driver_took_its_time(): what that means for the speed shown.
 std::string driver_time_text(const RenderStats& stats);
 
 /// The table of --stats: phases as in the paper (set-up, ray trace, resolve and write, total), rays

@@ -7,7 +7,7 @@
 
 namespace rt {
 
-/// The shape of docs/stress.schema.json, format "mirrorball-stress", version 1.
+/// Format "mirrorball-stress", version 1 (docs/stress.schema.json).
 nlohmann::ordered_json stress_json(const StressResult& result);
 
 }  // namespace rt

@@ -15,10 +15,10 @@ std::string stress_text(const StressResult& result, bool verbose);
 /// The names of the families and their cases; those of --quick are marked.
 std::string stress_list(const std::vector<StressFamily>& families);
 
-/// What a case allows, in a few words: "0 wrong, 1e-04".
+/// A tolerance in a few words: "0 wrong, 1e-04".
 std::string tolerance_text(const StressTolerance& tolerance);
 
-/// The largest tolerance of a family's cases, likewise.
+/// The loosest tolerance of a family's cases.
 StressTolerance loosest_tolerance(const StressFamilyResult& family);
 
 }  // namespace rt

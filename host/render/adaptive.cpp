@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<int, 4> grids{2, 4, 8, 16};
 
-/// The largest channel difference between two pixels, clamped to 0..1; 1 where a NaN is.
+/// The largest channel difference between two pixels, clamped to 0..1; 1 if either has a NaN.
 template <typename T>
 double difference(const T* a, const T* b) {
     double largest = 0;
@@ -39,7 +39,7 @@ double contrast(const Film<T>& film, int x, int y) {
     return largest;
 }
 
-/// Index into grids, or -1 where one sample will do.
+/// Index into grids, or -1 if one sample is enough.
 int wanted_grid(double contrast, double threshold) {
     if (contrast <= threshold) return -1;
     for (std::size_t i = 0; i + 1 < grids.size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace rt {
 
-/// Film pixels that want a finer grid of samples; `pixels` are indices into the film, ascending.
+/// Film pixels that need a finer grid of samples; `pixels` are indices into the film, ascending.
 struct Refinement {
     int grid = 1;  ///< samples per side
     std::vector<std::int32_t> pixels;
@@ -16,10 +16,10 @@ struct Refinement {
 
 /// Which pixels of an adaptively sampled film to render again, and how finely. A pixel that differs
 /// from one of its eight neighbors by c (the largest channel difference, channels clamped to 0..1)
-/// gets the coarsest grid of 2, 4, 8 or 16 samples a side, n, for which c / n <= threshold: the
-/// error of an edge pixel under an n x n grid is about c / n. `levels` holds what each pixel has
-/// now, samples per side, and is brought up to date; only pixels still at 1 are looked at, so that
-/// calling again after refining finds what the refined pixels revealed beside them.
+/// gets the coarsest grid of 2, 4, 8 or 16 samples per side, n, for which c / n <= threshold: the
+/// error of an edge pixel under an n x n grid is about c / n. `levels` holds each pixel's current
+/// samples per side and is updated; only pixels still at 1 are considered, so that a second call
+/// after refining finds what the refined pixels revealed next to them.
 template <typename T>
 std::vector<Refinement> plan_refinement(const Film<T>& film, double threshold,
                                         std::vector<std::uint8_t>& levels);

@@ -21,7 +21,7 @@ struct Film {
     std::vector<T> rgb;
 };
 
-/// The part of a film of `shown` that shows `part`, which lies in it.
+/// Crops a film that shows `shown` to `part`, which lies in it.
 template <typename T>
 Film<T> part_of(const Film<T>& film, const Rect& shown, const Rect& part);
 

@@ -9,7 +9,7 @@ LaunchPacer::LaunchPacer(std::int64_t first, std::int64_t most)
     : samples_(std::clamp<std::int64_t>(first, 1, most)), most_(most) {}
 
 void LaunchPacer::note(std::int64_t samples, double seconds) {
-    // Written so that a clock that stands still means growth.
+    // Written so that a clock that does not advance means most_growth.
     const double growth = target_seconds < seconds * most_growth ? target_seconds / seconds
                                                                  : static_cast<double>(most_growth);
     const double wanted = static_cast<double>(samples) * growth;

@@ -64,7 +64,7 @@ std::span<const NativeKernels<double>> all_kernels() {
     return kernels;
 }
 
-/// Of the levels of x86-64 (its psABI) what kernels can use.
+/// Whether the processor has what kernels use of this x86-64 level (see its psABI).
 bool processor_has([[maybe_unused]] const std::string& isa) {
 #ifdef __x86_64__
     if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) return false;

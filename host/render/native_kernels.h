@@ -25,8 +25,8 @@ struct NativeView {
 template <typename T>
 NativeView<T> native_view(const FlatScene<T>& scene);
 
-/// One compilation of the kernels. The functions run work items first.. before end; what an item is
-/// stands in kernels/items.cl, their arguments in kernels/native/native.cl.
+/// One build of the kernels. The functions run work items first to end - 1; kernels/items.cl says
+/// what an item is, kernels/native/native.cl what the arguments are.
 template <typename T>
 struct NativeKernels {
     using Index = typename Flat<T>::Index;
@@ -34,11 +34,11 @@ struct NativeKernels {
     using Counts = typename Flat<T>::RayCounts;
     using View = NativeView<T>;
 
-    const char* isa;  ///< the instruction set: x86-64-v4..
-    int isa_lanes;    ///< numbers of T that a vector of it holds
+    const char* isa;  ///< the instruction set, such as x86-64-v4
+    int isa_lanes;    ///< values of T per vector
     Features features;
-    int lanes;    ///< rays of a packet
-    int samples;  ///< of a pixel, compiled in; 0: any number
+    int lanes;    ///< rays per packet
+    int samples;  ///< per pixel, compiled in; 0: any number
 
     void (*render_pixels)(T* film, Counts*, const View*, const Tile*, Index first, Index end);
     void (*render_samples)(T* samples, Counts*, const View*, const Tile*, Index first, Index end);
@@ -46,7 +46,7 @@ struct NativeKernels {
                             const Tile*, Index first, Index end);
     void (*render_list)(T* colors, Counts*, const View*, const Tile*, const std::int32_t* pixels,
                         Index first, Index end);
-    /// Null but where all features are.
+    /// Null unless all features are compiled in.
     void (*trace_rays)(typename Flat<T>::RayAnswer*, const typename Flat<T>::RayQuery*, const View*,
                        Index count, Index first, Index end);
 };
@@ -56,17 +56,17 @@ struct NativeChoice {
     int lanes = 0;      ///< 1, 2, 4, 8 or 16; 0: as many as a vector of this processor holds
     std::string isa;    ///< an instruction set that native_isas names; empty: the best here
     Features features;  ///< at least these
-    int samples = 0;    ///< of a pixel
+    int samples = 0;    ///< per pixel
 };
 
-/// The instruction sets that there are kernels for and that this processor has, the best first.
+/// The instruction sets that have kernels and that this processor supports, best first.
 std::vector<std::string> native_isas();
 
-/// Whether fma is one instruction there; else each is a call, with the same result.
+/// Whether fma is one instruction there; otherwise it is a call, with the same result.
 bool has_fast_fma(const std::string& isa);
 
-/// The leanest kernels with all that the choice asks for. Throws Error (ExitCode::device) where
-/// this processor cannot run the instruction set.
+/// The leanest kernels that satisfy the choice. Throws Error (ExitCode::device) if this processor
+/// cannot run the instruction set.
 template <typename T>
 const NativeKernels<T>& choose_native(const NativeChoice& choice);
 

@@ -7,7 +7,8 @@
 
 namespace rt {
 
-/// How the lanes of a packet share out pixels and samples; as make_packet of kernels/packet.cl.
+/// How a packet's lanes are divided among pixels and samples, as in make_packet of
+/// kernels/packet.cl.
 struct PacketShape {
     int samples = 1;            ///< of each pixel
     int width = 1, height = 1;  ///< of the block of pixels
@@ -15,7 +16,7 @@ struct PacketShape {
     int pixels() const { return width * height; }
 };
 
-/// At most `most_samples` of each pixel together.
+/// A packet holds at most `most_samples` of each pixel.
 inline PacketShape packet_shape(int lanes, int samples_of_a_pixel,
                                 int most_samples = f32::RT_SAMPLES_TOGETHER) {
     PacketShape shape;

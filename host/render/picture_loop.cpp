@@ -13,10 +13,10 @@ namespace rt {
 
 namespace {
 
-/// Samples of the first call to refine, and of the largest.
+/// Samples in the first call to refine, and in the largest.
 constexpr std::int64_t first_samples = 1 << 17, most_samples = 1 << 24;
 
-/// Whether all were refined.
+/// Returns whether all were refined.
 template <typename T>
 bool refine_all(Renderer<T>& renderer, const Refinement& refinement, LaunchPacer& pacer,
                 TileQueue& queue, const Rect& region, Film<T>& film,

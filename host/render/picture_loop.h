@@ -11,25 +11,25 @@
 
 namespace rt {
 
-/// Passes of refinement, and so how far away, in pixels, lies what an adaptive pixel depends on.
+/// Refinement passes, and so how many pixels away an adaptive pixel's dependencies reach.
 inline constexpr int refine_passes = 2;
 
-/// The region to render so that `wanted`, a part of a picture of this size, has the pixels that it
-/// has in the whole: for an adaptive mode more than the region itself.
+/// The region to render so that `wanted`, part of a picture of this size, has the same pixels as in
+/// the whole: adaptive modes need a margin.
 Rect region_to_render(const AaMode& aa, const Rect& wanted, int picture_width, int picture_height);
 
-/// What the owner of a picture hears of its refinement; each may be empty.
+/// Events for a picture's owner during refinement; each may be empty.
 template <typename T>
 struct RefineEvents {
-    /// Before a pass, which counts from 0: pixels that it takes out of the plan are not refined.
+    /// Before each pass, counting from 0: pixels removed from the plan are not refined.
     std::function<void(int pass, std::vector<Refinement>& plan, Film<T>& film)> planned;
-    /// These pixels of the film are as the pass makes them.
+    /// The pass has finished these pixels of the film.
     std::function<void(int pass, std::span<const std::int32_t> pixels)> refined;
 };
 
 /// Renders the queue's tiles and, for an adaptive mode, refines the picture until neighbors agree
-/// or two passes are done. `region` is what the film shows of the picture. Returns whether it came
-/// to the end: false when the queue was stopped with tiles left, or pixels to refine.
+/// or two passes are done. `region` is what the film shows of the picture. Returns whether it
+/// finished: false if stopped with tiles left, or pixels to refine.
 template <typename T>
 bool render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const Rect& region,
                 Film<T>& film, const RefineEvents<T>& events = {});

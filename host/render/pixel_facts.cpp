@@ -15,7 +15,7 @@ namespace rt {
 
 namespace {
 
-/// Calls work(index, x, y) for the pixels of a region on all threads, until they are to stop.
+/// Calls work(index, x, y) for the pixels of a region on all threads, until stopped.
 template <typename Work>
 void for_each_pixel(const Rect& region, const StopFlag& stop, const Work& work) {
     const auto width = static_cast<std::size_t>(region.width);
@@ -28,8 +28,8 @@ void for_each_pixel(const Rect& region, const StopFlag& stop, const Work& work) 
                  });
 }
 
-/// Samples a side that an adaptive picture gives each pixel of the region the second time; 0 where
-/// it leaves the first.
+/// Samples per side with which an adaptive picture refines each pixel of the region; 0 if it does
+/// not.
 template <typename T>
 std::vector<int> refined_grids(const FlatScene<T>& scene, const AaMode& aa, const Rect& region,
                                const StopFlag& stop) {
@@ -65,7 +65,7 @@ class PixelCounter {
 
     std::uint64_t samples() const { return static_cast<std::uint64_t>(view_.params.samples); }
 
-    /// Rays but for the eye's, of the pixel's samples.
+    /// Rays other than eye rays, for the pixel's samples.
     std::uint64_t rays(int x, int y) const {
         std::array<T, 3> color;
         const auto tile = flat_tile<T>({x, y, 1, 1}, {x, y, 1, 1});
@@ -74,7 +74,7 @@ class PixelCounter {
         return sum(counts);
     }
 
-    /// Of a grid of samples instead.
+    /// The same for a grid of samples.
     std::uint64_t refined_rays(int x, int y, int grid) const {
         std::array<T, 3> color;
         const auto tile = flat_tile<T>({x, y, 1, 1}, {x, y, 1, 1});

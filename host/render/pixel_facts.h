@@ -9,8 +9,8 @@
 
 namespace rt {
 
-/// What the eye ray through each pixel's center meets, row by row. In double, whatever the picture
-/// is rendered in.
+/// What the eye ray through each pixel's center hits, row by row. In double, whatever the picture's
+/// precision.
 struct PixelHits {
     std::vector<float> depth;      ///< distance from the eye, in the scene's units; 0: nothing
     std::vector<float> normal;     ///< of unit length, toward the eye; three numbers each
@@ -18,17 +18,17 @@ struct PixelHits {
                                    ///< scene lists them; 0: nothing
 };
 
-/// Of the pixels of a region; of some of them, when the stop flag is set.
+/// For the pixels of a region; for some of them if the stop flag is set.
 PixelHits pixel_hits(const Scene& scene, const Rect& region, const StopFlag& stop);
 
-/// What each pixel took, row by row. The rays of all pixels are those of the picture.
+/// The work per pixel, row by row. The rays add up to the picture's.
 struct PixelWork {
     std::vector<std::uint32_t> samples;
     std::vector<std::uint64_t> rays;  ///< eye, shadow, mirror and refracted rays
 };
 
-/// Of the pixels of a region, of which an adaptive mode refines those that it refines in the
-/// picture. As rendered in the precision of T. Of some of them, when the stop flag is set.
+/// For the pixels of a region, refined where an adaptive mode refines them in the picture, as
+/// rendered in the precision of T. For some of them if the stop flag is set.
 template <typename T>
 PixelWork pixel_work(const Scene& scene, const Rect& region, const StopFlag& stop);
 

@@ -8,9 +8,9 @@
 
 namespace rt {
 
-/// Traces rays outside a picture, with all features compiled in: an answer to each query
-/// (kernels/rays.cl). There are as many answers as queries. Throws Error (ExitCode::device) when
-/// the device fails. For one thread at a time; the scene must outlive it.
+/// Traces rays outside a picture, with all features compiled in: one answer per query
+/// (kernels/rays.cl). Throws Error (ExitCode::device) if the device fails. For one thread at a
+/// time; the scene must outlive it.
 template <typename T>
 using RayTracer = std::function<void(std::span<const typename Flat<T>::RayQuery> queries,
                                      std::span<typename Flat<T>::RayAnswer> answers)>;

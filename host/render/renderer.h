@@ -15,7 +15,7 @@ namespace rt {
 /// Whether the driver compiled the program or took it from its cache.
 enum class BuildCache { none, cold, warm, unknown };
 
-/// Where a renderer's time went, in seconds of wall clock; 0 for what it does not do.
+/// Where a renderer's time went, in wall-clock seconds; 0 for steps it does not have.
 struct RendererTimes {
     double open = 0;          ///< find the device, make context and queue
     double build = 0;         ///< compile or load the kernels
@@ -25,32 +25,32 @@ struct RendererTimes {
     double kernel = 0;        ///< of that, kernels running, by the device's own clock
     double resolve = 0;       ///< average sample buffers, where that is a pass of its own
     double read_back = 0;     ///< film to host
-    std::int64_t pixels = 0;  ///< rendered, refined ones not among them
+    std::int64_t pixels = 0;  ///< rendered, not counting refined ones
     BuildCache build_cache = BuildCache::none;
 };
 
 /// One flattened scene on one device, ready to render. A tile's pixels depend on the flat scene
-/// alone, not on who renders the tile, when, or how often.
+/// alone, not on which renderer does the tile, when, or how often.
 template <typename T>
 class Renderer {
    public:
     virtual ~Renderer() = default;
 
-    /// The tile to hand out at once when nobody asks for another.
+    /// The default tile.
     virtual Rect tile_size(int film_width) const = 0;
 
     /// No tile may have more pixels than this.
     virtual std::int64_t most_tile_pixels() const { return std::numeric_limits<int>::max(); }
 
-    /// Renders the queue's tiles into the film, black so far, which shows `region` of the picture;
+    /// Renders the queue's tiles, black so far, into the film, which shows `region` of the picture;
     /// returns when the queue is empty or stopped, with every tile it took finished. Throws Error
-    /// (ExitCode::device) when the device fails; the queue then counts no tile as finished whose
-    /// pixels are not in the film.
+    /// (ExitCode::device) if the device fails; the queue then counts only tiles as finished whose
+    /// pixels are in the film.
     virtual void render(TileQueue& queue, const Rect& region, Film<T>& film) = 0;
 
     /// Renders these pixels of the film again, with a regular grid x grid of samples each; at most
-    /// most_tile_pixels of them. Adds their rays to the queue's. Throws like render; all of them
-    /// must be refined again then.
+    /// most_tile_pixels of them. Adds their rays to the queue's. Throws like render; then all of
+    /// them must be refined again.
     virtual void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
                         const Rect& region, Film<T>& film) = 0;
 

@@ -3,7 +3,7 @@
 
 namespace rt {
 
-/// What the threads of the pthreads renderer take from each other.
+/// How the threads of the pthreads renderer share the work.
 enum class Schedule {
     tiles,    ///< threads take tiles from a shared counter
     buffers,  ///< the paper's: a thread renders whole sample buffers, averaged at the end

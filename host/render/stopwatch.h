@@ -5,12 +5,12 @@
 
 namespace rt {
 
-/// Seconds of wall clock since it was made or last restarted; monotonic.
+/// Wall-clock seconds since construction or the last restart; monotonic.
 class Stopwatch {
    public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-    /// Seconds so far, and starts over.
+    /// Returns the seconds so far and restarts.
     double lap() {
         const Clock::time_point now = Clock::now();
         const double elapsed = std::chrono::duration<double>(now - start_).count();

@@ -14,10 +14,10 @@ namespace rt {
 
 namespace {
 
-/// Pixels that a thread takes at once when refining.
+/// Pixels that a thread takes at a time when refining.
 constexpr std::size_t refine_run = 64;
 
-/// Those that kernels count, and the primary rays.
+/// The rays that kernels count, plus the primary rays.
 template <typename Counts>
 RayCounts rays_of(const Counts& counts, std::uint64_t primary) {
     return {primary, counts.shadow, counts.mirror, counts.transmitted};
@@ -67,10 +67,10 @@ class ThreadsRenderer : public Renderer<T> {
     using FlatTile = typename Flat<T>::Tile;
     using FlatCounts = typename Flat<T>::RayCounts;
 
-    /// Packets of a launch: rows of them over a tile.
+    /// The packets of a launch, in rows over a tile.
     struct PacketGrid {
         Index across, down;  ///< packets
-        Index rows;          ///< pixels in a packet's column
+        Index rows;          ///< of pixels in a packet
 
         PacketGrid(const FlatTile& tile, const PacketShape& shape)
             : across((tile.width + shape.width - 1) / shape.width),
@@ -80,8 +80,8 @@ class ThreadsRenderer : public Renderer<T> {
 
     int samples() const { return static_cast<int>(view_.params.samples); }
 
-    /// Calls work(first, end) for the packets of each row until the queue is stopped. Pixels whose
-    /// rows were worked on.
+    /// Calls work(first, end) for each row of packets until the queue is stopped. Returns the
+    /// number of pixels in those rows.
     template <typename Work>
     std::uint64_t for_each_row(const PacketGrid& grid, const FlatTile& tile, const TileQueue& queue,
                                const Work& work) const {
@@ -135,7 +135,7 @@ class ThreadsRenderer : public Renderer<T> {
     }
 
     /// The paper's schedule: a thread renders whole sample buffers, which are averaged at the end.
-    /// A tile is finished once every buffer has it. Its part of all buffers lies together.
+    /// A tile is finished once every buffer has it. Its parts of all buffers are contiguous.
     void render_buffers(TileQueue& queue, const Rect& region, Film<T>& film) {
         Stopwatch watch;
         const auto all = static_cast<std::size_t>(samples());
@@ -166,7 +166,7 @@ class ThreadsRenderer : public Renderer<T> {
         times_.resolve = watch.lap();
     }
 
-    /// Sample k of a tile's pixels; false when stopped before the last.
+    /// Renders sample k of a tile's pixels; false if stopped before the last.
     bool render_sample(const Rect& rect, Index k, T* buffers, TileQueue& queue,
                        const Rect& region) const {
         const FlatTile tile = flat_tile<T>(rect, region);

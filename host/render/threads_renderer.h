@@ -13,11 +13,11 @@
 namespace rt {
 
 struct ThreadsOptions {
-    int threads = 0;  ///< 0: all cores, or one a sample buffer with Schedule::buffers
+    int threads = 0;  ///< 0: all cores, or one per sample buffer with Schedule::buffers
     Schedule schedule = Schedule::tiles;
-    int lanes = 0;                  ///< rays of a packet: 1, 2, 4, 8 or 16; 0: a vector's
+    int lanes = 0;                  ///< rays per packet: 1, 2, 4, 8 or 16; 0: a vector's
     std::string isa = {};           ///< instruction set of the kernels; empty: the best here
-    bool all_features = false;      ///< run kernels that hold what the scene does not need, too
+    bool all_features = false;      ///< run kernels that include what the scene does not need
     Features also = no_features();  ///< and these, needed or not
     bool any_samples = false;       ///< run kernels for any number of samples
 };
@@ -31,7 +31,7 @@ const NativeKernels<T>& native_kernels_for(const FlatScene<T>& scene,
                                            const ThreadsOptions& options);
 
 /// The kernels on POSIX threads, compiled ahead of time; one ray at a time with lanes = 1. The
-/// scene must outlive the renderer. Throws as choose_native.
+/// scene must outlive the renderer. Throws like choose_native.
 template <typename T>
 std::unique_ptr<Renderer<T>> make_threads_renderer(const FlatScene<T>& scene,
                                                    const ThreadsOptions& options);

@@ -19,7 +19,7 @@ std::vector<Rect> make_tiles(const Rect& region, int tile_width, int tile_height
 
 namespace {
 
-/// Tile `first` and those to its right, as far as they fit.
+/// Tile `first` and the tiles to its right, as many as fit.
 TileRun side_by_side(const std::vector<Rect>& tiles, std::size_t first,
                      const std::function<bool(const Rect&)>& fits) {
     TileRun run{tiles[first], 1, first};

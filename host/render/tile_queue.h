@@ -26,35 +26,35 @@ struct TileRun {
 
 /// Set by a signal handler to the signal's number; 0 while none has come.
 using StopFlag = std::atomic<int>;
-static_assert(StopFlag::is_always_lock_free);  // else no signal handler may set it
+static_assert(StopFlag::is_always_lock_free);  // otherwise no signal handler may set it
 
-/// What the owner of a queue hears of, from any thread; each may be empty.
+/// Events for a queue's owner, from any thread; each may be empty.
 struct TileEvents {
     std::function<void(const Rect&)> finished;  ///< its pixels are in the film
-    std::function<void(const Rect&)> lost;      ///< and these are no more, before others take them
+    std::function<void(const Rect&)> lost;      ///< and these are gone, before others take them
 };
 
-/// The shared state of a picture in the making: hands out tiles until none is left or the stop flag
-/// is set, and keeps count of what is finished. Every member may be called from any thread.
+/// The shared state of a picture in progress: hands out tiles until none is left or the stop flag
+/// is set, and counts what is finished. Every member may be called from any thread.
 class TileQueue {
    public:
     TileQueue(std::vector<Rect> tiles, const StopFlag& stop, TileEvents events = {});
 
-    /// The next tile; empty when there is none or the work was stopped. A renderer finishes every
-    /// tile it has taken, or gives it back.
+    /// The next tile; empty if there is none or the work was stopped. A renderer finishes every
+    /// tile it takes, or gives it back.
     std::optional<Rect> next();
 
-    /// As next, but for as many of the next tiles as make up a rectangle that `fits`; one tile at
-    /// least.
+    /// Like next, but takes as many of the next tiles as form a rectangle that `fits`; at least
+    /// one.
     std::optional<TileRun> next_run(const std::function<bool(const Rect&)>& fits);
 
     void finish(const Rect& tile) { finish(TileRun{tile}); }
     void finish(const TileRun& run);
 
-    /// Hands tiles out again that were taken and will not be finished.
+    /// Hands out again tiles that were taken and will not be finished.
     void give_back(const TileRun& run);
 
-    /// The same for tiles that were finished and whose pixels are lost; `rays` is what they added.
+    /// The same for finished tiles whose pixels are lost; `rays` is what they added.
     void take_back(const std::vector<TileRun>& runs, const RayCounts& rays);
 
     /// Adds to the rays traced so far; for progress, and for the totals at the end.

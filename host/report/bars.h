@@ -6,7 +6,7 @@
 
 namespace rt {
 
-/// A part of a bar; parts of the same `shade` in all bars are of one kind.
+/// A part of a bar; parts with the same `shade` are of one kind in all bars.
 struct BarPart {
     std::string label;
     double seconds = 0;
@@ -20,9 +20,9 @@ struct Bar {
     std::vector<BarPart> parts;
 };
 
-/// Stacked horizontal bars on one axis of seconds, as HTML that fits any width: each with its name
-/// and total above and its parts, named with their times, below. Parts under half a percent of
-/// their bar are one: "other".
+/// Stacked horizontal bars on a common axis of seconds, as HTML that fits any width: each with its
+/// name and total above, and its parts, with names and times, below. Parts under half a percent of
+/// their bar are merged into "other".
 std::string bars_html(const std::string& title, const std::vector<Bar>& bars);
 
 }  // namespace rt

@@ -24,7 +24,7 @@ std::string device_text(const ConvergePoint& point) {
     return text + (point.asked.fast_math ? ", fast math" : "");
 }
 
-/// Seconds to open the device and build the kernels of a point again; 0 where there are none.
+/// Seconds to open the device and rebuild the kernels of a point; 0 if there are none.
 double build_seconds(const ConvergeResult& result, const ConvergeCase& asked) {
     for (const BuildOffset& offset : build_offsets(result)) {
         if (offset.of.device == asked.device && offset.of.fast_math == asked.fast_math &&
@@ -50,7 +50,7 @@ PlotPoint plot_point(const ConvergeResult& result, std::size_t i, std::size_t in
     return point;
 }
 
-/// A family's place among those met so far.
+/// A family's index among the known ones; adds it if it is new.
 int place_of(std::vector<std::string>& known, const std::string& name) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at != known.end()) return static_cast<int>(at - known.begin());
@@ -67,8 +67,8 @@ bool has_float(const ConvergeResult& result) {
                        [](const ConvergePoint& p) { return !p.asked.double_precision; });
 }
 
-/// Color is the device, dash and marker the kind of sampling; double precision is hollow and, where
-/// float is there, without a name.
+/// Color is the device, dash and marker the kind of sampling; double precision has hollow markers
+/// and, where there is float, no label.
 std::vector<PlotCurve> plot_curves(const ConvergeResult& result, const DeviceColors& colors,
                                    std::size_t index) {
     std::vector<PlotCurve> curves;
@@ -140,7 +140,7 @@ std::string front_table(const ConvergeResult& result, std::size_t index) {
     return html_table(table);
 }
 
-/// As other tables and plots call it, where it has rendered anything.
+/// The device's label in other tables and plots, if it has rendered anything.
 std::string name_of(const ConvergeResult& result, const std::string& device,
                     const std::string& device_name) {
     for (const ConvergePoint& point : result.points) {
@@ -172,7 +172,7 @@ std::string targets_table(const ConvergeResult& result, std::size_t index) {
     return html_table(table);
 }
 
-/// How fast each kind of sampling converges, a row a device and precision.
+/// How fast each kind of sampling converges; one row per device and precision.
 std::string slopes_table(const ConvergeResult& result) {
     HtmlTable table{"Slope of log RMSE over log time", {"device"}, {}};
     for (const Curve& curve : curves_of(result)) {

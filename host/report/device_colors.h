@@ -9,12 +9,12 @@
 
 namespace rt {
 
-/// Which color of the page's style a device has: the same in every chart. Threads, however many,
+/// The color of each device in the page's style, the same in every chart. Threads, however many,
 /// have the first; OpenCL devices the next ones, in the order of the benchmark's rows.
 class DeviceColors {
    public:
     static constexpr int threads = 0;
-    static constexpr int no_device = 6;  ///< for what is drawn beside devices: neutral ink
+    static constexpr int no_device = 6;  ///< for curves other than devices: neutral ink
 
     explicit DeviceColors(const std::vector<BenchRow>& rows);
 

@@ -27,7 +27,7 @@ std::string cold_text(const std::optional<RenderStats>& run) {
     return run ? duration_text(kernel_build_seconds(*run)) : "not measured";
 }
 
-/// The ratio of two medians with its noise: relative deviations add in square.
+/// The ratio of two medians with its noise: relative deviations add in quadrature.
 std::string ratio_text(const Spread& lean, const Spread& full) {
     const double ratio = lean.median > 0 ? full.median / lean.median : 0;
     const double noise = ratio * std::hypot(lean.noise_percent(), full.noise_percent()) / 100;
@@ -59,7 +59,7 @@ std::string trial_html(const FeatureTrial& trial, const std::string& source) {
                        same ? "the same, bit for bit" : "<strong>not the same</strong>");
 }
 
-/// How much of a feature the scene has, where that can be said.
+/// How much of a feature the scene has, if known.
 std::string in_scene_text(const RenderStats& stats, bool Features::*flag) {
     const auto count = [](std::size_t n) { return n > 0 ? std::to_string(n) : "none"; };
     if (flag == &Features::spheres) return count(stats.scene.spheres);

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* replacement = "\uFFFD";
 constexpr std::size_t long_text = 40;  ///< bytes beyond which a cell's lines may break
 
-/// What stands for a byte of well-formed UTF-8.
+/// The HTML for one byte of well-formed UTF-8.
 std::string escaped(char c) {
     switch (c) {
         case '&':
@@ -46,7 +46,7 @@ bool is_number(std::string_view text) {
     return rest.empty() || rest.starts_with("·10") || rest == " %";
 }
 
-/// Digits behind the decimal point.
+/// Digits after the decimal point.
 std::size_t decimals_of(std::string_view number) {
     const auto point = number.find('.');
     if (point == std::string_view::npos) return 0;
@@ -54,7 +54,7 @@ std::size_t decimals_of(std::string_view number) {
     return end - point - 1;
 }
 
-/// How a column is set: numbers when half of its texts are.
+/// How a column is formatted: as numbers if at least half of its texts are.
 struct Column {
     bool is_numeric = false;
     std::size_t decimals = 0;
@@ -74,7 +74,7 @@ Column column_of(const HtmlTable& table, std::size_t column) {
     return found;
 }
 
-/// Digits that are not there but take their place: the style writes them invisibly.
+/// Digits that pad a number to the column's decimals; the style makes them invisible.
 std::string padding(const std::string& text, const Column& column) {
     if (!is_number(text) || column.decimals == 0) return "";
     const std::size_t decimals = decimals_of(text);
@@ -129,7 +129,7 @@ std::string png_data_uri(std::span<const std::byte> png) {
 }
 
 std::string json_block(const std::string& id, const nlohmann::ordered_json& json) {
-    // "<" and "&" stand only in JSON's strings, where they may be written by number.
+    // In JSON, "<" and "&" occur only in strings, where they can be escaped by number.
     std::string text;
     for (const char c :
          json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {

@@ -13,15 +13,15 @@ struct DrawnBox {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// Where a label stands: the start, middle or end of its base line.
+/// Position of a label: the start, middle or end of its baseline.
 struct LabelPlace {
     double x = 0, y = 0;
     const char* anchor = "start";
     DrawnBox box;
 };
 
-/// Finds room for labels beside what they name: off lines and markers, never on another label,
-/// never outside. Greedy, in the order they are asked for.
+/// Finds room for labels next to what they name: preferably off lines and markers, never over
+/// another label or outside. Greedy, in the order of the calls.
 class LabelPlacer {
    public:
     explicit LabelPlacer(const DrawnBox& bounds) : bounds_(bounds) {}
@@ -29,8 +29,8 @@ class LabelPlacer {
     void avoid_line(double x1, double y1, double x2, double y2);
     void avoid_box(const DrawnBox& box) { taken_.push_back(box); }
 
-    /// Beside one of the spots, those named first preferred; empty where a label would stand on
-    /// another one or outside.
+    /// A place beside one of the spots, earlier ones preferred; empty if the label would overlap
+    /// another one or the bounds everywhere.
     std::optional<LabelPlace> place(const std::string& text,
                                     const std::vector<std::pair<double, double>>& spots);
 

@@ -20,7 +20,7 @@ std::string aa_label(const AaMode& aa);
 /// "12.3 ms ± 2 %": median and noise.
 std::string spread_text(const Spread& spread);
 
-/// Seconds as milliseconds without the unit, three digits, for columns that name it.
+/// Seconds as milliseconds without the unit, three digits, for columns whose head has the unit.
 std::string milliseconds(double seconds);
 
 }  // namespace rt

@@ -26,7 +26,7 @@ struct Image {
     std::optional<Rect> marked = std::nullopt;  ///< framed in the picture
 };
 
-/// A frame around a window of a picture, in black and white to be seen on anything.
+/// A frame around a window of a picture, in black and white to stand out on anything.
 std::string frame_svg(const Picture& picture, const Rect& window) {
     const auto box = [&](const char* css_class) {
         return fmt::format("<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
@@ -70,7 +70,7 @@ double difference_in(const Picture& a, const Picture& b, const Rect& window) {
     return sum;
 }
 
-/// Where anti-aliasing changes the picture most: a fifth of its width, square.
+/// The square window, a fifth of the width, where anti-aliasing changes the picture most.
 Rect telling_window(const Picture& plain, const Picture& smooth) {
     const int side = std::min({std::max(16, plain.width / 5), plain.width, plain.height});
     const int step = std::max(1, side / 4);
@@ -95,7 +95,7 @@ std::string error_text(const RenderStats& stats) {
         stats.region.pixels(), error.over_8);
 }
 
-/// The picture's own run is one of many: its time is the benchmark's median, where it has one.
+/// The picture's own run is one of many, so the time is the benchmark's median, if it has one.
 std::string made_text(const RenderStats& stats, const BenchResult& bench) {
     const auto seconds = trace_median(bench, stats);
     return fmt::format("{}, {}{}, {}", to_string(stats.aa),

@@ -19,7 +19,7 @@ struct Tick {
     std::string label;  ///< empty: a line without a number
 };
 
-/// What an axis spans, in the data's own numbers; both ends above 0 where it is logarithmic.
+/// What an axis spans, in data units; both ends are above 0 if it is logarithmic.
 struct Axis {
     std::string label;
     double low = 0, high = 1;
@@ -33,12 +33,12 @@ struct Axis {
 /// 5 times a power of ten.
 std::vector<Tick> axis_ticks(const Axis& axis, int most_labels);
 
-/// An axis around the values with a little air at both ends. A logarithmic one leaves out values
+/// An axis around the values with a small margin at both ends. A logarithmic one ignores values
 /// that are not above 0; without any value it spans 1 to 10 (0 to 1 when linear).
 Axis axis_around(const std::string& label, const std::vector<double>& values, bool logarithmic,
                  AxisUnit unit);
 
-/// Where a value of the axis lies in the drawing.
+/// Maps values of the axis to drawing coordinates.
 class AxisScale {
    public:
     /// `from` and `to` are the drawing's coordinates of the axis' low and high ends.
@@ -50,7 +50,7 @@ class AxisScale {
     double low_, high_, from_, to_;
 };
 
-/// A number with this many significant digits, never with an exponent between 1e-4 and 1e9.
+/// A number with this many significant digits, without an exponent from 1e-4 to 1e9.
 std::string significant(double value, int digits);
 
 /// A time with the unit that suits it: "850 µs", "12.3 ms", "1.20 s".

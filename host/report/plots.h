@@ -11,17 +11,16 @@
 
 namespace rt {
 
-/// Stacked bars: where the time of the largest picture goes, device by device; for OpenCL also in
-/// the first round, where that rebuilt kernels.
+/// Stacked bars: where the time of the largest picture goes on each device; for OpenCL also in the
+/// first round, if that rebuilt kernels.
 std::string phases_figure(const std::vector<PlacedRow>& rows, const DeviceColors& colors);
 
-/// Two plots against picture size: trace seconds of each device, and how many times as fast as one
-/// thread it is.
+/// Two plots against picture size: trace seconds of each device, and its speed-up over one thread.
 std::string size_figures(const std::vector<PlacedRow>& rows, std::size_t index,
                          const DeviceColors& colors);
 
-/// Measured speed-up against threads beside Amdahl's prediction: a plot of three thread counts or
-/// more, a sentence of two, nothing of one.
+/// Measured speed-up against threads beside Amdahl's prediction: a plot for three or more thread
+/// counts, a sentence for two, nothing for one.
 std::string threads_html(const std::vector<PlacedRow>& rows, std::size_t index);
 
 /// A plot with its caption (HTML, already escaped) as a figure.

@@ -69,7 +69,7 @@ std::string lead_html(const std::string& text) {
     return text.empty() ? "" : "<p class=\"lead\">" + html_text(text) + "</p>\n";
 }
 
-/// Where the page tells of several scenes: each one's verdict.
+/// The scene's verdict, if the page has several scenes.
 std::string scene_verdict(const Report& report, std::size_t index) {
     const std::string verdict = verdict_text(report.scenes[index], index);
     if (report.scenes.size() == 1 || verdict.empty()) return "";

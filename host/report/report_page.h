@@ -7,8 +7,8 @@
 
 namespace rt {
 
-/// The report as one HTML page that needs nothing else: pictures, plots, style and the raw data of
-/// every figure are in it, and no script runs.
+/// The report as one self-contained HTML page: it includes pictures, plots, style and the raw data
+/// of every figure, and runs no scripts.
 std::string report_page(const Report& report);
 
 }  // namespace rt

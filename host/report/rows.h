@@ -11,7 +11,7 @@
 
 namespace rt {
 
-/// A row of a benchmark with its place in it and its figures.
+/// A row of a benchmark with its position and its figures.
 struct PlacedRow {
     const BenchRow* row = nullptr;
     std::optional<BenchFigures> figures;
@@ -21,10 +21,10 @@ struct PlacedRow {
 /// The rows of the page's scene of this index, in order.
 std::vector<PlacedRow> rows_of(const BenchResult& result, std::size_t index);
 
-/// The right rows of the largest picture with most samples, in float: what plots of devices show.
+/// The right rows in float of the largest picture with the most samples, for plots of devices.
 std::vector<PlacedRow> largest_rows(const std::vector<PlacedRow>& rows);
 
-/// The median seconds in which the same picture was traced on the same device, where rows tell.
+/// Median seconds of tracing the same picture on the same device, if a row has it.
 std::optional<double> trace_median(const BenchResult& result, const RenderStats& run);
 
 std::int64_t pixels_of(const BenchCase& asked);

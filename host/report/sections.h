@@ -10,7 +10,7 @@ namespace rt {
 
 // The page's sections about one scene, as HTML; ids and sources carry the scene's index.
 
-/// The few numbers to take away: the fastest device, its rays, its gain, and how exact it is.
+/// The key numbers: the fastest device, its rays, its speed-up and its accuracy.
 std::string glance_html(const ReportScene& scene, std::size_t index);
 
 /// The pictures, their error maps, and plain and anti-aliased crops side by side.
@@ -28,8 +28,8 @@ std::string features_section(const ReportScene& scene, std::size_t index);
 /// Verdicts of the stress suite, and error against the parameter of its families.
 std::string stress_section(const StressResult& result);
 
-/// The worst pictures of the families with the least margin, beside their references and their
-/// differences; empty without any.
+/// The worst pictures of the families with the least margin, with their references and differences;
+/// empty if there are none.
 std::string stress_pictures(const StressResult& result);
 
 /// The machine, the program and its devices, as a table.

@@ -12,10 +12,10 @@ namespace rt {
 
 namespace {
 
-// Dashes and markers of threads: the most there are; one alone; a buffer each.
+// Dashes and markers of threads: most threads, one thread, a buffer each, scalar.
 constexpr int most_threads_style = 0, one_thread_style = 1, buffers_style = 2, scalar_style = 3;
 
-/// A square's side, of any other picture the side of the square as large.
+/// The side of a square with as many pixels.
 double side_of(const BenchCase& asked) { return std::sqrt(static_cast<double>(pixels_of(asked))); }
 
 std::string size_label(const BenchCase& asked) {
@@ -49,8 +49,8 @@ int style_of(const BenchCase& asked) {
     return asked.threads == 1 ? one_thread_style : most_threads_style;
 }
 
-/// The largest picture's rows that get a curve: OpenCL, and threads at their most and alone, with
-/// vectors and without.
+/// The largest picture's rows that get a curve: OpenCL, the most threads, and one thread with and
+/// without vectors.
 std::vector<PlacedRow> drawn_devices(const std::vector<PlacedRow>& rows) {
     std::vector<PlacedRow> devices = largest_rows(rows);
     int most = 1;
@@ -64,7 +64,7 @@ std::vector<PlacedRow> drawn_devices(const std::vector<PlacedRow>& rows) {
     return devices;
 }
 
-/// One device through the sizes, in the sampling and precision of its largest picture.
+/// One device across the sizes, with the sampling and precision of its largest picture.
 template <typename MakePoint>
 PlotCurve curve_of(const std::vector<PlacedRow>& rows, const PlacedRow& device,
                    const DeviceColors& colors, MakePoint make_point) {
@@ -100,7 +100,7 @@ std::string time_figure(const std::vector<PlacedRow>& rows, std::size_t index,
     plot.y = {"ray trace time", 1, 10, true, AxisUnit::seconds};
     for (const PlacedRow& device : drawn_devices(rows)) {
         const BenchCase& asked = device.row->asked;
-        if (asked.schedule == "buffers") continue;  // lies on the other threads: see the ratios
+        if (asked.schedule == "buffers") continue;  // coincides with shared tiles: see the ratios
         plot.curves.push_back(curve_of(rows, device, colors, time_point));
     }
     if (plot.curves.empty() || plot.curves.front().points.size() < 2) return "";
@@ -138,7 +138,7 @@ std::string ratio_figure(const std::vector<PlacedRow>& rows, std::size_t index,
     one.is_prediction = true;
     plot.curves.push_back(one);
     fit_axes(plot);
-    plot.y.low = lowest_y(plot) / 1.1;  // no need of 0 where ratios are compared
+    plot.y.low = lowest_y(plot) / 1.1;  // ratios need no axis from 0
     name_sizes(plot, rows);
     plot.description = "Sizes on a logarithmic axis. The numbers are in the table of every row.";
     return plot_figure(plot, "Tracing time of one thread over tracing time of the device.");

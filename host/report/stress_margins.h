@@ -9,11 +9,11 @@
 
 namespace rt {
 
-/// How much of its tolerance a family uses: the largest error over the error allowed, of its judged
-/// rows. Empty where no number is compared (texts, families without a reference).
+/// How much of its tolerance a family uses: the largest ratio of error to allowed error over its
+/// judged rows. Empty where no number is compared (texts, families without a reference).
 std::optional<double> used_tolerance(const StressFamilyResult& family);
 
-/// Indices into result.families: those that fail, then by falling used tolerance.
+/// Indices into result.families: failed ones first, then by decreasing used tolerance.
 std::vector<std::size_t> by_margin(const StressResult& result);
 
 }  // namespace rt

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 16> plotted_families{
     "long-cone", "huge-ball-floor", "facing-mirrors", "glass-depth",  "light-pipe",  "shininess",
     "highlight", "field-of-view",   "needles",        "huge-triangle"};
 
-constexpr double least_error = 1e-9;  ///< drawn; a picture's values are floats
+constexpr double least_error = 1e-9;  ///< smallest drawn; a picture's values are floats
 
 std::string family_source(std::size_t family) { return fmt::format("stress#/families/{}", family); }
 
@@ -34,7 +34,7 @@ std::string figures_text(const PictureFigures& figures) {
     return text;
 }
 
-/// Milliseconds of tracing all cases in float, on threads or by textbook formulas; "" for none.
+/// Milliseconds spent tracing all cases in float, on threads or by textbook formulas; "" if none.
 std::string time_text(const StressFamilyResult& family, bool naive) {
     double seconds = 0;
     for (const StressCaseResult& one : family.cases) {
@@ -46,7 +46,7 @@ std::string time_text(const StressFamilyResult& family, bool naive) {
     return seconds == 0 ? "" : milliseconds(seconds);
 }
 
-/// The largest error allowed, and what else is, where that is not the usual "no wrong pixel".
+/// The largest error allowed, and the other limits unless they are the usual "no wrong pixel".
 std::string allowed_text(const StressTolerance& tolerance) {
     const bool usual = tolerance.most_wrong == 0 &&
                        tolerance.most_wrong_at_edges == StressTolerance{}.most_wrong_at_edges;
@@ -59,7 +59,7 @@ bool has_naive_rows(const StressFamilyResult& family) {
     });
 }
 
-/// Six decades of used tolerance as a share of a bar's length.
+/// Used tolerance as a share of a bar's length, which spans six decades.
 double drawn_length(double used) { return used > 0 ? 1 + std::log10(used) / 6 : 0; }
 
 HtmlCell margin_cell(const StressFamilyResult& family) {
@@ -98,7 +98,7 @@ std::string verdicts_table(const StressResult& result) {
     return "<div class=\"dense\">" + html_table(table) + "</div>\n";
 }
 
-/// "PASS: 59 of 59 families; needles uses most of its tolerance, 43 %."
+/// "PASS: 59 of 59 families; needles comes closest to its tolerance, at 43 % of it."
 std::string stress_verdict(const StressResult& result) {
     const auto passed = static_cast<std::size_t>(
         std::count_if(result.families.begin(), result.families.end(),

@@ -3,8 +3,8 @@
 
 namespace rt {
 
-/// The page's style sheet: light, dark and print; system fonts; nothing from elsewhere. The plots'
-/// classes are in it: s0 to s7 colors, d0 to d7 dashes, p0 to p7 parts of bars.
+/// The page's style sheet: light, dark and print; system fonts; no external resources. Has the
+/// plots' classes: s0 to s7 colors, d0 to d7 dashes, p0 to p7 parts of bars.
 extern const char* const report_style;
 
 }  // namespace rt

@@ -23,10 +23,10 @@ std::string precision_text(const BenchCase& asked) {
     return asked.double_precision ? "double" : "float";
 }
 
-/// What a cell says of a row without figures.
+/// Cell text for a row without figures.
 std::string verdict_text(const BenchRow& row) { return to_string(row.verdict); }
 
-/// Rows with one sampling and precision, as the paper's table: sizes down, devices across.
+/// Rows with one sampling and precision, laid out like the paper's: sizes down, devices across.
 HtmlTable paper_table(const std::vector<PlacedRow>& rows) {
     HtmlTable table;
     const BenchCase& first = rows.front().row->asked;
@@ -69,7 +69,7 @@ std::string paper_tables(const std::vector<PlacedRow>& rows) {
     std::vector<std::vector<PlacedRow>> groups;
     for (const PlacedRow& placed : rows) {
         if (placed.row->asked.schedule == "scalar")
-            continue;  // in the plot, and in every row's table
+            continue;  // in the plot, and in the table of every row
         const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& others) {
             const BenchCase& other = others.front().row->asked;
             return other.aa == placed.row->asked.aa &&

@@ -10,10 +10,10 @@
 
 namespace rt {
 
-/// Any run of the scene, for what it says of the scene.
+/// Any run of the scene, for its scene data.
 const RenderStats& some_run(const ReportScene& scene);
 
-/// The name of the scene, else its file.
+/// The scene's name, or else its file.
 std::string scene_name(const ReportScene& scene);
 
 /// The fastest row of the largest picture; empty where nothing was timed.
@@ -22,7 +22,7 @@ std::optional<PlacedRow> fastest_row(const ReportScene& scene, std::size_t index
 /// "PoCL traces Cornell box in 22 ms: 14.7 times one thread"; empty where nothing was timed.
 std::string verdict_text(const ReportScene& scene, std::size_t index);
 
-/// "500 x 500 pixels, grid:2, float. All 24 rows are right ...": what stands behind the verdict.
+/// "500 x 500 pixels, grid:2, float. All 24 rows are right ...": the details behind the verdict.
 std::string verdict_details(const ReportScene& scene, std::size_t index);
 
 }  // namespace rt

@@ -21,12 +21,12 @@ struct AaMode {
 
     Pattern pattern = Pattern::grid;
     int count = 2;         ///< grid 2 is the paper's four buffers at .25 and .75
-    double threshold = 0;  ///< adaptive: of a channel, clamped to 0..1
+    double threshold = 0;  ///< adaptive: channel difference, clamped to 0..1
 
-    /// Samples of every pixel; of an adaptive mode, in its first pass.
+    /// Samples per pixel; in adaptive modes, in the first pass.
     int samples() const;
 
-    /// Whether pixels are rendered again after the first pass.
+    /// Whether a first pass is followed by refinement.
     bool refines() const { return pattern == Pattern::adaptive; }
 
     bool operator==(const AaMode&) const = default;
@@ -38,14 +38,14 @@ AaMode grid_aa(int n);
 /// "adaptive:T" with T in 0.0001..1; empty when the text is none of these.
 std::optional<AaMode> parse_aa_mode(std::string_view text);
 
-/// What parse_aa_mode reads, for messages.
+/// The modes that parse_aa_mode accepts, for messages.
 inline constexpr const char* aa_mode_help =
     "none, grid:N (N from 1 to 64), sobol:S (S from 1 to 4096) or adaptive:T (T from 0.0001 to 1)";
 
 /// The text that parse_aa_mode reads back.
 std::string to_string(const AaMode& mode);
 
-/// How a pixel's samples are weighed (kernels/sampling.cl).
+/// How a pixel's samples are weighted (kernels/sampling.cl).
 enum class Filter { box, tent, gaussian, mitchell };
 
 std::string to_string(Filter filter);

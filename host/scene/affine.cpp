@@ -25,7 +25,7 @@ double largest(const glm::dmat3& m) {
     return size;
 }
 
-/// Columns at length 1; empty if one is zero.
+/// Normalizes the columns; empty if one is zero.
 std::optional<glm::dmat3> unit_columns(const glm::dmat3& m) {
     glm::dmat3 result(0);
     for (int i = 0; i < 3; ++i) {
@@ -36,7 +36,7 @@ std::optional<glm::dmat3> unit_columns(const glm::dmat3& m) {
     return result;
 }
 
-/// Rows and columns at about length 1, so that the determinant tells of angles alone.
+/// Scales rows and columns to about unit length, so that the determinant depends only on angles.
 std::optional<glm::dmat3> without_scales(const glm::dmat3& m) {
     const auto columns = unit_columns(m);
     return columns ? unit_columns(glm::transpose(*columns)) : std::nullopt;
@@ -54,7 +54,7 @@ void sine_cosine(double degrees, double& sine, double& cosine) {
     cosine = cosines[which];
 }
 
-/// The matrix that turns `from` towards `to` (axis numbers).
+/// The rotation that turns `from` toward `to` (axis numbers).
 glm::dmat3 rotation(double degrees, int from, int to) {
     double sine = 0, cosine = 1;
     sine_cosine(degrees, sine, cosine);

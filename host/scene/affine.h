@@ -15,15 +15,15 @@ struct Affine {
     bool operator==(const Affine&) const = default;
 };
 
-/// Scales, then turns about x, y and z in this order (degrees, counterclockwise seen from the tip
-/// of the axis), then moves.
+/// Scales, then rotates about x, y and z in this order (degrees, counterclockwise seen from the tip
+/// of the axis), then translates.
 Affine make_affine(glm::dvec3 scale, glm::dvec3 degrees, glm::dvec3 translation);
 
-/// What the linear part does to normals (inverse transpose, up to a positive factor); empty when
-/// it is singular: it flattens space, give or take rounding, whatever its scale.
+/// The matrix that transforms normals (inverse transpose, up to a positive factor); empty when
+/// `linear` is singular up to rounding, whatever its scale.
 std::optional<glm::dmat3> normal_matrix(const glm::dmat3& linear);
 
-/// Whether the linear part turns left hands into right ones.
+/// Whether the linear part mirrors (negative determinant).
 bool mirrors(const glm::dmat3& linear);
 
 }  // namespace rt

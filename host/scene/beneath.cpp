@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "" is the working folder, which canonical() does not know.
+/// "" means the working folder, which canonical() does not accept.
 fs::path folder_or_here(const fs::path& folder) { return folder.empty() ? "." : folder; }
 
 bool climbs(const fs::path& name) {
@@ -28,8 +28,8 @@ bool lies_in(const fs::path& file, const fs::path& root) {
     return std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
 }
 
-/// Opens a path of plain names, step by step, and follows no link: what openat2 does with
-/// RESOLVE_BENEATH and RESOLVE_NO_SYMLINKS, on any kernel. None when that cannot be.
+/// Opens a path of plain names component by component, following no links: like openat2 with
+/// RESOLVE_BENEATH and RESOLVE_NO_SYMLINKS, but on any kernel. None on failure.
 FileDescriptor open_steps(const fs::path& root, const fs::path& steps) {
     constexpr int flags = O_RDONLY | O_NOFOLLOW | O_CLOEXEC;
     FileDescriptor at(open(root.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));

@@ -8,25 +8,25 @@
 
 namespace rt {
 
-/// Where the files that a scene names may lie.
+/// Where the files that a scene refers to may be.
 struct SceneFolder {
     std::filesystem::path root;  ///< nothing outside of it is read
     std::filesystem::path base;  ///< names are relative to it
 
-    /// Of the scene in this file: both are the folder it lies in.
+    /// For the scene in this file: both are the folder that contains it.
     static SceneFolder of(const std::string& scene_path);
 };
 
-/// An open file, or a problem.
+/// An open file, or why it could not be opened.
 struct OpenedFile {
     FileDescriptor file;
     std::string path;     ///< for messages
-    std::string problem;  ///< "what is wrong; what to do"; empty when all is well
+    std::string problem;  ///< "what is wrong; what to do"; empty on success
 };
 
-/// Opens the regular file that a scene calls `name`. Absolute names, "..", and symbolic links that
-/// lead out of the folder are problems. What is open lies beneath the folder even if somebody
-/// exchanges files and links meanwhile.
+/// Opens the regular file that a scene calls `name`. Refuses absolute names, "..", and symbolic
+/// links that lead out of the folder. The opened file lies beneath the folder even if files and
+/// links are replaced meanwhile.
 OpenedFile open_beneath(const SceneFolder& folder, const std::string& name);
 
 }  // namespace rt

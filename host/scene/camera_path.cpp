@@ -14,7 +14,7 @@ namespace {
 
 using Key = Scene::CameraPath::Key;
 
-/// A camera's numbers, to be added and scaled alike.
+/// A camera's interpolated numbers, with vector arithmetic.
 struct CameraNumbers {
     glm::dvec3 from, at, up;
     double amount;  ///< of the field of view
@@ -47,8 +47,7 @@ CameraNumbers linear(const Key& a, const Key& b, double share) {
     return (1 - share) * CameraNumbers(a.camera) + share * CameraNumbers(b.camera);
 }
 
-/// Change of the view from key to key about keys[i], a frame: Catmull and Rom 1974, for keys that
-/// are not equally far apart.
+/// The tangent at keys[i], per frame: Catmull and Rom 1974, for unequal key spacing.
 CameraNumbers slope(const std::vector<Key>& keys, std::size_t i) {
     const Key& before = keys[i == 0 ? 0 : i - 1];
     const Key& after = keys[std::min(i + 1, keys.size() - 1)];
@@ -56,7 +55,7 @@ CameraNumbers slope(const std::vector<Key>& keys, std::size_t i) {
            (CameraNumbers(after.camera) - CameraNumbers(before.camera));
 }
 
-/// Hermite's cubic from keys[i] to the next.
+/// The cubic Hermite curve from keys[i] to the next.
 CameraNumbers smooth(const std::vector<Key>& keys, std::size_t i, double share) {
     const double frames = keys[i + 1].frame - keys[i].frame;
     const double s = share, rest = 1 - share;
@@ -64,7 +63,7 @@ CameraNumbers smooth(const std::vector<Key>& keys, std::size_t i, double share) 
                          s * s * (3 - 2 * s) * CameraNumbers(keys[i + 1].camera) +
                          s * rest * rest * frames * slope(keys, i) -
                          s * s * rest * frames * slope(keys, i + 1);
-    // A spline overshoots; a field of view must not.
+    // Splines overshoot; the field of view must not.
     const auto [low, high] =
         std::minmax(keys[i].camera.field_of_view.amount, keys[i + 1].camera.field_of_view.amount);
     view.amount = std::clamp(view.amount, low, high);

@@ -5,9 +5,9 @@
 
 namespace rt {
 
-/// The scene's camera at a frame: on its path between the keys, before the first and after the last
-/// where these are. Throws Error (ExitCode::input) for a scene without a path, and where the view
-/// has no direction or no up.
+/// The scene's camera at a frame: on its path between the keys, clamped to the first and last key.
+/// Throws Error (ExitCode::input) for a scene without a path, and where the view direction or up
+/// vector is degenerate.
 Scene::Camera camera_at(const Scene& scene, double frame);
 
 }  // namespace rt

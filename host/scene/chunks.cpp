@@ -6,7 +6,7 @@
 namespace rt {
 namespace {
 
-/// Just after the first line feed at or after `at` that ends its line; the text's end without one.
+/// Offset after the first unescaped line feed at or after `at`; the text's end if there is none.
 std::size_t next_cut(std::string_view text, std::size_t at) {
     while (true) {
         const std::size_t feed = text.find('\n', at);

@@ -11,13 +11,13 @@ namespace {
 
 bool before(glm::dvec2 a, glm::dvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
-/// Whether the segments cross within both; touching is no crossing.
+/// Whether the segments cross at interior points of both; touching does not count.
 bool properly_cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
     return orientation(a, b, c) * orientation(a, b, d) < 0 &&
            orientation(c, d, a) * orientation(c, d, b) < 0;
 }
 
-/// Low and high ends of an edge's bounding box.
+/// The corners of an edge's bounding box.
 std::pair<glm::dvec2, glm::dvec2> box_of(glm::dvec2 a, glm::dvec2 b) {
     return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
 }
@@ -62,7 +62,7 @@ void EarClipper::link() {
     }
 }
 
-/// Drops the corners that stand where their successor does, and the tips of spikes.
+/// Removes duplicates of the next corner, and the tips of spikes.
 void EarClipper::tidy_all() {
     Index corner = start_;
     for (Index kept = 0; kept < count_ && count_ > 2;) {
@@ -78,7 +78,7 @@ void EarClipper::tidy_all() {
     }
 }
 
-/// The same near one corner, after its neighbor has gone. Returns a corner that is left.
+/// The same near one corner, after its neighbor was cut. Returns a remaining corner.
 EarClipper::Index EarClipper::tidy(Index corner) {
     while (count_ > 2) {
         const Index last = previous_[corner];
@@ -100,7 +100,7 @@ bool EarClipper::is_idle(Index corner) const {
     return b == c || (before(a, b) == before(c, b) && orientation(a, b, c) == 0);
 }
 
-/// Every turn is to the left, and there is one way round: x, then y, rises once and falls once.
+/// Every turn is to the left, and it winds once: the (x, y) order rises once and falls once.
 bool EarClipper::is_strictly_convex() const {
     int reversals = 0;
     for (Index i = next_[start_], seen = 0; seen < count_; i = next_[i], ++seen) {
@@ -112,7 +112,7 @@ bool EarClipper::is_strictly_convex() const {
     return reversals == 2;
 }
 
-/// Sweeps over the edges by their low x, each against those that begin before it ends.
+/// Sweeps over edges sorted by low x, testing each against those that start before it ends.
 bool EarClipper::edges_cross() {
     struct Edge {
         glm::dvec2 a, b, low, high;
@@ -138,9 +138,8 @@ bool EarClipper::edges_cross() {
     return work_ < 0;
 }
 
-/// If any corner lies in a triangle of three neighbors, then one does whose turn is not to the
-/// left. Corners at the same place are looked at as well: the polygon pinches there. All stay in
-/// the order of x.
+/// If any corner lies in a triangle of three neighbors, so does one with a turn not to the left.
+/// Coincident corners count too: the polygon pinches there. Sorted by x.
 void EarClipper::find_obstacles() {
     std::vector<Index> order;
     for (Index i = 0; i < alive_.size(); ++i) {
@@ -156,9 +155,9 @@ void EarClipper::find_obstacles() {
                  [&](Index i) { return repeated_[i] || turn(i) <= 0; });
 }
 
-/// Corners on an ear's rim stand in its way, so that they become corners of triangles; only where
-/// that leaves no ear, they do not. What is then left is flat, or folded. The first round cuts no
-/// two neighbors in a row, which would make fans of slivers.
+/// Corners on an ear's boundary block it, so that they become corners of triangles, unless that
+/// leaves no ear. What then remains is flat or folded. The first round never cuts two neighbors in
+/// a row, which would make fans of slivers.
 void EarClipper::clip() {
     clip_round(true, true);
     while (count_ > 2 && work_ >= 0) {
@@ -167,7 +166,7 @@ void EarClipper::clip() {
     }
 }
 
-/// Goes once round the ring and cuts what can be cut. Whether there was anything.
+/// Goes around the ring once and cuts the ears. Returns whether there were any.
 bool EarClipper::clip_round(bool strict, bool skip) {
     bool any = false;
     Index corner = start_;
@@ -231,7 +230,7 @@ bool EarClipper::blocks(Index other, Index corner, bool strict) const {
     return inside(point, corner, strict);
 }
 
-/// Whether an edge from a corner that touches the ear's runs through the ear.
+/// Whether an edge at a corner that coincides with one of the ear's passes through the ear.
 bool EarClipper::pinches(Index other, Index corner) const {
     const glm::dvec2 a = points_[previous_[corner]], b = points_[next_[corner]];
     for (const Index end : {previous_[other], next_[other]}) {
@@ -245,7 +244,7 @@ int EarClipper::turn(Index corner) const {
     return orientation(points_[previous_[corner]], points_[corner], points_[next_[corner]]);
 }
 
-/// Whether a point lies in the triangle at a corner; `strict` counts its rim in.
+/// Whether a point lies in the triangle at a corner; `strict` includes its boundary.
 bool EarClipper::inside(glm::dvec2 point, Index corner, bool strict) const {
     const glm::dvec2 a = points_[previous_[corner]], b = points_[corner];
     const glm::dvec2 c = points_[next_[corner]];

@@ -14,8 +14,8 @@ constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
 double largest(glm::dvec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Scales every axis by its own power of two, exactly, so that the largest coordinate on each
-/// lies in 0.5..1 (or is 0). Collinear stays collinear and the other way round.
+/// Scales every axis by its own power of two, exactly, so that its largest coordinate lies in
+/// 0.5..1 (or is 0). Collinearity is unchanged.
 std::array<glm::dvec3, 3> scaled_per_axis(std::array<glm::dvec3, 3> corners) {
     for (int axis = 0; axis < 3; ++axis) {
         double size = 0;
@@ -27,9 +27,9 @@ std::array<glm::dvec3, 3> scaled_per_axis(std::array<glm::dvec3, 3> corners) {
     return corners;
 }
 
-/// Whether one component of the normal is so large that no rounding explains it: true for most
-/// triangles, and far cheaper than scaling them. Scaled by at most twice the coordinates, it is
-/// still above the largest error that zero_area allows (8 roundings).
+/// Whether one component of the normal exceeds any rounding error: true for most triangles, and far
+/// cheaper than scaling them. Scaling is by at most twice the coordinates, so it stays above the
+/// largest error that zero_area allows (8 roundings).
 bool clearly_has_area(const std::array<glm::dvec3, 3>& corners) {
     const auto& [a, b, c] = corners;
     const glm::dvec3 size = glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c));
@@ -61,8 +61,8 @@ bool nearly_parallel(glm::dvec3 a, glm::dvec3 b) {
     return largest(glm::cross(a, b)) < smallest_sine;
 }
 
-/// The edges' components carry errors of a rounding each (the coordinates are at most 1 after
-/// scaling), so the cross product is zero where it is below what these errors amount to.
+/// Each component of the edges carries one rounding error (the coordinates are at most 1 after
+/// scaling), so the cross product counts as zero below the resulting error bound.
 bool zero_area(const std::array<glm::dvec3, 3>& corners) {
     if (clearly_has_area(corners)) return false;
     const auto [a, b, c] = scaled_per_axis(corners);

@@ -7,21 +7,21 @@
 
 namespace rt {
 
-/// v at length 1, whatever its scale (nothing over- or underflows); empty for a zero vector.
+/// Normalizes v at any scale (no overflow or underflow); empty for a zero vector.
 std::optional<glm::dvec3> unit_direction(glm::dvec3 v);
 
 /// Whether the two points differ by rounding only: at most a few units in the last place of the
 /// larger coordinate on every axis.
 bool nearly_same_point(glm::dvec3 a, glm::dvec3 b);
 
-/// Whether two unit vectors span no plane worth the name: sine of their angle below 1e-9.
+/// Whether two unit vectors are parallel: the sine of their angle is below 1e-9.
 bool nearly_parallel(glm::dvec3 a, glm::dvec3 b);
 
-/// Whether the corners lie on one line (or in one point), give or take a few units in the last
-/// place of their coordinates.
+/// Whether the corners are collinear (or coincide), up to a few units in the last place of their
+/// coordinates.
 bool zero_area(const std::array<glm::dvec3, 3>& corners);
 
-/// Why from, at and up make no camera.
+/// Why from, at and up are no valid camera.
 struct AxesMistake {
     bool is_up = false;  ///< up is to blame, not from and at
     const char* message = "";

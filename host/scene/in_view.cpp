@@ -55,7 +55,7 @@ class View {
    public:
     explicit View(const Scene::Camera& camera) : from_(camera.from), sides_(sides_of(camera)) {}
 
-    /// Whether the convex hull of spheres may be seen.
+    /// Whether the convex hull of the spheres may be visible.
     template <std::size_t N>
     bool may_show(std::array<BoundingSphere, N> spheres) const {
         for (BoundingSphere& sphere : spheres) sphere.center -= from_;

@@ -5,8 +5,8 @@
 
 namespace rt {
 
-/// Whether a shape may be seen in the picture's window. False is certain: all of every shape lies
-/// behind the eye, or beyond one side of the window.
+/// Whether a shape may be visible in the picture's window. False is certain: every shape lies
+/// entirely behind the eye or outside one side of the window.
 bool is_anything_in_view(const Scene& scene);
 
 }  // namespace rt

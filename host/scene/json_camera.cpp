@@ -53,7 +53,7 @@ std::optional<Scene::Window> read_window(const JsonValue& value, std::string_vie
     return std::nullopt;
 }
 
-/// Notes every key that this kind of camera does not know.
+/// Notes every key that does not apply to this kind of camera.
 void refuse_keys(const ObjectReader& camera, std::initializer_list<std::string_view> unwanted,
                  std::string_view where, std::string_view advice, Mistakes& mistakes) {
     for (const std::string_view key : unwanted) {
@@ -64,7 +64,7 @@ void refuse_keys(const ObjectReader& camera, std::initializer_list<std::string_v
     }
 }
 
-/// Whether exactly one of the keys is there; notes it when not.
+/// Whether exactly one of the keys is present; notes it otherwise.
 bool has_exactly_one(const ObjectReader& camera, const JsonValue& value,
                      std::initializer_list<std::string_view> wanted, std::string_view names,
                      Mistakes& mistakes) {
@@ -108,7 +108,7 @@ void read_orthographic(const ObjectReader& reader, const JsonValue& value, Scene
     reader.optional("width", camera.field_of_view.amount, read_positive);
 }
 
-/// from, at and up must make three axes.
+/// Notes when from, at and up do not span a camera frame.
 void check_axes(const ObjectReader& reader, const Scene::Camera& camera, Mistakes& mistakes) {
     const auto place = [&](std::string_view key) {
         return (reader.find(key) ? reader.find(key) : reader.find("at"))->offset;
@@ -132,7 +132,7 @@ Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes) {
     reader.optional("window", camera.window, read_window);
     const std::size_t before_type = mistakes.count();
     reader.optional("type", camera.projection, read_projection);
-    if (mistakes.count() != before_type) return camera;  // which keys belong is not known
+    if (mistakes.count() != before_type) return camera;  // the valid keys are unknown
     if (camera.projection == Scene::Projection::perspective) {
         read_perspective(reader, value, camera, mistakes);
     } else {

@@ -7,8 +7,8 @@
 
 namespace rt {
 
-/// Reads the "camera" object of a scene file; its window is left to camera_window, unless the
-/// file gives one. Notes what is wrong in `mistakes`.
+/// Reads the "camera" object of a scene file; camera_window computes the window unless the file
+/// gives one. Notes errors in `mistakes`.
 Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes);
 
 }  // namespace rt

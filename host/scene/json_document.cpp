@@ -17,8 +17,8 @@
 namespace rt {
 namespace {
 
-/// nlohmann's SAX events -> JsonValue tree. The events carry no positions; every one is a token,
-/// so a second reading of the text, one token per event, finds where each starts.
+/// Builds a JsonValue tree from nlohmann's SAX events. These carry no positions, but each is one
+/// token, so a second scan of the text, one token per event, finds where each starts.
 class TreeBuilder {
    public:
     explicit TreeBuilder(Mistakes& mistakes) : mistakes_(mistakes), text_(mistakes.text()) {
@@ -67,7 +67,7 @@ class TreeBuilder {
     }
 
    private:
-    /// Moves past the token the current event stands for; where it starts.
+    /// Skips the current event's token and returns where it starts.
     std::uint32_t next_token() {
         std::size_t start = skip_json_blanks(text_, end_);
         if (start < text_.size() && (text_[start] == ',' || text_[start] == ':')) {
@@ -121,7 +121,7 @@ class TreeBuilder {
         return true;
     }
 
-    /// A value is complete; what surrounds it says what may follow.
+    /// A value is complete; its container determines what may follow.
     void settle() {
         if (open_.empty()) {
             state_ = JsonState::done;

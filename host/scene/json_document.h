@@ -14,8 +14,8 @@ namespace rt {
 
 struct JsonMember;
 
-/// One value of a JSON text and where it starts there (Mistakes turns the offset into line and
-/// column). std::monostate is null.
+/// One value of a JSON text and its offset there (Mistakes converts it to line and column).
+/// std::monostate is null.
 struct JsonValue {
     using Array = std::vector<JsonValue>;
     using Object = std::vector<JsonMember>;
@@ -40,17 +40,17 @@ inline constexpr std::size_t max_json_bytes = std::size_t{256} << 20;
 inline constexpr std::size_t max_json_values = std::size_t{1} << 25;
 inline constexpr std::size_t max_json_depth = 64;
 
-/// Reads a JSON text (RFC 8259, with // and /* */ comments; a byte order mark is skipped). Repeated
-/// keys are noted in `mistakes`; anything that is not JSON is thrown with what was noted before.
-/// Numbers are doubles, whole numbers beyond 64 bits included; one that overflows is refused.
-/// Throws Error with ExitCode::limit for a text beyond the sizes above.
+/// Parses a JSON text (RFC 8259, with // and /* */ comments; skips a byte order mark). Notes
+/// repeated keys in `mistakes`; a syntax error is thrown along with earlier mistakes. Numbers are
+/// doubles, even integers beyond 64 bits; refuses overflow. Throws Error with ExitCode::limit for a
+/// text beyond the sizes above.
 JsonValue parse_json(Mistakes& mistakes);
 
-/// The same value by value, of a text that is UTF-8 and not too large. parse_json leaves to it what
-/// parse_plain_json does not take.
+/// The slow general parser, for valid UTF-8 within the size limit: parse_json falls back to it for
+/// texts that parse_plain_json does not handle.
 JsonValue parse_json_carefully(Mistakes& mistakes);
 
-/// "a number", "an array": what a value is, for messages.
+/// The kind of a value, for messages: "a number", "an array".
 std::string_view kind_of(const JsonValue& value);
 
 }  // namespace rt

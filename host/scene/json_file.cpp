@@ -70,7 +70,7 @@ void read_list(const ObjectReader& reader, std::string_view key, std::vector<T>&
     for (const JsonValue& item : *items) target.push_back(read(item));
 }
 
-/// A scene but for its meshes, which wait until all else is known to be right.
+/// A scene without its meshes, which are loaded only if all else is valid.
 struct SceneText {
     Scene scene;
     std::vector<MeshRequest> meshes;

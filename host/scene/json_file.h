@@ -13,7 +13,7 @@ namespace rt {
 /// each; ExitCode::limit for one that is too large.
 Scene load_json_scene(const std::string& path);
 
-/// The same for a text in memory; `file_name` stands in messages and gives the default name.
+/// Parses a text in memory; `file_name` appears in messages and gives the default name.
 Scene parse_json_scene(std::string_view text, const std::string& file_name);
 
 }  // namespace rt

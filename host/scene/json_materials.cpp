@@ -27,7 +27,7 @@ Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
     return material;
 }
 
-/// What to do about a material that is not there.
+/// What to do about an unknown material.
 std::string advice(std::string_view name, std::span<const std::string_view> known) {
     if (known.empty()) return "the scene has no materials, define it under \"materials\"";
     const std::string_view near = nearest_word(name, known);

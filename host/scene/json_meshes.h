@@ -12,10 +12,10 @@
 
 namespace rt {
 
-/// An item of "meshes", read but for the model itself: that is loaded only into a scene that has
-/// no other mistakes.
+/// An item of "meshes" without the model itself, which is loaded only if the scene has no other
+/// mistakes.
 struct MeshRequest {
-    std::string file;             ///< as the scene calls it
+    std::string file;             ///< as written in the scene
     std::uint32_t offset = 0;     ///< of the item in the scene's text
     std::optional<int> material;  ///< for all faces, in place of the model's own
     Affine transform;
@@ -28,7 +28,7 @@ MeshRequest read_mesh(const JsonValue& value, const MaterialTable& materials,
 std::optional<Affine> read_transform(const JsonValue& value, std::string_view name,
                                      Mistakes& mistakes);
 
-/// Loads the models, with their materials after the scene's own. Throws as load_model does.
+/// Loads the models and appends their materials to the scene's. Throws as load_model does.
 void load_meshes(const std::vector<MeshRequest>& requests, const SceneFolder& folder, Scene& scene,
                  Mistakes& mistakes);
 

@@ -24,7 +24,7 @@ std::optional<bool> read_is_smooth(const JsonValue& value, std::string_view name
     return read_choice(value, name, name, "catmull-rom", "linear", mistakes);
 }
 
-/// The key by which this kind of camera says what it sees; "" where a window does.
+/// The key for the field of view of this kind of camera; "" if it has a window.
 std::string_view extent_key(const Scene::Camera& camera) {
     switch (camera.field_of_view.fixed) {
         case Fixed::horizontal:

@@ -7,7 +7,7 @@
 
 namespace rt {
 
-/// Reads "path". What a key does not give is as in `camera`, the scene's own.
+/// Reads "path". Keys inherit what they omit from `camera`, the scene's own.
 Scene::CameraPath read_camera_path(const JsonValue& value, const Scene::Camera& camera,
                                    Mistakes& mistakes);
 

@@ -145,7 +145,7 @@ class PlainReader {
         return take('}') && !has_repeated_key(members);
     }
 
-    /// Of few members all pairs are compared; many may be repeated or not.
+    /// Compares all pairs of few members; sorts the keys of many.
     static bool has_repeated_key(const JsonValue::Object& members) {
         constexpr std::size_t few = 12;
         if (members.size() > few) {

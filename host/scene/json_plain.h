@@ -8,9 +8,9 @@
 
 namespace rt {
 
-/// Reads the JSON texts that people and programs write nearly always, four times as fast as
-/// parse_json's careful reading: nothing when anything is wrong, repeated, or unusual, be it right
-/// (an escape, a number too small for a double). The text is valid UTF-8.
+/// Parses common JSON, four times as fast as parse_json_carefully; empty on any error, repeated
+/// key, or valid but rare construct (an escape, a number that underflows). The text must be valid
+/// UTF-8.
 std::optional<JsonValue> parse_plain_json(std::string_view text);
 
 }  // namespace rt

@@ -12,8 +12,8 @@
 
 namespace rt {
 
-// Every read_ function notes in `mistakes` why a value will not do, and then returns nothing.
-// `name` is what messages call the value: its key, mostly.
+// Every read_ function notes in `mistakes` why a value is invalid, and then returns nothing. `name`
+// is what messages call the value, usually its key.
 
 std::optional<double> read_number(const JsonValue& value, std::string_view name,
                                   Mistakes& mistakes);
@@ -25,26 +25,26 @@ std::optional<int> read_integer(const JsonValue& value, std::string_view name, i
                                 Mistakes& mistakes);
 std::optional<bool> read_bool(const JsonValue& value, std::string_view name, Mistakes& mistakes);
 const std::string* read_string(const JsonValue& value, std::string_view name, Mistakes& mistakes);
-/// Above 0 and below 180 degrees.
+/// An angle strictly between 0 and 180 degrees.
 std::optional<double> read_angle(const JsonValue& value, std::string_view name, Mistakes& mistakes);
-/// Whether the text is the first of two words. `what` it is stands in messages: "camera type".
+/// True for the first of two words. `what` is used in messages: "camera type".
 std::optional<bool> read_choice(const JsonValue& value, std::string_view name,
                                 std::string_view what, std::string_view first,
                                 std::string_view second, Mistakes& mistakes);
 std::optional<glm::dvec3> read_vec3(const JsonValue& value, std::string_view name,
                                     Mistakes& mistakes);
-/// [r, g, b] or one number for a gray, not negative.
+/// [r, g, b] or one number for gray, not negative.
 std::optional<glm::dvec3> read_color(const JsonValue& value, std::string_view name,
                                      Mistakes& mistakes);
-/// The same up to max_reflectance.
+/// The same, at most max_reflectance.
 std::optional<glm::dvec3> read_reflectance(const JsonValue& value, std::string_view name,
                                            Mistakes& mistakes);
-/// An array; with `size` >= 0, of just that many items.
+/// An array; if `size` >= 0, of exactly that many items.
 const JsonValue::Array* read_array(const JsonValue& value, std::string_view name, int size,
                                    Mistakes& mistakes);
 
-/// An object whose keys are known beforehand. Notes unknown keys when it is made; one that is no
-/// object is noted too and then has no members.
+/// An object with a fixed set of keys. The constructor notes unknown keys, and a value that is no
+/// object, which then has no members.
 class ObjectReader {
    public:
     /// `what` names the object in messages: "a sphere".
@@ -57,7 +57,7 @@ class ObjectReader {
     /// Like find, but notes a missing key. `example` shows what to add.
     const JsonValue* require(std::string_view key, std::string_view example) const;
 
-    /// Assigns `read(value, key, mistakes)` to `target` if the key is there and its value good.
+    /// Assigns `read(value, key, mistakes)` to `target` if the key exists and its value is valid.
     template <class T, class Read>
     void optional(std::string_view key, T& target, Read read) const {
         if (const JsonValue* value = find(key)) {

@@ -14,7 +14,7 @@
 
 namespace rt {
 
-/// The materials of a scene file by name, for the shapes that refer to them.
+/// The materials of a scene file, looked up by name.
 class MaterialTable {
    public:
     /// Reads the "materials" object (null: the file has none).
@@ -29,7 +29,7 @@ class MaterialTable {
    private:
     std::vector<Scene::Material> materials_;
     std::unordered_map<std::string, int> index_;
-    bool readable_ = true;  ///< false: the names are not known, so none is refused
+    bool readable_ = true;  ///< false: names are unknown, so all are accepted
 };
 
 Scene::Light read_light(const JsonValue& value, Mistakes& mistakes);

@@ -17,7 +17,7 @@ bool is_one_of(char c, std::string_view set) { return set.find(c) != std::string
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-/// Just after the comment that starts at `at`, or `at` when no complete comment starts there.
+/// End offset of the comment at `at`, or `at` if no complete comment starts there.
 std::size_t comment_end(std::string_view text, std::size_t at) {
     const std::string_view opening = text.substr(at, 2);
     if (opening == "//") return std::min(text.find_first_of("\r\n", at), text.size());
@@ -26,7 +26,7 @@ std::size_t comment_end(std::string_view text, std::size_t at) {
     return end == std::string_view::npos ? at : end + 2;
 }
 
-/// What may stand where the mistake is.
+/// What may appear at the error.
 std::string_view expected(JsonState state, bool after_separator) {
     switch (state) {
         case JsonState::start:
@@ -83,14 +83,14 @@ std::string explain_word(std::string_view word) {
     return fmt::format("unknown word {}; put text in double quotes", in_quotes(word));
 }
 
-/// The mistake at a place where a value may stand and something does that is none.
+/// Explains an error where a value is expected and something else follows.
 std::string explain_value(std::string_view text, std::size_t at) {
     const std::string_view word = text.substr(at, json_token_end(text, at) - at);
     if (is_letter(text[at])) return explain_word(word);
     return fmt::format("{} is not a JSON number; write it like 5, -0.5 or 1e-3", in_quotes(word));
 }
 
-/// A mistake at a character that nothing starts with, whatever was expected; empty otherwise.
+/// Explains a character that can start no token, whatever was expected; else empty.
 std::string explain_character(std::string_view text, std::size_t at) {
     if (text[at] == '\'') return "JSON strings are written in double quotes; replace the ' with \"";
     if (text[at] == '#') return "'#' does not start a comment; use // or /* */";

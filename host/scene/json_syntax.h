@@ -7,13 +7,13 @@
 
 namespace rt {
 
-/// Where the next character stands that is neither blank nor in a complete comment.
+/// Skips blanks and complete comments; returns the offset of the next character.
 std::size_t skip_json_blanks(std::string_view text, std::size_t at);
 
-/// Just after the token (string, number, word, bracket) that starts at `at`.
+/// End offset of the token (string, number, word, bracket) that starts at `at`.
 std::size_t json_token_end(std::string_view text, std::size_t at);
 
-/// What came last before a syntax mistake, hence what may follow.
+/// What preceded a syntax error, which determines what may follow.
 enum class JsonState { start, object_opened, after_key, in_object, array_opened, in_array, done };
 
 struct JsonSyntaxMistake {
@@ -21,8 +21,8 @@ struct JsonSyntaxMistake {
     std::string message;  ///< "what is wrong; what to do"
 };
 
-/// Explains why a JSON text that is good up to `at` cannot go on. `reader_offset` is where the
-/// reader gave up: the exact place of a mistake within a string.
+/// Explains a syntax error in a JSON text that is valid up to `at`. `reader_offset` is where the
+/// parser stopped: the exact position of an error within a string.
 JsonSyntaxMistake explain_json_syntax(std::string_view text, std::size_t at, JsonState state,
                                       std::size_t reader_offset);
 

@@ -21,7 +21,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; 
 
 }  // namespace
 
-/// The bytes of a backslash with the line end that it takes away, or 0.
+/// Length of a backslash and the line end that it escapes, or 0.
 std::size_t LineScanner::continuation() const {
     if (*at_ != '\\' || end_ - at_ < 2) return 0;
     if (at_[1] == '\n') return 2;
@@ -62,7 +62,7 @@ std::string_view LineScanner::rest() {
     return {start, static_cast<std::size_t>(stop - start)};
 }
 
-/// Most lines are short and hold no backslash or carriage return.
+/// Fast path: most lines are short, without backslashes or carriage returns.
 bool LineScanner::skip_plain_line() {
     constexpr std::ptrdiff_t most = 512;
     const auto window = static_cast<std::size_t>(std::min(end_ - at_, most));

@@ -23,11 +23,11 @@ class LineScanner {
         }
     }
 
-    /// Where the next character stands in the text.
+    /// The current offset in the text.
     std::size_t offset() const { return static_cast<std::size_t>(at_ - begin_); }
     std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
 
-    /// What is not read yet, for who reads a word in another way, and goes past it.
+    /// The unread text, for callers that parse a word themselves and then advance past it.
     std::string_view left() const { return {at_, bytes_left()}; }
     void advance(std::size_t bytes) { at_ += bytes; }
 
@@ -35,15 +35,15 @@ class LineScanner {
     bool word_follows();
     /// The next word of this line, empty at its end.
     std::string_view word();
-    /// What is left of this line (no continuation, no comments), without blanks around it.
+    /// The rest of this line, trimmed (continuations and comments are not handled).
     std::string_view rest();
     /// Goes to the start of the next line.
     void next_line();
-    /// Skips empty lines and comments; whether a word follows somewhere.
+    /// Skips empty lines and comments; returns whether there is another word.
     bool find_word();
 
-    /// The word ahead as a number, or nothing: then it is still ahead. Infinities and numbers
-    /// that are none are nothing too; one that is too small to tell from 0 is 0.
+    /// Reads the next word if it is a number. Otherwise, and for infinities and NaN, consumes
+    /// nothing and returns nothing; underflow gives 0.
     std::optional<double> number();
     std::optional<std::int64_t> integer();
 
@@ -56,8 +56,8 @@ class LineScanner {
     const char *begin_, *at_, *end_;
 };
 
-/// The number ahead, within max_scene_number; notes what is there instead. `name` is what
-/// messages call it: "a coordinate".
+/// The next number, within max_scene_number; notes anything else. `name` is what messages call it:
+/// "a coordinate".
 std::optional<double> read_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes);
 
 }  // namespace rt

@@ -71,7 +71,7 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
     for (const Face& which : parts_) add(which);
 }
 
-/// Sets parts_. What small faces cost is on the house, so that their number does not matter.
+/// Sets parts_. Each corner adds to the work budget, so that many small faces cannot exhaust it.
 void MeshBuilder::split(std::span<const std::uint32_t> corners) {
     outline_.clear();
     for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);

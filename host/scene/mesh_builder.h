@@ -13,42 +13,41 @@
 
 namespace rt {
 
-/// A face of more corners is refused by the readers.
+/// Readers refuse faces with more corners.
 inline constexpr std::size_t max_face_corners = 10000;
 
-/// Whether the diagonal from the first corner parts a quadrilateral well: the triangles on both of
-/// its sides face much the same way, by more than rounding explains. True for most.
+/// Whether the diagonal from the first corner splits a quadrilateral well: both triangles face much
+/// the same way, beyond rounding error. True for most.
 bool parts_well(const std::array<glm::dvec3, 4>& quad);
 
-/// Appends a triangle, with normals or (null) without, to faces that have a row of normals each as
-/// soon as one of them has normals.
+/// Appends a triangle, with normals or (null) without. Once any face has normals, every face has a
+/// row of them.
 void append_face(const Scene::Mesh::Face& face, const Scene::Mesh::Face* normals,
                  std::vector<Scene::Mesh::Face>& faces,
                  std::vector<Scene::Mesh::Face>& face_normals);
 
-/// Takes a model's faces as its file gives them, of any number of corners, and makes the
-/// triangles of a mesh. Positions and normals go straight into `mesh`.
+/// Turns a model's faces, with any number of corners, into the triangles of a mesh. Readers write
+/// positions and normals directly to `mesh`.
 class MeshBuilder {
    public:
     Scene::Mesh mesh;
 
-    /// Triangles as they are; with a row of normals each, or none.
+    /// Appends triangles unchanged; with a row of normals each, or none.
     void add_triangles(std::span<const Scene::Mesh::Face> faces,
                        std::span<const Scene::Mesh::Face> normals);
 
-    /// Corners are indices into mesh.positions, 3 at least; normals into mesh.normals, as many or
-    /// none. Both are below the sizes of these. Faces need not be flat. One that crosses itself, or
-    /// is beyond the budget for polygons, becomes the triangles at its first corner; one without
-    /// area becomes nothing.
+    /// `corners` are at least 3 indices into mesh.positions; `normals` as many into mesh.normals,
+    /// or none. All must be in range. Faces need not be planar. One that crosses itself, or exceeds
+    /// the polygon budget, becomes a fan from its first corner; one without area is dropped.
     void add_face(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals);
 
-    /// The material of the faces to come. Faces before the first call have material -1.
+    /// Sets the material of subsequent faces. Faces before the first call have material -1.
     void use_material(int material);
 
     /// The mesh, complete with face_materials.
     Scene::Mesh take();
 
-    /// What add_face could not keep as it is, a sentence each.
+    /// What add_face dropped or could not triangulate exactly, a sentence each.
     std::vector<std::string> notes(const std::string& file_name) const;
 
    private:

@@ -19,13 +19,13 @@ bool is_within(const glm::dvec3& p) {
     return good(p.x) && good(p.y) && good(p.z);
 }
 
-/// Whether all positions are in range.
+/// Transforms the positions and returns whether all are in range.
 bool move_positions(std::vector<glm::dvec3>& positions, const Affine& transform) {
     for (glm::dvec3& p : positions) p = transform.linear * p + transform.translation;
     return std::all_of(positions.begin(), positions.end(), is_within);
 }
 
-/// Zero normals stay zero; their number.
+/// Transforms the normals to unit length and returns how many are zero, which stay zero.
 std::size_t turn_normals(std::vector<glm::dvec3>& normals, const glm::dmat3& matrix) {
     std::size_t zeros = 0;
     for (glm::dvec3& normal : normals) {
@@ -43,7 +43,7 @@ bool has_zero_normal(const Scene::Mesh& mesh, const Face& normals) {
     });
 }
 
-/// The triangles without area, in their order: nearly always none. Side by side.
+/// Indices of the triangles without area, ascending: nearly always none. Runs in parallel.
 std::vector<std::size_t> find_zero_areas(const Scene::Mesh& mesh) {
     constexpr std::size_t grain = 1 << 15;
     std::vector<std::vector<std::size_t>> found((mesh.faces.size() + grain - 1) / grain);
@@ -60,7 +60,7 @@ std::vector<std::size_t> find_zero_areas(const Scene::Mesh& mesh) {
     return all;
 }
 
-/// Takes out the items at these places, which rise.
+/// Removes the items at these ascending indices.
 template <typename Item>
 void take_out(std::vector<Item>& items, const std::vector<std::size_t>& places) {
     std::size_t kept = 0, next = 0;
@@ -74,7 +74,7 @@ void take_out(std::vector<Item>& items, const std::vector<std::size_t>& places) 
     items.resize(kept);
 }
 
-/// How many triangles without area were taken out.
+/// Removes the triangles without area and returns their number.
 std::size_t drop_zero_areas(Scene::Mesh& mesh) {
     const std::vector<std::size_t> places = find_zero_areas(mesh);
     if (places.empty()) return 0;

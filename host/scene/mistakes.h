@@ -8,15 +8,15 @@
 
 namespace rt {
 
-/// Both count from 1; a column is one character (Unicode code point), a tab is one too.
+/// Both count from 1; a column is one Unicode code point, tabs included.
 struct SourcePosition {
     std::size_t line = 1, column = 1;
 };
 
 SourcePosition position_of(std::string_view text, std::size_t offset);
 
-/// Gathers what is wrong with one text file, so that its author hears of several mistakes at
-/// once. The text must outlive it.
+/// Collects the errors in one text file, so that its author sees several at once. The text must
+/// outlive it.
 class Mistakes {
    public:
     static constexpr std::size_t max_count = 20;
@@ -26,18 +26,18 @@ class Mistakes {
     /// Notes "what is wrong; what to do" at a byte offset. Throws when max_count is reached.
     void add(std::size_t offset, std::string message);
 
-    /// The same where lines do not count: `where` ("element 'face' 17") stands in the message in
-    /// place of line and column.
+    /// The same for data without lines: `where` ("element 'face' 17") replaces line and column in
+    /// the message.
     void add_in(std::string where, std::size_t offset, std::string message);
 
     std::size_t count() const { return found_.size(); }
 
-    /// One of the same text, for some of it: it keeps its first max_count and throws none.
+    /// An empty one for a part of the same text: it keeps its first max_count and never throws.
     Mistakes part() const;
     bool is_full() const { return found_.size() >= max_count; }
 
-    /// Takes over what a part has noted, and throws none; throw_if_any then tells the first
-    /// max_count of the file.
+    /// Takes over a part's mistakes without throwing; throw_if_any then reports the file's first
+    /// max_count.
     void add_all(const Mistakes& part);
 
     std::string_view text() const { return text_; }
@@ -45,15 +45,14 @@ class Mistakes {
     /// "file:line:column", for a message that points at a second place.
     std::string place(std::size_t offset) const;
 
-    /// Throws Error(ExitCode::input) with one line per mistake, in the order of the file, unless
-    /// there is none.
+    /// Throws Error(ExitCode::input) with one line per mistake, in file order, if there are any.
     void throw_if_any() const;
 
    private:
     struct Mistake {
         std::size_t offset;
         std::string message;
-        std::string where;  ///< empty: line and column of the offset
+        std::string where;  ///< empty: use line and column of the offset
     };
 
     std::string_view text_;

@@ -12,12 +12,12 @@ namespace rt {
 /// What a model file holds, in its own coordinates. A reader has checked that indices are good
 /// and numbers finite; finish_mesh sees to the rest.
 struct Model {
-    Scene::Mesh mesh;  ///< face_materials: indices into materials, or a single -1 without these
+    Scene::Mesh mesh;  ///< face_materials: indices into materials, or a single -1 if there are none
     std::vector<Scene::Material> materials;
     std::vector<std::string> notes;  ///< what was left out, a sentence each
 };
 
-/// A material library that an OBJ names: its text, or why there is none.
+/// A material library referenced by an OBJ: its text, or why it could not be read.
 struct LibraryFile {
     std::string path, text;
     std::string problem;  ///< "what is wrong; what to do"

@@ -24,7 +24,7 @@ bool has_ending(const std::string& path, std::string_view ending) {
     return true;
 }
 
-/// Libraries lie where the model lies, or in a folder there.
+/// Opens libraries in the model's folder or beneath it.
 OpenLibrary library_opener(const std::string& model_path, const std::filesystem::path& root) {
     const SceneFolder folder{root, std::filesystem::path(model_path).parent_path()};
     return [folder](const std::string& name) {

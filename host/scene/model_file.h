@@ -13,7 +13,7 @@ namespace rt {
 
 inline constexpr std::size_t max_model_bytes = std::size_t{2} << 30;
 
-/// By a file's name, letter case aside.
+/// Decides by the file extension, ignoring case.
 bool is_obj_name(const std::string& path);
 bool is_ply_name(const std::string& path);
 
@@ -23,16 +23,16 @@ struct ModelOptions {
     Affine transform;            ///< not singular
 };
 
-/// Reads an OBJ or PLY file that is open: a mesh as scenes have it, but for its materials, which
-/// count from the model's own. Throws Error: ExitCode::input for a file that is wrong or holds
-/// nothing to draw, ExitCode::limit for one that is too large.
+/// Reads an open OBJ or PLY file: a mesh ready for a scene, except that its material indices refer
+/// to the model's own. Throws Error: ExitCode::input for a file that is wrong or has nothing to
+/// draw, ExitCode::limit for one that is too large.
 Model load_model(const FileDescriptor& file, const std::string& path, const ModelOptions& options);
 
-/// The same for what a file holds.
+/// The last step of load_model, for a parsed model.
 Model finish_model(Model model, const std::string& path, const Affine& transform);
 
-/// A model alone: in the middle of a picture, from the right, the front and a little above, on a
-/// light ground with two lights (docs/scene-format.md).
+/// A scene of one model: centered, seen from the right, the front and slightly above, on a light
+/// background with two lights (docs/scene-format.md).
 Scene load_model_scene(const std::string& path);
 Scene make_model_scene(Model model, const std::string& path);
 

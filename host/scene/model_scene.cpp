@@ -29,8 +29,8 @@ struct Box {
     glm::dvec3 low{0}, high{0};
 };
 
-/// Calls work(value, position) for the corners of all faces, side by side, with a value of its own
-/// for each run of faces, that starts as `start`; returns the values.
+/// Calls work(value, position) for the corners of all faces, in parallel. Each run of faces has its
+/// own value, initially `start`; returns these values.
 template <typename Value, typename Work>
 std::vector<Value> over_corners(const Scene::Mesh& mesh, const Value& start, Work work) {
     constexpr std::size_t grain = 1 << 15;
@@ -46,7 +46,7 @@ std::vector<Value> over_corners(const Scene::Mesh& mesh, const Value& start, Wor
     return values;
 }
 
-/// Around the middle of the box that holds all faces. Vertices without a face do not count.
+/// Centered on the bounding box of all faces. Unused vertices do not count.
 BoundingSphere bounding_sphere(const Scene::Mesh& mesh) {
     const glm::dvec3 first = mesh.positions[mesh.faces[0][0]];
     Box all{first, first};
@@ -62,7 +62,7 @@ BoundingSphere bounding_sphere(const Scene::Mesh& mesh) {
     return sphere;
 }
 
-/// The sphere touches all sides of a square picture.
+/// Fits the sphere to all sides of a square picture.
 Scene::Camera framing_camera(const BoundingSphere& sphere) {
     constexpr double half_angle = fov_degrees * (std::numbers::pi / 360.0);
     const glm::dvec3 towards = glm::normalize(glm::dvec3(0.6, 0.45, 1));
@@ -73,7 +73,7 @@ Scene::Camera framing_camera(const BoundingSphere& sphere) {
     return camera;
 }
 
-/// The key light is left of the camera and high, the other one right and weak.
+/// The key light is high on the camera's left, a weak fill light on its right.
 std::vector<Scene::Light> default_lights(const BoundingSphere& sphere) {
     const glm::dvec3 key = 4.0 * sphere.radius * glm::dvec3(-0.5, 1, 1);
     const glm::dvec3 fill = 4.0 * sphere.radius * glm::dvec3(1, 0.4, 0.5);

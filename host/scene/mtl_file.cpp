@@ -16,14 +16,14 @@
 namespace rt {
 namespace {
 
-/// A material in the words of the file.
+/// A material as the file gives it.
 struct Mtl {
     std::string name;
     glm::dvec3 ambient{0}, diffuse{0}, specular{0}, filter{1};
     double shininess = 1, ior = 1;
     std::optional<double> dissolve, transparency;
     int illum = 2;
-    std::size_t ior_offset = 0;  ///< where Ni stands
+    std::size_t ior_offset = 0;  ///< of the Ni statement
 };
 
 bool is_glass(int illum) { return illum == 4 || illum == 6 || illum == 7 || illum == 9; }
@@ -122,7 +122,7 @@ class MtlReader {
         found_.emplace_back().name = name;
     }
 
-    /// One number for a gray, or three.
+    /// Three numbers, or one for gray.
     void read_color(std::string_view word, glm::dvec3& color) {
         const bool there = scanner_.word_follows();
         const std::size_t offset = scanner_.offset();
@@ -171,7 +171,7 @@ class MtlReader {
         read_amount("Ni", 0, max_scene_number, mtl.ior);
     }
 
-    /// Programs write "Ni 0" for what is not glass.
+    /// Programs write "Ni 0" for opaque materials.
     void check_ior(const Mtl& mtl) {
         if (mtl.ior > 0 || !is_clear(mtl)) return;
         mistakes_.add(mtl.ior_offset, "Ni is 0; write an index of refraction above 0, like 1.5");

@@ -14,8 +14,8 @@ struct MtlLibrary {
     std::vector<std::string> notes;  ///< what was left out, a sentence each
 };
 
-/// Reads a material library (Wavefront, 1992; docs/scene-format.md says how its words become
-/// ours). Throws Error, ExitCode::input, with up to 20 mistakes.
+/// Reads a material library (Wavefront, 1992; docs/scene-format.md maps its keywords to ours).
+/// Throws Error, ExitCode::input, with up to 20 mistakes.
 MtlLibrary parse_mtl(std::string_view text, const std::string& file_name);
 
 }  // namespace rt

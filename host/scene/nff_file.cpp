@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t max_nff_bytes = std::size_t{1} << 30;
 constexpr std::size_t max_nff_primitives = std::size_t{1} << 24;
 
-// What the databases are rendered with (their Readme, "Testing Procedures", 7: a tree of depth 5).
+// The databases' reference settings (their Readme, "Testing Procedures", 7: a tree of depth 5).
 constexpr int nff_bounces = 4;
 constexpr int nff_side = 512;
 
@@ -79,8 +79,8 @@ class NffReader {
                       fmt::format("unknown entity {}; {}", in_quotes(word.text), advice));
     }
 
-    /// After a mistake: on to a line that begins with an entity, or at least with a word. What
-    /// belongs to a view or to an extension may begin with words of its own.
+    /// Error recovery: skips to a line that begins with an entity, or at least with a word. Lines
+    /// of a view or an extension may begin with words of their own.
     void skip_to_entity(bool skips_words) {
         const auto goes_on = [&](const NffToken& token) {
             if (!token.first_on_line || token.is_number()) return false;
@@ -89,7 +89,7 @@ class NffReader {
         while (!tokens_.peek().text.empty() && !goes_on(tokens_.peek())) tokens_.take();
     }
 
-    /// Notes an entity that may be there only once.
+    /// Notes the repetition of an entity that may appear only once.
     void note_repeated(const NffToken& word, std::optional<std::size_t>& first) {
         if (first) {
             mistakes_.add(word.offset, fmt::format("a second '{}', first at {}; keep one of them",
@@ -173,8 +173,8 @@ class NffReader {
                                                  printable(file_name_), max_nff_primitives));
     }
 
-    /// The databases' Readme proposes sqrt(n) / 2n, of n lights, for each light and for the
-    /// ambient light.
+    /// The databases' Readme proposes sqrt(n) / 2n, for n lights, as the intensity of each light
+    /// and of the ambient light.
     void set_light() {
         const auto n = static_cast<double>(scene_.lights.size());
         const double share = n > 0 ? std::sqrt(n) / (2 * n) : 1;
@@ -188,7 +188,7 @@ class NffReader {
     const std::string& file_name_;
     NffTokens tokens_;
     Scene scene_;
-    std::optional<std::size_t> view_, background_;  ///< where they stand
+    std::optional<std::size_t> view_, background_;  ///< their offsets
     NffFills fills_{mistakes_};
     NffPolygons polygons_{mistakes_};
 };

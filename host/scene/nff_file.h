@@ -13,7 +13,7 @@ namespace rt {
 /// mistakes, one line each; ExitCode::limit for one that is too large.
 Scene load_nff_scene(const std::string& path);
 
-/// The same for a text in memory; `file_name` stands in messages and names the scene.
+/// Parses a text in memory; `file_name` appears in messages and names the scene.
 Scene parse_nff_scene(std::string_view text, const std::string& file_name);
 
 }  // namespace rt

@@ -17,11 +17,11 @@ class NffFills {
    public:
     explicit NffFills(Mistakes& mistakes) : mistakes_(mistakes) {}
 
-    /// Reads what follows an f and uses it from here on. Returns false when the rest of it cannot
-    /// be made out.
+    /// Reads the arguments of an f and makes it current. Returns false when the rest of it cannot
+    /// be parsed.
     bool read(NffTokens& tokens);
 
-    /// The index of the material used now; white and matt before the first f.
+    /// The index of the current material; matte white before the first f.
     int current();
 
     std::vector<Scene::Material> take() { return std::move(materials_); }

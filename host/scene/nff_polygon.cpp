@@ -34,8 +34,8 @@ bool NffPolygons::read(NffTokens& tokens, std::size_t offset, bool is_patch, Nff
     return true;
 }
 
-/// A count is refused before anything is made of it when the rest of the file cannot hold so many
-/// vertices of at least so many bytes.
+/// Refuses, before allocating, a count of more vertices of at least `vertex_bytes` than the rest of
+/// the file can hold.
 std::optional<int> NffPolygons::read_count(NffTokens& tokens, std::size_t vertex_bytes) {
     const std::size_t offset = tokens.peek().offset;
     const auto count = tokens.read_integer("vertex count", 3, 1 << 30);

@@ -21,9 +21,9 @@ class NffPolygons {
    public:
     explicit NffPolygons(Mistakes& mistakes) : mistakes_(mistakes) {}
 
-    /// Reads what follows a p, or a pp (`is_patch`), at `offset`, and appends its triangles.
-    /// Returns false when the rest of it cannot be made out. Throws Error (ExitCode::limit) when
-    /// the polygons of the file take too long to cut up.
+    /// Reads the arguments of a p, or a pp (`is_patch`), at `offset`, and appends its triangles.
+    /// Returns false when the rest of it cannot be parsed. Throws Error (ExitCode::limit) when the
+    /// file's polygons take too long to triangulate.
     bool read(NffTokens& tokens, std::size_t offset, bool is_patch, NffFills& fills,
               std::vector<Scene::Triangle>& triangles);
 

@@ -17,15 +17,15 @@ namespace {
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 bool is_nff_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }  // \t \n \v \f \r
 
-/// A number too near to 0 for a double, as opposed to one too large: the exponent is negative, or
-/// there are only zeros before the digits that count.
+/// Whether an out-of-range number underflows rather than overflows: the exponent is negative, or
+/// there are only zeros before the significant digits.
 bool is_tiny(std::string_view text) {
     const std::size_t exponent = text.find_first_of("eE");
     if (exponent != std::string_view::npos) return text.find('-', exponent) != text.npos;
     return text.find_first_of("123456789") > text.find('.');
 }
 
-/// What a word means as a number; infinite where it is beyond a double, nothing where it is none.
+/// Parses a word as a number; infinite on overflow, empty if it is none.
 std::optional<double> number_of(std::string_view text) {
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     double number = 0;
@@ -76,7 +76,7 @@ void NffTokens::scan() {
     token_ = {text_.substr(start, at_ - start), start, new_line};
 }
 
-/// Whether a number comes next, or at least what was meant as one.
+/// Whether the next token is a number, or looks meant as one.
 bool NffTokens::has_number(std::string_view name) {
     if (token_.text.empty()) {
         mistakes_.add(token_.offset,

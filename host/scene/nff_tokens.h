@@ -10,7 +10,7 @@
 
 namespace rt {
 
-/// A word or number of an NFF text. Empty at its end.
+/// A word or number of an NFF text; empty at the end of the text.
 struct NffToken {
     std::string_view text;
     std::size_t offset = 0;
@@ -19,9 +19,9 @@ struct NffToken {
     bool is_number() const;  ///< or begins like one
 };
 
-/// An NFF text as words and numbers, one after the other; line ends are blanks, and comments
-/// (from # to the end of the line) are skipped. Every read_ function notes in `mistakes` why the
-/// next token will not do, leaves a word where it is, and then returns nothing.
+/// Splits an NFF text into words and numbers; line ends are blanks, and comments (from # to the end
+/// of the line) are skipped. Every read_ function notes in `mistakes` why the next token is
+/// invalid, does not consume a word, and then returns nothing.
 class NffTokens {
    public:
     explicit NffTokens(Mistakes& mistakes);
@@ -30,7 +30,7 @@ class NffTokens {
     NffToken take();
     std::size_t bytes_left() const { return text_.size() - token_.offset; }
 
-    /// What the numbers read next belong to, for messages: "s x y z radius".
+    /// The syntax of the entity being read, for messages: "s x y z radius".
     void expect(std::string_view usage) { usage_ = usage; }
 
     std::optional<double> read_number(std::string_view name);

@@ -28,7 +28,7 @@ constexpr PartName part_names[part_count] = {
     {"resolution", "resolution width height", false},
 };
 
-/// Where each part of the view stands in the file.
+/// The offset of each part of the view in the file.
 using Places = std::array<std::optional<std::size_t>, part_count>;
 
 std::optional<Part> part_called(std::string_view word) {

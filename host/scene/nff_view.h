@@ -7,8 +7,8 @@
 
 namespace rt {
 
-/// Reads what follows a v: from, at, up, angle, hither and resolution, in any order. `offset` is
-/// where the v stands. Returns false when the rest of the view cannot be made out.
+/// Reads the arguments of a v: from, at, up, angle, hither and resolution, in any order. `offset`
+/// is that of the v. Returns false when the rest of the view cannot be parsed.
 bool read_nff_view(NffTokens& tokens, std::size_t offset, Scene& scene, Mistakes& mistakes);
 
 }  // namespace rt

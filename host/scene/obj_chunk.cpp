@@ -16,7 +16,7 @@
 namespace rt {
 namespace {
 
-/// Without effect on what we draw: texture coordinates, names, and hints for other programs.
+/// Statements that do not affect the picture: texture coordinates, names, hints for other programs.
 constexpr std::string_view ignored_words[] = {
     "vt",       "g",      "o",      "s",          "mg",        "lod",   "bevel", "c_interp",
     "d_interp", "usemap", "maplib", "shadow_obj", "trace_obj", "stech", "ctech"};
@@ -119,7 +119,7 @@ class FaceReader {
         mistakes_.add(offset, fmt::format("unknown statement {}; {}", in_quotes(word), advice));
     }
 
-    /// The index from 0 that an index from 1, or from -1 backwards, means; notes a wrong one.
+    /// Converts an index from 1, or from -1 backward, to one from 0; notes an invalid one.
     std::optional<std::uint32_t> resolve(std::int64_t index, std::size_t count,
                                          std::string_view what, std::size_t offset) {
         const auto size = static_cast<std::int64_t>(count);
@@ -154,7 +154,7 @@ class FaceReader {
         return corner;
     }
 
-    /// Puts one corner in corners_ and normals_; whether it is good.
+    /// Appends one corner to corners_ and normals_; returns whether it is valid.
     bool read_corner() {
         const std::size_t offset = scanner_.offset();
         const auto corner = take_corner(offset);
@@ -215,7 +215,7 @@ class FaceReader {
     ObjChunk& chunk_;
     ObjCounts above_;
     const std::vector<glm::dvec3>& positions_;
-    const bool clean_;  ///< the vertices were right
+    const bool clean_;  ///< all vertices were valid
     Mistakes mistakes_;
     LineScanner scanner_;
     std::vector<std::uint32_t> corners_, normals_;  ///< of the face being read

@@ -13,12 +13,12 @@
 
 namespace rt {
 
-/// A face that is neither a triangle nor a quadrilateral that parts well.
+/// A face that is neither a triangle nor a quadrilateral that passes parts_well.
 struct ObjPolygon {
     std::vector<std::uint32_t> corners, normals;
 };
 
-/// What follows a usemtl: a printable name, empty where there is none.
+/// The argument of a usemtl: a printable name, empty if missing.
 struct ObjMaterialUse {
     std::string name;
     std::size_t offset = 0;  ///< after the word
@@ -35,13 +35,13 @@ struct ObjLibraryUse {
     std::size_t offset = 0;
 };
 
-/// The vertices that stand above a statement.
+/// The number of vertices defined above a statement.
 struct ObjCounts {
     std::size_t positions = 0, normals = 0;
 };
 
-/// Some lines of an OBJ: two readers fill it in, one after the other, so that faces are read where
-/// all vertices are known. Mistakes are noted, each reader's first 20.
+/// A chunk of lines of an OBJ, filled in two passes, so that faces are read when all vertices are
+/// known. Each pass notes its first 20 mistakes.
 struct ObjChunk {
     ObjChunk(const Mistakes& of_file, std::size_t from, std::size_t to)
         : mistakes(of_file.part()), begin(from), end(to) {}
@@ -52,16 +52,16 @@ struct ObjChunk {
     std::vector<glm::dvec3> positions, normals;
 
     std::vector<Scene::Mesh::Face> faces;
-    std::vector<Scene::Mesh::Face> face_normals;  ///< as many, or none
+    std::vector<Scene::Mesh::Face> face_normals;  ///< one for each face, or none
     std::vector<ObjEvent> events;
     std::vector<ObjLibraryUse> libraries;
-    std::size_t left_out = 0;  ///< statements of points and lines
+    std::size_t left_out = 0;  ///< point and line statements
 };
 
-/// Reads v and vn. A vertex that is wrong counts all the same, so that indices keep their meaning.
+/// Reads v and vn. Invalid vertices count too, so that indices stay correct.
 void read_obj_vertices(ObjChunk& chunk);
 
-/// Reads all other statements. `above` tells the vertices of the chunks before, `positions` has all
+/// Reads all other statements. `above` counts the vertices in earlier chunks, `positions` holds all
 /// of the file's.
 void read_obj_faces(ObjChunk& chunk, ObjCounts above, const std::vector<glm::dvec3>& positions);
 

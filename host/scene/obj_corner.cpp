@@ -6,7 +6,7 @@
 namespace rt {
 namespace {
 
-/// Reads one number up to a slash or the end; whether it is one.
+/// Reads one number up to a slash or the end; returns whether it is valid.
 bool take_index(std::string_view& text, std::int64_t& index) {
     const char* end = text.data() + text.size();
     const auto result = std::from_chars(text.data(), end, index);
@@ -15,7 +15,7 @@ bool take_index(std::string_view& text, std::int64_t& index) {
     return text.empty() || text[0] == '/';
 }
 
-/// Up to 9 digits.
+/// Reads up to 9 digits.
 std::int64_t take_digits(const char*& at, const char* end) {
     const char* const stop = end - at > 9 ? at + 9 : end;
     std::int64_t number = 0;

@@ -13,8 +13,8 @@
 namespace rt {
 namespace {
 
-/// Reads the chunks of a file side by side: vertices first, then faces. Then puts them together in
-/// their order.
+/// Reads the chunks of a file in parallel, first vertices, then faces, and joins them in file
+/// order.
 class ObjReader {
    public:
     ObjReader(std::string_view text, const std::string& file_name, const ReadPace& pace)
@@ -76,7 +76,7 @@ class ObjReader {
         mistakes_.throw_if_any();
     }
 
-    /// Leaves nothing behind.
+    /// Moves the items and frees their memory.
     static void move_to(std::vector<glm::dvec3>& items, glm::dvec3* target) {
         std::ranges::copy(items, target);
         std::vector<glm::dvec3>().swap(items);

@@ -10,7 +10,7 @@
 namespace rt {
 
 /// Reads a Wavefront OBJ (1992): v, vn and f make the mesh; docs/scene-format.md lists the other
-/// statements. Libraries are asked of `open`; without it materials are ignored. Throws Error,
+/// statements. `open` opens material libraries; without it materials are ignored. Throws Error,
 /// ExitCode::input, with up to 20 mistakes.
 Model parse_obj(std::string_view text, const std::string& file_name, const OpenLibrary& open,
                 const ReadPace& pace = {});

@@ -15,13 +15,13 @@
 namespace rt {
 namespace {
 
-/// Reads libraries into a model, each file once and of each material the first.
+/// Reads libraries into a model: each file once, and the first material of each name.
 class Libraries {
    public:
     explicit Libraries(const OpenLibrary& open) : open_(open) {}
 
-    /// What one mtllib statement names: one file, if there is one of that name (names may hold
-    /// blanks), else a file by each word. The problem with them, if there is one.
+    /// Adds what one mtllib statement names: one file, if there is one of that name (names may hold
+    /// blanks), else one per word. Returns the problem, if any.
     std::string add_all(const std::string& names) {
         std::string problem = add(names);
         if (problem.empty() || names.find_first_of(" \t") == names.npos) return problem;

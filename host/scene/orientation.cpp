@@ -9,7 +9,7 @@ namespace {
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
-/// A sum of doubles without rounding: parts of growing magnitude whose bits do not overlap.
+/// An exact sum of doubles: components of increasing magnitude whose bits do not overlap.
 class ExactSum {
    public:
     void add(double x) {
@@ -28,7 +28,7 @@ class ExactSum {
         add(product);
     }
 
-    /// The largest part that is not zero outweighs all others.
+    /// The largest nonzero component determines the sign.
     int sign_of() const {
         for (int i = count_; i-- > 0;) {
             if (parts_[i] != 0) return sign(parts_[i]);
@@ -52,7 +52,7 @@ int exact_orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     return sum.sign_of();
 }
 
-/// The same where the differences are exact.
+/// The orientation of exact differences.
 int exact_orientation(double ax, double ay, double bx, double by) {
     ExactSum sum;
     sum.add_product(ax, by);
@@ -60,7 +60,7 @@ int exact_orientation(double ax, double ay, double bx, double by) {
     return sum.sign_of();
 }
 
-/// Whether a - b was rounded (Knuth's two-sum).
+/// Whether a - b was inexact (Knuth's two-sum).
 bool is_rounded(double a, double b, double difference) {
     const double back = a - difference;
     return (a - (difference + back)) + (back - b) != 0;

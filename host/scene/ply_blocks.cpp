@@ -15,7 +15,7 @@
 namespace rt {
 namespace {
 
-/// Where a value stands in its row.
+/// A value's position in its row.
 struct Place {
     std::size_t offset = 0;
     PlyType type = PlyType::float32;
@@ -23,7 +23,7 @@ struct Place {
 
 using VectorPlaces = std::array<Place, 3>;
 
-/// Of three values by their names, in rows without lists; nothing when one is missing.
+/// The places of three values by name, in rows without lists; empty when one is missing.
 std::optional<VectorPlaces> places_of(const PlyElement& element,
                                       const std::array<std::string_view, 3>& names) {
     VectorPlaces places{};
@@ -51,8 +51,8 @@ bool read_vector(const char* row, const VectorPlaces& places, bool swapped, glm:
     return good;
 }
 
-/// The same for floats in a row in this machine's order: the usual layout, without a choice a
-/// value.
+/// The same for three consecutive floats in native byte order: the usual layout, without branching
+/// on each value's type.
 bool read_floats(const char* row, glm::dvec3& target) {
     std::array<float, 3> v;
     std::memcpy(v.data(), row, sizeof v);
@@ -68,7 +68,7 @@ bool are_floats(const VectorPlaces& places, bool swapped) {
     });
 }
 
-/// Calls work(first, last) on runs of rows side by side, until one returns false; whether none did.
+/// Calls work(first, last) on runs of rows in parallel; returns false if any call did.
 template <typename Work>
 bool all_rows(std::size_t rows, std::size_t row_bytes, const ReadPace& pace, Work work) {
     std::atomic<bool> good = true;
@@ -94,7 +94,7 @@ bool read_column(std::string_view rows, std::size_t stride, const VectorPlaces& 
     });
 }
 
-/// How a row of faces is laid out whose list has so many items.
+/// The layout of a face row whose list has a given number of items.
 struct FaceLayout {
     std::size_t list = 0, first_item = 0, stride = 0;
     PlyType count_type = PlyType::uint8, item_type = PlyType::int32;
@@ -119,7 +119,7 @@ FaceLayout layout_of(const PlyElement& element, std::size_t items) {
 
 using Face = Scene::Mesh::Face;
 
-/// Reads N corners of a row; whether it has that many and all of them exist.
+/// Reads N corners of a row; returns whether it has exactly N and all exist.
 template <std::size_t N>
 bool read_row(const char* row, const FaceLayout& layout, bool swapped, std::size_t vertices,
               std::array<std::uint32_t, N>& corners) {
@@ -134,7 +134,7 @@ bool read_row(const char* row, const FaceLayout& layout, bool swapped, std::size
     return good;
 }
 
-/// The usual layout: 32-bit indices in this machine's order after a byte.
+/// The usual layout: a count byte, then 32-bit indices in native byte order.
 bool is_usual(const FaceLayout& layout, bool swapped) {
     return !swapped && size_of(layout.count_type) == 1 && size_of(layout.item_type) == 4;
 }

@@ -12,10 +12,10 @@
 
 namespace rt {
 
-// Rows of a binary file that are all equally long, read side by side. What is of another shape, or
-// wrong anywhere, is nothing here: the reader of single rows (ply_rows) then says why.
+// A fast parallel path for the rows of a binary file that all have the same length. Returns nothing
+// on any other layout or error: ply_rows then reads row by row and reports why.
 
-/// The bytes of an element's rows, or nothing when a list makes them differ or they are too few.
+/// The bytes of an element's rows; empty if a list makes their length vary or they are truncated.
 std::optional<std::string_view> fixed_rows(std::string_view data, const PlyElement& element);
 
 struct PlyVertices {
@@ -23,17 +23,17 @@ struct PlyVertices {
     std::vector<glm::dvec3> normals;  ///< empty without nx, ny, nz
 };
 
-/// Rows as fixed_rows gives them.
+/// Takes rows as returned by fixed_rows.
 std::optional<PlyVertices> read_vertex_block(std::string_view rows, const PlyElement& element,
                                              bool swapped, const ReadPace& pace);
 
 struct PlyFaces {
     std::vector<Scene::Mesh::Face> faces;
-    std::size_t bytes = 0;  ///< that the rows take
+    std::size_t bytes = 0;  ///< read from the data
 };
 
-/// Triangles alone, or quadrilaterals alone that all part well, from the start of `data`; the row
-/// has one list.
+/// Reads faces that are all triangles, or all quadrilaterals that pass parts_well, from the start
+/// of `data`; a row must have one list.
 std::optional<PlyFaces> read_face_block(std::string_view data, const PlyElement& element,
                                         bool swapped, const std::vector<glm::dvec3>& positions,
                                         const ReadPace& pace);

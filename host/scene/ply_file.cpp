@@ -28,7 +28,7 @@ bool is_corner_list(const PlyProperty& property) {
     return property.name == "vertex_indices" || property.name == "vertex_index";
 }
 
-/// Notes what the mesh needs and the header does not declare.
+/// Notes required properties that the header does not declare.
 void check_vertex(const PlyElement& vertex, Mistakes& mistakes) {
     for (const std::string_view name : vertex_columns) {
         const PlyProperty* property = vertex.find(name);
@@ -44,7 +44,7 @@ void check_vertex(const PlyElement& vertex, Mistakes& mistakes) {
     }
 }
 
-/// Of faces or strips.
+/// Checks the list of faces or strips.
 void check_corners(const PlyElement& element, std::string_view what, Mistakes& mistakes) {
     const auto list = std::ranges::find_if(element.properties, is_corner_list);
     if (list == element.properties.end()) {
@@ -104,7 +104,7 @@ class BodyReader {
     }
 
    private:
-    /// Counts are not believed: the rows must fit into the bytes that are left.
+    /// Checks a declared row count against the bytes that are left.
     void check_count(const PlyElement& element) {
         const std::size_t least = element.least_bytes(header_.format);
         if (least == 0) return;
@@ -128,7 +128,7 @@ class BodyReader {
         });
     }
 
-    /// Calls read_row for each row. A row that is cut short ends it all.
+    /// Calls read_row for each row. Throws if a row is truncated.
     template <typename ReadRow>
     void read_rows(const PlyElement& element, ReadRow read_row) {
         for (std::uint64_t row = 0; row < element.count; ++row) {
@@ -139,7 +139,7 @@ class BodyReader {
         }
     }
 
-    /// The length of a list, which must have room in what is left.
+    /// Reads the length of a list; throws if it is negative.
     std::optional<std::uint64_t> list_length(const PlyProperty& list) {
         const auto length = rows_.integer(*list.count_type);
         if (!length) return std::nullopt;
@@ -156,7 +156,7 @@ class BodyReader {
         return length && rows_.skip(property.type, *length);
     }
 
-    /// All rows at once, where they are alike and right; whether they were.
+    /// Reads all rows in parallel if they are uniform and valid; returns whether it did.
     bool read_vertices_side_by_side(const PlyElement& element) {
         if constexpr (std::is_same_v<Rows, BinaryRows>) {
             const auto rows = fixed_rows(rows_.left(), element);
@@ -227,7 +227,7 @@ class BodyReader {
 
     void read_faces(const PlyElement& element) {
         if (read_faces_side_by_side(element)) return;
-        constexpr std::uint64_t triangle_bytes = 8;  // of the shortest text or the usual bytes
+        constexpr std::uint64_t triangle_bytes = 8;  // "3 0 1 2\n"; usual binary rows take more
         const std::uint64_t triangles =
             std::min(element.count, rows_.bytes_left() / triangle_bytes);
         builder_.mesh.faces.reserve(triangles);
@@ -241,7 +241,7 @@ class BodyReader {
         });
     }
 
-    /// Whether the next value can be read; mistakes in the indices themselves are noted only.
+    /// Returns whether the next value can be read; invalid indices are only noted.
     bool read_corners(const PlyProperty& list) {
         const auto length = list_length(list);
         if (!length) return false;
@@ -276,8 +276,8 @@ class BodyReader {
         });
     }
 
-    /// Triangles of three vertices in a row, each turned the other way than the one before. After
-    /// -1 another strip begins. Where a vertex repeats, the strip only turns a corner.
+    /// Triangles of three consecutive vertices, with alternating winding. -1 starts a new strip.
+    /// Triangles with a repeated vertex are skipped.
     bool read_strip(const PlyProperty& list) {
         const auto length = list_length(list);
         if (!length) return false;

@@ -10,8 +10,8 @@
 namespace rt {
 
 /// Reads a PLY model (Turk 1994): ascii or binary of either byte order. Elements 'vertex' (x, y,
-/// z, and nx, ny, nz) and 'face' (vertex_indices or vertex_index) make the mesh, all others are
-/// skipped. Throws Error, ExitCode::input, with up to 20 mistakes.
+/// z, and nx, ny, nz), 'face' (vertex_indices or vertex_index) and 'tristrips' make the mesh;
+/// others are skipped. Throws Error, ExitCode::input, with up to 20 mistakes.
 Model parse_ply(std::string_view text, const std::string& file_name, const ReadPace& pace = {});
 
 }  // namespace rt

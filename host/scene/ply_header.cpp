@@ -12,7 +12,7 @@
 namespace rt {
 namespace {
 
-/// Elements, or properties of one: a header of more is no model.
+/// Elements, or properties of one: no model has a header with more.
 constexpr std::size_t max_declared = 1000;
 
 struct TypeName {
@@ -51,9 +51,8 @@ class HeaderReader {
         mistakes_.throw_if_any();
     }
 
-    /// What comes after the last line is data, which may begin with any byte. So a line feed after
-    /// a carriage return belongs to the line, unless the header's lines end with carriage returns
-    /// alone.
+    /// Data follows the last line and may begin with any byte. So a line feed after a carriage
+    /// return belongs to the line, unless the header's lines end with carriage returns alone.
     void skip_last_line_end() {
         const std::string_view text = mistakes_.text();
         const std::size_t first_end = std::min(text.find_first_of("\r\n"), text.size());

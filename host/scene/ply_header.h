@@ -34,7 +34,7 @@ struct PlyElement {
     std::size_t offset = 0;  ///< of its line in the file
 
     const PlyProperty* find(std::string_view property) const;
-    /// The least bytes that a row takes: in a binary file, or as text.
+    /// The minimum bytes per row: in a binary file, or as text.
     std::size_t least_bytes(PlyFormat format) const;
 };
 
@@ -46,8 +46,8 @@ struct PlyHeader {
     const PlyElement* find(std::string_view element) const;
 };
 
-/// Reads the head of a PLY file (Turk 1994), up to the line end after end_header. Mistakes are
-/// thrown, all of the header at once.
+/// Reads the header of a PLY file (Turk 1994), up to the line end after end_header. Throws all of
+/// the header's mistakes at once.
 PlyHeader parse_ply_header(Mistakes& mistakes);
 
 }  // namespace rt

@@ -11,7 +11,7 @@ std::string ply_row_name(const PlyElement& element, std::uint64_t row) {
     return fmt::format("element {} {}", in_quotes(element.name), row);
 }
 
-/// A few bytes of nothing are a line end that a text editor or a program left behind.
+/// Ignores a few blank bytes: a line end left by a text editor or a program.
 std::string BinaryRows::leftover() {
     constexpr std::uint64_t few = 4;
     const std::uint64_t left = bytes_left();

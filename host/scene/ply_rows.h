@@ -14,13 +14,13 @@
 
 namespace rt {
 
-// Two sources of values with the same functions, so that one reader serves text and binary. A
-// value that is not there is noted, and then nothing is returned.
+// Two value sources with the same interface, so that one reader serves text and binary. They note a
+// missing value, and then return nothing.
 
 /// Says "element 'face' 17" (rows count from 0, as indices do).
 std::string ply_row_name(const PlyElement& element, std::uint64_t row);
 
-/// Rows of bytes, in either order.
+/// Reads binary rows, in either byte order.
 class BinaryRows {
    public:
     BinaryRows(std::string_view text, const PlyHeader& header, Mistakes& mistakes)
@@ -47,7 +47,7 @@ class BinaryRows {
         return ply_whole(take(type), type, swapped_);
     }
 
-    /// Skips this many values; whether they are there.
+    /// Skips this many values; returns whether they exist.
     bool skip(PlyType type, std::uint64_t count) {
         if (bytes_left() / size_of(type) < count) return has(bytes_left() + 1);
         at_ += count * size_of(type);
@@ -56,15 +56,15 @@ class BinaryRows {
 
     std::uint64_t bytes_left() const { return static_cast<std::uint64_t>(end_ - at_); }
     std::string_view left() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
-    /// Goes past bytes that are there and were read otherwise.
+    /// Skips bytes that exist and were already read another way.
     void advance(std::size_t bytes) { at_ += bytes; }
     bool swapped() const { return swapped_; }
-    /// A row that is cut short leaves nothing to read after it.
+    /// Whether a row was truncated, which leaves nothing to read after it.
     bool lost() const { return lost_; }
     void note(std::string message) {
         mistakes_.add_in(ply_row_name(*element_, row_), offset(), std::move(message));
     }
-    /// What stands after the last row, as a note for the user; empty when all is well.
+    /// A note about data after the last row; empty if there is none.
     std::string leftover();
 
    private:
@@ -87,7 +87,7 @@ class BinaryRows {
     std::uint64_t row_ = 0;
 };
 
-/// Rows of text, a line each.
+/// Reads text rows, one per line.
 class TextRows {
    public:
     TextRows(std::string_view text, const PlyHeader& header, Mistakes& mistakes)

@@ -11,7 +11,7 @@
 
 namespace rt {
 
-/// The bytes at a place as a number, turned round if `swapped`.
+/// Reads a number from bytes, byte-swapped if `swapped`.
 template <typename T>
 T ply_bytes(const char* at, bool swapped) {
     std::array<unsigned char, sizeof(T)> bytes;

@@ -27,10 +27,10 @@ bool on_one_line(std::span<const glm::dvec3> corners) {
     });
 }
 
-/// The plane that a polygon lies in, more or less.
+/// The best-fit plane of a polygon.
 struct Plane {
-    glm::dvec3 normal{0};  ///< as long as twice the area, seen at an extent of 1
-    double bend = 0;       ///< the largest distance from it, as a share of the extent
+    glm::dvec3 normal{0};  ///< length: twice the area, at an extent of 1
+    double bend = 0;       ///< largest distance of a corner from it, as a fraction of the extent
 };
 
 /// The normal is Newell's (Sutherland, Sproull and Schumacker 1974).
@@ -56,8 +56,8 @@ Plane plane_of(std::span<const glm::dvec3> corners) {
     return plane;
 }
 
-/// The polygon seen along the axis nearest to its normal, running counterclockwise. Its
-/// coordinates are those of the corners, by powers of two: nothing is rounded.
+/// Projects the polygon along the axis nearest to its normal, counterclockwise. Coordinates are
+/// only scaled by powers of two: nothing is rounded.
 std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners, glm::dvec3 normal) {
     int axis = 0;
     if (std::abs(normal.y) > std::abs(normal[axis])) axis = 1;

@@ -13,10 +13,10 @@
 
 namespace rt {
 
-/// What the author of a scene file said, in double precision and in the author's own units.
-/// Right-handed; y is up where nothing says otherwise; light is linear RGB. Everything a reader
-/// (scene_file) fills in has passed its checks: numbers are finite, radii positive, materials
-/// exist. No renderer sees it: flatten makes a FlatScene of it.
+/// A scene file's contents, in double precision and in the author's own units. Right-handed; y is
+/// up by default; light is linear RGB. A reader (scene_file) validates all it fills in: numbers are
+/// finite, radii positive, materials exist. Renderers never see it: flatten makes a FlatScene of
+/// it.
 struct Scene {
     enum class Projection { perspective, orthographic };
 
@@ -46,16 +46,16 @@ struct Scene {
         glm::dvec3 at{0, 0, 0};
         glm::dvec3 up{0, 1, 0};
         FieldOfView field_of_view;
-        /// What the picture spans. The reader fills it in for the scene's own picture size; who
-        /// changes that size asks camera_window again (set_image_size does both).
+        /// The picture's extent. The reader sets it for the scene's own picture size; code that
+        /// changes that size calls camera_window again (set_image_size does both).
         Window window;
     };
 
-    /// Where the camera is at some frames of an animation; between them it is interpolated.
+    /// Camera keyframes of an animation, interpolated in between.
     struct CameraPath {
         struct Key {
             double frame = 0;
-            Camera camera;  ///< of the scene's kind
+            Camera camera;  ///< of the same kind as the scene's
         };
 
         bool is_smooth = true;  ///< Catmull-Rom splines; else straight lines
@@ -76,7 +76,7 @@ struct Scene {
     struct Light {
         glm::dvec3 position{0};
         glm::dvec3 intensity{1};
-        bool has_own_intensity = true;  ///< false: the file left it open (--light-scale)
+        bool has_own_intensity = true;  ///< false: the file gave none (--light-scale)
     };
 
     struct Sphere {
@@ -131,7 +131,7 @@ struct Scene {
     std::vector<Cone> cones;
     std::vector<Triangle> triangles;
     std::vector<Mesh> meshes;
-    /// What the reader left out, a sentence each: for the user to see, without effect otherwise.
+    /// What the reader ignored, a sentence each, for the user; no effect on rendering.
     std::vector<std::string> notes;
     std::vector<std::string> model_files;  ///< that the reader read besides its own file
 };
@@ -139,10 +139,10 @@ struct Scene {
 /// The triangles of the scene, those of its meshes included.
 std::size_t triangle_count(const Scene& scene);
 
-/// The window that this camera's field of view spans on a picture of this many pixels.
+/// The window that this camera's field of view covers on a picture of this size in pixels.
 Scene::Window camera_window(const Scene::Camera& camera, int width, int height);
 
-/// Gives the scene another picture size (pixels) and the camera the window that goes with it.
+/// Sets the scene's picture size (pixels) and updates the camera's window to match.
 void set_image_size(Scene& scene, int width, int height);
 
 }  // namespace rt

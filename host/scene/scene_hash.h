@@ -7,8 +7,8 @@
 
 namespace rt {
 
-/// A fingerprint of what the scene shows: camera, light, materials and shapes; not its name, nor
-/// how finely it is sampled (size, AA, bounces).
+/// A hash of what the scene shows: camera, light, materials and shapes; not its name or its
+/// sampling (size, AA, bounces).
 std::uint64_t scene_hash(const Scene& scene);
 
 }  // namespace rt

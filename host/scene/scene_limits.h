@@ -3,8 +3,8 @@
 
 namespace rt {
 
-/// No number in a scene or model file is larger than this in magnitude: it still fits a float,
-/// with room for the differences that rendering takes.
+/// The largest magnitude of any number in a scene or model file: it fits a float, with headroom for
+/// the differences that rendering computes.
 inline constexpr double max_scene_number = 1e30;
 
 /// The largest reflectance or transmission: light of 1e30 is still a float after one surface.

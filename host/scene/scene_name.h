@@ -5,7 +5,7 @@
 
 namespace rt {
 
-/// A scene's name where its file gives none: that of the file, without its ending.
+/// The default name of a scene: its file name without the extension.
 std::string name_of_file(const std::string& path);
 
 }  // namespace rt

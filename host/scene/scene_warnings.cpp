@@ -18,7 +18,7 @@ bool has_shapes(const Scene& scene) {
     return !scene.spheres.empty() || !scene.cones.empty() || triangle_count(scene) > 0;
 }
 
-/// Whether some light from somewhere can come off some surface.
+/// Whether any surface can appear lit.
 bool anything_shines(const Scene& scene) {
     const auto lit = [](const Scene::Light& light) { return brightest(light.intensity) > 0; };
     const bool lights = std::ranges::any_of(scene.lights, lit);
@@ -31,7 +31,7 @@ bool anything_shines(const Scene& scene) {
     });
 }
 
-/// Whole numbers, one of them too large for what is meant as a share.
+/// Whether all channels are integers, and one is too large for a fraction.
 bool is_of_bytes(const glm::dvec3& color) {
     const bool whole =
         color == glm::dvec3(std::floor(color.r), std::floor(color.g), std::floor(color.b));
@@ -49,7 +49,7 @@ constexpr NamedColor material_colors[] = {{"ambient", &Scene::Material::ambient}
                                           {"mirror", &Scene::Material::mirror},
                                           {"transmission", &Scene::Material::transmission}};
 
-/// "diffuse of material 'red'", for each color that is true of.
+/// "diffuse of material 'red'", for each color that satisfies `is`.
 template <typename Is>
 std::vector<std::string> materials_where(const Scene& scene, std::span<const NamedColor> colors,
                                          Is is) {

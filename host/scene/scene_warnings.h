@@ -8,8 +8,8 @@
 
 namespace rt {
 
-/// What is allowed in a scene and hardly ever meant, a sentence each: no light at all, nothing in
-/// view, colors of 0 to 255, mirrors that brighten. What is reported is so; not all of it is found.
+/// Warnings about what is valid but rarely intended, a sentence each: no light at all, nothing in
+/// view, colors of 0 to 255, mirrors that brighten. No false alarms, but not exhaustive.
 std::vector<std::string> scene_warnings(const Scene& scene);
 
 }  // namespace rt

@@ -21,7 +21,7 @@ namespace {
     throw Error(ExitCode::input, fmt::format("stdin: {} ({})", what, std::strerror(errno)));
 }
 
-/// Only our own copy is sealed.
+/// Whether stdin is already our copy: nothing else is sealed.
 bool is_kept() {
     const int seals = fcntl(STDIN_FILENO, F_GET_SEALS);
     return seals != -1 && (seals & F_SEAL_WRITE) != 0;

@@ -5,12 +5,12 @@
 
 namespace rt {
 
-/// Reads standard input to its end and puts a copy in its place that can be read again and again,
-/// by this process and by those it starts. Done once, by whoever comes first. Throws Error:
-/// ExitCode::input when it cannot be read, ExitCode::limit when it is too large for a scene.
+/// Reads standard input to its end and replaces it with a copy that this process and its children
+/// can reread. Later calls do nothing. Throws Error: ExitCode::input when it cannot be read,
+/// ExitCode::limit when it is too large for a scene.
 void keep_stdin();
 
-/// All that came by standard input. Throws like keep_stdin.
+/// All of standard input. Throws like keep_stdin.
 FileText read_stdin();
 
 }  // namespace rt

@@ -48,7 +48,7 @@ std::size_t read_at(const FileDescriptor& file, const std::string& path, char* t
     return done;
 }
 
-/// A file whose size the system does not tell, as those in /proc.
+/// Reads a file whose size the system does not report, as in /proc.
 FileText read_unsized(const FileDescriptor& file, const std::string& path, std::size_t max_bytes) {
     std::vector<char> text;
     std::size_t size = 0;
@@ -96,7 +96,7 @@ FileText read_text_file(const FileDescriptor& file, const std::string& path,
     for_each_run(size, piece, available_cores(), [&](std::size_t first, std::size_t last) {
         got[first / piece] = read_at(file, path, bytes.get() + first, last - first, first);
     });
-    std::size_t end = 0;  // before `size` where the file was cut meanwhile
+    std::size_t end = 0;  // less than `size` if the file was truncated meanwhile
     for (const std::size_t part : got) {
         end += part;
         if (part < piece) break;

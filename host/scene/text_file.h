@@ -24,20 +24,20 @@ class FileText {
     std::size_t size_ = 0;
 };
 
-/// Throws Error (ExitCode::limit) when a text of `size` bytes is too large; `path`: what it is
-/// called.
+/// Throws Error (ExitCode::limit) when a text of `size` bytes is too large; `path` is its name in
+/// messages.
 void require_size(const std::string& path, std::size_t size, std::size_t max_bytes);
 
 /// Opens a regular file. Throws Error, ExitCode::input with "path: what is wrong; what to do", when
 /// it is missing, unreadable or not a regular file: a pipe or a device never hangs the program.
 FileDescriptor open_text_file(const std::string& path);
 
-/// The whole of a regular file that is open; `path` is what messages call it. Large files are read
-/// by all cores. Throws Error: ExitCode::input when it cannot be read, ExitCode::limit when it is
-/// larger than `max_bytes`.
+/// Reads an open regular file; `path` is its name in messages. Large files are read on all cores.
+/// Throws Error: ExitCode::input when it cannot be read, ExitCode::limit when it is larger than
+/// `max_bytes`.
 FileText read_text_file(const FileDescriptor& file, const std::string& path, std::size_t max_bytes);
 
-/// Both in one.
+/// Opens and reads a file.
 FileText read_text_file(const std::string& path, std::size_t max_bytes);
 
 }  // namespace rt

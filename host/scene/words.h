@@ -7,10 +7,10 @@
 
 namespace rt {
 
-/// 'text' for a message, printable and cut where it is long.
+/// 'text' for a message, made printable and truncated if long.
 std::string in_quotes(std::string_view text);
 
-/// The known word that a misspelt one most likely meant, or an empty view when none is near.
+/// The known word closest to a misspelled one, or an empty view when none is close.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
 
 /// 'a', 'b' and 'c', cut after the first few.

@@ -12,7 +12,7 @@ namespace rt {
 
 enum class InQuick { no, yes };
 
-/// A picture of the scene against its reference.
+/// A case that compares a picture of the scene with its reference.
 inline StressCase picture_case(std::string label, double value, InQuick quick,
                                std::function<Scene()> scene, StressTolerance tolerance = {},
                                ReferenceKind reference = ReferenceKind::quad) {
@@ -25,8 +25,7 @@ inline StressCase ray_case(std::string label, double value, InQuick quick, RayTr
     return {std::move(label), value, tolerance, std::move(trial), quick == InQuick::yes};
 }
 
-/// The trial count<T>(rays, caster) in the arithmetic of both types; count is a generic lambda over
-/// T.
+/// A trial that runs count<T>(rays, caster), a generic lambda over T, in float and in double.
 template <typename Count>
 RayTrial both_precisions(const Count& count) {
     RayTrial trial;

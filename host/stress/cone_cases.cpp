@@ -13,7 +13,7 @@ namespace rt {
 
 namespace {
 
-/// A frustum as long as wide, 1 away, filling half of the picture; or the eye inside it.
+/// A frustum as long as it is wide, 1 away, half as high as the picture; or the eye inside it.
 Scene sized_cone(double radius) {
     const double half_angle = radius < 1 ? 2 * std::atan(radius) : 0.5;
     Scene scene = shape_scene(degrees(2 * half_angle));
@@ -48,7 +48,7 @@ StressFamily long_cone_family() {
     return family;
 }
 
-/// A needle of length 2 across the view, seen so near that it fills half of the picture.
+/// A needle of length 2 across a narrow view, taking up about a fifth of its height.
 Scene cone_needle(double radius) {
     Scene scene = shape_scene(degrees(8 * radius));
     add_cone(scene, {-1, -0.25 * radius, -0.125}, radius, {1, 0.5 * radius, 0.25}, 0.5 * radius, 0);
@@ -66,8 +66,8 @@ StressFamily cone_needles() {
     return family;
 }
 
-/// A ring with hardly any height. In float the rims are distinguished by heights over the base, and
-/// so not any more where the ring is flatter than the rounding of these.
+/// A ring of almost no height. In float the rims are distinguished by height above the base, which
+/// fails where the ring is flatter than the rounding of these.
 Scene flat_cone(double height) {
     Scene scene = shape_scene(60);
     const glm::dvec3 axis(0.28, 0.576, 0.768);
@@ -88,7 +88,7 @@ StressFamily flat_cones() {
     return family;
 }
 
-/// Tubes through each other, one a mirror, one on edge to the view, over a floor.
+/// Intersecting tubes, two of them mirrors, one seen end-on, over a floor.
 Scene tubes() {
     Scene scene = still_life();
     scene.spheres.clear();
@@ -101,7 +101,7 @@ Scene tubes() {
     return scene;
 }
 
-/// Scaled and moved; by powers of two and whole numbers without changing a bit.
+/// The scene scaled and moved; powers of two and whole numbers must not change a bit.
 StressFamily scaled_and_moved(const char* name, const char* why, Scene (*scene)()) {
     StressFamily family{name, "scale, or distance from the origin", why, {}};
     const auto small = [scene] {
@@ -149,8 +149,8 @@ Scene cone_to_aim_at(double radius, double distance) {
     });
 }
 
-/// Rays that stay near the surface along a generator meet it again at a distance that grows without
-/// bound: inwards, angles from 0.01 rad; far away, where points are rounded more, from 0.1.
+/// Rays that stay near the surface along a generator hit it again at a distance that grows without
+/// bound, so inward angles start at 0.01 rad; far away, where points are rounded more, at 0.1.
 StressFamily leaving_cones(const char* name, double distances, const char* why) {
     const bool is_far = distances > 10;
     const double shallowest = is_far ? 0.1 : 0.01;

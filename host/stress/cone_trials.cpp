@@ -21,7 +21,7 @@ stress::WideFrustum<Quad> exact_frustum(const typename Flat<T>::Cone& cone) {
             Quad(cone.base_radius), Quad(cone.slope),         0};
 }
 
-/// A direction at random past the cone: to a point within 1.5 times its extent.
+/// A random direction past the cone: to a point within 1.5 times its extent.
 template <typename T>
 glm::dvec3 way_to(const typename Flat<T>::Cone& cone, Dice& dice) {
     const double length = cone.length, wide = std::fabs(double(cone.slope)) * length;
@@ -30,8 +30,8 @@ glm::dvec3 way_to(const typename Flat<T>::Cone& cone, Dice& dice) {
     return in_double(cone.base) + at * in_double(cone.axis) + reach * dice.direction();
 }
 
-/// Distance at which an exact ray from this point of the cone meets it again, negative where it
-/// does not; nothing where that is within a thousandth of the length of a rim.
+/// Distance at which an exact ray from this point of the cone hits it again, negative if it does
+/// not; empty if that is within a thousandth of the length of a rim.
 template <typename T>
 std::optional<Quad> exact_return(const typename Flat<T>::Packed3& start,
                                  const typename Flat<T>::Packed3& dir,
@@ -42,7 +42,7 @@ std::optional<Quad> exact_return(const typename Flat<T>::Packed3& start,
     stress::WideRay<Quad> ray;
     ray.origin = cone.base + height * cone.axis + (cone.radius + cone.slope * height) * outwards;
     ray.dir = unit(in_quad(dir));
-    stress::WideFrustum<Quad> endless = cone;  // where it would go on beyond its rims, too
+    stress::WideFrustum<Quad> endless = cone;  // extended beyond both rims
     endless.base = cone.base - cone.length * cone.axis;
     endless.radius = cone.radius - cone.length * cone.slope;
     endless.length = 3 * cone.length;
@@ -56,7 +56,7 @@ std::optional<Quad> exact_return(const typename Flat<T>::Packed3& start,
 
 }  // namespace
 
-/// Outwards nothing must be hit; inwards the exact far side, where it lies clear of the rims.
+/// Outwards, nothing must be hit; inwards, the exact far side if it is clear of the rims.
 template <typename T>
 RayFigures count_cone_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays,
                                        const RayCaster& caster) {

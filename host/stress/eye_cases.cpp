@@ -48,7 +48,7 @@ StressFamily eyes_in_and_between() {
     return family;
 }
 
-/// Such an eye starts with the surface's number.
+/// Rays from such an eye start with the surface's primitive index.
 StressFamily eyes_on_surfaces() {
     StressFamily family{"eye-on-surface",
                         "what the eye is on",

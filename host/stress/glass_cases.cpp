@@ -22,7 +22,7 @@ void add_chequered_wall(Scene& scene) {
     }
 }
 
-/// Before a chequered wall. Even clear glass casts shadows: the light is close to the wall.
+/// In front of a checkered wall. Even clear glass casts shadows, so the light is close to the wall.
 Scene glass_scene() {
     Scene scene = bare_scene();
     set_image_size(scene, 80, 60);
@@ -32,7 +32,7 @@ Scene glass_scene() {
     return scene;
 }
 
-/// A ball and a box of this index.
+/// A glass ball and a glass box of this index.
 Scene of_index(double ior) {
     Scene scene = glass_scene();
     const int glass = add_glass(scene, ior, 1);
@@ -41,7 +41,7 @@ Scene of_index(double ior) {
     return scene;
 }
 
-/// A ray of index n leaves at an angle whose sine is n times that inside: rounding grows n-fold.
+/// A ray leaving glass of index n has n times the sine of the angle inside: rounding grows n-fold.
 StressFamily indices() {
     StressFamily family{"index",
                         "index of refraction",
@@ -58,7 +58,7 @@ StressFamily indices() {
     return family;
 }
 
-/// Inside a body of glass, all is reflected beyond the critical angle.
+/// The eye inside a glass object, where beyond the critical angle everything is reflected.
 Scene inside_glass(double ior, bool ball) {
     Scene scene = glass_scene();
     scene.max_bounces = 6;
@@ -90,8 +90,8 @@ StressFamily inside_of_glass() {
     return family;
 }
 
-/// A prism whose slope every ray of the picture meets from within at the critical angle of index
-/// 1.5, and this much more. The front looks at the eye.
+/// A prism whose slope every ray of the picture hits from inside at the critical angle of index 1.5
+/// plus `beyond`. The front faces the eye.
 Scene prism(double beyond) {
     Scene scene = glass_scene();
     const double ior = 1.5, slant = std::asin(1 / ior) + beyond;
@@ -108,8 +108,8 @@ Scene prism(double beyond) {
     return scene;
 }
 
-/// Where the angle is critical to within rounding, both answers are right, and only NaN and devices
-/// that differ are wrong.
+/// At the critical angle to within rounding, both answers are right; only NaN and differences
+/// between devices are wrong.
 StressFamily critical_angles() {
     StressFamily family{
         "critical-angle", "radians beyond it", "the root of what should be 0 is NaN", {}};
@@ -125,7 +125,7 @@ StressFamily critical_angles() {
     return family;
 }
 
-/// Balls of glass in each other; each surface bends as if air were outside.
+/// Nested glass balls; each surface refracts as if air were outside.
 Scene nested_glass(int bounces, double mirror) {
     Scene scene = glass_scene();
     scene.max_bounces = bounces;
@@ -137,7 +137,7 @@ Scene nested_glass(int bounces, double mirror) {
     return scene;
 }
 
-/// Every ball magnifies what the last made of the rounding.
+/// Every ball magnifies the rounding errors of the ones before it.
 StressFamily glass_depths() {
     StressFamily family{
         "glass-depth", "bounces", "every surface magnifies the rounding of those before it", {}};
@@ -151,7 +151,7 @@ StressFamily glass_depths() {
     return family;
 }
 
-/// The ray tree: every surface mirrors and lets through. The deepest has few branches that count.
+/// The ray tree: every surface reflects and transmits. In the deepest tree, few branches matter.
 StressFamily glass_trees() {
     StressFamily family{"glass-tree",
                         "bounces",
@@ -168,7 +168,7 @@ StressFamily glass_trees() {
     return family;
 }
 
-/// A bar of glass in which the view runs on by total reflection.
+/// A bar of glass that carries the view along by total reflection.
 Scene light_pipe(int bounces) {
     Scene scene = glass_scene();
     scene.max_bounces = bounces;
@@ -194,7 +194,7 @@ StressFamily light_pipes() {
     return family;
 }
 
-/// All light is the background's, and glass whose weights add up to 1 must not add to it.
+/// All light comes from the background, and glass whose weights add up to 1 must not add to it.
 Scene lit_by_background(double mirror) {
     Scene scene = bare_scene();
     set_image_size(scene, 80, 60);

@@ -15,7 +15,7 @@ namespace {
 
 using Fields = std::map<std::string, std::string>;
 
-/// The numbers of a small scene, by name, as a file would say them.
+/// The numbers of a small scene, by name, as written in a file.
 const Fields& ordinary_fields() {
     static const Fields fields{{"from", "0"},
                                {"at", "0"},
@@ -95,7 +95,7 @@ StressFamily odd_fields() {
     return family;
 }
 
-/// A number from random bits of a float, of a double, or between.
+/// A number from random bits of a double or a float, or of moderate size.
 std::string random_number(std::mt19937_64& engine) {
     const std::uint64_t bits = engine();
     switch (engine() % 3) {
@@ -109,7 +109,7 @@ std::string random_number(std::mt19937_64& engine) {
     }
 }
 
-/// Every field from ordinary or from random bits, one to three of them random.
+/// Ordinary scenes with up to three fields (never "bounces") replaced by random numbers.
 StressFamily random_bits() {
     StressFamily family{
         "random-bits", "seed", "numbers that nobody would write, several at once", {}};

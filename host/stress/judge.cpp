@@ -14,7 +14,7 @@ namespace {
 constexpr double wrong_error = 1.0 / 255;
 constexpr double edge_matters = 2e-5;
 
-/// The largest difference of a channel; infinite where a channel is NaN.
+/// The largest difference in any channel; infinite if a channel is NaN.
 double pixel_error(const float* pixel, const std::array<double, 3>& reference) {
     double largest = 0;
     for (std::size_t c = 0; c < 3; ++c) {

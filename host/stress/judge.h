@@ -9,7 +9,7 @@
 
 namespace rt {
 
-/// How far a picture is from its reference; values clamped to [0, 1] in both.
+/// Errors of a picture against its reference, both clamped to [0, 1].
 struct PictureFigures {
     std::size_t wrong = 0;                 ///< pixels off by over 1/255 or NaN, away from edges
     std::size_t wrong_at_edges = 0;        ///< ... and at edges
@@ -17,14 +17,13 @@ struct PictureFigures {
     std::size_t nans = 0, infinities = 0;  ///< pixels with one
 };
 
-/// Away from edges is found out only where a pixel is off by more than 2e-5: below that it is
-/// taken to be.
+/// Edges are looked up only for pixels off by more than 2e-5; all others count as away from edges.
 PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& reference);
 
-/// The same of a picture that has no reference: NaN and infinities alone.
+/// The same for a picture without a reference: counts NaN and infinities only.
 PictureFigures count_non_numbers(const Picture& picture);
 
-/// What breaks the tolerance, in words; empty when nothing does.
+/// What exceeds the tolerance, in words; empty if nothing does.
 std::string exceeded_tolerance(const PictureFigures& figures, const StressTolerance& tolerance);
 
 }  // namespace rt

@@ -13,7 +13,7 @@ namespace rt {
 
 namespace {
 
-/// Everything is the same gray; what is behind glares blue. A leak is a wrong pixel.
+/// Everything is the same gray, in front of a glaring blue background. A leak is a wrong pixel.
 Scene gray_scene(int width, int height, int grid) {
     Scene scene = bare_scene();
     scene.aa.count = grid;
@@ -25,7 +25,7 @@ Scene gray_scene(int width, int height, int grid) {
     return scene;
 }
 
-/// What such a picture should be: the inside of one big ball.
+/// The correct picture of such a scene: the inside of one big ball.
 Scene all_gray(int width, int height, int grid) {
     Scene scene = gray_scene(width, height, grid);
     add_sphere(scene, scene.camera.from, 100, 0);
@@ -83,7 +83,7 @@ Scene lattice_scene(int cells, bool perspective, double height, unsigned seed) {
     std::uniform_int_distribution<int> level(-8, 8);
     const int n = cells + 3;
     std::vector<glm::dvec3> points;
-    // Pixel centers of a picture `2 cells` high over 2 cells units lie at odd halves.
+    // `2 cells` pixels span as many units, so pixel centers lie at odd multiples of 0.5.
     for (int j = 0; j < n; ++j) {
         for (int i = 0; i < n; ++i) {
             const double x = 2 * i - n + 0.5, y = 2 * j - n + 0.5;
@@ -128,7 +128,7 @@ StressFamily lattices() {
     return family;
 }
 
-/// A wall of boxes seen along an axis, rays exactly in the planes of their sides.
+/// A wall of squares at several depths seen along an axis; rays run along the sides of BVH boxes.
 Scene box_wall(int axis, bool rounded) {
     Scene scene = gray_scene(64, 64, 1);
     const double step = rounded ? 1.0 / 3 : 1;
@@ -152,8 +152,7 @@ Scene box_wall(int axis, bool rounded) {
     return scene;
 }
 
-/// The pixel centers lie on multiples of an eighth of a box off the boxes' sides: every fourth
-/// exactly on one.
+/// Pixel centers lie at multiples of a quarter of a square: every fourth exactly on a side.
 StressFamily axis_parallel() {
     StressFamily family{"axis-parallel",
                         "axis",

@@ -48,7 +48,7 @@ StressFamily light_places() {
     return family;
 }
 
-/// Lights of 1e-30 to 1e30 shine on materials that bring them back to what can be seen.
+/// Lights of 1e-30 to 1e30 shine on materials that scale them back to the visible range.
 Scene stiff_light(double stiffness) {
     Scene scene = still_life();
     const double weak = 1 / stiffness;
@@ -98,7 +98,7 @@ StressFamily exponents() {
     return family;
 }
 
-/// The middle of a highlight, as wide as the picture.
+/// The center of a highlight, as wide as the picture.
 Scene highlight(double shininess) {
     Scene scene = bare_scene();
     const int shiny = add_matt(scene, glm::dvec3(0.125), 0.75, shininess);
@@ -125,7 +125,7 @@ StressFamily highlights() {
     return family;
 }
 
-/// A light behind, in or above the horizon of a plane.
+/// A light below, in or above the plane of a floor.
 Scene grazed_plane(double height) {
     Scene scene = bare_scene();
     set_image_size(scene, 80, 60);
@@ -136,9 +136,9 @@ Scene grazed_plane(double height) {
     return scene;
 }
 
-/// n.h negative, 0 and subnormal. Blinn's highlights begin at full strength at the horizon: where
-/// the light is above it by less than rounding, both answers are right, and only NaN and devices
-/// that differ are wrong.
+/// n.h negative, 0 and subnormal. Blinn highlights start at full strength at the horizon: where the
+/// light is above it by less than rounding, both answers are right; only NaN and differences
+/// between devices are wrong.
 StressFamily grazing_lights() {
     StressFamily family{"grazing-light", "height of the light", "n.h negative, 0 or subnormal", {}};
     for (const double height : {-1.0, -1e-30, 0.0, 1e-300, 1e-40, 1e-20, 1e-10, 1e-3, 1e-2}) {

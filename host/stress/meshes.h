@@ -15,7 +15,7 @@ struct StressMesh {
     std::vector<std::array<int, 3>> faces;
 };
 
-/// An icosahedron (20 faces), each face cut in four `times` times, on the unit sphere.
+/// An icosahedron (20 faces) on the unit sphere, each face split in four `times` times.
 StressMesh ball_mesh(int times);
 
 /// The same with its vertices moved in and out by up to a fifth, at random.

@@ -9,8 +9,8 @@ namespace rt {
 
 namespace {
 
-/// Two walls, 8192 wide, face each other across a ball; their mirror images go on to the bounce
-/// limit.
+/// Two facing mirror walls, 8192 wide, with a ball between them; reflections repeat up to the
+/// bounce limit.
 Scene facing_mirrors(double mirror, double ambient, int bounces, int width, int height) {
     Scene scene = bare_scene();
     set_image_size(scene, width, height);
@@ -57,7 +57,7 @@ Scene mirror_ball(int bounces) {
     return scene;
 }
 
-/// A mirror ball spreads rays by a factor a bounce: where it does, the reference changes too.
+/// A mirror ball spreads rays by a factor per bounce; where it does, the reference changes too.
 StressFamily mirror_balls() {
     StressFamily family{"in-mirror-ball",
                         "mirror rays",

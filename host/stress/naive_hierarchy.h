@@ -12,14 +12,13 @@
 
 namespace rt {
 
-/// A hierarchy of boxes as a textbook has it: plain slabs, no margins. The boxes are as tight as
-/// their corners.
+/// A textbook BVH: plain slab tests, no margins; boxes fit the triangles' corners exactly.
 template <typename T>
 class NaiveHierarchy {
    public:
     using Corners = std::array<Vec3<T>, 3>;
 
-    /// Over these triangles; `order` becomes their numbers in the order of the leaves.
+    /// Builds over these triangles; `order` becomes their indices in leaf order.
     NaiveHierarchy(std::span<const Corners> triangles, std::vector<std::size_t>& order) {
         std::vector<BvhBox<T>> boxes;
         for (const Corners& corners : triangles) {
@@ -33,8 +32,8 @@ class NaiveHierarchy {
         for (const BvhBox<T>& box : boxes) order.push_back(static_cast<std::size_t>(box.first));
     }
 
-    /// Calls visit(place in the order of the leaves) for the triangles of each box that the ray
-    /// enters before `limit`, nearer boxes first, until a call returns true; that is returned.
+    /// Calls visit(index in leaf order) for the triangles of each leaf that the ray enters before
+    /// `limit`, nearer leaves first, until a call returns true. Returns whether one did.
     template <typename Visit>
     bool visit(const Vec3<T>& origin, const Vec3<T>& dir, const T& limit,
                const Visit& visit) const {
@@ -90,7 +89,7 @@ class NaiveHierarchy {
         return std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
     }
 
-    /// Where the ray enters the node's box, infinite if it does not.
+    /// Distance at which the ray enters the node's box; infinite for a miss.
     static T enter(const Node& node, const Vec3<T>& origin, const Vec3<T>& inverse) {
         T near = 0, far = std::numeric_limits<T>::infinity();
         clip(node.low.x, node.high.x, origin.x, inverse.x, near, far);

@@ -8,8 +8,7 @@
 
 #include "host/scene/scene.h"
 
-// Shapes as a textbook meets them with rays, in the arithmetic of T and with absolute epsilons. For
-// comparison only.
+// Textbook ray intersections in the arithmetic of T, with absolute epsilons. For comparison only.
 namespace rt::naive {
 
 template <typename T>
@@ -106,7 +105,7 @@ T hit_cone(const Vec<T>& origin, const Vec<T>& dir, const Cone<T>& cone, T least
     return best;
 }
 
-/// Moller and Trumbore's.
+/// Moller-Trumbore intersection.
 template <typename T>
 T hit_face(const Vec<T>& origin, const Vec<T>& dir, const Face<T>& face, T& u, T& v) {
     const Vec<T> p = glm::cross(dir, face.edge2);

@@ -50,7 +50,7 @@ struct NaiveBranch {
     int bounce;
 };
 
-/// Rays to be followed: at most one a bounce waits, and scenes that branch have few bounces.
+/// Pending rays: at most one per bounce, and scenes that branch have few bounces.
 template <typename T>
 struct NaiveStack {
     std::array<NaiveBranch<T>, 64> branches;
@@ -61,7 +61,7 @@ struct NaiveStack {
     }
 };
 
-/// Below, boxes do not pay.
+/// Below this count, a BVH does not pay off.
 constexpr std::size_t few_faces = 24;
 
 template <typename T>
@@ -117,8 +117,8 @@ class NaiveTracer {
         faces_ = std::move(faces);
     }
 
-    /// Calls visit(face) for those the ray may hit before `limit`, until a call returns true; that
-    /// is returned.
+    /// Calls visit(face) for the faces that the ray may hit before `limit`, until a call returns
+    /// true. Returns whether one did.
     template <typename Visit>
     bool visit_faces(const Vec<T>& origin, const Vec<T>& dir, const T& limit,
                      const Visit& visit) const {
@@ -212,7 +212,7 @@ class NaiveTracer {
         return color;
     }
 
-    /// Snell's law; false where all light is reflected.
+    /// Snell's law; false for total reflection.
     static bool refract(const Vec<T>& dir, const Vec<T>& normal, T eta, Vec<T>& through) {
         const T cosine = -glm::dot(dir, normal);
         const T squared = T(1) - eta * eta * (T(1) - cosine * cosine);
@@ -274,7 +274,7 @@ class NaiveTracer {
     std::vector<naive::Sphere<T>> spheres_;
     std::vector<naive::Cone<T>> cones_;
     std::vector<naive::Face<T>> faces_;
-    std::optional<NaiveHierarchy<T>> hierarchy_;  ///< where there are many faces
+    std::optional<NaiveHierarchy<T>> hierarchy_;  ///< if there are many faces
     std::vector<NaiveMaterial<T>> materials_;
     std::vector<NaiveLight<T>> lights_;
     Vec<T> from_, forward_, right_, up_;

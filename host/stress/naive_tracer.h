@@ -14,13 +14,13 @@ enum class NaiveStart {
 
 struct NaivePicture {
     Picture picture;
-    /// Of tracing, without making the scene ready: by the clock, and of all cores together.
+    /// For tracing, without scene preparation: wall-clock time, and CPU time over all cores.
     double seconds = 0, processor_seconds = 0;
 };
 
-/// The scene as a textbook renders it in the arithmetic of T, on all cores (0) or so many threads:
-/// coordinates as they are, the quadratic formula, Moller and Trumbore with |det| < 1e-8,
-/// pow(n.h, e), tight boxes about many triangles. For comparison only. Grids of samples; spheres,
+/// Renders the scene as a textbook would, in the arithmetic of T, on so many threads (0: all
+/// cores): original coordinates, quadratic formula, Moller-Trumbore with |det| < 1e-8, pow(n.h, e),
+/// a BVH with tight boxes over many triangles. For comparison only. Supports sample grids, spheres,
 /// cones and triangles.
 template <typename T>
 NaivePicture naive_picture(const Scene& scene, NaiveStart start, int threads = 0);

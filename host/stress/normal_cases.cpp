@@ -30,15 +30,15 @@ Scene smooth_ball(double mirror) {
     return scene;
 }
 
-/// A disc of 32 triangles with normals that lean far outwards: near its rim, mirror rays would go
-/// below it.
+/// A disk of 32 triangles with normals leaning far outwards: mirror rays near its rim would go
+/// below.
 Scene leaning_mirror() {
     Scene scene = bare_scene();
     const int mirror = add_mirror(scene, 0.75);
     add_floor(scene, {0, -2, 0}, 12, add_matt(scene, {0.875, 0.25, 0.125}));
     const StressMesh fan = fan_mesh(32);
     for (const auto& [a, b, c] : fan.faces) {
-        if (a != 0) continue;  // the upper half alone, flattened
+        if (a != 0) continue;  // only the upper half, flattened
         const auto flat = [&](int i) {
             const glm::dvec3 p = fan.vertices[static_cast<std::size_t>(i)];
             return glm::dvec3(3 * p.x, 0, 3 * p.z);
@@ -55,7 +55,7 @@ Scene leaning_mirror() {
     return scene;
 }
 
-/// One triangle whose normals the text gives, read as a file is: normalized there.
+/// One triangle with these normals, parsed like a scene file, which normalizes them.
 Scene triangle_with_normals(const std::string& normals) {
     const std::string text = fmt::format(
         R"({{"camera": {{"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}},

@@ -45,7 +45,7 @@ Scene random_scene(unsigned seed) {
     return scene;
 }
 
-/// The same with cones, and with glass, some of which mirrors.
+/// The same with cones and glass, some of it reflective.
 Scene random_glass_scene(unsigned seed) {
     Scene scene = random_scene(seed);
     std::mt19937 engine(1000 + seed);

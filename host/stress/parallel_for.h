@@ -9,7 +9,7 @@
 
 namespace rt {
 
-/// Calls body(i) for each i below count, on all cores, in runs of `run`.
+/// Calls body(i) for each i below count, on all cores, in chunks of `run`.
 template <typename Body>
 void parallel_for(std::size_t count, std::size_t run, const Body& body) {
     std::atomic<std::size_t> next = 0;

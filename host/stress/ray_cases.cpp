@@ -44,8 +44,8 @@ StressFamily leak_rays(RayAim aim) {
     return family;
 }
 
-/// An octahedron with a vertex in the middle of one side of an edge and none on the other: such a
-/// mesh is closed on paper only, so that its leaks are counted and not judged.
+/// An octahedron with a T-junction: a vertex on one side of an edge and none on the other. Such a
+/// mesh is closed on paper only, so its leaks are counted, not judged.
 StressFamily t_junctions() {
     StressMesh mesh = fan_mesh(4);
     const int middle = static_cast<int>(mesh.vertices.size());
@@ -72,7 +72,7 @@ Scene sphere_scene(double radius, double distance) {
     });
 }
 
-/// A point that far away is rounded by `distances` times u of the radius, which tilts a chord.
+/// A point at that distance is rounded by `distances` times u of the radius, which tilts a chord.
 StressFamily leaving_spheres(const char* name, double distances, const char* why) {
     const double shallowest = distances > 10 ? 0.1 : 1e-3;
     return leaving_family(name, why, 1e-3, [=](double radius) {

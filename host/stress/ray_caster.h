@@ -8,7 +8,7 @@
 
 namespace rt {
 
-/// Makes tracers for the rays of the suite's trials: on threads, or on an OpenCL device.
+/// Makes tracers for the suite's ray trials: on threads, or on an OpenCL device.
 struct RayCaster {
     std::function<RayTracer<float>(const FlatScene<float>&)> in_float;
     std::function<RayTracer<double>(const FlatScene<double>&)> in_double;
@@ -23,7 +23,7 @@ struct RayCaster {
     }
 };
 
-/// Native kernels on all cores, in packets of so many rays (0: as wide as vectors).
+/// Native kernels on all cores, in packets of `lanes` rays (0: the vector width).
 RayCaster threads_ray_caster(int lanes = 0);
 
 }  // namespace rt

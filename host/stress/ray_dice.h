@@ -16,10 +16,10 @@
 #include "host/stress/stress_case.h"
 #include "host/stress/wide_real.h"
 
-// What trials with many random rays have in common.
+// Helpers for trials with many random rays.
 namespace rt {
 
-/// Random numbers, the same everywhere.
+/// Random numbers, the same on every machine.
 class Dice {
    public:
     explicit Dice(std::uint64_t seed) : engine_(seed) {}
@@ -51,7 +51,7 @@ typename Flat<T>::Packed3 rounded(const glm::dvec3& v) {
     return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
 }
 
-/// The unit direction along dir, which may have any length, rounded to T and made unit there.
+/// `dir`, of any length, normalized, rounded to T and normalized again in T.
 template <typename T>
 typename Flat<T>::Packed3 rounded_unit(const glm::dvec3& dir) {
     const auto d = rounded<T>(dir / glm::length(dir));
@@ -70,10 +70,10 @@ typename Flat<T>::RayQuery ray_query(const glm::dvec3& origin, const glm::dvec3&
     return query;
 }
 
-/// Traces many rays and sums what becomes of them. make(dice) gives a query; go_on(dice, query,
-/// answer) may set the direction of a ray that goes on from a hit (or pass nothing: none does);
-/// judge(query, answer, figures) counts. Rays come in blocks with dice of their own, so that they
-/// are the same on any number of cores.
+/// Traces many rays and sums up the results. make(dice) returns a query; go_on(dice, query, answer)
+/// may set the direction of a secondary ray from the hit (nullptr: none); judge(query, answer,
+/// figures) counts. Each block of rays has its own dice, so that the rays are the same on any
+/// number of cores.
 template <typename T, typename Make, typename GoOn, typename Judge>
 RayFigures many_rays(const RayTracer<T>& trace, std::uint64_t rays, const Make& make,
                      const GoOn& go_on, const Judge& judge) {
@@ -121,7 +121,7 @@ stress::Wide3<stress::Quad> in_quad(const V& v) {
     return {Quad(v.x), Quad(v.y), Quad(v.z)};
 }
 
-/// A direction at this angle over the plane of the normal.
+/// A random direction at this angle above a surface with this normal.
 inline glm::dvec3 at_angle(Dice& dice, const glm::dvec3& normal, double angle) {
     const glm::dvec3 other = std::fabs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 across = glm::normalize(glm::cross(normal, other));
@@ -135,9 +135,8 @@ inline double relative_error(double found, stress::Quad exact) {
     return static_cast<double>(stress::magnitude((stress::Quad(found) - exact) / exact));
 }
 
-/// Counts a ray: whether it hit, at t, and at which distance it should have; `exact` is not
-/// positive for a miss. A failure is a false hit, a lost one, or a relative error above the
-/// tolerance.
+/// Counts a ray that hit (`found`) at t, or missed; `exact` is the correct distance, not positive
+/// for a miss. A failure is a false hit, a missed hit, or a relative error above the tolerance.
 inline void note_hit(RayFigures& figures, bool found, double t, stress::Quad exact,
                      double tolerance = std::numeric_limits<double>::infinity()) {
     const bool expected = exact > 0;

@@ -15,7 +15,7 @@ namespace {
 using stress::Quad;
 using stress::Wide3;
 
-/// Middle and size of the flat triangles.
+/// Center and smallest half extent of the flat triangles.
 struct Bounds {
     glm::dvec3 middle;
     double radius;
@@ -34,7 +34,7 @@ Bounds bounds_of(const FlatScene<T>& flat) {
     return {low + half, std::min({half.x, half.y, half.z})};
 }
 
-/// The distance to the ray's sphere by the quadratic formula; negative for a miss.
+/// The ray's exact distance to the sphere, by the quadratic formula; negative for a miss.
 template <typename T>
 Quad exact_distance(const typename Flat<T>::RayQuery& ray, const typename Flat<T>::Sphere& sphere) {
     const Wide3<Quad> f = in_quad(ray.origin) - in_quad(sphere.center), d = in_quad(ray.dir);
@@ -47,7 +47,7 @@ Quad exact_distance(const typename Flat<T>::RayQuery& ray, const typename Flat<T
     return near > 0 ? near : (-b + root) / a;
 }
 
-/// The far side for a ray from the point of the sphere with this normal, put onto it exactly.
+/// Distance to the far side, for a ray from the exact point of the sphere with this normal.
 template <typename P, typename Sphere>
 Quad far_side(const P& normal, const P& dir, const Sphere& sphere) {
     return Quad(-2) * Quad(sphere.radius) * dot(unit(in_quad(normal)), unit(in_quad(dir)));
@@ -85,7 +85,7 @@ RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays, const 
                         });
 }
 
-/// Outwards nothing must be hit; inwards the far side.
+/// Outwards, nothing must be hit; inwards, the far side.
 template <typename T>
 RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays,
                                   const RayCaster& caster) {

@@ -9,31 +9,31 @@
 
 namespace rt {
 
-// Rays through a renderer, in the arithmetic of T; the same ones each time.
+// Trials that send rays through a renderer, in the arithmetic of T; the same rays each time.
 
 enum class RayAim { edges, vertices };
 
-/// Rays from around the middle of a closed mesh, star-shaped about it, at points on its edges or at
-/// its vertices. A failure is one that hits nothing.
+/// Rays from near the center of a closed, star-shaped mesh to points on its edges or to its
+/// vertices. A failure is a ray that hits nothing.
 template <typename T>
 RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays, const RayCaster& caster);
 
-/// Rays from the eye to the scene's first sphere, and on from there: outwards, from steep to 1e-6
-/// rad over the surface, which must not hit it again; inwards, to `shallowest` rad, which must find
-/// its far side within 0.1 %.
+/// Rays from the eye to the scene's first sphere, and secondary rays from there: outwards, from
+/// steep down to 1e-6 rad above the surface, which must not hit it again; inwards, down to
+/// `shallowest` rad, which must find its far side within 0.1 %.
 template <typename T>
 RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays,
                                   const RayCaster& caster);
 
 /// Rays from the eye past the scene's first sphere, within 1.5 times its apparent radius. A failure
-/// is one that hits or misses where quad arithmetic on the same rounded numbers says otherwise; the
-/// error is that of the distance.
+/// is a ray whose hit or miss differs from quad arithmetic on the same rounded numbers; the error
+/// is that of the distance.
 template <typename T>
 RayFigures count_sphere_failures(const Scene& scene, std::uint64_t rays, const RayCaster& caster);
 
-/// As count_leaving_failures, from the scene's first cone. Inwards, the far side counts where it
-/// lies clear of the rims by a thousandth of the length, and so does that there is none; it must be
-/// found within 1 %.
+/// As count_leaving_failures, from the scene's first cone. Inwards, rays that return within a
+/// thousandth of the length of a rim do not count; the others must miss, or find the far side
+/// within 1 %, as exact arithmetic does.
 template <typename T>
 RayFigures count_cone_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays,
                                        const RayCaster& caster);

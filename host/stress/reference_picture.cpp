@@ -14,7 +14,7 @@ constexpr double nearby = 0.02;  // pixels
 constexpr double least_change = 0.5 / 255;
 constexpr std::size_t pixel_run = 16;
 
-/// The eight ways a sample is moved: along the sides and the diagonals.
+/// The eight moves of a sample: along the axes and the diagonals.
 constexpr double diagonal = 0.70710678 * nearby;
 constexpr std::array<std::array<double, 2>, 8> moves{{{nearby, 0},
                                                       {-nearby, 0},

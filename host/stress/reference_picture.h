@@ -12,7 +12,7 @@
 
 namespace rt {
 
-/// The picture a scene should give, and where it says so only just.
+/// The correct picture of a scene, and which of its pixels lie at edges.
 class ReferencePicture {
    public:
     /// Traces every pixel, on all cores.
@@ -21,11 +21,11 @@ class ReferencePicture {
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// Of a pixel counted from the top left, row by row; linear, not clamped.
+    /// Color of a pixel, counted row by row from the top left; linear, not clamped.
     const std::array<double, 3>& color(std::size_t pixel) const { return colors_[pixel]; }
 
     /// Which of these pixels lie at an edge: a channel, clamped to [0, 1], changes by more than
-    /// 0.5/255 as the samples move by 0.02 pixel. Traced when first asked for, on all cores.
+    /// 0.5/255 as the samples move by 0.02 pixel. Traced on first use, on all cores.
     std::vector<bool> at_edges(std::span<const std::size_t> pixels);
 
     Picture as_picture() const;
@@ -38,7 +38,7 @@ class ReferencePicture {
     int grid_;
     std::unique_ptr<ReferenceTracer> tracer_;
     std::vector<std::array<double, 3>> colors_;
-    std::vector<std::int8_t> edges_;  ///< 1 yes, 0 no, -1 not asked yet
+    std::vector<std::int8_t> edges_;  ///< 1 yes, 0 no, -1 not known yet
 };
 
 }  // namespace rt

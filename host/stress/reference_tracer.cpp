@@ -19,12 +19,12 @@ using stress::widened;
 using stress::WideRay;
 using stress::WideSurface;
 
-/// Surfaces this near to each other, relative to the distance, are one. Below what a double
-/// coordinate can say, far above the rounding of either wide type.
+/// Surfaces this close together, relative to the distance, count as one. Far above the rounding of
+/// either wide type.
 template <typename R>
 constexpr R same_distance = R(1e-12);
 
-/// At glass, what counts for less than half an ulp of white in double is left out.
+/// At glass, branches that count for less than half an ulp of white in double are dropped.
 template <typename R>
 constexpr R least_share = R(0x1p-53);
 
@@ -33,7 +33,7 @@ struct WideLight {
     Wide3<R> position, intensity;
 };
 
-/// A ray, how much of what it sees counts, and how many bounces brought it here.
+/// A ray, the weight of what it sees, and the number of bounces before it.
 template <typename R>
 struct Branch {
     WideRay<R> ray;
@@ -68,8 +68,8 @@ class Tracer final : public ReferenceTracer {
     }
 
    private:
-    /// The sphere or cone whose surface the eye lies on, to a double's last bits, or -1. Its rays
-    /// leave it.
+    /// The sphere or cone on whose surface the eye lies, to the last bits of a double, or -1. Eye
+    /// rays leave it.
     int surface_at_eye() const {
         const Wide3<R> eye = widened<R>(scene_.camera.from);
         for (std::size_t prim = 0; prim < first_face(); ++prim) {
@@ -99,7 +99,7 @@ class Tracer final : public ReferenceTracer {
     std::size_t first_face() const { return spheres_.size() + frusta_.size(); }
     std::size_t primitives() const { return first_face() + faces_.size(); }
 
-    /// Calls take(hit) for each primitive that the ray hits, until it says that is enough.
+    /// Calls take(hit) for each primitive that the ray hits, until it returns true.
     template <typename Take>
     void for_each_hit(const WideRay<R>& ray, const Take& take) const {
         const Wide3<long double> dir = stress::narrowed(ray.dir);
@@ -174,8 +174,8 @@ class Tracer final : public ReferenceTracer {
         return unit(leaves ? out : about(surface.geometric));
     }
 
-    /// Snell's law, `eta` the index before the surface over that behind it; nothing where all light
-    /// is reflected. A blended normal that would not let the ray through gives way to the face's.
+    /// Snell's law, `eta` the index in front of the surface over that behind it; empty for total
+    /// reflection. Falls back to the face normal where an interpolated one would block the ray.
     static std::optional<Wide3<R>> refracted(const Wide3<R>& dir, const WideSurface<R>& surface,
                                              R eta) {
         for (const Wide3<R>& outwards : {surface.normal, surface.geometric}) {
@@ -190,7 +190,7 @@ class Tracer final : public ReferenceTracer {
         return std::nullopt;
     }
 
-    /// Mirrors that brighten at each bounce stay finite, far above all that can be seen.
+    /// Keeps mirrors that brighten at each bounce finite, far above anything visible.
     static Wide3<R> saturated(const Wide3<R>& share) {
         const R most = 1e300;
         const auto cut = [&](R value) { return value < most ? value : most; };
@@ -201,7 +201,7 @@ class Tracer final : public ReferenceTracer {
         return share.x > least || share.y > least || share.z > least;
     }
 
-    /// The branches that go on from a surface, the mirrored one last.
+    /// Pushes the branches that continue from a surface, the mirrored one last.
     static void branch(const Branch<R>& arriving, const WideRay<R>& start,
                        const WideSurface<R>& surface, const Scene::Material& material, bool inside,
                        std::vector<Branch<R>>& branches) {
@@ -226,7 +226,7 @@ class Tracer final : public ReferenceTracer {
         branches.back().ray.dir = mirrored(dir, surface);
     }
 
-    /// What the branch's ray sees by itself; branches that go on from there are added.
+    /// What the branch's ray sees directly; pushes the branches that continue from there.
     Wide3<R> follow(const Branch<R>& arriving, std::vector<Branch<R>>& branches) const {
         const WideRay<R>& ray = arriving.ray;
         const WideHit<R> hit = nearest(ray);

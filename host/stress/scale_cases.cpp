@@ -12,7 +12,7 @@ namespace rt {
 
 namespace {
 
-/// A case whose bits are those of the family's first.
+/// A case that must give the same bits as the family's first.
 StressCase same_bits_case(StressCase one) {
     std::get<PictureTrial>(one.trial).same_bits = "the scene as it is";
     return one;
@@ -80,7 +80,7 @@ StressFamily integer_shifts() {
     return family;
 }
 
-/// The scene is rounded to doubles where it comes to lie; the reference sees the same doubles.
+/// Coordinates are rounded to double after the shift; the reference sees the same doubles.
 StressFamily odd_shifts() {
     StressFamily family{"shift-odd",
                         "distance from the origin",
@@ -96,7 +96,7 @@ StressFamily odd_shifts() {
     return family;
 }
 
-/// A scene with one thing far out: it must not set the scale.
+/// A scene with one distant object, which must not set the scale.
 StressFamily outliers() {
     StressFamily family{"outlier",
                         "distance of one ball",

@@ -5,18 +5,18 @@
 
 #include "host/stress/ray_dice.h"
 
-// Rays that leave a shape the eye sees, at random.
+// Random secondary rays from a shape that the eye sees.
 namespace rt {
 
-/// Radians over the surface, negative inwards. Outwards two in three are below 0.1, down to 1e-6;
-/// inwards they go down to `shallowest`.
+/// Radians above the surface, negative inwards. Outwards, two in three are below 0.1, down to 1e-6;
+/// inwards, they go down to `shallowest`.
 inline double leaving_angle(Dice& dice, bool outwards, double shallowest) {
     constexpr double steepest = std::numbers::pi / 2;
     if (!outwards) return -dice.log_uniform(shallowest, steepest);
     return dice.index(3) == 0 ? dice.uniform(0.1, steepest) : dice.log_uniform(1e-6, 0.1);
 }
 
-/// Sends a ray from the eye on where it has hit primitive prim, three in four outwards.
+/// Continues an eye ray from its hit on primitive prim, three times in four outwards.
 template <typename T>
 void leave_primitive(Dice& dice, typename Flat<T>::RayQuery& query,
                      const typename Flat<T>::RayAnswer& answer, typename Flat<T>::Index prim,
@@ -27,7 +27,7 @@ void leave_primitive(Dice& dice, typename Flat<T>::RayQuery& query,
     query.next = rounded_unit<T>(at_angle(dice, normal, angle));
 }
 
-/// Whether it left, and to the side of the normal.
+/// Whether the ray was continued, and whether to the normal's side.
 template <typename T>
 bool has_left(const typename Flat<T>::RayQuery& query) {
     return glm::length(in_double(query.next)) > 0;

@@ -7,13 +7,13 @@
 
 #include "host/stress/case_helpers.h"
 
-// The families that spheres and cones have alike.
+// Families that spheres and cones share.
 namespace rt {
 
 using SceneOfRadius = std::function<Scene(double radius)>;
 using TrialOfRadius = std::function<RayTrial(double radius)>;
 
-/// Rounding the places to float alone moves a small thing by 2^-24 of its distance, which is 1.
+/// Rounding coordinates to float alone moves a small object by 2^-24 of its distance, which is 1.
 inline StressTolerance small_tolerance(double size) {
     StressTolerance tolerance;
     if (size < 1) tolerance.max_error = 1e-4 + 16 * 0x1p-24 / size;
@@ -21,7 +21,7 @@ inline StressTolerance small_tolerance(double size) {
     return tolerance;
 }
 
-/// Pictures of a shape 1 away: radii from 1e-6 to 1e6, in their middle `middle`.
+/// Pictures of a shape at distance 1: radii from 1e-6 to 1e6, with `middle` in place of 1.
 inline StressFamily size_family(const char* name, const char* why, double middle,
                                 const SceneOfRadius& scene) {
     StressFamily family{name, "radius over distance", why, {}};
@@ -51,9 +51,9 @@ inline StressFamily leaving_family(const char* name, const char* why, double max
     return family;
 }
 
-/// Rays at a shape 1 away and past its outline and rims: radii from 1e-6 to 0.5. Down to 1e-3 hits
-/// and misses are those of exact arithmetic; for smaller shapes rounding the ray's direction alone
-/// moves it by a share of the radius, and an outline's share of rays flips.
+/// Rays at a shape 1 away and past its outline and rims: radii from 1e-6 to 0.5. Down to 1e-3
+/// nearly all hits and misses must match exact arithmetic; for smaller shapes, rounding the ray's
+/// direction alone moves it by a fraction of the radius, and rays at the outline flip.
 inline StressFamily outline_family(const char* name, const TrialOfRadius& trial_of) {
     StressFamily family{name,
                         "radius over distance",

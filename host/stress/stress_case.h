@@ -14,32 +14,32 @@
 
 namespace rt {
 
-/// What a picture may be off by. A pixel is wrong when a channel, clamped to [0, 1], is off by more
-/// than 1/255 or is NaN; it lies at an edge when the reference itself changes there by more than
-/// 0.5/255 as the sample moves by 0.02 pixel.
+/// The errors allowed in a picture. A pixel is wrong when a channel, clamped to [0, 1], is off by
+/// more than 1/255 or is NaN; it lies at an edge when the reference itself changes there by more
+/// than 0.5/255 as the sample moves by 0.02 pixel.
 struct StressTolerance {
     std::size_t most_wrong = 0;  ///< pixels, away from edges
     std::size_t most_wrong_at_edges = std::numeric_limits<std::size_t>::max();
     double max_error = 1e-4;    ///< away from edges
     bool may_overflow = false;  ///< infinities count as saturated; NaN never does
-    bool in_float = true;       ///< false: float is measured, and has no tolerance here
+    bool in_float = true;       ///< false: float is measured but not judged
 };
 
 /// The arithmetic of the reference.
 enum class ReferenceKind {
-    quad,      ///< 113 bits, for everything of few rays
+    quad,      ///< 113 bits, for few rays per pixel
     extended,  ///< 64 bits, for hundreds of mirror rays a pixel: 40 times faster, and flat mirrors
                ///< lose no more than a bit a bounce
-    none,      ///< nothing to compare with: finite pixels and equal bits are all that is asked
+    none,      ///< no reference: only finite pixels and equal bits are required
 };
 
 /// A scene to be rendered and compared.
 struct PictureTrial {
     std::function<Scene()> scene;
-    /// The reference's scene where it is another one that looks the same; empty: the scene itself.
+    /// The reference's scene if it is a different one that looks the same; empty: the scene itself.
     std::function<Scene()> reference_scene;
     ReferenceKind reference = ReferenceKind::quad;
-    std::string same_bits;  ///< trials of a family that share this text share every bit
+    std::string same_bits;  ///< trials of a family with the same text here must agree in every bit
 };
 
 /// Scene files, each to be refused as input (exit code 3) or rendered without a NaN.
@@ -47,10 +47,10 @@ struct TextTrial {
     std::vector<std::string> scenes;
 };
 
-/// What became of many rays.
+/// Totals over many rays.
 struct RayFigures {
     std::uint64_t rays = 0;
-    std::uint64_t failures = 0;  ///< leaks, false hits, lost hits: what the family counts
+    std::uint64_t failures = 0;  ///< leaks, false hits, missed hits: whatever the family counts
     double max_error = 0;        ///< relative error of a distance, where the trial measures it
 };
 
@@ -61,16 +61,16 @@ struct RayTrial {
 };
 
 struct StressCase {
-    std::string label;  ///< of the parameter's value: "2^-40"
-    double value = 0;   ///< for curves
+    std::string label;  ///< names the parameter's value: "2^-40"
+    double value = 0;   ///< for plots
     StressTolerance tolerance;
     std::variant<PictureTrial, TextTrial, RayTrial> trial;
     bool quick = false;  ///< part of --quick
 };
 
-/// Cases that turn one screw.
+/// Cases that vary one parameter.
 struct StressFamily {
-    std::string name;       ///< for --case: small letters, digits, hyphens
+    std::string name;       ///< for --case: lowercase letters, digits, hyphens
     std::string parameter;  ///< what the cases differ in
     std::string why;        ///< one line: what goes wrong here in naive renderers
     std::vector<StressCase> cases;
@@ -79,11 +79,11 @@ struct StressFamily {
 /// Every family, in the order of the tables.
 std::vector<StressFamily> all_stress_families();
 
-/// Whether a glob (*, ?, [...]) fits a case: its family's name, or "family/label".
+/// Whether a glob (*, ?, [...]) matches a case: its family's name, or "family/label".
 bool fits_glob(const std::string& glob, const std::string& family, const std::string& label);
 
-/// The cases that any of the globs fits (no globs: all) and none of the unwanted, families without
-/// cases left out. Throws Error (ExitCode::usage) with the families for a glob that fits nothing.
+/// The cases that match any of the globs (no globs: all) and none of the unwanted, without empty
+/// families. Throws Error (ExitCode::usage), listing the families, for a glob without a match.
 std::vector<StressFamily> chosen_families(std::vector<StressFamily> families,
                                           const std::vector<std::string>& globs,
                                           const std::vector<std::string>& unwanted,

@@ -18,13 +18,13 @@ struct StressRow {
     std::string device;    ///< for --device; empty for naive
     bool double_precision = false;
     bool naive = false;      ///< reported, never judged
-    bool judged = true;      ///< whether the tolerance holds for it
-    PictureFigures figures;  ///< of the picture, or summed over those of texts
+    bool judged = true;      ///< whether the tolerance applies to it
+    PictureFigures figures;  ///< of the picture, or summed over all scene texts
     std::optional<RayFigures> rays;
     std::size_t refused = 0, rendered = 0;  ///< scene texts
     std::uint64_t hash = 0;                 ///< over every bit of the picture or pictures
     double seconds = 0;  ///< of tracing (a picture's `seconds.trace`), or of the whole trial
-    std::string why;     ///< what is broken; empty when nothing is
+    std::string why;     ///< what failed; empty if nothing did
 
     bool passed() const { return !judged || why.empty(); }
 };
@@ -34,13 +34,13 @@ struct StressCaseResult {
     double value = 0;
     StressTolerance tolerance;
     std::vector<StressRow> rows;
-    std::string disagreement;  ///< of devices that should give the same bits; empty: none
+    std::string disagreement;  ///< between devices that should give the same bits; empty: none
     double reference_seconds = 0;
 
     bool passed() const;
 };
 
-/// The worst picture of a case beside what it should be.
+/// The worst picture of a case and its reference.
 struct StressShot {
     std::string label;
     Picture worst, reference;
@@ -50,7 +50,7 @@ struct StressShot {
 struct StressFamilyResult {
     std::string name, parameter, why;
     std::vector<StressCaseResult> cases;
-    std::optional<StressShot> shot;  ///< of its worst case, where pictures are kept
+    std::optional<StressShot> shot;  ///< of its worst case, if pictures are kept
 
     bool passed() const;
 };
@@ -64,7 +64,7 @@ struct StressResult {
     bool passed() const;
 };
 
-/// The worst of a family's rows, judged or naive ones.
+/// The worst figures over a family's rows, either judged or naive ones.
 PictureFigures worst_figures(const StressFamilyResult& family, bool naive);
 
 }  // namespace rt

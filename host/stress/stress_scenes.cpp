@@ -7,7 +7,7 @@ namespace rt {
 
 namespace {
 
-/// Calls change(point) for each place of the scene, the camera's too.
+/// Calls change(point) for every point of the scene, including the camera's.
 template <typename Change>
 void for_each_point(Scene& scene, const Change& change) {
     change(scene.camera.from);

@@ -14,7 +14,7 @@ namespace {
 
 enum class Copy { same, other_diagonal, turned, reversed_order };
 
-/// A slanted square, and the same square again in another color: the first in the scene is seen.
+/// A slanted square twice, in different colors: the first in the scene is visible.
 Scene duplicate_square(Copy copy) {
     Scene scene = bare_scene();
     const int first = add_matt(scene, {0.875, 0.25, 0.125});
@@ -43,14 +43,14 @@ Scene duplicate_square(Copy copy) {
     return scene;
 }
 
-/// What is seen of it: the first square alone.
+/// What is visible of it: only the first square.
 Scene single_square() {
     Scene scene = duplicate_square(Copy::same);
     scene.triangles.erase(scene.triangles.begin() + 2, scene.triangles.begin() + 4);
     return scene;
 }
 
-/// Two flat squares in one plane that share a quarter, where the first is seen.
+/// Two coplanar squares that share a quarter, where the first is visible.
 Scene overlapping_squares(bool cut) {
     Scene scene = bare_scene();
     const int first = add_matt(scene, {0.875, 0.25, 0.125});
@@ -89,8 +89,8 @@ Scene duplicate_ball(double moved) {
     return scene;
 }
 
-/// Two squares alike, so near each other that they count as one: the lower one, first in the scene,
-/// is seen, and must not lie in the other's shadow.
+/// Two identical squares so close together that they count as one: the lower, first in the scene,
+/// is visible and must not be shadowed by the other.
 Scene two_sheets() {
     Scene scene = bare_scene();
     const int matt = add_matt(scene, {0.875, 0.5, 0.125});
@@ -141,7 +141,7 @@ StressFamily ties() {
     return family;
 }
 
-/// Many times the same triangle and ball: one is seen, and the others cost no sanity.
+/// Many copies of one triangle and one ball: one of each is visible, and the others do no harm.
 StressFamily coincident() {
     StressFamily family{"coincident",
                         "primitives",
@@ -173,7 +173,7 @@ StressFamily coincident() {
     return family;
 }
 
-/// Triangles through each other and through balls, edges in faces.
+/// Triangles that cross each other and balls, with edges in faces.
 Scene crossing_scene() {
     Scene scene = bare_scene();
     const int red = add_matt(scene, {0.875, 0.25, 0.125});
@@ -219,7 +219,7 @@ StressFamily needles() {
     return family;
 }
 
-/// A floor triangle so large that its barycentric weights say little about where one stands.
+/// A floor triangle so large that its barycentric weights barely determine a point.
 StressFamily huge_triangles() {
     StressFamily family{"huge-triangle",
                         "half side of the floor",

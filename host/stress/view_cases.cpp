@@ -11,7 +11,7 @@ namespace rt {
 
 namespace {
 
-/// At the outline of the red ball, so that the picture holds an edge however narrow it is.
+/// Narrow views aim at the red ball's outline, so that they contain an edge.
 StressFamily fields_of_view() {
     StressFamily family{"field-of-view",
                         "degrees",
@@ -59,7 +59,7 @@ StressFamily parallel_views() {
     return family;
 }
 
-/// up of any length, and nearly along the view.
+/// Up vectors of any length, and nearly parallel to the view.
 StressFamily ups() {
     StressFamily family{"up", "the camera's up", "axes lose their digits, or their length", {}};
     const auto add = [&](const char* label, InQuick quick, glm::dvec3 up) {

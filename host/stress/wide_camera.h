@@ -24,7 +24,7 @@ class WideCamera {
         set_window(camera);
     }
 
-    /// Through the point (x, y) of the picture, pixels from its top left corner.
+    /// The ray through the point (x, y) of the picture, in pixels from its top left corner.
     WideRay<R> eye_ray(R x, R y) const {
         const R across = left_ + (right_side_ - left_) * x / width_;
         const R upwards = top_ - (top_ - bottom_) * y / height_;

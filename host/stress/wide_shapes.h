@@ -8,11 +8,10 @@
 #include "host/scene/scene.h"
 #include "host/stress/wide_real.h"
 
-// Shapes for the reference: where a ray meets them, by textbook formulas in wide reals, and which
-// way they face there.
+// Shapes for the reference: ray intersections and normals by textbook formulas in wide reals.
 namespace rt::stress {
 
-/// A ray that may start on primitive `from` (or -1). Hits nearer than `least` are that start.
+/// A ray that may start on primitive `from` (or -1). Hits nearer than `least` are the start itself.
 template <typename R>
 struct WideRay {
     Wide3<R> origin, dir;
@@ -88,8 +87,8 @@ WideFace<R> wide_face(const Scene::Triangle& triangle) {
     return face;
 }
 
-/// A ball around a shape, and 1e-9 of its radius more: tells most rays that miss it, in the long
-/// doubles that take a tenth of __float128's time.
+/// A bounding sphere with a margin of 1e-9 of its radius: rejects most rays that miss the shape, in
+/// long double, which takes a tenth of __float128's time.
 template <typename R>
 struct Ball {
     Wide3<R> center;
@@ -131,7 +130,7 @@ Ball<R> ball_of(const WideFace<R>& face) {
     return ball_around(face.corner + from_corner, farthest);
 }
 
-/// Whether a line surely misses the ball. The slack is a hundred times what rounding does to the
+/// Whether a line certainly misses the ball. The slack is a hundred times the rounding error of the
 /// difference of squares.
 template <typename R>
 bool passes_by(const Wide3<R>& origin, const Wide3<long double>& unit_dir, const Ball<R>& ball) {
@@ -144,7 +143,7 @@ bool passes_by(const Wide3<R>& origin, const Wide3<long double>& unit_dir, const
 template <typename R>
 constexpr R rim = std::is_same_v<R, Quad> ? R(1e-28) : R(1e-16);
 
-/// Whether a point lies on the surface, to a double's last bits.
+/// Whether a point lies on the surface, to the last bits of a double.
 template <typename R>
 bool lies_on(const Wide3<R>& point, const WideSphere<R>& sphere) {
     const Wide3<R> f = point - sphere.center;
@@ -161,7 +160,7 @@ bool lies_on(const Wide3<R>& point, const WideFrustum<R>& frustum) {
     return magnitude(squared - radius * radius) <= R(1e-14) * squared;
 }
 
-/// Distance to the sphere, negative for a miss. A ray that leaves it knows one root: 0.
+/// Distance to the sphere, negative for a miss. For a ray that leaves it, one root is known: 0.
 template <typename R>
 R hit_sphere(const WideRay<R>& ray, const WideSphere<R>& sphere, bool leaving) {
     const Wide3<R> f = ray.origin - sphere.center;
@@ -173,8 +172,8 @@ R hit_sphere(const WideRay<R>& ray, const WideSphere<R>& sphere, bool leaving) {
     return -b - root > ray.least ? -b - root : -b + root;
 }
 
-/// Roots of |w + t d|^2 - h^2 = (radius + slope h)^2, h the height over the base: the nearer one
-/// that lies between the rims, on the half of the double cone that the radii say.
+/// Roots of |w + t d|^2 - h^2 = (radius + slope h)^2, h the height above the base: the nearer one
+/// that lies between the rims, on the half of the double cone where the radius is positive.
 template <typename R>
 R hit_frustum(const WideRay<R>& ray, const WideFrustum<R>& frustum, bool leaving) {
     const Wide3<R> w = ray.origin - frustum.base;
@@ -198,7 +197,7 @@ R hit_frustum(const WideRay<R>& ray, const WideFrustum<R>& frustum, bool leaving
     return one_counts ? one : (other_counts ? other : R(-1));
 }
 
-/// Moller and Trumbore's.
+/// Moller-Trumbore intersection.
 template <typename R>
 R hit_face(const WideRay<R>& ray, const WideFace<R>& face, R& u, R& v) {
     const Wide3<R> p = cross(ray.dir, face.edge2);
@@ -234,7 +233,7 @@ WideSurface<R> frustum_surface(const WideRay<R>& ray, R t, const WideFrustum<R>&
     return {point, normal, normal, frustum.material};
 }
 
-/// Vertex normals are blended; the face's own counts where the blend vanishes.
+/// Vertex normals are interpolated; the face normal is used where the interpolated one vanishes.
 template <typename R>
 WideSurface<R> face_surface(const WideHit<R>& hit, const WideFace<R>& face) {
     const Wide3<R> point = face.corner + hit.u * face.edge1 + hit.v * face.edge2;

@@ -25,7 +25,7 @@ void add_features(const Features& needed, Changes& changes) {
         {"everything compiled in", [](RenderSettings& settings) { settings.all_features = true; }});
 }
 
-/// Whether some kind has primitives to build a hierarchy over, and none.
+/// Whether some kind of primitive could have a hierarchy but has none.
 bool lacks_hierarchy(const FlatScene<float>& flat) {
     return (flat.spheres.size() > 1 && flat.params.sphere_root == 0) ||
            (flat.cones.size() > 1 && flat.params.cone_root == 0) ||

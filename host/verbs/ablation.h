@@ -11,15 +11,15 @@
 
 namespace rt {
 
-/// One thing that is not as usual: something that the scene does not need put back in, or something
-/// that it has taken away.
+/// One deviation from the defaults: something the scene does not need put back in, or something it
+/// uses taken away.
 struct Change {
     std::string what;
     std::function<void(RenderSettings&)> make;
 };
 
-/// What `bench --ablate` tries on this scene and device. No hierarchy is taken away from more
-/// primitives than can be tested one after the other in bearable time.
+/// The changes that `bench --ablate` tries on this scene and device. Hierarchies are removed only
+/// where testing all primitives one by one takes bearable time.
 std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& device,
                                        Precision precision);
 

@@ -39,7 +39,7 @@ std::vector<std::string> aov_files(const RenderOptions& options) {
     return files;
 }
 
-/// What is asked for, as numbers.
+/// The requested AOVs, as numbers.
 class Aovs {
    public:
     Aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options)
@@ -72,7 +72,7 @@ class Aovs {
         return color_numbers(samples_, width_, height_, Scale::logarithmic);
     }
 
-    /// All as channels of one picture.
+    /// The given AOVs as channels of one picture.
     Picture as_channels(const std::vector<Aov>& aovs) const {
         Picture picture;
         picture.width = width_;

@@ -59,10 +59,10 @@ LineReader::LineReader(const std::string& path)
                 fmt::format("{}: cannot open the list of scenes: {}", path, std::strerror(errno)));
 }
 
-/// Whether there was more.
+/// Returns whether more was read.
 bool LineReader::read_more() {
     pollfd ready{file_.number(), POLLIN, 0};
-    if (poll(&ready, 1, -1) < 0) return false;  // a signal, which read would sleep through
+    if (poll(&ready, 1, -1) < 0) return false;  // interrupted by a signal, unlike read
     char chunk[4096];
     const ssize_t size = read(file_.number(), chunk, sizeof chunk);
     if (size > 0) text_.append(chunk, static_cast<std::size_t>(size));

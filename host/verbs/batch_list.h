@@ -18,48 +18,48 @@ struct BatchItem {
     std::optional<int> frame;
 };
 
-/// "SCENE" or "SCENE OUTPUT"; names with blanks stand in double quotes. Nothing for an empty line
-/// and one that begins with '#'. Throws Error (ExitCode::usage).
+/// "SCENE" or "SCENE OUTPUT"; names with blanks go in double quotes. Empty for an empty line or one
+/// that begins with '#'. Throws Error (ExitCode::usage).
 std::optional<BatchItem> parse_batch_line(const std::string& line);
 
-/// The pattern with the scene's name, without folder and ending, for each %s.
+/// The pattern with each %s replaced by the scene's name, without folder and extension.
 std::string batch_output(const std::string& pattern, const std::string& scene);
 
-/// The pattern with the frame's number for its %d or %04d.
+/// The pattern with its %d or %04d replaced by the frame number.
 std::string frame_output(const std::string& pattern, int frame);
 
-/// Lines of a file as they come. Waiting for one ends with a stop signal.
+/// Reads lines as they arrive. A stop signal ends the wait for one.
 class LineReader {
    public:
     /// "-": stdin. Throws Error (ExitCode::input) when it cannot be opened.
     explicit LineReader(const std::string& path);
 
-    /// Nothing at the end, and when a stop signal came.
+    /// Empty at the end of the file and after a stop signal.
     std::optional<std::string> next();
 
    private:
     bool read_more();
 
     FileDescriptor file_;
-    std::string text_;  ///< read, and not yet given out
+    std::string text_;  ///< read, but not yet returned
     bool at_end_ = false;
 };
 
-/// The scenes of the command line, then those of the list, which is read line by line as it comes.
+/// The frames, or the scenes of the command line and then those of the list, read as it arrives.
 class BatchList {
    public:
     /// Throws Error (ExitCode::input) when the list cannot be opened.
     explicit BatchList(const RenderOptions& options);
 
-    /// Whether there is another one, which is then the item. Throws Error for a line that is wrong,
-    /// and ExitCode::usage where two scenes would go into one file; the next call goes on after it.
+    /// Gets the next item; false if there is none. Throws Error for an invalid line, and
+    /// ExitCode::usage if two scenes would share an output file; the next call continues after it.
     bool next(BatchItem& item);
 
    private:
     bool take(BatchItem& item);
 
     const RenderOptions& options_;
-    std::size_t given_ = 0;  ///< of the command line's scenes
+    std::size_t given_ = 0;  ///< frames or command-line scenes taken so far
     std::optional<LineReader> lines_;
     int line_ = 0;
     std::set<std::string> outputs_;

@@ -135,9 +135,8 @@ class Plan {
         }
     }
 
-    /// threads: 1 to N threads in every schedule; threads:K: K alone; then without vectors, which
-    /// says what those give. In the schedule by buffers no
-    /// more threads run than a pixel has samples.
+    /// threads: 1 to N threads with every schedule; threads:K: only K. Then scalar threads, to show
+    /// what vectors gain. The buffers schedule runs at most one thread per sample of a pixel.
     void add_threads_rows(const LoadedScene& loaded, RenderSettings picture,
                           const ListedDevice& device) {
         const int most = options_.threads > 0 ? options_.threads : available_cores();
@@ -165,7 +164,7 @@ class Plan {
         return device;
     }
 
-    /// The picture as usual, then with each change.
+    /// The picture with default settings, then with each change.
     void add_ablation(const LoadedScene& loaded, const RenderSettings& picture,
                       const ListedDevice& device) {
         ListedDevice used = device;
@@ -233,7 +232,7 @@ void say_bad_rows(const BenchResult& result) {
     }
 }
 
-/// Whether a row has become slower; each is named on stderr.
+/// Whether any row has become slower; reports each on stderr.
 bool has_regressed(const BenchResult& result, const Baseline& baseline, double max_regress) {
     const auto found = regressions(result, baseline, max_regress);
     for (const Regression& regression : found) {

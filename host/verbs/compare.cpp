@@ -28,9 +28,9 @@ using Json = nlohmann::ordered_json;
 struct Comparison {
     Picture picture, reference;
     ImageError error;
-    std::optional<FlipResult> flip;     ///< where it was asked for
-    double heatmap_scale = 0;           ///< where there is a heat map
-    std::vector<std::string> breaches;  ///< what makes it fail, in words
+    std::optional<FlipResult> flip;     ///< if requested
+    double heatmap_scale = 0;           ///< if there is a heat map
+    std::vector<std::string> breaches;  ///< why it fails, in words
 
     std::size_t pixels() const {
         return picture.pixels.size() / static_cast<std::size_t>(picture.channels);
@@ -67,7 +67,7 @@ std::string non_finite_text(const char* name, const Picture& picture) {
                        count == 1 ? "" : "s", name, x, y);
 }
 
-/// A threshold that cannot be checked is not passed in silence.
+/// A threshold that cannot be checked is an error, not a pass.
 void check_flip(const FlipResult& flip, double limit, std::vector<std::string>& breaches) {
     if (!flip.mean) throw Error(ExitCode::usage, "--max-flip: not measured: " + flip.note);
     if (!(*flip.mean <= limit)) {

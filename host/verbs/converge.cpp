@@ -29,7 +29,7 @@ namespace rt {
 
 namespace {
 
-/// What is named, and threads once more without vectors where that is asked for.
+/// The devices named, plus scalar threads if requested.
 std::vector<ListedDevice> swept_devices(const ConvergeOptions& options) {
     std::vector<ListedDevice> devices = listed_devices(options.devices);
     for (std::size_t i = options.scalar ? devices.size() : 0; i-- > 0;) {
@@ -59,8 +59,8 @@ void add_points(const ConvergeOptions& options, const std::vector<int>& bounces,
     }
 }
 
-/// Devices without double have no points in it, nor have scalar threads, which are there to show
-/// what vectors give; threads have none in fast math, which is the OpenCL compiler's.
+/// Omits double on devices without it and on scalar threads, which only show what vectors gain, and
+/// fast math on threads: it is an OpenCL compiler option.
 std::vector<ConvergePoint> planned_points(const ConvergeOptions& options,
                                           const std::vector<int>& bounces,
                                           const std::vector<ListedDevice>& devices) {
@@ -121,7 +121,7 @@ void time_points(const Scene& scene, double load_seconds, const ConvergedPicture
     }
 }
 
-/// Names the points that gave no figure; the exit status they mean.
+/// Reports the points without a result. Returns the exit status.
 int verdict(const ConvergeResult& result) {
     bool wrong = false, failed = false;
     for (const ConvergePoint& point : result.points) {

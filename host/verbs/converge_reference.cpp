@@ -24,8 +24,8 @@ namespace rt {
 
 namespace {
 
-/// The program's own bytes, hashed: a revision would be that of all edits not yet committed. Empty
-/// where they cannot be read.
+/// A hash of the program file: a Git revision would not tell uncommitted edits apart. Empty if it
+/// cannot be read.
 std::optional<std::uint64_t> program_hash() {
     std::ifstream file("/proc/self/exe", std::ios::binary);
     Hasher hasher;
@@ -39,7 +39,7 @@ std::optional<std::uint64_t> program_hash() {
     return hasher.value();
 }
 
-/// Everything but the scene's hash that a half depends on, this program included.
+/// The cache file of a half, named by hashes of all it depends on, this program included.
 std::string cache_path(const std::string& folder, const Scene& scene) {
     static const std::optional<std::uint64_t> program = program_hash();
     if (folder.empty() || !program) return "";
@@ -56,7 +56,7 @@ std::string cache_path(const std::string& folder, const Scene& scene) {
                        hash_text(settings.value()));
 }
 
-/// Empty when it is not there or not such a picture.
+/// Empty if the file is missing or does not fit.
 std::optional<Picture> read_half(const std::string& path, const Scene& scene) {
     std::error_code ignored;
     if (path.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
@@ -66,7 +66,7 @@ std::optional<Picture> read_half(const std::string& path, const Scene& scene) {
             half.width == scene.width && half.height == scene.height && half.channels == 3;
         if (fits && count_non_finite(half) == 0) return half;
     } catch (const Error&) {
-        // A damaged cache is as good as none.
+        // A damaged cache file counts as missing.
     }
     return std::nullopt;
 }

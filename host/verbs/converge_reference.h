@@ -14,9 +14,9 @@ struct ConvergedPicture {
     bool complete = true;  ///< false when a signal stopped it
 };
 
-/// The converged picture of a scene, in its own size and bounces: rendered in double on threads, or
-/// read from the cache folder, and then kept there. A cache that cannot be written is said on
-/// stderr, no more.
+/// The converged picture of a scene at its own size and bounces: rendered in double on threads and
+/// cached, or read from the cache folder. A cache that cannot be written only causes a message on
+/// stderr.
 ConvergedPicture converged_picture(const Scene& scene, const ConvergeOptions& options);
 
 }  // namespace rt

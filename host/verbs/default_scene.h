@@ -5,7 +5,7 @@
 
 namespace rt {
 
-/// What results call the built-in scene: its file in the repository.
+/// The built-in scene's name in results: its path in the repository.
 inline constexpr const char* default_scene_path = "scenes/cornell-box.json";
 
 /// The paper's scene as it was when the program was built; needs no file.

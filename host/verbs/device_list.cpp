@@ -40,7 +40,7 @@ void add_once(std::vector<ListedDevice>& list, const ListedDevice& device) {
     if (!known) list.push_back(device);
 }
 
-/// The OpenCL devices, asked for when first needed.
+/// The OpenCL devices, listed when first needed.
 class ClDevices {
    public:
     const std::vector<ClDevice>& list() {

@@ -17,12 +17,12 @@ struct ListedDevice {
     bool is_scalar = false;                 ///< threads that trace one ray at a time
     int threads = 0;                        ///< from threads:N; 0 when not given
     bool has_double = true;                 ///< whether it can render in double
-    int float_lanes = 0, double_lanes = 0;  ///< of a packet, by default; 0: threads
+    int float_lanes = 0, double_lanes = 0;  ///< of a packet, by default; 0 for threads
 };
 
-/// The devices that specs name, each once; "all" is threads and every usable OpenCL device, with a
-/// line on stderr for one that is not usable. Throws Error (usage or device) as choose_device does.
-/// OpenCL is left alone when nothing but threads is named.
+/// The devices that specs name, without duplicates; "all" means threads and every usable OpenCL
+/// device, with a line on stderr for each unusable one. Throws Error (usage or device) like
+/// choose_device. OpenCL is not loaded if only threads are named.
 std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs);
 
 }  // namespace rt

@@ -85,7 +85,7 @@ void print_lines(const std::vector<std::string>& lines) {
     }
 }
 
-/// The pthreads' line: cores, and the instruction sets that there are kernels for.
+/// The line for pthreads: cores, and the instruction sets that have kernels.
 std::string threads_text(int cores) {
     const std::vector<std::string> isas = native_isas();
     std::string text =

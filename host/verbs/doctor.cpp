@@ -24,18 +24,18 @@ namespace rt {
 
 namespace {
 
-/// The paper's scene at 100 x 100, as every right device renders it (tests/cli/doctor_cases.py).
+/// The paper's scene at 100 x 100, as every correct device renders it (tests/cli/doctor_cases.py).
 constexpr PictureSize size{100, 100};
 constexpr std::uint64_t float_hash = 0x7263fc593b53fdc8, double_hash = 0x668173dac9fdc30f;
 
-constexpr double deadline = 30;  ///< seconds that a device may do nothing
+constexpr double deadline = 30;  ///< seconds without progress before a device counts as hung
 
 enum class State { fine, missing, broken };
 
 struct Finding {
     State state = State::fine;
     std::string what;     ///< "device 0"
-    std::string verdict;  ///< what is the matter, and what to do
+    std::string verdict;  ///< what is wrong, and what to do
 };
 
 const char* word_of(State state) {
@@ -50,7 +50,7 @@ const char* word_of(State state) {
     return "BROKEN";
 }
 
-/// Throws Error: different where the bits are wrong, else what rendering throws.
+/// Throws Error: ExitCode::different if the bits are wrong, else what rendering throws.
 void render_known_picture(const DeviceChoice& device, Precision precision) {
     RenderSettings settings;
     settings.size = size;
@@ -68,7 +68,7 @@ void render_known_picture(const DeviceChoice& device, Precision precision) {
                             hash_text(rendered.stats.image_hash)));
 }
 
-/// In this process.
+/// Tests a device in this process.
 int test_device(const std::string& spec) {
     const DeviceChoice device = find_devices(spec, 0, {}).get().front();
     watch_worker(true);
@@ -79,7 +79,7 @@ int test_device(const std::string& spec) {
     return 0;
 }
 
-/// In a process of its own.
+/// Tests a device in a worker process.
 Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
                        const std::string& name) {
     const Stopwatch watch;

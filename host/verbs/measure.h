@@ -8,11 +8,11 @@
 
 namespace rt {
 
-// What bench and converge measure, for them and for report. Throw Error.
+// The measurements of bench and converge, also used by report. Throw Error.
 BenchResult measure_bench(const BenchOptions& options);
 ConvergeResult measure_converge(const ConvergeOptions& options);
 
-/// What stress measures, for it and for report. Throws Error.
+/// The measurements of stress, also used by report. Throws Error.
 StressResult measure_stress(const StressOptions& options);
 
 }  // namespace rt

@@ -42,7 +42,7 @@ void write_merged(const MergedPicture& merged, const MergeOptions& options) {
     write_picture(options.output, merged.picture, options.encoding, metadata, options.format);
 }
 
-/// The parts' picture, compared with what is rendered again of it. Throws Error where they differ.
+/// Renders part of the merged picture again and compares. Throws Error if they differ.
 void verify(const MergedPicture& merged, const MergeOptions& options) {
     const TemporaryFolder folder;
     if (folder.name().empty()) {

@@ -36,7 +36,7 @@ ProgressMode progress_mode_for_stderr(const RenderOptions& options) {
 
 std::string progress_line(double fraction, double seconds, const RayCounts& rays) {
     const double rate = seconds > 0 ? static_cast<double>(rays.total()) / seconds * 1e-6 : 0;
-    // Rounded down: 100 % is all of it.
+    // Rounded down: 100 % means complete.
     return fmt::format("{:3.0f} %  {:.1f} Mrays/s{}", std::floor(100 * fraction), rate,
                        fraction < 1 ? "  ETA " + eta_text(fraction, seconds) : "");
 }
@@ -50,7 +50,7 @@ std::string progress_bar(double fraction, const std::string& line, int columns) 
         const int filled = static_cast<int>(fraction * width);
         text = fmt::format("[{:#<{}}{:.<{}}] {}", "", filled, "", width - filled, line);
     }
-    // Blanks over what a longer line before has left.
+    // Pads with blanks to erase a longer previous line.
     return fmt::format("{:<{}}", text, room).substr(0, static_cast<std::size_t>(room));
 }
 
@@ -73,7 +73,7 @@ void ProgressReporter::run() {
     const auto interval = mode_ == ProgressMode::plain ? line_interval : bar_interval;
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, interval, [this] { return done_; })) show(false);
-    // A picture that is done before anything was shown needs no bar.
+    // A picture that finishes before anything is shown needs no bar.
     if (shown_ || mode_ == ProgressMode::json) show(true);
 }
 

@@ -12,17 +12,17 @@
 
 namespace rt {
 
-/// What --progress asks for, with `auto` made definite: nothing when quiet, a bar on a terminal
-/// that can show one, plain lines elsewhere.
+/// The value of --progress with `auto` resolved: nothing when quiet, a bar on a terminal that can
+/// show one, plain lines elsewhere.
 ProgressMode progress_mode_for_stderr(const RenderOptions& options);
 
 /// One line of progress: "42 %  12.3 Mrays/s  ETA 0:07"; no ETA when all is done.
 std::string progress_line(double fraction, double seconds, const RayCounts& rays);
 
-/// The line behind a bar as long as a terminal of so many columns allows, filled up with blanks.
+/// The line after a bar that fills a terminal of `columns` columns, padded with blanks.
 std::string progress_bar(double fraction, const std::string& line, int columns);
 
-/// Shows on stderr how far a queue has come, from a thread of its own, until it is destroyed.
+/// Shows a queue's progress on stderr, from its own thread, until destroyed.
 class ProgressReporter {
    public:
     ProgressReporter(const TileQueue& queue, ProgressMode mode);

@@ -41,7 +41,7 @@ class SceneStudy {
         if (to_string(scene_.aa) == "none") scene_.aa = grid_aa(2);
     }
 
-    /// Fills the study in part by part; Stopped leaves those that are finished.
+    /// Fills in the study part by part; when it throws Stopped, the finished parts remain.
     void run(ReportScene& study) {
         study.has_pictures = study.complete = false;
         say(1, "timings");
@@ -80,7 +80,7 @@ class SceneStudy {
         return settings;
     }
 
-    /// The first OpenCL device named, else the first at all.
+    /// The first OpenCL device named, else the first device.
     ListedDevice device() const {
         const std::vector<ListedDevice> devices = listed_devices(options_.devices);
         const auto opencl = std::find_if(devices.begin(), devices.end(),
@@ -138,7 +138,7 @@ class SceneStudy {
     Scene scene_;
 };
 
-/// The suite with textbook formulas next to it, on the report's devices.
+/// The stress suite with textbook formulas alongside, on the report's devices.
 StressResult stress_result(const ReportOptions& options) {
     StressOptions stress;
     stress.devices = options.devices;
@@ -147,7 +147,7 @@ StressResult stress_result(const ReportOptions& options) {
     stress.keep_pictures = true;
     stress.quiet = options.quiet;
     StressResult result = measure_stress(stress);
-    // The family that was stopped on the way has no verdict.
+    // The family interrupted midway has no verdict.
     if (result.interrupted && !result.families.empty()) result.families.pop_back();
     return result;
 }
@@ -161,7 +161,7 @@ std::string today() {
     return text;
 }
 
-/// 1 when a picture is wrong, and no figure hides it.
+/// 1 if any picture is wrong, whatever the other figures are.
 int verdict(const Report& report) {
     const bool wrong =
         std::any_of(report.scenes.begin(), report.scenes.end(), [](const ReportScene& scene) {
@@ -172,7 +172,7 @@ int verdict(const Report& report) {
     return static_cast<int>(wrong ? ExitCode::different : ExitCode::done);
 }
 
-/// Until a signal stops it; scenes of which nothing is finished are left out.
+/// Runs until a signal stops it; scenes with nothing finished are left out.
 void measure(const ReportOptions& options, Report& report) {
     try {
         for (const std::string& path : options.scenes) {

@@ -24,7 +24,7 @@ std::vector<AaMode> modes_of(std::string sweep) {
     return modes;
 }
 
-/// A word as a POSIX shell reads it back.
+/// A word, quoted for a POSIX shell.
 std::string shell_word(const std::string& word) {
     const auto is_plain = [](unsigned char c) {
         return std::isalnum(c) != 0 || std::string_view("-_./:,=+%@").find(c) != std::string::npos;

@@ -9,8 +9,8 @@
 
 namespace rt {
 
-/// What the report's timings measure: five sizes up to the scene's own, plain and anti-aliased, in
-/// float. --quick: two sizes.
+/// The bench options for the report's timings: five sizes up to the scene's own, plain and
+/// anti-aliased, in float. --quick: two sizes.
 BenchOptions bench_settings(const ReportOptions& options, const std::string& path,
                             const Scene& scene);
 
@@ -19,7 +19,7 @@ BenchOptions bench_settings(const ReportOptions& options, const std::string& pat
 ConvergeOptions converge_settings(const ReportOptions& options, const std::string& path,
                                   const Scene& scene);
 
-/// The commands that make the page, and the parts of it, again.
+/// The commands that reproduce the page and its parts.
 std::vector<std::string> report_commands(const ReportOptions& options);
 
 }  // namespace rt

@@ -11,7 +11,7 @@ namespace rt {
 
 namespace {
 
-/// A file name of letters, digits, dots and signs.
+/// The text as part of a file name: '/', '^' and blanks become '-'.
 std::string file_stem(const std::string& text) {
     std::string name = text;
     std::replace_if(

@@ -12,7 +12,7 @@ namespace rt {
 /// The pictures of one case in a folder: FAMILY-LABEL.reference.png, .worst.png, .error.png.
 class StressPictures {
    public:
-    /// Nothing is written for an empty folder. `reference` may be null.
+    /// Nothing is written if the folder name is empty. `reference` may be null.
     StressPictures(const std::string& folder, const std::string& family, const std::string& label,
                    const ReferencePicture* reference);
 
@@ -22,7 +22,7 @@ class StressPictures {
     /// Throws Error (ExitCode::output).
     void write() const;
 
-    /// The worst picture and what it should be; nothing where there is no reference.
+    /// The worst picture and its reference; empty if there is no reference.
     std::optional<StressShot> shot(const std::string& label) const;
 
    private:

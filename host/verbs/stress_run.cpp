@@ -38,7 +38,7 @@ RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
     return settings;
 }
 
-/// Traces the rays of a trial where pictures on this device are traced.
+/// Traces a trial's rays on the device that renders its pictures.
 RayCaster ray_caster(const DeviceChoice& choice) {
     if (choice.use_threads) return threads_ray_caster();
     const ClDevice device = choice.device;
@@ -56,7 +56,7 @@ std::string exceeded_by_rays(const RayFigures& rays, const StressTolerance& tole
     return "";
 }
 
-/// The first row of a renderer that must give the same bits as others of its family.
+/// The first image hash of each group of pictures that must agree in every bit.
 using FirstHashes = std::map<std::string, std::uint64_t>;
 
 class Runner {
@@ -147,12 +147,12 @@ class Runner {
         if (options_.naive) add_naive_rows(scene, against, result);
     }
 
-    /// Of the family that runs.
+    /// For the family being run.
     void keep_worst(std::optional<StressShot> shot) {
         if (shot && (!shot_ || shot->badness > shot_->badness)) shot_ = std::move(shot);
     }
 
-    /// Whether a row has the bits of the group's first on this renderer.
+    /// Checks that a row has the same bits as the first of its group on this renderer.
     void check_same_bits(const PictureTrial& trial, StressRow& row) {
         if (trial.same_bits.empty() || !row.why.empty()) return;
         const std::string key = fmt::format("{} {} {}", trial.same_bits, row.device,
@@ -185,7 +185,7 @@ class Runner {
         }
     }
 
-    /// The scenes of the texts that the reader takes.
+    /// The scenes of those texts that the reader accepts.
     static std::vector<Scene> readable_scenes(const TextTrial& trial, std::string& why) {
         std::vector<Scene> scenes;
         for (const std::string& text : trial.scenes) {

@@ -18,8 +18,7 @@ namespace rt {
 
 namespace {
 
-/// What is wrong with the bits of the newest of a case's runs: not those of the runs before, or of
-/// threads.
+/// How the bits of a case's newest run differ from those of its earlier runs or of threads.
 std::string what_differs(const TimedCase& timed, const RenderStats& run) {
     for (const std::vector<RenderStats>* runs : {&timed.warm_up, &timed.repeats}) {
         if (runs->empty() || runs->front().image_hash == run.image_hash) continue;
@@ -33,7 +32,7 @@ std::string what_differs(const TimedCase& timed, const RenderStats& run) {
     return "";
 }
 
-/// Renders a case once more and keeps the run, unless it was stopped half-way.
+/// Renders a case once more and keeps the run, unless it was stopped midway.
 void render_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     const double started = watch.seconds();
     Scene scene = *timed.scene;
@@ -56,7 +55,7 @@ void render_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     }
 }
 
-/// A device that cannot do it ends its case, not the others'.
+/// A device that fails ends its own case, not the others.
 void try_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     try {
         render_once(timed, warm_up, watch);
@@ -67,7 +66,7 @@ void try_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     }
 }
 
-/// The time left is judged by the round before.
+/// Estimates the time left from the previous round.
 void say_round(int round, int rounds, std::size_t pictures, double seconds_before) {
     if (round == 0) {
         return print_message("mirrorball: warm-up, " + counted(pictures, "picture") + "\n");

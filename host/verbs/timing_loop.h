@@ -27,39 +27,39 @@ struct TimedCase {
     std::optional<std::uint64_t> expected_hash;  ///< of the picture, in strict arithmetic
     double load_seconds = 0;                     ///< of the scene file, noted in every run
 
-    // What comes of it.
+    // Results.
     std::vector<RenderStats> warm_up, repeats;
     Verdict verdict = Verdict::unfinished;
     std::string why;  ///< what is wrong or what failed
 };
 
-/// Settings of a benchmark's rendering, which fails when its device fails, and is judged by the
+/// Settings for a benchmark's renders, which fail if their device fails and are judged by the
 /// benchmark itself.
 RenderSettings timed_settings();
 
-/// Renders on the device without a word, until a stop signal.
+/// Renders on the device silently, until a stop signal.
 RenderedPicture render_quietly(const Scene& scene, const RenderSettings& settings,
                                const DeviceChoice& device);
 
-/// As many threads as settings or this processor have.
+/// Threads, as many as the settings or this processor have.
 DeviceChoice threads_device();
 
-/// Renders every case once to warm up, then again `repeats` times; the rounds go over all cases
-/// (A B A B), so that a slow moment of the machine hits all alike. Every picture is judged; a case
+/// Renders every case once to warm up, then again `repeats` times; the rounds go over all cases (A
+/// B A B), so that a slow moment of the machine hits all alike. Every picture is judged; a case
 /// that is wrong or fails is not run again. A signal ends it after the pictures finished so far.
-/// A line on stderr for each round unless `quiet`. Whether it ran to the end.
+/// Prints a line on stderr for each round unless `quiet`. Returns whether it ran to the end.
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet);
 
-/// The one-minute load average when this was first asked, so that our own measurements do not
-/// count; -1 where the system does not tell.
+/// The one-minute load average when first called, so that our own measurements do not count; -1 if
+/// unavailable.
 double load_average();
 
-/// Warns on stderr, once and unless `quiet`, that others use the machine.
+/// Warns on stderr, once and unless `quiet`, that the machine is busy with other work.
 void say_busy(bool quiet);
 
 /// An empty kernel cache for PoCL in a folder of its own, removed at the end: the first build of
-/// each kernel is then cold and all others are warm, whatever ran before. Make it before OpenCL
-/// starts. Without effect where no folder can be made.
+/// each kernel is then cold and all others are warm, whatever ran before. Create it before OpenCL
+/// starts. Has no effect if no folder can be made.
 class FreshKernelCache {
    public:
     FreshKernelCache();

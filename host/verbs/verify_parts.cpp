@@ -35,7 +35,7 @@ Filter filter_of(const JournalHeader& header) {
     throw Error(ExitCode::input, "a part's header is damaged (filter); render it again");
 }
 
-/// The blocks of a region are handed out at random, so that any share is a sample of it.
+/// Shares hand out the blocks of a region at random, so that any share is a sample of it.
 Shares sample_of(const Rect& region, double share) {
     const auto blocks = static_cast<int>(share_blocks(region).size());
     const auto wanted = static_cast<int>(std::lround(share * blocks));

@@ -7,10 +7,10 @@
 
 namespace rt {
 
-/// Renders a share (0 to 1) of the picture on threads of this machine, as one more part of it for
-/// merge_journals to compare: at least one of its thousand blocks. `scene`: where to find the
-/// scene; empty: where the header says. Returns whether it was finished; not when a stop signal
-/// came. Throws Error: usage where the scene cannot be found.
+/// Renders a share (0 to 1) of the picture again on threads of this machine, at least one of its
+/// thousand blocks, as one more part for merge_journals to compare. `scene`: the scene file; empty:
+/// the one that the header names. Returns false if a stop signal came first. Throws Error: usage if
+/// the scene cannot be found.
 bool render_part_again(const JournalHeader& header, const std::string& scene, double share,
                        const std::string& part);
 

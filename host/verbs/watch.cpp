@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::milliseconds look_interval(100);
 
-/// What changes when a file is written in place or replaced; zeros where there is none.
+/// What changes when a file is written in place or replaced; zeros if it does not exist.
 using FileState = std::tuple<ino_t, off_t, std::int64_t, std::int64_t>;
 
 std::vector<FileState> states_of(const std::vector<std::string>& files) {
@@ -34,7 +34,7 @@ std::vector<FileState> states_of(const std::vector<std::string>& files) {
     return states;
 }
 
-/// The scene's file and those that it names; the file alone while it has mistakes.
+/// The scene's file and those it names; the file alone while it has errors.
 std::vector<std::string> files_of(const std::string& scene) {
     std::vector<std::string> files{scene};
     try {
@@ -45,8 +45,8 @@ std::vector<std::string> files_of(const std::string& scene) {
     return files;
 }
 
-/// Until a file differs from `before` and has been left alone for a moment: an editor may be
-/// writing it.
+/// Waits until a file differs from `before` and has been left alone for a moment: an editor may
+/// still be writing it.
 void await_change(const std::vector<std::string>& files, const std::vector<FileState>& before) {
     std::vector<FileState> last = before;
     while (stop_flag() == 0) {

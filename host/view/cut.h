@@ -6,7 +6,7 @@
 
 namespace rt {
 
-/// A part of a picture of 3 channels, which lies in it.
+/// Crops a 3-channel picture to `part`, which must lie within it.
 Picture cut(const Picture& picture, const Rect& part);
 
 }  // namespace rt

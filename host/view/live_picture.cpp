@@ -10,7 +10,7 @@ namespace rt {
 
 namespace {
 
-/// Between two updates: smooth to watch, and little to do.
+/// Time between updates: smooth to watch, and cheap.
 constexpr std::chrono::milliseconds interval(100);
 
 }  // namespace

@@ -14,8 +14,8 @@
 
 namespace rt {
 
-/// Hands a picture in the making to viewers, all calls on a thread of its own: a slow viewer gets
-/// fewer updates, and nobody waits for it but `finish`.
+/// Passes a picture in progress to viewers, calling them all on its own thread: a slow viewer gets
+/// fewer updates and only `finish` waits for it.
 class LivePicture {
    public:
     explicit LivePicture(std::vector<std::unique_ptr<Viewer>> viewers);
@@ -23,16 +23,16 @@ class LivePicture {
     LivePicture(const LivePicture&) = delete;
     LivePicture& operator=(const LivePicture&) = delete;
 
-    /// A picture of this size begins; the one before it, if any, was given up.
+    /// Begins a picture of this size, discarding the previous one, if any.
     void begin(int width, int height);
 
-    /// Pixels of a part of the picture, three numbers each, row by row; from any thread.
+    /// Adds the pixels of a rectangle, three numbers each, row by row; callable from any thread.
     void put(const Rect& part, std::vector<float> rgb);
 
-    /// Shows the picture as it stays. Once.
+    /// Shows the final picture. Call it once.
     void finish(const Picture& picture);
 
-    /// After `finish`: until all windows are closed, or `is_stopped`.
+    /// After `finish`: waits until all windows are closed or `is_stopped`.
     void wait(const std::function<bool()>& is_stopped);
 
    private:
@@ -50,12 +50,12 @@ class LivePicture {
     std::mutex mutex_;
     std::condition_variable changed_;
     int width_ = 0, height_ = 0;
-    std::vector<Part> parts_;  ///< that no viewer knows yet
-    bool has_begun_ = false;   ///< and no viewer knows yet
+    std::vector<Part> parts_;  ///< not yet sent to viewers
+    bool has_begun_ = false;   ///< begun, but not yet sent to viewers
     const Picture* final_ = nullptr;
-    bool is_shown_ = false;  ///< the final one
+    bool is_shown_ = false;  ///< the final picture is
     bool is_done_ = false;
-    Picture shown_;  ///< so far; the thread's own
+    Picture shown_;  ///< so far; used only by the thread
     std::thread thread_;
 };
 

@@ -12,8 +12,8 @@
 
 namespace rt {
 
-/// The viewers of a picture called `name`. `say` hears why one cannot be, and what goes wrong with
-/// one later, then on another thread.
+/// Creates the viewers of a picture called `name`. `say` receives why one cannot be created, and
+/// later errors, these on another thread.
 std::vector<std::unique_ptr<Viewer>> make_viewers(const ViewSettings& settings,
                                                   const std::string& name, Encoding encoding,
                                                   std::function<void(const std::string&)> say);

@@ -5,8 +5,8 @@
 #include <string>
 #include <type_traits>
 
-// The little of SDL 2 that a window takes, loaded when one is asked for: its development package
-// brings fifty others, and its binary interface has not changed since 2.0.0 (SDL_*.h of SDL2).
+// The few SDL 2 declarations that a window needs, loaded on demand: its development package pulls
+// in fifty others, and its ABI has not changed since 2.0.0 (SDL_*.h of SDL2).
 namespace rt::sdl {
 
 struct Window;
@@ -17,7 +17,7 @@ struct Box {
     int x, y, w, h;
 };
 
-/// SDL_Event: 56 bytes; of a key its symbol.
+/// SDL_Event: 56 bytes; only the key symbol is used.
 union Event {
     std::uint32_t type;
     struct {
@@ -35,7 +35,7 @@ constexpr std::int32_t escape = 27;
 constexpr std::uint32_t rgb24 = 0x17101803;
 constexpr int streaming = 1;
 
-/// Its functions, SDL_... each.
+/// The library's functions, each without its SDL_ prefix.
 struct Library {
     int (*SetHint)(const char* name, const char* value);
     int (*Init)(std::uint32_t flags);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int answer_patience_ms = 300;
 
-/// Whether text goes out as UTF-8, as the environment says.
+/// Whether the locale's encoding is UTF-8.
 bool is_utf8() {
     const locale_t locale = newlocale(LC_CTYPE_MASK, "", nullptr);
     if (locale == nullptr) return false;
@@ -29,8 +29,8 @@ bool is_utf8() {
     return result;
 }
 
-/// Asks for a picture of one pixel to be looked at, in kitty's protocol, and for the terminal's
-/// attributes, which every terminal answers, in the end: "ESC [ ? 6 2 ; 4 c", 4 for sixels.
+/// Queries support for a one-pixel picture in kitty's protocol, then the device attributes, which
+/// every terminal reports: "ESC [ ? 6 2 ; 4 c", 4 for sixels. So the last answer always comes.
 constexpr std::string_view questions = "\x1b_Gi=4211,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[c";
 
 std::string answers(int terminal) {
@@ -57,7 +57,7 @@ std::string answers(int terminal) {
     return text;
 }
 
-/// Whether the attributes have a 4 among them.
+/// Whether the attributes include 4.
 bool has_sixels(const std::string& text) {
     const std::size_t start = text.find("\x1b[?");
     if (start == text.npos) return false;

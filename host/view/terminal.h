@@ -10,20 +10,20 @@ struct TerminalSize {
     int cell_width = 8, cell_height = 16;  ///< pixels
 };
 
-/// Of stderr's terminal; what it does not say is as above.
+/// The size of stderr's terminal; defaults as above for what it does not report.
 TerminalSize terminal_size();
 
 /// What a terminal can show, and how large it is.
 struct Terminal {
     TerminalSize size;
-    bool shows_kitty = false;  ///< it said that it has kitty's graphics protocol
+    bool shows_kitty = false;  ///< it reported kitty's graphics protocol
     bool shows_sixels = false;
     bool true_color = false;
-    bool has_blocks = false;  ///< characters beyond ASCII, and colors
+    bool has_blocks = false;  ///< non-ASCII characters and colors
 };
 
-/// The terminal of stderr, asked for what it can show. It gets a third of a second to answer; not
-/// asked where this process is not in front.
+/// Queries stderr's terminal for what it can show, waiting 300 ms for an answer; skipped if this
+/// process is not in the foreground.
 Terminal ask_terminal(const TerminalNames& names);
 
 }  // namespace rt

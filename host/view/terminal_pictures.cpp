@@ -15,7 +15,7 @@ namespace {
 
 constexpr int cube_side = 6;  ///< of xterm's colors 16 to 231, and of ours
 
-/// How bright the steps of xterm's color cube are.
+/// Brightness levels of xterm's color cube.
 constexpr std::array<int, cube_side> xterm_levels{0, 95, 135, 175, 215, 255};
 
 int nearest_level(int value) {
@@ -33,14 +33,14 @@ std::string color_code(int layer, const std::uint8_t* rgb, bool true_color) {
     return fmt::format("{};5;{}", layer, 16 + cube);
 }
 
-/// The step of the cube for a value at a place, dithered by Bayer's matrix of 4 x 4.
+/// The cube level of a value, dithered with a 4 x 4 Bayer matrix.
 int dithered_level(int value, std::size_t x, std::size_t y) {
     constexpr std::array<int, 16> bayer{0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
     const int threshold = 2 * bayer[4 * (y % 4) + x % 4] + 1;  // of 32
     return (value * (cube_side - 1) * 32 + 255 * threshold) / (255 * 32);
 }
 
-/// Repeated characters as "!COUNT".
+/// Run-length encodes characters as "!COUNT".
 void add_run(std::string& text, std::size_t count, char sixel) {
     if (count > 3) {
         text += fmt::format("!{}{}", count, sixel);

@@ -9,19 +9,19 @@
 
 #include "host/image/picture.h"
 
-// Pictures as what a terminal is sent to show them. `rgb`: 8 bits a channel, row 0 at the top.
+// Encodes pictures for display in a terminal. `rgb`: 8 bits a channel, row 0 at the top.
 namespace rt {
 
-/// A smaller picture, each pixel the mean of those that it covers; 1 x 1 at least.
+/// Downsamples, each pixel the mean of those that it covers; 1 x 1 at least.
 Picture shrink(const Picture& picture, int width, int height);
 
-/// Upper half blocks, two pixels each, the upper one in front: rows that end in "\n". An odd last
-/// row has a pixel of the terminal's own color below it. `true_color`: 24 bits, else the nearest of
-/// xterm's 256.
+/// Upper half blocks, two pixels each, the upper one in the foreground color: rows that end in
+/// "\n". Under an odd last row is the terminal's background. `true_color`: 24 bits, else the
+/// nearest of xterm's 256.
 std::string half_blocks(std::span<const std::uint8_t> rgb, int width, bool true_color);
 
-/// A PNG file in kitty's graphics protocol, over so many cells; the cursor stays. A picture sent
-/// with the same `id` replaces the one before.
+/// A PNG file in kitty's graphics protocol, scaled to `columns` x `rows` cells; the cursor stays. A
+/// picture replaces the previous one with the same `id`.
 std::string kitty_picture(std::span<const std::byte> png, int id, int columns, int rows);
 
 /// DEC's sixels in a cube of 6 x 6 x 6 colors, with ordered dithering.

@@ -15,7 +15,7 @@ namespace rt {
 namespace {
 
 constexpr int kitty_id = 4212;
-constexpr int lines_below = 2;  ///< of the terminal, for the shell's prompt
+constexpr int lines_below = 2;  ///< left free for the shell's prompt
 
 }  // namespace
 
@@ -27,7 +27,7 @@ PreviewMode preview_mode(const Terminal& terminal, PreviewMode asked) {
 
 void TerminalViewer::begin(int width, int height) {
     const bool blocks = mode_ == PreviewMode::half;
-    // The pixels of a cell: two, one above the other, or the terminal's own.
+    // Pixels per cell: two half blocks, or the terminal's real ones.
     const int cell_width = blocks ? 1 : terminal_.size.cell_width;
     const int cell_height = blocks ? 2 : terminal_.size.cell_height;
     const double room_x = double(terminal_.size.columns) * cell_width;
@@ -50,8 +50,8 @@ std::string TerminalViewer::drawn(const Picture& picture) const {
                                        : half_blocks(rgb, width_, terminal_.true_color);
 }
 
-/// Pictures leave the cursor where it was, or nobody knows where: the lines are made before, and
-/// the cursor goes below them after.
+/// Graphics protocols differ in where they leave the cursor: so make room first, save and restore
+/// the cursor, and then move it below the picture.
 void TerminalViewer::draw(const Picture& picture) {
     std::string text;
     if (!is_drawn_ && mode_ != PreviewMode::half)

@@ -10,11 +10,11 @@
 
 namespace rt {
 
-/// Draws the picture into the terminal of stderr, as large as fits and no larger than it is, again
-/// and again at the same place.
+/// Draws the picture in stderr's terminal, scaled down to fit but never up, redrawing it in the
+/// same place.
 class TerminalViewer : public Viewer {
    public:
-    /// `mode` is not automatic.
+    /// `mode` must not be automatic.
     TerminalViewer(const Terminal& terminal, PreviewMode mode, Encoding encoding)
         : terminal_(terminal), mode_(mode), encoding_(encoding) {}
 
@@ -34,7 +34,7 @@ class TerminalViewer : public Viewer {
     bool is_drawn_ = false;
 };
 
-/// What `automatic` means there: what the terminal says that it has, half blocks elsewhere.
+/// Resolves `automatic`: the graphics protocol the terminal reported, else half blocks.
 PreviewMode preview_mode(const Terminal& terminal, PreviewMode asked);
 
 }  // namespace rt

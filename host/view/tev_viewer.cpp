@@ -66,7 +66,7 @@ bool is_writable(int socket) {
     return ::poll(&waited, 1, send_patience_ms) == 1;
 }
 
-/// An open connection; else `why` says what is wrong.
+/// Returns an open connection; on failure `why` tells the reason.
 FileDescriptor connect_to(const TevAddress& address, std::string& why) {
     addrinfo hints{};
     hints.ai_socktype = SOCK_STREAM;
@@ -99,7 +99,7 @@ FileDescriptor connect_to(const TevAddress& address, std::string& why) {
 
 std::vector<std::byte> tev_create_image(const std::string& name, int width, int height) {
     Packet packet(create_image);
-    packet.add(char{1});  // it comes to the front
+    packet.add(char{1});  // bring it to the front
     packet.add(name);
     packet.add(std::int32_t{width});
     packet.add(std::int32_t{height});

@@ -13,14 +13,14 @@
 
 namespace rt {
 
-/// The packets of tev's protocol (its Ipc.cpp): the length of all of it, a byte for the kind, and
-/// values in little-endian order; texts end with a NUL.
+/// The packets of tev's protocol (its Ipc.cpp): total length, a byte for the kind, then values in
+/// little-endian order; strings end with a NUL.
 std::vector<std::byte> tev_create_image(const std::string& name, int width, int height);
 std::vector<std::byte> tev_update_image(const std::string& name, const Picture& picture,
                                         const Rect& part);
 
-/// Sends the picture to the viewer tev. Where tev cannot be reached, or reads nothing for two
-/// seconds, that is said once and no more is sent.
+/// Sends the picture to the viewer tev. If tev cannot be reached, or reads nothing for two seconds,
+/// reports that once and sends no more.
 class TevViewer : public Viewer {
    public:
     using Say = std::function<void(const std::string& line)>;

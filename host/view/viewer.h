@@ -13,13 +13,13 @@ class Viewer {
    public:
     virtual ~Viewer() = default;
 
-    /// A picture of so many pixels begins, black so far.
+    /// A picture of this size in pixels begins, all black.
     virtual void begin(int width, int height) = 0;
 
-    /// The picture so far, and what is new in it since the last call.
+    /// The picture so far, and the parts changed since the last call.
     virtual void update(const Picture& picture, std::span<const Rect> changed) = 0;
 
-    /// The picture as it stays.
+    /// The final picture.
     virtual void finish(const Picture& picture) = 0;
 
     /// Called ten times a second from `begin` on.

@@ -46,7 +46,7 @@ bool WindowViewer::open(int width, int height) {
 
 void WindowViewer::close() {
     was_closed_ = true;
-    texture_ = nullptr;  // goes with the window
+    texture_ = nullptr;  // destroyed with the window
     renderer_ = nullptr;
     if (window_ == nullptr) return;
     sdl_->DestroyWindow(std::exchange(window_, nullptr));
@@ -98,7 +98,7 @@ void WindowViewer::finish(const Picture& picture) {
     present();
 }
 
-/// Answers the window system; what has been covered is drawn again.
+/// Handles window events; redraws what was covered.
 void WindowViewer::tick() {
     sdl::Event event{};
     bool any = false;

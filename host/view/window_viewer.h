@@ -11,8 +11,8 @@
 
 namespace rt {
 
-/// A window, by SDL 2, that fills as parts of the picture come, with the share that is there in its
-/// title. Escape, q or its own button close it; rendering goes on without it.
+/// An SDL 2 window that fills in as parts of the picture arrive, with the percentage done in its
+/// title. Escape, q or its close button close it; rendering continues without it.
 class WindowViewer : public Viewer {
    public:
     using Say = std::function<void(const std::string& line)>;

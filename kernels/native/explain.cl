@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tracer compiled to tell what a path meets: in double, one ray at a time. It is the same
-// source and computes the same bits; where pictures' kernels have nothing, RT_EXPLAIN tells the
-// host.
+// The tracer compiled to report what a path meets: in double, one ray at a time. Same source, same
+// bits; RT_EXPLAIN, empty in the rendering kernels, reports to the host.
 #define RT_OUT_OF_LINE __attribute__((noinline))
 
 #include "kernels/math.cl"
@@ -35,7 +34,7 @@ void explain_event(Mask live, int what, Indices index, Index bounce, Reals dista
 
 #include "kernels/items.cl"
 
-// The pixel of a tile that has one.
+// Renders the pixel of a one-pixel tile.
 void rt_explain_pixel(__global Real* film, __global RayCounts* counts, const SceneView* view,
                       const Tile* tile) {
     SceneView scene = *view;

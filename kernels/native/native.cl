@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The entry points of pthreads: the same work items (kernels/items.cl) in loops, compiled ahead of
-// time to machine code (cmake/native_kernels.cmake). Each variant has a prefix of its own,
-// RT_NATIVE_NAME. The scene comes as a SceneView; counts is one slot, and added to.
+// The entry points for pthreads: the same work items (kernels/items.cl) in loops, compiled ahead of
+// time to machine code (cmake/native_kernels.cmake). Each variant has its own prefix,
+// RT_NATIVE_NAME. The scene is passed as a SceneView; counts is a single slot, added to.
 #define RT_OUT_OF_LINE __attribute__((noinline))
 
 #include "kernels/items.cl"

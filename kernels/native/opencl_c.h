@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OpenCL C for a processor's own code: the types and built-in functions that kernels use and that
-// clang leaves to a driver's header. Included before everything else (cmake/native_kernels.cmake).
-// fma, sqrt and fabs are exact or correctly rounded, as on every device; a processor without fma
-// calls the C library's.
+// OpenCL C for native CPU code: the types and built-in functions that kernels use and that clang
+// leaves to a driver's header. Included before everything else (cmake/native_kernels.cmake). fma,
+// sqrt and fabs are exact or correctly rounded, as on every device; without hardware fma, the C
+// library's is called.
 #ifndef RT_OPENCL_C_H
 #define RT_OPENCL_C_H
 
@@ -33,7 +33,7 @@ RT_VECTORS(double)
 #if defined(__FMA__) || defined(__ARM_FEATURE_FMA)
 #define RT_FMA_HERE RT_BUILTIN_HERE
 #else
-#define RT_FMA_HERE static __attribute__((overloadable, noinline, const))  // a call a lane
+#define RT_FMA_HERE static __attribute__((overloadable, noinline, const))  // one call per lane
 #endif
 
 // For one width and precision: numbers, their integers, and unsigned 32-bit integers.

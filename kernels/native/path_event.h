@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What happens to a path, where kernels are compiled to explain a pixel (explain.cl); one
-// struct for the kernels and the host. Includes nothing.
+// Events of a path, from kernels compiled to explain a pixel (explain.cl); one struct for the
+// kernels and the host. Includes nothing.
 #ifndef RT_PATH_EVENT_H
 #define RT_PATH_EVENT_H
 
@@ -11,9 +11,9 @@ enum {
     RT_EVENT_REFRACTED,  // a refracted ray starts
     RT_EVENT_MISS,       // the ray meets nothing: color is the background's
     RT_EVENT_SHADOW,     // light number index may reach the surface: a shadow ray is traced
-    RT_EVENT_LIT,        // and it does: color is what it adds
-    RT_EVENT_HIT  // the ray met primitive number index; color is all local light there. Comes
-                  // after the events of its lights
+    RT_EVENT_LIT,        // it does: color is its contribution
+    RT_EVENT_HIT  // the ray hit primitive number index; color is all local light. After its lights'
+                  // events
 };
 
 typedef struct {
@@ -21,9 +21,9 @@ typedef struct {
     long index;  // of a sample, light or primitive
     long bounce;
     double distance;   // along the ray to the hit
-    double weight[3];  // what the ray counts
-    double point[3];   // where the ray starts, or the surface is
-    double normal[3];  // or the direction of the ray
+    double weight[3];  // throughput of the ray
+    double point[3];   // ray origin, or surface point
+    double normal[3];  // surface normal, or ray direction
     double color[3];
 } PathEvent;
 
