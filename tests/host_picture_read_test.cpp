@@ -102,7 +102,7 @@ TEST_F(ReadPicture, TruncatedFilesAreRefusedOrWhole) {
             });
             EXPECT_TRUE(code == ExitCode::done || code == ExitCode::input) << message;
         }
-        EXPECT_LE(accepted, 16u) << name;  // the end mark of a PNG tells nothing about its pixels
+        EXPECT_LE(accepted, 16u) << name;  // a PNG's end chunk holds no pixels
     }
 }
 
@@ -127,7 +127,7 @@ TEST_F(ReadPicture, FlippedBytesNeverCrash) {
     }
 }
 
-/// The most memory this process has had since reset_peak, in bytes.
+/// This process's peak memory since reset_peak, in bytes.
 std::size_t peak() {
     std::ifstream status("/proc/self/status");
     for (std::string key; status >> key;) {
@@ -139,7 +139,7 @@ std::size_t peak() {
 
 void reset_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
 
-/// Refused as input without taking memory for what it promises, in a line of our own.
+/// Refused as input, in our own words, without allocating what the file promises.
 void expect_cheap_refusal(const std::string& file, const std::string& reason) {
     refusal_of([&] { read_picture(file); });  // loads libraries
     reset_peak();
@@ -189,7 +189,7 @@ TEST_F(ReadPicture, PngThatPromisesTooMuchTakesNoMemory) {
     expect_cheap_refusal(path("a.png"), "cannot read");
 }
 
-/// A header of an EXR file with these attributes besides three channels of half.
+/// An EXR header with these attributes besides three half channels.
 std::string exr_start(const std::string& more, char compression, char flags = 0) {
     const auto attribute = [](const std::string& name, const std::string& type,
                               const std::string& value) {
@@ -237,7 +237,20 @@ TEST_F(ReadPicture, ExrThatPromisesTooMuchTakesNoMemory) {
     }
 }
 
-/// 11x7 pixels as other programs write them; what OpenImageIO read of them (22 Nov 2026).
+// OpenEXR reads one of them; the second channel's values would be missing.
+TEST_F(ReadPicture, ExrWithTwoChannelsOfOneNameIsRefused) {
+    const std::string file = std::string(MIRRORBALL_PICTURES_DIR) + "/channel-twice.exr";
+    expect_cheap_refusal(file, "two of its channels have one name");
+}
+
+// OpenEXR takes the union of all lists of channels.
+TEST_F(ReadPicture, ExrWithAChannelInTwoListsIsRefused) {
+    const std::string list("channels\0chlist\0\x13\0\0\0G\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0\0", 39);
+    put(path("a.exr"), exr_start(exr_window(std::string(4, '\0'), std::string(4, '\0')) + list, 0));
+    expect_cheap_refusal(path("a.exr"), "two of its channels have one name");
+}
+
+/// 11x7 pixels as other programs write them, and what OpenImageIO reads (22 Nov 2026).
 TEST_F(ReadPicture, KindsOfPngAndExr) {
     const std::string folder = MIRRORBALL_PICTURES_DIR;
     const Picture none = read_picture(folder + "/none.exr");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -12,20 +13,20 @@ namespace {
 
 [[noreturn]] void refuse(const char* reason) { throw std::runtime_error(reason); }
 
-/// What the limits need of one header.
+/// The fields of one header that the limits depend on.
 struct HeaderLimits {
     std::array<std::int32_t, 4> window{0, 0, -1, -1};  ///< first x and y, last x and y
-    std::uint64_t channels = 0;
+    std::set<std::string> channels;                    ///< their names
     std::uint64_t pixel_bytes = 0;
     std::uint32_t tile_width = 0, tile_height = 0;
-    std::uint32_t blocks = 0;  ///< where it says how many there are
+    std::uint32_t blocks = 0;  ///< chunkCount, where given
     std::uint8_t compression = 0;
 
     std::int64_t width() const { return std::int64_t{window[2]} - window[0] + 1; }
     std::int64_t height() const { return std::int64_t{window[3]} - window[1] + 1; }
 };
 
-/// Numbers in EXR are little-endian, and so are the machines this runs on (pfm_file.cpp asks).
+/// Numbers in EXR are little-endian, like the machines this runs on.
 class Bytes {
    public:
     Bytes(std::istream& stream, std::uint64_t file_size) : stream_(stream), left_(file_size) {}
@@ -70,19 +71,19 @@ class Bytes {
 
 void read_channels(Bytes& bytes, HeaderLimits& header) {
     constexpr std::array<std::uint64_t, 3> sizes{4, 2, 4};  // unsigned, half, float
-    while (!bytes.text().empty()) {
+    for (std::string name = bytes.text(); !name.empty(); name = bytes.text()) {
+        if (!header.channels.insert(name).second) refuse("two of its channels have one name");
         const auto type = bytes.number<std::uint32_t>();
         if (type >= sizes.size()) refuse("a channel of unknown type");
-        bytes.number<std::uint32_t>();  // whether it is linear
+        bytes.number<std::uint32_t>();  // pLinear
         const auto x_sampling = bytes.number<std::int32_t>();
         const auto y_sampling = bytes.number<std::int32_t>();
         if (x_sampling != 1 || y_sampling != 1) refuse("not all channels have all pixels");
-        header.channels += 1;
         header.pixel_bytes += sizes[type];
     }
 }
 
-/// Reads the attributes up to the empty name; whether there were any.
+/// Reads the attributes up to the empty name that ends them; returns whether there were any.
 bool read_header(Bytes& bytes, HeaderLimits& header) {
     bool any = false;
     for (std::string name = bytes.text(); !name.empty(); name = bytes.text()) {
@@ -116,8 +117,8 @@ bool read_header(Bytes& bytes, HeaderLimits& header) {
 }
 
 struct Compression {
-    std::uint64_t best_ratio;  ///< a generous bound on how small it makes pixels
-    std::uint64_t rows;        ///< compressed as one
+    std::uint64_t best_ratio;  ///< a generous upper bound on the compression ratio
+    std::uint64_t rows;        ///< compressed together
 };
 
 Compression compression_of(const HeaderLimits& header) {
@@ -135,7 +136,7 @@ Compression compression_of(const HeaderLimits& header) {
     return kinds[header.compression];
 }
 
-/// Blocks of rows, and rows of tiles, are held whole.
+/// The library holds a whole block of rows, or row of tiles, in memory.
 void check_blocks(const HeaderLimits& header, const Compression& compression, std::uint64_t pixels,
                   std::uint64_t file_size) {
     const auto width = static_cast<std::uint64_t>(header.width());
@@ -155,7 +156,7 @@ void check_blocks(const HeaderLimits& header, const Compression& compression, st
     if (block * header.pixel_bytes > 4 * pixels * header.pixel_bytes + (std::uint64_t{1} << 27)) {
         refuse("its tiles are too large");
     }
-    constexpr std::uint64_t place_bytes = 8;  // each block's place in the file
+    constexpr std::uint64_t place_bytes = 8;  // each block's offset in the file
     blocks = std::max<std::uint64_t>(blocks, header.blocks);
     if (blocks * place_bytes > file_size) refuse("it is too short for its size");
 }
@@ -163,11 +164,11 @@ void check_blocks(const HeaderLimits& header, const Compression& compression, st
 void check(const HeaderLimits& header, std::uint64_t file_size) {
     constexpr std::int64_t largest_side = 65536;
     constexpr std::uint64_t most_channels = 1024;
-    if (header.width() < 1 || header.height() < 1 || header.channels < 1) {
+    if (header.width() < 1 || header.height() < 1 || header.channels.empty()) {
         refuse("it holds no pixels");
     }
     if (header.width() > largest_side || header.height() > largest_side ||
-        header.channels > most_channels) {
+        header.channels.size() > most_channels) {
         refuse("it is too large");
     }
     const Compression compression = compression_of(header);
@@ -196,7 +197,7 @@ ExrSize check_exr_headers(std::istream& stream, std::uint64_t file_size) {
         if (more) check(other, file_size);
     }
     return {static_cast<int>(first.width()), static_cast<int>(first.height()),
-            static_cast<int>(first.channels)};
+            static_cast<int>(first.channels.size())};
 }
 
 }  // namespace rt::module

@@ -24,7 +24,7 @@ struct Target {
     std::exception_ptr failure;
 };
 
-/// Runs a callback of the module: an exception is kept for later, 0 makes the module stop.
+/// Runs a callback of the module: saves an exception for later and returns 0 to stop the module.
 template <typename Call>
 int keep_exception(void* context, Call call) {
     auto& target = *static_cast<Target*>(context);
@@ -50,12 +50,15 @@ int take_attribute(void* context, const char* name, const char* text) {
                           [=](Target& target) { target.file.metadata.emplace_back(name, text); });
 }
 
+std::size_t count_values(const Picture& picture) {
+    return std::size_t{1} * picture.width * picture.height * picture.channels;
+}
+
 int take_rows(void* context, const float* values, std::size_t count) {
     return keep_exception(context, [=](Target& target) {
         Picture& picture = target.file.picture;
         // Address space only: pages are touched as rows arrive.
-        picture.pixels.reserve(static_cast<std::size_t>(picture.width) * picture.height *
-                               picture.channels);
+        picture.pixels.reserve(count_values(picture));
         picture.pixels.insert(picture.pixels.end(), values, values + count);
     });
 }
@@ -65,7 +68,7 @@ int take_rows(void* context, const float* values, std::size_t count) {
     throw Error(ExitCode::input, path + ": " + reason + "; " + advice);
 }
 
-/// What the first bytes say and the ending does not deny; TGA begins with nothing of its own.
+/// The format by first bytes, unless the extension contradicts it; TGA has no magic number.
 PictureFormat find_format(const std::string& path, InputFile& file) {
     char first_bytes[16] = {};
     file.stream.read(first_bytes, sizeof first_bytes);
@@ -101,7 +104,11 @@ PictureFile read_with_module(const std::string& path, PictureFormat format) {
     const module::Module& library = picture_module(format, ExitCode::input);
     const int ok = library.decode(path.c_str(), module_name(format), &sink, {error, sizeof error});
     if (target.failure) std::rethrow_exception(target.failure);
-    if (ok != 0) return std::move(target.file);
+    if (ok != 0) {
+        const Picture& picture = target.file.picture;
+        if (picture.pixels.size() == count_values(picture)) return std::move(target.file);
+        refuse_picture(path, "has fewer or more pixels than its header says", "write it again");
+    }
     refuse_picture(path, "cannot read the picture: " + one_line(error),
                    "the file may be damaged: write it again");
 }
