@@ -204,6 +204,23 @@ TEST(SvgPlot, NumbersOnAnAxisDoNotTouch) {
     EXPECT_TRUE(holds(svg, ">500²</text>"));
 }
 
+TEST(SvgPlot, NeighborsOfOneLabelShareIt) {
+    rt::Plot plot = small_plot();
+    const auto times = [&](const std::string& text) {
+        const std::string svg = rt::svg_plot(plot);
+        int found = 0;
+        for (auto at = svg.find(text); at != svg.npos; at = svg.find(text, at + 1)) ++found;
+        return found;
+    };
+    plot.curves[0].points[0].label = "none";
+    plot.curves.push_back({"other", 1, 1, 1, {point(1.2, 10), point(90, 9)}});
+    plot.curves[1].points[0].label = "none";
+    EXPECT_EQ(times(">none</text>"), 1);
+    plot.curves[1].points[0] = point(60, 9);
+    plot.curves[1].points[0].label = "none";
+    EXPECT_EQ(times(">none</text>"), 2);
+}
+
 bool apart(const rt::DrawnBox& a, const rt::DrawnBox& b) {
     return a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
 }

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <limits>
 
-#include "host/utf8.h"
+#include "host/report/svg_parts.h"
 
 namespace rt {
 
 namespace {
 
-// Of the type on narrow screens, which is the largest in a drawing's units.
-constexpr double character_width = 8.7, ascent = 13, descent = 4;
-constexpr double ink_step = 5;  ///< between the points that stand for a line
+// Of the type on narrow screens.
+constexpr double ascent = 13, descent = 4;
+constexpr double ink_step = 5;  ///< between points sampled along a line
 
 struct Side {
     double dx, dy;
@@ -29,12 +29,6 @@ constexpr std::array<Side, 8> sides{{{9, 4, "start"},
                                      {-9, 4, "end"},
                                      {0, -10, "middle"},
                                      {0, 20, "middle"}}};
-
-double width_of(const std::string& text) {
-    const auto characters =
-        std::count_if(text.begin(), text.end(), [](char c) { return !is_utf8_continuation(c); });
-    return character_width * static_cast<double>(characters);
-}
 
 LabelPlace beside(double x, double y, const Side& side, double width) {
     LabelPlace place{x + side.dx, y + side.dy, side.anchor, {}};
@@ -59,7 +53,7 @@ void LabelPlacer::avoid_line(double x1, double y1, double x2, double y2) {
     }
 }
 
-/// Infinite where it may not stand.
+/// Infinite where a label is not allowed.
 double LabelPlacer::cost_of(const DrawnBox& box) const {
     const bool inside = box.left >= bounds_.left && box.right <= bounds_.right &&
                         box.top >= bounds_.top && box.bottom <= bounds_.bottom;
@@ -75,7 +69,7 @@ double LabelPlacer::cost_of(const DrawnBox& box) const {
 
 std::optional<LabelPlace> LabelPlacer::place(const std::string& text,
                                              const std::vector<std::pair<double, double>>& spots) {
-    const double width = width_of(text);
+    const double width = svg_text_width(text);
     double least = std::numeric_limits<double>::infinity(), effort = 0;
     std::optional<LabelPlace> best;
     for (const auto& [x, y] : spots) {

@@ -14,7 +14,6 @@ namespace rt {
 
 namespace {
 
-constexpr double tick_character_width = 8;  ///< at most, on narrow screens
 constexpr int most_x_labels = 8;
 constexpr int most_y_labels = 8;
 
@@ -24,19 +23,13 @@ std::string line(double x1, double y1, double x2, double y2, const char* css_cla
         x1, y1, x2, y2);
 }
 
-double tick_width(const Tick& tick) {
-    const auto characters = std::count_if(tick.label.begin(), tick.label.end(),
-                                          [](char c) { return !is_utf8_continuation(c); });
-    return tick_character_width * static_cast<double>(characters);
-}
-
-/// The ticks with numbers only where they do not touch; those that begin with a 1 come first.
+/// The ticks, with numbers only where they do not overlap; those that begin with a 1 have priority.
 std::vector<Tick> with_room(std::vector<Tick> ticks, const AxisScale& scale) {
     std::vector<std::pair<double, double>> taken;
     for (const bool ones : {true, false}) {
         for (Tick& tick : ticks) {
             if (tick.label.empty() || tick.label.starts_with('1') != ones) continue;
-            const double at = scale.at(tick.value), half = tick_width(tick) / 2 + 2;
+            const double at = scale.at(tick.value), half = svg_text_width(tick.label) / 2 + 3;
             const bool is_free = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
                 return at - half < other.second && other.first < at + half;
             });
@@ -73,6 +66,13 @@ std::string marker_shape(int style, double x, double y) {
 }
 
 }  // namespace
+
+double svg_text_width(const std::string& text) {
+    constexpr double character_width = 8.7;
+    const auto characters =
+        std::count_if(text.begin(), text.end(), [](char c) { return !is_utf8_continuation(c); });
+    return character_width * static_cast<double>(characters);
+}
 
 std::string svg_open(const std::string& id, double width, double height, const std::string& title,
                      const std::string& description) {

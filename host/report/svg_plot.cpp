@@ -18,6 +18,7 @@ namespace {
 // curves that end at the right edge stand outside the frame.
 constexpr double plot_width = 480, plot_height = 330;
 constexpr PlotFrame frame{64, 34, 396, 278};
+constexpr double shared_label_distance = 60;  ///< nearer points of one label share it
 
 /// Draws the parts of one plot, each as a piece of SVG.
 class Painter {
@@ -41,7 +42,7 @@ class Painter {
                          plot_.floor_label, "small halo");
     }
 
-    /// The range of the repeats: along one edge of low values, back along the high ones.
+    /// The noise range of the repeats: out along the low values, back along the high ones.
     std::string band(const PlotCurve& curve) const {
         std::string path;
         for (const PlotPoint& point : curve.points) path += step(point.x_low, point.y_low, path);
@@ -112,8 +113,8 @@ class Painter {
         }
         for (const PlotCurve& curve : plot_.curves) {
             for (const PlotPoint& point : curve.points) {
-                svg += placed_label(placer, point.label, {{x_.at(point.x), y_.at(point.y)}},
-                                    "small halo");
+                if (has_labeled_neighbor(point)) continue;
+                svg += placed_label(placer, point.label, spots_of({point}), "small halo");
             }
         }
         return svg;
@@ -121,6 +122,19 @@ class Painter {
 
    private:
     using Spots = std::vector<std::pair<double, double>>;
+
+    /// Whether an earlier point with the same label is so close that one label serves both.
+    bool has_labeled_neighbor(const PlotPoint& point) const {
+        for (const PlotCurve& curve : plot_.curves) {
+            for (const PlotPoint& other : curve.points) {
+                if (&other == &point) return false;
+                const double distance =
+                    std::hypot(x_.at(other.x) - x_.at(point.x), y_.at(other.y) - y_.at(point.y));
+                if (other.label == point.label && distance < shared_label_distance) return true;
+            }
+        }
+        return false;
+    }
 
     void avoid_ink(LabelPlacer& placer) const {
         placer.avoid_box({frame.left, 0, frame.right, frame.top - 8});  // the y axis' name
