@@ -1,34 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The entry points of OpenCL devices (kernels/items.cl says what a work item does). counts has one
-// slot a work item and is added to launch after launch. A program holds those that are launched
-// (RT_RENDERS_..): each is built from the whole tracer again.
+// slot per work item, accumulated over launches. A program holds only those launched
+// (RT_RENDERS_..), since each compiles the whole tracer again. RT_ITEM is on the functions they
+// call: PoCL makes three copies of a kernel, so there these stay calls
+// (host/opencl/cl_program.cpp).
 
 #include "kernels/items.cl"
 
+#ifndef RT_ITEM
+#define RT_ITEM
+#endif
+
 #define RT_SCENE_ARGUMENT(type, name, what) __global const type *restrict name,
 #define RT_SCENE_ARGUMENTS RT_SCENE_ARRAYS(RT_SCENE_ARGUMENT) LaunchParams params
+#define RT_SCENE_PASSED(type, name, what) __global const type *name,
+#define RT_SCENE_PARAMETERS RT_SCENE_ARRAYS(RT_SCENE_PASSED) LaunchParams params
 
 #define RT_SCENE_NAME(type, name, what) name,
+#define RT_SCENE_NAMES RT_SCENE_ARRAYS(RT_SCENE_NAME) params
 #define RT_SCENE_VIEW \
-    { RT_SCENE_ARRAYS(RT_SCENE_NAME) params }
+    { RT_SCENE_NAMES }
 
 #if RT_RENDERS_PIXELS
+static RT_ITEM void one_of_pixels(__global Real* film, __global RayCounts* counts,
+                                  RT_SCENE_PARAMETERS, Tile tile, size_t item) {
+    SceneView scene = RT_SCENE_VIEW;
+    add_counts(counts, item, pixels_item(film, &scene, &tile, (Index)item));
+}
+
 __kernel void render_pixels(__global Real* restrict film, __global RayCounts* restrict counts,
                             RT_SCENE_ARGUMENTS, Tile tile) {
-    SceneView scene = RT_SCENE_VIEW;
-    size_t item = get_global_id(0);
-    add_counts(counts, item, pixels_item(film, &scene, &tile, (Index)item));
+    one_of_pixels(film, counts, RT_SCENE_NAMES, tile, get_global_id(0));
 }
 #endif
 
 #if RT_RENDERS_SAMPLES
-__kernel void render_samples(__global Real* restrict samples, __global RayCounts* restrict counts,
-                             RT_SCENE_ARGUMENTS, Tile tile) {
+static RT_ITEM void one_of_samples(__global Real* samples, __global RayCounts* counts,
+                                   RT_SCENE_PARAMETERS, Tile tile, size_t item) {
     SceneView scene = RT_SCENE_VIEW;
-    size_t item = get_global_id(0);
     add_counts(counts, item,
                samples_item(samples, &scene, &tile, (Index)item, RT_SAMPLES_TOGETHER));
+}
+
+__kernel void render_samples(__global Real* restrict samples, __global RayCounts* restrict counts,
+                             RT_SCENE_ARGUMENTS, Tile tile) {
+    one_of_samples(samples, counts, RT_SCENE_NAMES, tile, get_global_id(0));
 }
 
 __kernel void resolve_samples(__global Real* restrict film, __global const Real* restrict samples,
@@ -38,20 +55,32 @@ __kernel void resolve_samples(__global Real* restrict film, __global const Real*
 #endif
 
 #if RT_RENDERS_LIST
+static RT_ITEM void one_of_list(__global Real* colors, __global RayCounts* counts,
+                                RT_SCENE_PARAMETERS, Tile tile, __global const int* pixels,
+                                size_t item) {
+    SceneView scene = RT_SCENE_VIEW;
+    add_counts(counts, item, list_item(colors, pixels, &scene, &tile, (Index)item));
+}
+
 __kernel void render_list(__global Real* restrict colors, __global RayCounts* restrict counts,
                           RT_SCENE_ARGUMENTS, Tile tile, __global const int* restrict pixels) {
-    SceneView scene = RT_SCENE_VIEW;
-    size_t item = get_global_id(0);
-    add_counts(counts, item, list_item(colors, pixels, &scene, &tile, (Index)item));
+    one_of_list(colors, counts, RT_SCENE_NAMES, tile, pixels, get_global_id(0));
 }
 #endif
 
 #if RT_TRACES_RAYS
+static RT_ITEM void one_of_rays(__global RayAnswer* answers, __global const RayQuery* queries,
+                                RT_SCENE_PARAMETERS, Index count, size_t item) {
+    SceneView scene = RT_SCENE_VIEW;
+    rays_item(answers, queries, &scene, count, (Index)item);
+}
+
 __kernel void trace_rays(__global RayAnswer* restrict answers,
                          __global const RayQuery* restrict queries, RT_SCENE_ARGUMENTS,
                          Index count) {
-    SceneView scene = RT_SCENE_VIEW;
-    Index item = (Index)get_global_id(0);
-    if (item * RT_LANES < count) rays_item(answers, queries, &scene, count, item);
+    size_t item = get_global_id(0);
+    if (item * RT_LANES < count) {
+        one_of_rays(answers, queries, RT_SCENE_NAMES, count, item);
+    }
 }
 #endif
