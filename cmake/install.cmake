@@ -5,11 +5,14 @@ include(GNUInstallDirs)
 
 set(module_folder ${CMAKE_INSTALL_LIBDIR}/mirrorball)
 file(RELATIVE_PATH modules_from_program /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${module_folder})
-set_source_files_properties(host/image/module_loader.cpp PROPERTIES
+set_source_files_properties(host/module_file.cpp PROPERTIES
     COMPILE_DEFINITIONS "MIRRORBALL_MODULE_DIR=\"${modules_from_program}\"")
 
 install(TARGETS mirrorball RUNTIME)
 install(TARGETS mirrorball_exr mirrorball_oiio LIBRARY DESTINATION ${module_folder})
+if(MPI_CXX_FOUND)
+    install(TARGETS mirrorball_mpi LIBRARY DESTINATION ${module_folder})
+endif()
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball)
 install(FILES docs/bench.schema.json docs/compare.schema.json docs/converge.schema.json
     docs/results.schema.json docs/stress.schema.json
@@ -41,7 +44,7 @@ install(FILES ${texts}/_mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vend
 install(FILES ${texts}/mirrorball.fish
     DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
-# A package for Debian 12. Dependencies by hand: OpenEXR, OpenImageIO and PoCL serve those who use them,
+# A package for Debian 12. Dependencies by hand: OpenEXR, OpenImageIO, MPI and PoCL serve those who use them,
 # where dpkg-shlibdeps would ask for the libraries of every module.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -58,4 +61,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
     "libc6 (>= 2.36), libgcc-s1, libstdc++6 (>= 12), libfmt9, libpng16-16, zlib1g, ocl-icd-libopencl1 | libopencl1")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenexr-3-1-30, libopenimageio2.4, pocl-opencl-icd")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopenmpi3")
 include(CPack)

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
-#include <cstdio>
-#include <exception>
-#include <new>
-#include <string>
-#include <system_error>
-
 #include "host/console.h"
 #include "host/error.h"
+#include "host/exit_status.h"
 #include "host/options/options.h"
 #include "host/picture/render_stats.h"
 #include "host/stop_signal.h"
@@ -51,43 +46,18 @@ int run(int argc, char** argv, double seconds_before_main) {
     return static_cast<int>(rt::ExitCode::bug);
 }
 
-int failed(rt::ExitCode code, const char* message) {
-    rt::print_error(message);
-    return static_cast<int>(code);
-}
-
-/// Without destructors: what a library was doing when memory ran out may hang them.
-[[noreturn]] void end_out_of_memory() {
-    failed(rt::ExitCode::limit, "out of memory; render a smaller picture or scene");
-    std::fflush(stdout);
-    rt::note_worker_end(static_cast<int>(rt::ExitCode::limit));
-    _exit(static_cast<int>(rt::ExitCode::limit));
-}
-
-int run_and_catch(int argc, char** argv, double seconds_before_main) {
-    try {
-        const int status = run(argc, argv, seconds_before_main);
-        rt::flush_results();
-        return status;
-    } catch (const rt::Error& error) {
-        return failed(error.exit_code(), error.what());
-    } catch (const std::bad_alloc&) {
-        end_out_of_memory();
-    } catch (const std::system_error& error) {
-        return failed(rt::ExitCode::limit, error.what());
-    } catch (const std::exception& error) {
-        return failed(rt::ExitCode::bug, error.what());
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     const double seconds_before_main = rt::seconds_since_process_start();
     rt::open_missing_streams();
     rt::prepare_signals();
-    const int status = run_and_catch(argc, argv, seconds_before_main);
+    const int status = rt::exit_status_of([&] {
+        const int result = run(argc, argv, seconds_before_main);
+        rt::flush_results();
+        return result;
+    });
     rt::note_worker_end(status);
-    // Without destructors: a driver may still be compiling for a picture that is finished.
+    // Skips destructors: a driver may still be compiling for a picture that is finished.
     _exit(status);
 }

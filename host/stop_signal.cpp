@@ -21,15 +21,15 @@ namespace {
 struct StopSignal {
     int number;
     const char* reason;
-    bool by_hand;  ///< a second one means: at once. A CPU limit sends its signal every second.
+    bool by_hand;  ///< a second one quits at once; a CPU limit's repeats every second
     bool ignored = false;
 };
 
 StopFlag received = 0;
 std::atomic<bool> stops_quietly = false, is_working = false;
-std::atomic<pid_t> worker = 0, boss = 0;  ///< the processes to pass signals on to, and to heed
+std::atomic<pid_t> worker = 0, boss = 0;  ///< where to forward signals, and whose to handle
 void (*exit_listener)(int status) = nullptr;
-std::atomic<int> passed_on = 0;  ///< the last signal that was
+std::atomic<int> passed_on = 0;  ///< the last signal forwarded
 std::array<StopSignal, 6> stop_signals{{{SIGINT, "interrupted (Ctrl-C)", true},
                                         {SIGTERM, "terminated (SIGTERM)", true},
                                         {SIGHUP, "hung up (SIGHUP)", true},
@@ -44,7 +44,7 @@ const StopSignal& of_number(int number) {
     return stop_signals.front();
 }
 
-/// For signal handlers, which may not print as others do.
+/// Async-signal-safe output, for signal handlers.
 void write_text(std::string_view text) {
     while (!text.empty()) {
         const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
@@ -61,7 +61,7 @@ void write_line(std::string_view a, std::string_view b) {
     write_text("\n");
 }
 
-/// As if there were no handler, but for batch systems' signals, whose default is a core dump.
+/// Ends as if unhandled; batch and time-limit signals exit instead (SIGXCPU would dump core).
 [[noreturn]] void end_by(const StopSignal& signal) {
     unlink_temporaries();
     if (!signal.by_hand) {
@@ -73,12 +73,12 @@ void write_line(std::string_view a, std::string_view b) {
     sigset_t own;
     sigemptyset(&own);
     sigaddset(&own, signal.number);
-    pthread_sigmask(SIG_UNBLOCK, &own, nullptr);  // its handler may be running
+    pthread_sigmask(SIG_UNBLOCK, &own, nullptr);  // we may be in its handler
     std::raise(signal.number);
     _exit(128 + signal.number);
 }
 
-/// Limits of time are each process's own.
+/// Time limits apply to each process separately.
 bool is_meant(int number, const siginfo_t* info) {
     return boss == 0 || number == SIGXCPU || number == SIGALRM ||
            (info->si_code <= 0 && info->si_pid == boss);
@@ -149,6 +149,10 @@ void restore_stop_signals() {
 void install_stop_signals() {
     is_working = true;
     restore_stop_signals();
+}
+
+void uninstall_stop_signals() {
+    for (const StopSignal& signal : stop_signals) ::signal(signal.number, SIG_DFL);
 }
 
 void stop_after(double seconds) {

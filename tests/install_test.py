@@ -57,9 +57,9 @@ class Installed(unittest.TestCase):
         prefix = (self.folder / "root/usr").resolve()
         self.check(prefix)
         # Imath comes with OpenEXR.
-        depends = run("dpkg-deb", "-f", package, "Depends", "Recommends") + "libimath-3-1-29"
+        depends = run("dpkg-deb", "-f", package, "Depends", "Recommends", "Suggests") + "libimath-3-1-29"
         files = [prefix / "bin/mirrorball", *(prefix / "lib/mirrorball").iterdir()]
-        self.assertEqual(len(files), 3)
+        self.assertGreaterEqual(len(files), 3)  # 4 where MPI is installed
         for file in files:
             for library in re.findall(r"NEEDED\s+(\S+)", run("objdump", "-p", file)):
                 owners = re.findall(r"^([^:,\s]+):", run("dpkg", "-S", f"*/{library}"), re.M)

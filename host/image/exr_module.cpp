@@ -19,8 +19,7 @@ int decode(const char* path, const char* /*format*/, const PictureSink* sink, Er
 }  // namespace
 }  // namespace rt::module
 
-extern "C" __attribute__((visibility("default"))) const rt::module::Module*
-mirrorball_picture_module() {
+extern "C" __attribute__((visibility("default"))) const void* mirrorball_picture_module() {
     static constexpr rt::module::Module module{rt::module::interface_version, rt::module::encode,
                                                rt::module::decode};
     return &module;

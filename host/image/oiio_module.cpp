@@ -12,7 +12,7 @@
 namespace rt::module {
 namespace {
 
-/// One thread (several gain nothing here), and no remarks on stderr.
+/// One thread (more gain nothing here), and no messages on stderr.
 void configure_once() {
     static const bool done = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1) &&
                              OIIO::attribute("debug", 0);
@@ -43,7 +43,7 @@ int encode_picture(const EncodeRequest& request, const ByteSink& sink, ErrorText
     const bool written = output->open("memory." + format, make_spec(request, type)) &&
                          output->write_image(type, request.pixels);
     const bool closed = output->close();
-    // A writer may return success and still have something to say, but for one who says it always.
+    // A writer may return success and still report an error; ignores the one TIFF always reports.
     const std::string complaint = output->geterror();
     const bool is_idle = complaint == "failed TIFFWriteCustomDirectory() of the Exif data";
     if (!written || !closed || (!complaint.empty() && !is_idle)) {
@@ -59,7 +59,7 @@ void widen(const std::vector<Integer>& from, std::vector<float>& to, float large
                    [largest](Integer value) { return static_cast<float>(value) / largest; });
 }
 
-/// Rows [first, last) in the type of the file, whether it stores lines or tiles.
+/// Rows [first, last) in the file's own type, for scanline and tiled files.
 bool read_native(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int first, int last,
                  OIIO::TypeDesc type, void* values) {
     const int y = spec.y + first;
@@ -94,7 +94,7 @@ bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int first, 
 
 int read_all_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const PictureSink& sink,
                   ErrorText error) {
-    // A few rows at a time, so that a header that lies costs no memory for pixels never seen.
+    // Reads a few rows at a time, so that a false header costs no memory for missing pixels.
     const int step = spec.tile_width == 0 ? 64 : spec.tile_height;
     std::vector<float> values;
     for (int first = 0; first < spec.height; first += step) {
@@ -142,8 +142,7 @@ int decode(const char* path, const char* format, const PictureSink* sink, ErrorT
 }  // namespace
 }  // namespace rt::module
 
-extern "C" __attribute__((visibility("default"))) const rt::module::Module*
-mirrorball_picture_module() {
+extern "C" __attribute__((visibility("default"))) const void* mirrorball_picture_module() {
     static constexpr rt::module::Module module{rt::module::interface_version, rt::module::encode,
                                                rt::module::decode};
     return &module;

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The border between the program and its picture modules: libmirrorball_exr.so, which links
+/// The interface between the program and its picture modules: libmirrorball_exr.so, which links
 /// OpenEXR, and libmirrorball_oiio.so, which links OpenImageIO. Plain C on purpose: no exception
-/// and no owned memory crosses it. Functions return 1 for success; 0 leaves a sentence in
-/// `error`, or nothing when a callback asked to stop.
+/// and no owned memory crosses it. Functions return 1 for success; 0 leaves a message in `error`,
+/// or none when a callback asked to stop.
 namespace rt::module {
 
 /// Raised whenever anything below changes; the program refuses a module of another version.
@@ -19,10 +19,10 @@ struct EncodeRequest {
     int width;
     int height;
     int channels;
-    const char* const* channel_names;  // null: those that pictures have
+    const char* const* channel_names;  // null: the default names
     int is_float;                      // pixels of 32-bit float, else of 8 bits
     const void* pixels;                // row 0 on top, interleaved
-    const char* color_space;  // what the file declares, OpenImageIO's word; null for nothing
+    const char* color_space;  // what the file declares, in OpenImageIO's terms; null for none
     std::size_t attribute_count;
     const char* const* attribute_names;
     const char* const* attribute_texts;
@@ -31,11 +31,11 @@ struct EncodeRequest {
 /// Callbacks must not throw; 0 stops the module.
 struct ByteSink {
     void* context;
-    /// Puts bytes at a place in the file, over what is there.
+    /// Writes bytes at an offset in the file, overwriting what is there.
     int (*write)(void* context, std::uint64_t place, const unsigned char* bytes, std::size_t count);
 };
 
-/// Called in this order: header once, attribute for each text, rows until the picture is whole.
+/// Called in this order: header once, attribute for each text, rows until all pixels are sent.
 struct PictureSink {
     void* context;
     int (*header)(void* context, int width, int height, int channels);
@@ -53,8 +53,5 @@ struct Module {
     int (*encode)(const EncodeRequest* request, const ByteSink* sink, ErrorText error);
     int (*decode)(const char* path, const char* format, const PictureSink* sink, ErrorText error);
 };
-
-/// The type of the one symbol a module exports.
-using EntryPoint = const Module* (*)();
 
 }  // namespace rt::module

@@ -5,15 +5,13 @@
 #include <algorithm>
 
 #include "host/error.h"
-#include "host/image/output_path.h"
 #include "host/opencl/device_spec.h"
-#include "host/options/frame_number.h"
 #include "host/options/lists.h"
 #include "host/options/parse.h"
 #include "host/options/picture_output.h"
+#include "host/options/settle_render.h"
 #include "host/options/verb_options.h"
 #include "host/render/native_kernels.h"
-#include "host/scene/scene_file.h"
 
 namespace rt {
 
@@ -28,7 +26,7 @@ AaMode parse_aa(const std::string& text) {
     return *mode;
 }
 
-/// x0,y0,x1,y1 in pixels from the top left, x1 and y1 not included.
+/// x0,y0,x1,y1 in pixels from the top left; x1 and y1 are exclusive.
 Rect parse_crop(const std::string& text) {
     const auto n = parse_integers(text, ',');
     if (!n || n->size() != 4 || (*n)[0] < 0 || (*n)[1] < 0 || (*n)[2] <= (*n)[0] ||
@@ -75,7 +73,7 @@ std::string device_from_environment() {
     return spec;
 }
 
-/// "all", "auto", or names as of --stats with hyphens for blanks.
+/// "all", "auto", or names as in --stats with hyphens for blanks.
 void parse_features(const std::string& text, RenderOptions& render) {
     render.all_features = text == "all";
     render.also_features = no_features();
@@ -130,6 +128,8 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                 "out.%04d.png): 1-240 or 1,5,10-20; with --shard I/N only every N-th frame; with "
                 "--resume only the missing ones",
                 [&](const std::string& text) { render.frames = parse_frames(text); });
+    verb.flag("--mpi", render.mpi,
+              "render on all the ranks that mpirun started, which must see the output's folder");
     verb.option(
         "--timeout", "S", "stop after S seconds and save what is finished",
         [&](const std::string& text) { render.timeout = parse_seconds("--timeout", text, 0.001); });
@@ -220,98 +220,6 @@ void add_report_options(const CommandLine& verb, RenderOptions& render) {
     verb.flag("-v,--verbose", render.verbose, "print more");
 }
 
-void settle_journal(RenderOptions& render) {
-    if (render.fresh && render.resume) {
-        throw Error(ExitCode::usage, "--fresh and --resume exclude each other");
-    }
-    if (render.resume) render.journal_delay = 0;
-    if (!render.shares) return;
-    if (render.is_batch()) throw Error(ExitCode::usage, "--shard takes one scene");
-    if (!render.reference.empty()) {
-        throw Error(ExitCode::usage, "--reference needs a whole picture; leave out --shard");
-    }
-    if (render.fast_math || render.schedule != Schedule::tiles) {
-        throw Error(ExitCode::usage,
-                    "--shard needs --math strict and --schedule tiles: the parts of a picture "
-                    "must have the bits of the whole");
-    }
-    if (!render.output.ends_with(".mbj")) {
-        throw Error(ExitCode::usage, "--shard writes a part of a picture: give -o FILE.mbj");
-    }
-}
-
-void settle_watch(const RenderOptions& render) {
-    if (!render.watch) return;
-    if (render.is_batch() || render.scene == stdin_scene || render.shares) {
-        throw Error(ExitCode::usage, "--watch is for one scene file");
-    }
-    if (render.output == stdout_path || render.timeout > 0 || render.view.window) {
-        throw Error(ExitCode::usage,
-                    "--watch goes on until Ctrl-C: not with -o -, --timeout or --show (--preview "
-                    "and --tev show each picture)");
-    }
-}
-
-/// Standard streams that two would want.
-void settle_streams(RenderOptions& render) {
-    settle_picture_output(render.output, render.format);
-    const bool prints = render.stats != StatsFormat::summary || !render.reference.empty();
-    if (render.output == stdout_path && prints) {
-        throw Error(ExitCode::usage,
-                    "-o - takes standard output, where --stats and --reference print: name a file");
-    }
-    const auto& scenes = render.scenes;
-    if (render.batch == "-" &&
-        std::find(scenes.begin(), scenes.end(), stdin_scene) != scenes.end()) {
-        throw Error(ExitCode::usage, "standard input is a scene or a list of scenes, not both");
-    }
-}
-
-/// Frames of one scene; of shares, every so many.
-void settle_frames(RenderOptions& render) {
-    if (render.scenes.size() != 1 || !render.batch.empty()) {
-        throw Error(ExitCode::usage, "--frames takes one scene");
-    }
-    if (!render.output.empty() && !find_frame_number(render.output)) {
-        throw Error(ExitCode::usage, fmt::format("-o '{}' names one file for several frames; use "
-                                                 "%04d for the frame number, as in out.%04d.png",
-                                                 render.output));
-    }
-    if (!render.shares) return;
-    std::vector<int> own;
-    for (std::size_t i = 0; i < render.frames.size(); ++i) {
-        const auto& numbers = render.shares->numbers;
-        const int share = static_cast<int>(i % static_cast<std::size_t>(render.shares->of));
-        if (std::find(numbers.begin(), numbers.end(), share) != numbers.end()) {
-            own.push_back(render.frames[i]);
-        }
-    }
-    if (own.empty())
-        throw Error(ExitCode::usage, "--shard gives this share no frames; use fewer shares");
-    render.frames = std::move(own);
-    render.shares.reset();
-}
-
-/// One scene, or a batch.
-void settle_scenes(RenderOptions& render) {
-    if (!render.frames.empty()) return settle_frames(render);
-    if (!render.is_batch()) {
-        if (render.scenes.empty()) {
-            throw Error(ExitCode::usage, "SCENE is required; see 'mirrorball render --help'");
-        }
-        render.scene = render.scenes.front();
-        return;
-    }
-    if (!render.reference.empty()) {
-        throw Error(ExitCode::usage, "--reference takes one scene");
-    }
-    if (!render.output.empty() && render.output.find("%s") == std::string::npos) {
-        throw Error(ExitCode::usage, fmt::format("-o '{}' names one file for several scenes; use "
-                                                 "%s for the scene's name, as in out/%s.png",
-                                                 render.output));
-    }
-}
-
 }  // namespace
 
 void add_render(const CommandLine& program, Options& options) {
@@ -334,11 +242,7 @@ void add_render(const CommandLine& program, Options& options) {
     add_report_options(verb, options.render);
     verb.when_chosen([&options, verb] {
         if (!verb.given("--device")) options.render.device = device_from_environment();
-        settle_streams(options.render);
-        settle_scenes(options.render);
-        settle_journal(options.render);
-        settle_watch(options.render);
-        settle_aovs(options.render);
+        settle_render(options.render);
         options.verb = Verb::render;
     });
 }

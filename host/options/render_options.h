@@ -16,30 +16,31 @@ namespace rt {
 enum class StatsFormat { summary, text, json };
 enum class ProgressMode { automatic, bar, plain, json, none };
 
-/// `mirrorball render`; what is not given is the scene's.
+/// `mirrorball render`; defaults are the scene's.
 struct RenderOptions : RenderSettings {
     std::string scene;
-    std::string output;  ///< empty: write nothing; "-": stdout. Of several scenes %s is the name
-    std::optional<PictureFormat> format;  ///< of stdout; of files their ending says it
-    std::vector<std::string> scenes;      ///< all of them, where there are several
+    std::string output;  ///< empty: none; "-": stdout; with several scenes %s is the name
+    std::optional<PictureFormat> format;  ///< of stdout; files go by their extension
+    std::vector<std::string> scenes;      ///< all of them, if there are several
     std::string batch;                    ///< a file that names scenes, "-": stdin; empty: none
     std::vector<int> frames;              ///< of the scene's camera path; empty: the scene as it is
-    std::string device;                   ///< a list with commas; empty: the best there is
+    std::string device;                   ///< comma-separated list; empty: the best available
     LightOverrides light;
     std::string reference;  ///< empty: none
     Encoding encoding = Encoding::display;
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;
-    bool resume = false;               ///< was asked for by name
+    bool resume = false;               ///< requested explicitly
     std::vector<Aov> aovs;             ///< to be saved beside the picture
-    ViewSettings view;                 ///< where the picture is shown meanwhile
+    ViewSettings view;                 ///< where to show the picture while it renders
+    bool mpi = false;                  ///< render on the ranks that mpirun started
     bool watch = false;                ///< render again when the scene's files change
-    double timeout = 0;                ///< seconds after which to give up; 0: never
+    double timeout = 0;                ///< seconds until it gives up; 0: never
     bool isolate = true;               ///< OpenCL in a process of its own
-    double deadline = 10;              ///< seconds after which a driver that does nothing is hung
-    std::string failed_device;         ///< that threads stand in for
+    double deadline = 10;              ///< seconds without progress after which a driver is hung
+    std::string failed_device;         ///< that threads replace
     std::string drivers;               ///< where OpenCL finds its .icd files
-    std::vector<std::string> command;  ///< the program's own, to be run again
+    std::vector<std::string> command;  ///< the program's own, to start workers
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar
 

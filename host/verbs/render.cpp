@@ -21,6 +21,7 @@
 #include "host/temporary_folder.h"
 #include "host/verbs/aov.h"
 #include "host/verbs/render_batch.h"
+#include "host/verbs/render_mpi.h"
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
 #include "host/verbs/watch.h"
@@ -30,7 +31,7 @@ namespace rt {
 
 namespace {
 
-/// The picture to compare with, read before it may be overwritten and before hours are spent.
+/// The reference picture, read before the render takes hours and perhaps overwrites it.
 std::optional<Picture> load_reference(const RenderOptions& options, const Scene& scene) {
     if (options.reference.empty()) return std::nullopt;
     Picture reference = read_picture(options.reference);
@@ -45,7 +46,7 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
                                              reference.channels, width, height));
 }
 
-/// Who asks for figures alone wants no picture.
+/// Warns that the picture is not saved, unless only figures are wanted.
 void say_unsaved(const RenderOptions& options) {
     const bool wants_figures =
         options.stats != StatsFormat::summary || !options.reference.empty() || options.quiet;
@@ -90,7 +91,7 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     return status;
 }
 
-/// Has workers, which load the drivers, render.
+/// Renders in worker processes, which load the drivers.
 class IsolatedRender {
    public:
     IsolatedRender(RenderOptions options, double seconds_before_main)
@@ -98,8 +99,8 @@ class IsolatedRender {
           seconds_before_(seconds_before_main),
           name_(options_.device.empty() ? "OpenCL" : "--device " + options_.device) {}
 
-    /// When the first worker crashes another tries again. Then, or when it hangs, threads go on
-    /// here with what the journal has.
+    /// If the first worker crashes, another one tries. If that crashes too, or one hangs, threads
+    /// resume here from the journal.
     int run() {
         if (options_.scene == stdin_scene) keep_stdin();  // each worker reads it
         if (options_.fresh) remove_journal();
@@ -120,7 +121,7 @@ class IsolatedRender {
     }
 
    private:
-    /// Once, before what a worker leaves there is to be gone on with.
+    /// Called once, before a worker leaves a journal there to be resumed.
     void remove_journal() {
         RenderOptions chosen = options_;
         choose_journal(chosen);
@@ -137,7 +138,7 @@ class IsolatedRender {
                           seconds_before_ + watch_.seconds());
     }
 
-    /// Without drivers that crash when they list their devices, else with an empty kernel cache.
+    /// Without drivers that crash when listing their devices, else with an empty kernel cache.
     WorkerEnd try_again(const WorkerEnd& first) const {
         const IcdFiles files = try_icd_files(options_.drivers);
         const TemporaryFolder cache;
@@ -177,6 +178,7 @@ int render_once(const RenderOptions& options, double seconds_before_main) {
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
+    if (options.mpi) return render_mpi(options);
     if (options.is_batch()) return render_batch(options);
     if (!options.watch || is_worker()) return render_once(options, seconds_before_main);
     return watch_scene(options.scene, options.quiet, [&] {

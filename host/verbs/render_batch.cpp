@@ -28,12 +28,12 @@ namespace rt {
 
 namespace {
 
-/// Results can go nowhere any more.
+/// Results can no longer be written.
 struct ResultsLost : Error {
     using Error::Error;
 };
 
-/// JSON of a batch: a line each.
+/// JSON of a batch: one line per picture.
 void print_batch_results(const RenderStats& stats, const RenderOptions& options) {
     try {
         if (options.stats == StatsFormat::json) {
@@ -47,7 +47,7 @@ void print_batch_results(const RenderStats& stats, const RenderOptions& options)
     }
 }
 
-/// Writes a picture and says how it went. Returns the exit status it means.
+/// Writes a picture and reports how it went. Returns the exit status.
 int finish_picture(RenderedPicture rendered, const RenderOptions& options, const Stopwatch& total) {
     const Stopwatch writing;
     const std::string path = save_picture(rendered, options);
@@ -80,7 +80,7 @@ class Batch {
     }
 
    private:
-    /// Whether it went well; what it threw is noted, and ends nothing but where results are lost.
+    /// Whether it succeeded; errors are noted, and end the batch only if results are lost.
     template <typename Work>
     bool attempt(const BatchItem& item, const Work& work) {
         try {
@@ -120,7 +120,7 @@ class Batch {
                               std::move(options), total);
     }
 
-    /// A path's scene is loaded once.
+    /// A camera path's scene is loaded once.
     const Scene& load(const BatchItem& item, const RenderOptions& options) {
         if (!item.frame) return scene_ = scene_to_render(options);
         if (!has_path_) scene_ = scene_to_render(options);
@@ -131,17 +131,14 @@ class Batch {
         return scene_;
     }
 
-    /// A device that has failed is not asked again.
+    /// A device that failed is not used again.
     RenderedPicture render(const Scene& scene, const RenderOptions& options) {
         RenderConsole console(options);
         RenderedPicture rendered =
             render_picture(scene, options, devices_, console.events(), stop_flag(), &cache_);
         console.finish(rendered.picture);
         console.wait();
-        if (!rendered.stats.device.fallback_from.empty()) {
-            devices_ = {DeviceChoice{true, 0, {}, ""}};
-        }
-        for (DeviceChoice& device : devices_) device.note.clear();
+        prepare_for_next(devices_, rendered.stats);
         return rendered;
     }
 
@@ -197,8 +194,8 @@ class Batch {
     std::vector<DeviceChoice> devices_;
     RenderCache cache_;
     Scene scene_;
-    bool has_path_ = false;  ///< scene_ is that of all frames
-    std::size_t there_ = 0;  ///< frames whose pictures were there
+    bool has_path_ = false;  ///< scene_ is the one for all frames
+    std::size_t there_ = 0;  ///< frames skipped since their pictures existed
     std::future<int> writing_;
     BatchItem written_;
     std::size_t pictures_ = 0;

@@ -24,7 +24,7 @@ namespace rt {
 
 namespace {
 
-/// What there is of a picture that was stopped.
+/// How much of a stopped picture is done.
 std::string share_done(const RenderStats& stats) {
     return fmt::format("{} of {} tiles{}", stats.tiles_finished, stats.tiles,
                        stats.tiles_finished == stats.tiles ? ", not all refined" : "");
@@ -88,7 +88,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     }
     std::string path = options.output;
     if (!stats.complete()) {
-        if (path == stdout_path) return "";  // whoever reads it wants a whole picture
+        if (path == stdout_path) return "";  // a reader of stdout wants a whole picture
         path = partial_path(path);
         metadata.emplace_back("mirrorball:Partial", share_done(stats));
     }
@@ -97,11 +97,15 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     return path;
 }
 
-RenderConsole::RenderConsole(const RenderOptions& options) {
-    events_.message = [&options](const std::string& text) {
+std::function<void(const std::string& line)> message_printer(const RenderOptions& options) {
+    return [&options](const std::string& text) {
         const std::string line = options.verbose ? text : text.substr(0, text.find('\n'));
         if (!options.quiet) print_message("mirrorball: " + line + "\n");
     };
+}
+
+RenderConsole::RenderConsole(const RenderOptions& options) {
+    events_.message = message_printer(options);
     if (options.verbose) events_.detail = events_.message;
     show(options);
     const bool has_bar = !options.view.preview || options.progress != ProgressMode::automatic;
@@ -134,6 +138,11 @@ void RenderConsole::finish(const Picture& picture) {
 
 void RenderConsole::wait() {
     if (live_) live_->wait([] { return stop_flag() != 0; });
+}
+
+void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats) {
+    if (!stats.device.fallback_from.empty()) devices = {DeviceChoice{true, 0, {}, ""}};
+    for (DeviceChoice& device : devices) device.note.clear();
 }
 
 void print_results(const RenderStats& stats, const RenderOptions& options) {

@@ -1,35 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/options/render_options.h"
 #include "host/picture/render_picture.h"
 #include "host/verbs/progress.h"
 #include "host/view/live_picture.h"
 
-// What rendering one scene and a batch of them have in common. All of it throws Error.
+// Steps shared by single and batch rendering. All of them may throw Error.
 namespace rt {
 
-/// What belongs to a picture, and nothing that changes from run to run or device to device.
+/// Metadata of a picture, without anything that varies from run to run or device to device.
 PictureMetadata picture_metadata(const std::string& scene, const std::string& scene_hash,
                                  const std::string& settings, const std::string& image_hash);
 
-/// Says on stderr that so many pixels of a picture of that region are not finite; whether any is.
+/// Reports on stderr that `count` pixels of a picture of that region are not finite, if any.
+/// Returns whether any are.
 bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count);
 
-/// Refuses, before anything is computed, an output that could not be written.
+/// Rejects, before anything is computed, an output that could not be written.
 void check_output(const RenderOptions& options);
 
-/// Where finished tiles are kept: beside the output, or in it where it is of shares.
+/// Chooses where finished tiles are kept: beside the output, or in it for shares.
 void choose_journal(RenderOptions& options);
 
-/// options.scene as it is to be rendered; what its reader left out goes to stderr. Refuses an
-/// output that is one of its models.
+/// Loads options.scene as it is to be rendered; reports on stderr what the reader skipped. Rejects
+/// an output that is one of its models.
 Scene scene_to_render(const RenderOptions& options);
 
-/// Shows on stderr what a render tells of. The options must outlive it.
+/// Prints a render's messages on stderr: of each its first line, or all with --verbose; nothing
+/// with --quiet. The options must outlive it.
+std::function<void(const std::string& line)> message_printer(const RenderOptions& options);
+
+/// Shows a render's events on stderr and in viewers. The options must outlive it.
 class RenderConsole {
    public:
     explicit RenderConsole(const RenderOptions& options);
@@ -38,10 +45,10 @@ class RenderConsole {
 
     const RenderEvents& events() const { return events_; }
 
-    /// Shows the picture as it stays, where it is shown.
+    /// Shows the final picture in the viewers, if any.
     void finish(const Picture& picture);
 
-    /// Until its windows are closed, or a stop signal comes.
+    /// Waits until the windows are closed or a stop signal comes.
     void wait();
 
    private:
@@ -52,16 +59,19 @@ class RenderConsole {
     RenderEvents events_;
 };
 
-/// Writes the picture to options.output, an unfinished one next to it: what is there may be
-/// finished. The journal of a finished one goes. Shares are written already. Returns the name it
-/// got; "" where none is asked for.
+/// Prepares the devices for the next picture of several: a device that failed is replaced by
+/// threads, and notes are printed only once.
+void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats);
+
+/// Writes the picture to options.output, an unfinished one next to it: the existing file may be
+/// finished. Removes a finished picture's journal. Shares are already written. Returns the name of
+/// the file; "" if none was written.
 std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options);
 
-/// What options.stats asks for: the summary line on stderr, or figures on stdout.
+/// Prints what options.stats requests: the summary line on stderr, or figures on stdout.
 void print_results(const RenderStats& stats, const RenderOptions& options);
 
-/// Says on stderr what is wrong with a picture that was saved as `path`. Returns the exit status it
-/// means.
+/// Reports on stderr what is wrong with a picture saved as `path`. Returns the exit status.
 int verdict(const RenderedPicture& rendered, const std::string& path);
 
 }  // namespace rt

@@ -6,14 +6,14 @@
 
 namespace rt {
 
-/// How a terminal shows pictures; automatic: as it says that it can, else by half blocks.
+/// How a terminal shows pictures; automatic: what it reports, else half blocks.
 enum class PreviewMode { automatic, half, kitty, sixel };
 
 struct TevAddress {
     std::string host = "127.0.0.1", port = "14158";
 };
 
-/// What the environment says of the terminal.
+/// What the environment tells about the terminal.
 struct TerminalNames {
     std::string kind;             ///< TERM
     std::string colors;           ///< COLORTERM
@@ -26,6 +26,8 @@ struct ViewSettings {
     std::optional<TevAddress> tev;
     bool window = false;
     TerminalNames terminal;
+
+    bool any() const { return preview || tev || window; }
 };
 
 }  // namespace rt

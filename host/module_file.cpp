@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/module_file.h"
+
+#include <dlfcn.h>
+#include <signal.h>
+
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#ifndef MIRRORBALL_MODULE_DIR
+#define MIRRORBALL_MODULE_DIR ""
+#endif
+
+namespace rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Paths to try for a module, in order.
+std::vector<fs::path> candidates(const char* name) {
+    std::error_code error;
+    const fs::path home = fs::read_symlink("/proc/self/exe", error).parent_path();
+    std::vector<fs::path> directories;
+    if (!home.empty()) directories.push_back(home);
+    std::string_view rest = MIRRORBALL_MODULE_DIR;
+    while (!rest.empty()) {
+        const std::size_t colon = rest.find(':');
+        const fs::path directory = rest.substr(0, colon);
+        rest = colon == rest.npos ? std::string_view() : rest.substr(colon + 1);
+        if (!directory.empty()) directories.push_back(home / directory);
+    }
+    for (fs::path& directory : directories) directory /= name;
+    return directories;
+}
+
+/// Blocks all signals of this thread for its lifetime. The libraries start idle threads of their
+/// own while they are loaded; these inherit the mask and never run the program's handlers.
+class SignalsBlocked {
+   public:
+    SignalsBlocked() {
+        sigset_t all;
+        ::sigfillset(&all);
+        ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+    }
+    SignalsBlocked(const SignalsBlocked&) = delete;
+    SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+    ~SignalsBlocked() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+   private:
+    sigset_t before_;
+};
+
+LoadedModule load_file(const fs::path& file, const ModuleFile& wanted) {
+    // Never closed: destructors of the libraries run when the program ends.
+    void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) {
+        const char* reason = ::dlerror();
+        return {nullptr, (reason == nullptr ? file.string() : reason) +
+                             (": cannot load " + wanted.what) + "; " + wanted.advice};
+    }
+    const auto entry = reinterpret_cast<ModuleEntryPoint>(::dlsym(handle, wanted.entry_point));
+    const void* interface = entry == nullptr ? nullptr : entry();
+    if (interface == nullptr || *static_cast<const std::uint32_t*>(interface) != wanted.version) {
+        return {nullptr,
+                file.string() + ": belongs to a different version of mirrorball; " + wanted.advice};
+    }
+    return {interface, {}};
+}
+
+}  // namespace
+
+LoadedModule load_module(const ModuleFile& module) {
+    const SignalsBlocked blocked;
+    std::string tried;
+    for (const fs::path& file : candidates(module.name)) {
+        std::error_code error;
+        if (fs::exists(file, error)) return load_file(file, module);
+        tried += (tried.empty() ? "" : ", ") + file.string();
+    }
+    return {nullptr, tried + ": no such file; " + module.advice};
+}
+
+}  // namespace rt

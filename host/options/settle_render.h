@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/options/render_options.h"
+
+namespace rt {
+
+/// Checks the options of `render` against one another, once all are read, and fills in what follows
+/// from them. Throws Error (ExitCode::usage) for options that do not go together.
+void settle_render(RenderOptions& render);
+
+}  // namespace rt
