@@ -18,6 +18,8 @@ import unittest
 
 import jsonschema
 
+from hang_limit import HANG_LIMIT
+
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 SCENE = str(ROOT / "scenes" / "cornell-box.json")
@@ -29,7 +31,7 @@ CACHE = tempfile.TemporaryDirectory(prefix="mirrorball-bench-test-")
 def run(*arguments, code=0):
     variables = dict(os.environ, XDG_CACHE_HOME=CACHE.name)
     result = subprocess.run([str(BUILD / "mirrorball"), *arguments], capture_output=True, cwd=ROOT,
-                            text=True, timeout=120, env=variables, check=False)
+                            text=True, timeout=HANG_LIMIT, env=variables, check=False)
     assert result.returncode == code, (result.returncode, result.stderr)
     return result
 

@@ -11,6 +11,8 @@ import sys
 import tempfile
 import unittest
 
+from hang_limit import HANG_LIMIT
+
 BUILD = pathlib.Path(sys.argv.pop(1))
 ROOT = pathlib.Path(sys.argv.pop(1))
 
@@ -21,7 +23,7 @@ def render(scene, options, device, prefix=()):
     command = [*prefix, str(BUILD / "mirrorball"), "render", str(ROOT / "scenes" / scene),
                *size, "--device", device, "--no-fallback", "--progress", "none",
                "--stats=json", *options]
-    result = subprocess.run(command, capture_output=True, text=True, timeout=240)
+    result = subprocess.run(command, capture_output=True, text=True, timeout=HANG_LIMIT)
     if result.returncode != 0:
         raise AssertionError(f"{command}: exit {result.returncode}\n{result.stderr}")
     return json.loads(result.stdout)

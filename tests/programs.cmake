@@ -15,15 +15,14 @@ function(suite_filter FILE FILTER)
     set(${FILTER} ${filter} PARENT_SCOPE)
 endfunction()
 
-# add_file_tests(PROGRAM LABEL PREFIX TIMEOUT ENVIRONMENT FILES...): the tests of FILE_test.cpp as the
+# add_file_tests(PROGRAM LABEL PREFIX ENVIRONMENT FILES...): the tests of FILE_test.cpp as the
 # ctest test PREFIXFILE_test.
-function(add_file_tests PROGRAM LABEL PREFIX TIMEOUT ENVIRONMENT)
+function(add_file_tests PROGRAM LABEL PREFIX ENVIRONMENT)
     foreach(file ${ARGN})
         get_filename_component(stem ${file} NAME_WE)
         suite_filter(${file} filter)
         add_test(NAME ${PREFIX}${stem} COMMAND ${PROGRAM} --gtest_filter=${filter})
-        set_tests_properties(${PREFIX}${stem} PROPERTIES LABELS ${LABEL} TIMEOUT ${TIMEOUT}
-            ENVIRONMENT "${ENVIRONMENT}")
+        set_tests_properties(${PREFIX}${stem} PROPERTIES LABELS ${LABEL} ENVIRONMENT "${ENVIRONMENT}")
     endforeach()
 endfunction()
 
@@ -69,7 +68,7 @@ function(add_test_program NAME LABEL)
     set(files ${ARGN})
     list(FILTER files INCLUDE REGEX "_test\\.cpp$")
     set_target_properties(${NAME} PROPERTIES TEST_FILES "${files}")
-    add_file_tests(${NAME} ${LABEL} "" 600 "" ${files})
+    add_file_tests(${NAME} ${LABEL} "" "" ${files})
     set(filters "")
     foreach(file ${files})
         suite_filter(${file} filter)
@@ -81,12 +80,12 @@ function(add_test_program NAME LABEL)
         PASS_REGULAR_EXPRESSION " 0 tests from 0 test suites ran")
 endfunction()
 
-# add_program_again(PROGRAM LABEL PREFIX TIMEOUT ENVIRONMENT EXCEPT STEMS...): its tests once more,
+# add_program_again(PROGRAM LABEL PREFIX ENVIRONMENT EXCEPT STEMS...): its tests once more,
 # elsewhere.
-function(add_program_again PROGRAM LABEL PREFIX TIMEOUT ENVIRONMENT)
+function(add_program_again PROGRAM LABEL PREFIX ENVIRONMENT)
     get_target_property(files ${PROGRAM} TEST_FILES)
     foreach(stem ${ARGN})
         list(REMOVE_ITEM files ${stem}.cpp)
     endforeach()
-    add_file_tests(${PROGRAM} ${LABEL} ${PREFIX} ${TIMEOUT} "${ENVIRONMENT}" ${files})
+    add_file_tests(${PROGRAM} ${LABEL} ${PREFIX} "${ENVIRONMENT}" ${files})
 endfunction()

@@ -18,6 +18,8 @@ import sys
 import tempfile
 import unittest
 
+from hang_limit import HANG_LIMIT
+
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 EVIL = '</title><script>alert("x")</script>'
@@ -154,7 +156,7 @@ def setUpModule():
     environment = dict(os.environ, XDG_CACHE_HOME=str(FOLDER / "cache"))
     subprocess.run([str(BUILD / "mirrorball"), "report", "scene.json", "-o", "report.html",
                     "--size", "48", "--quick", "-q"],
-                   cwd=FOLDER, env=environment, check=True, timeout=300)
+                   cwd=FOLDER, env=environment, check=True, timeout=HANG_LIMIT)
     TEXT = (FOLDER / "report.html").read_text(encoding="utf-8")
     PAGE = Page(TEXT)
 
@@ -347,7 +349,7 @@ class Report(unittest.TestCase):
                  "--disable-background-networking", "--disable-component-update",
                  "--disable-sync", "--user-data-dir=" + profile, "--enable-logging=stderr",
                  "--v=0", *arguments, (FOLDER / page).as_uri()],
-                capture_output=True, timeout=120, check=False)
+                capture_output=True, timeout=HANG_LIMIT, check=False)
 
     def test_chromium_renders_it_in_silence(self):
         picture = FOLDER / "page.png"
@@ -390,7 +392,7 @@ class Stopped(unittest.TestCase):
                 if step in line:
                     break
             process.send_signal(signal.SIGINT)
-            stderr = process.communicate(timeout=60)[1]
+            stderr = process.communicate(timeout=HANG_LIMIT)[1]
         self.assertEqual(process.returncode, 130, stderr)
         return page.read_text(encoding="utf-8")
 

@@ -12,6 +12,8 @@ import unittest
 
 import jsonschema
 
+from hang_limit import HANG_LIMIT
+
 BUILD = pathlib.Path(sys.argv.pop(1))
 ROOT = pathlib.Path(sys.argv.pop(1))
 SCHEMA = json.loads((ROOT / "docs" / "results.schema.json").read_text())
@@ -20,7 +22,7 @@ SCHEMA = json.loads((ROOT / "docs" / "results.schema.json").read_text())
 def stats(*options):
     command = [str(BUILD / "mirrorball"), "render", str(ROOT / "scenes" / "cornell-box.json"),
                "--size", "64", "-q", "--stats=json", *options]
-    result = subprocess.run(command, check=True, capture_output=True, timeout=120)
+    result = subprocess.run(command, check=True, capture_output=True, timeout=HANG_LIMIT)
     return json.loads(result.stdout)
 
 

@@ -13,13 +13,15 @@ import unittest
 
 import jsonschema
 
+from hang_limit import HANG_LIMIT
+
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 
 
 def stress(*arguments, code=0):
     result = subprocess.run([str(BUILD / "mirrorball"), "stress", *arguments], cwd=ROOT, text=True,
-                            capture_output=True, timeout=500, check=False)
+                            capture_output=True, timeout=HANG_LIMIT, check=False)
     assert result.returncode == code, (result.returncode, result.stdout, result.stderr)
     return result
 
@@ -69,7 +71,7 @@ class Output(unittest.TestCase):
             stats = subprocess.run(
                 [str(BUILD / "mirrorball"), "render", "scripts/povray/still-life.json", "--device",
                  "threads", "-q", "--stats=json", "-o", f"{folder}/a.pfm"], cwd=ROOT, text=True,
-                capture_output=True, timeout=100, check=True).stdout
+                capture_output=True, timeout=HANG_LIMIT, check=True).stdout
         self.assertIn(case["rows"][0]["picture"]["hash"], stats)
 
     def test_table(self):

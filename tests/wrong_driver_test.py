@@ -12,6 +12,8 @@ import sys
 import tempfile
 import unittest
 
+from hang_limit import HANG_LIMIT
+
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 SCENE = str(ROOT / "scenes" / "cornell-box.json")
@@ -36,7 +38,7 @@ class WrongDriver(unittest.TestCase):
                          POCL_CACHE_DIR=str(BUILD / "wrong-driver-cache"), **shim)
         (BUILD / "wrong-driver-cache").mkdir(exist_ok=True)
         result = subprocess.run([str(BUILD / "mirrorball"), *arguments], cwd=ROOT, text=True,
-                                env=variables, capture_output=True, timeout=200, check=False)
+                                env=variables, capture_output=True, timeout=HANG_LIMIT, check=False)
         self.assertNotEqual(result.returncode, 99, result.stderr)
         return result
 

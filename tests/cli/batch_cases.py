@@ -5,6 +5,7 @@ import pathlib
 import signal
 import subprocess
 
+from hang_limit import HANG_LIMIT
 from harness import CliTest, scene_path
 
 SMALL = ["--size", "32", "--device", "threads"]
@@ -109,7 +110,7 @@ class List(BatchTest):
                              scene_path(scene))
         process.stdin.close()
         process.stdin = None
-        self.assertEqual(process.wait(timeout=30), 0)
+        self.assertEqual(process.wait(timeout=HANG_LIMIT), 0)
 
     def test_a_signal_ends_the_wait_for_the_next_scene(self):
         process = self.start("render", "--batch", "-", "--stats=json", *SMALL,
@@ -118,5 +119,5 @@ class List(BatchTest):
         process.stdin.flush()
         process.stdout.readline()
         process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(timeout=30), 143)
+        self.assertEqual(process.wait(timeout=HANG_LIMIT), 143)
         self.assertIn("terminated (SIGTERM) after 1 picture", process.stderr.read())

@@ -8,7 +8,8 @@ import subprocess
 
 import jsonschema
 
-from harness import SETTINGS, TIME_LIMIT, CliTest
+from hang_limit import HANG_LIMIT
+from harness import SETTINGS, CliTest
 from pictures import png_texts, read_pfm, read_png
 
 CYAN = (0, 255, 255)
@@ -245,7 +246,7 @@ class HeatMap(CompareTest):
 
 def has_flip():
     probe = subprocess.run(["python3", "-c", "import numpy, flip_evaluator"], capture_output=True,
-                           timeout=TIME_LIMIT, check=False)
+                           timeout=HANG_LIMIT, check=False)
     return probe.returncode == 0
 
 

@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 
+from hang_limit import HANG_LIMIT
 from harness import SETTINGS, CliTest, clean_environment, scene_path
 from pictures import png_texts
 
@@ -95,7 +96,7 @@ class Busy(PreloadTest):
         root = pathlib.Path(SETTINGS["scenes"]).parent
         result = subprocess.run(
             [str(root / "scripts" / "bench"), "--only", "embree", SETTINGS["program"]],
-            capture_output=True, text=True, check=False, timeout=60,
+            capture_output=True, text=True, check=False, timeout=HANG_LIMIT,
             env=clean_environment(self.preload(BUSY)))
         self.assertEqual(result.returncode, 1)
         self.assertIn("--anyway", result.stderr)

@@ -11,7 +11,8 @@ import subprocess
 import tempfile
 import unittest
 
-TIME_LIMIT = 120
+from hang_limit import HANG_LIMIT
+
 POCL_DRIVER = "/etc/OpenCL/vendors/pocl.icd"
 SETTINGS = {}
 
@@ -74,7 +75,7 @@ class CliTest(unittest.TestCase):
         return subprocess.run(
             [SETTINGS["program"], *map(str, arguments)], cwd=self.folder, stdout=stdout,
             stderr=stderr, stdin=subprocess.DEVNULL, env=clean_environment(env or {}),
-            timeout=TIME_LIMIT, text=True, check=False, **more)
+            timeout=HANG_LIMIT, text=True, check=False, **more)
 
     def run_shell(self, command, **env):
         """Runs a shell line with $MIRRORBALL and $SCENE (the single sphere) set."""
@@ -82,7 +83,7 @@ class CliTest(unittest.TestCase):
             ["bash", "-c", command], cwd=self.folder, capture_output=True, text=True,
             env=clean_environment(dict(env, MIRRORBALL=SETTINGS["program"],
                                        SCENE=scene_path("single-sphere"))),
-            stdin=subprocess.DEVNULL, timeout=TIME_LIMIT, check=False)
+            stdin=subprocess.DEVNULL, timeout=HANG_LIMIT, check=False)
 
     def start(self, *arguments, env=None, stdin=subprocess.DEVNULL):
         """Starts the program and leaves it running; it is killed at the end of the test."""

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import unittest
 
+from hang_limit import HANG_LIMIT
 from harness import SETTINGS, CliTest, scene_path
 
 SCENE = "single-sphere"
@@ -189,10 +190,10 @@ class NoRoom(CliTest):
         place = self.folder / "disk"
         place.mkdir()
         done = subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", place],
-                              capture_output=True, text=True, timeout=10, check=False)
+                              capture_output=True, text=True, timeout=HANG_LIMIT, check=False)
         if done.returncode != 0:
             self.skipTest(f"cannot mount a tmpfs: {done.stderr.strip()}")
-        self.addCleanup(subprocess.run, ["umount", "-l", place], check=False, timeout=10)
+        self.addCleanup(subprocess.run, ["umount", "-l", place], check=False, timeout=HANG_LIMIT)
         return place
 
     def test_full_disk(self):

@@ -4,7 +4,8 @@ import os
 import pty
 import subprocess
 
-from harness import SETTINGS, TIME_LIMIT, CliTest, clean_environment, scene_path
+from hang_limit import HANG_LIMIT
+from harness import SETTINGS, CliTest, clean_environment, scene_path
 
 SIZE = ["--size", "16", "--device", "threads"]
 
@@ -13,7 +14,7 @@ class PictureToStdout(CliTest):
     def piped(self, *arguments, code=0, **more):
         result = subprocess.run(
             [SETTINGS["program"], "render", *arguments], cwd=self.folder, capture_output=True,
-            env=clean_environment({}), timeout=TIME_LIMIT, check=False, **more)
+            env=clean_environment({}), timeout=HANG_LIMIT, check=False, **more)
         self.assertEqual(result.returncode, code, result.stderr)
         return result.stdout
 
@@ -81,7 +82,7 @@ class SceneFromStdin(CliTest):
     def given(self, text, *arguments, code=0):
         result = subprocess.run(
             [SETTINGS["program"], *arguments], cwd=self.folder, input=text, text=True,
-            capture_output=True, env=clean_environment({}), timeout=TIME_LIMIT, check=False)
+            capture_output=True, env=clean_environment({}), timeout=HANG_LIMIT, check=False)
         self.assertEqual(result.returncode, code, result.stderr)
         return result
 
