@@ -161,7 +161,7 @@ class Interrupted(CliTest):
         self.assert_has_light_and_gaps("out.partial.pfm")
 
     def test_finished_tiles_are_those_of_the_whole_picture(self):
-        options = ["--size", "150", "--aa", "grid:16", "--device", "threads", "--tile", "10"]
+        options = ["--size", "300", "--aa", "grid:32", "--device", "threads", "--tile", "20"]
         self.render("mirror-hall", *options, "-o", "whole.pfm")
         process = self.start("render", scene_path("mirror-hall"), *options, "-o", "part.pfm",
                              "--progress", "json")
