@@ -41,19 +41,16 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
     Index first, end;
     enter_kind(traversal, scene->params.triangle_root, scene->params.triangle_count);
     while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
-        for (Index axes = shear->axes; axes != 0; axes >>= 2) {
-            Index axis = (axes & 3) - 1;
-            for (Index i = first; i < end; ++i) {
-                Reals t, u, v;
-                Mask met = intersect_triangle(shear, axis, &scene->triangles[i], &t, &u, &v);
-                if (!any_lane(met)) continue;
-                Index prim = first_triangle(scene) + i;
-                met &= (shear->axis == axis) & (ray->from != prim);
-                if (RT_HAS_EYE_ON_SURFACE && scene->triangles[i].plane == (Real)0) {
-                    met &= ray->from != RT_EYE;
-                }
-                offer_hit(scene, search, met, t, u, v, prim);
+        for (Index i = first; i < end; ++i) {
+            Reals t, u, v;
+            Mask met = intersect_triangle(shear, &scene->triangles[i], &t, &u, &v);
+            if (!any_lane(met)) continue;
+            Index prim = first_triangle(scene) + i;
+            met &= ray->from != prim;
+            if (RT_HAS_EYE_ON_SURFACE && scene->triangles[i].plane == (Real)0) {
+                met &= ray->from != RT_EYE;
             }
+            offer_hit(scene, search, met, t, u, v, prim);
         }
     }
 }
@@ -142,17 +139,14 @@ bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
     Index first, end;
     enter_kind(traversal, scene->params.triangle_root, caster_count);
     while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
-        for (Index axes = shear.axes; axes != 0; axes >>= 2) {
-            Index axis = (axes & 3) - 1;
-            for (Index i = first; i < end; ++i) {
-                Index index = has_list ? scene->casters[first_caster + i] : i;
-                Reals t, u, v;
-                Mask met = intersect_triangle(&shear, axis, &scene->triangles[index], &t, &u, &v);
-                if (!any_lane(met)) continue;
-                Index prim = first_triangle(scene) + index;
-                met &= (t > (Reals)0) & (t <= *t_max) & (shear.axis == axis) & (ray->from != prim);
-                if (any_lane(met) && block(t_max, met)) return true;
-            }
+        for (Index i = first; i < end; ++i) {
+            Index index = has_list ? scene->casters[first_caster + i] : i;
+            Reals t, u, v;
+            Mask met = intersect_triangle(&shear, &scene->triangles[index], &t, &u, &v);
+            if (!any_lane(met)) continue;
+            Index prim = first_triangle(scene) + index;
+            met &= (t > (Reals)0) & (t <= *t_max) & (ray->from != prim);
+            if (any_lane(met) && block(t_max, met)) return true;
         }
     }
     return false;

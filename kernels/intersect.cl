@@ -88,8 +88,8 @@ Mask ends_on_sphere(const Ray* ray, __global const Sphere* sphere, Reals t, Real
 typedef struct {
     real3 origin;  // its components in that order
     Reals sx, sy, sz;
-    Indices axis;  // the scene axis used as z
-    Index axes;    // those the packet's rays use: axis + 1 in two bits each
+    Indices axis;       // the scene axis used as z
+    Index common_axis;  // that of all live rays, or RT_NONE
 } RayShear;
 
 Reals component3(real3 v, Indices k) {
@@ -105,13 +105,13 @@ Indices largest_axis(real3 v) {
     return a.x > a.y ? x_or_z : y_or_z;
 }
 
-Index used_axes(Indices axis, Mask live) {
+Index common_axis(Indices axis, Mask live) {
 #if RT_LANES == 1
-    return axis + 1;
+    return axis;
 #else
-    Index axes = any_lane(live & (axis == 0)) ? 1 : 0;
-    axes = any_lane(live & (axis == 1)) ? axes << 2 | 2 : axes;
-    return any_lane(live & (axis == 2)) ? axes << 2 | 3 : axes;
+    if (!any_lane(live & (axis != 0))) return 0;
+    if (!any_lane(live & (axis != 1))) return 1;
+    return any_lane(live & (axis != 2)) ? RT_NONE : 2;
 #endif
 }
 
@@ -127,14 +127,25 @@ real3 in_one_frame(real3 v, Index z) {
     return z == 0 ? make3(v.y, v.z, v.x) : make3(v.z, v.x, v.y);
 }
 
+// A point or normal of the scene in the rays' frames. Where these are one, its components are
+// picked as they are loaded.
+real3 load_in_frame(const RayShear* shear, __global const Packed3* v) {
+    Index z = shear->common_axis;
+    if (RT_LANES != 1 && z == RT_NONE) return in_frame(load3(*v), shear->axis);
+    __global const Real* p = &v->x;
+    Index x = z == 2 ? 0 : z + 1;
+    Index y = x == 2 ? 0 : x + 1;
+    return make3((Reals)p[x], (Reals)p[y], (Reals)p[z]);
+}
+
 RayShear make_shear(const Ray* ray, Mask live) {
     RayShear shear;
     shear.axis = largest_axis(ray->dir);
-    shear.axes = used_axes(shear.axis, live);
+    shear.common_axis = common_axis(shear.axis, live);
     real3 dir;
-    if (RT_LANES != 1 && shear.axes <= 3) {
-        shear.origin = in_one_frame(ray->origin, shear.axes - 1);
-        dir = in_one_frame(ray->dir, shear.axes - 1);
+    if (RT_LANES != 1 && shear.common_axis != RT_NONE) {
+        shear.origin = in_one_frame(ray->origin, shear.common_axis);
+        dir = in_one_frame(ray->dir, shear.common_axis);
     } else {
         shear.origin = in_frame(ray->origin, shear.axis);
         dir = in_frame(ray->dir, shear.axis);
@@ -145,34 +156,27 @@ RayShear make_shear(const Ray* ray, Mask live) {
     return shear;
 }
 
-// The vertex in the frame of the rays with axis z. Its components are picked as they are loaded.
-real3 shear_vertex(const RayShear* shear, Index z, __global const Packed3* vertex) {
-    __global const Real* p = &vertex->x;
-    Index x = z == 2 ? 0 : z + 1;
-    Index y = x == 2 ? 0 : x + 1;
-    Reals depth = p[z] - shear->origin.z;
-    return make3(fma(-shear->sx, depth, p[x] - shear->origin.x),
-                 fma(-shear->sy, depth, p[y] - shear->origin.y), depth);
+// The vertex in the rays' frames.
+real3 shear_vertex(const RayShear* shear, __global const Packed3* vertex) {
+    real3 p = sub3(load_in_frame(shear, vertex), shear->origin);
+    return make3(fma(-shear->sx, p.z, p.x), fma(-shear->sy, p.z, p.y), p.z);
 }
 
-// Distance along the rays with axis z to the triangle's plane; NaN or infinite if parallel to it.
-Reals plane_distance(const RayShear* shear, Index z, __global const Triangle* triangle) {
-    __global const Real* n = &triangle->normal.x;
-    Index x = z == 2 ? 0 : z + 1;
-    Index y = x == 2 ? 0 : x + 1;
-    Reals height = fma((Reals)n[z], shear->origin.z,
-                       fma((Reals)n[y], shear->origin.y, n[x] * shear->origin.x));
-    Reals slope = fma((Reals)n[x], shear->sx, fma((Reals)n[y], shear->sy, (Reals)n[z]));
+// Distance along the rays to the triangle's plane; NaN or infinite if parallel to it.
+Reals plane_distance(const RayShear* shear, __global const Triangle* triangle) {
+    real3 n = load_in_frame(shear, &triangle->normal);
+    Reals height = fma(n.z, shear->origin.z, fma(n.y, shear->origin.y, n.x * shear->origin.x));
+    Reals slope = fma(n.x, shear->sx, fma(n.y, shear->sy, n.z));
     return (triangle->plane - height) * shear->sz / slope;
 }
 
-// Whether the lines of the rays with axis z meet the triangle, at which distance t, and the
-// barycentric coordinates u and v of its second and third vertex there.
-Mask intersect_triangle(const RayShear* shear, Index z, __global const Triangle* triangle, Reals* t,
+// Whether the rays' lines meet the triangle, at which distance t, and the barycentric coordinates u
+// and v of its second and third vertex there.
+Mask intersect_triangle(const RayShear* shear, __global const Triangle* triangle, Reals* t,
                         Reals* u, Reals* v) {
-    real3 a = shear_vertex(shear, z, &triangle->p0);
-    real3 b = shear_vertex(shear, z, &triangle->p1);
-    real3 c = shear_vertex(shear, z, &triangle->p2);
+    real3 a = shear_vertex(shear, &triangle->p0);
+    real3 b = shear_vertex(shear, &triangle->p1);
+    real3 c = shear_vertex(shear, &triangle->p2);
     Reals wa = difference_of_products(c.x, b.y, c.y, b.x);
     Reals wb = difference_of_products(a.x, c.y, a.y, c.x);
     Reals wc = difference_of_products(b.x, a.y, b.y, a.x);
@@ -188,7 +192,7 @@ Mask intersect_triangle(const RayShear* shear, Index z, __global const Triangle*
     inside &= determinant != (Reals)0;
     Reals reach = max_of(max_of(fabs(a.z), fabs(b.z)), fabs(c.z)) * fabs(shear->sz);
     Mask is_far = inside & (reach > (Reals)8 * fabs(*t));
-    if (any_lane(is_far)) *t = is_far ? plane_distance(shear, z, triangle) : *t;
+    if (any_lane(is_far)) *t = is_far ? plane_distance(shear, triangle) : *t;
     return inside;
 }
 

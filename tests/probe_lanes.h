@@ -47,12 +47,6 @@ size_t lane_item(uint at, uint count, Index lane) {
     return i < count ? i : count - 1;
 }
 
-Index lane_of(Indices v, Index lane) {
-    IndexLanes lanes;
-    lanes.all = v;
-    return lanes.lane[lane];
-}
-
 Reals get_reals(__global const Real* from, size_t step, uint at, uint count) {
     RealLanes v;
     PROBE_EACH_LANE v.lane[lane] = from[THIS_ITEM * step];

@@ -221,11 +221,10 @@ __kernel void probe_shear_vertex(PROBE_ITEMS, __global const ProbeRay* rays,
                                  __global const Packed3* vertices, __global Packed3* out) {
     PROBE_PACKET;
     Ray ray = RAYS(rays);
-    RayShear shear = make_shear(&ray, RT_ALL_LANES);
     real3 sheared = make3((Reals)0, (Reals)0, (Reals)0);
     PROBE_EACH_LANE {
-        Index axis = lane_of(shear.axis, lane);
-        real3 vertex = shear_vertex(&shear, axis, &vertices[THIS_ITEM]);
+        RayShear shear = make_shear(&ray, THIS_LANE);
+        real3 vertex = shear_vertex(&shear, &vertices[THIS_ITEM]);
         sheared = select3(THIS_LANE, vertex, sheared);
     }
     PUT_REAL3(out, sheared);
@@ -235,12 +234,11 @@ __kernel void probe_intersect_triangle(PROBE_ITEMS, __global const ProbeRay* ray
                                        __global const Triangle* triangles, __global ProbeHit* out) {
     PROBE_PACKET;
     Ray ray = RAYS(rays);
-    RayShear shear = make_shear(&ray, RT_ALL_LANES);
     Hit hit = no_hit();
     PROBE_EACH_LANE {
-        Index axis = lane_of(shear.axis, lane);
+        RayShear shear = make_shear(&ray, THIS_LANE);
         Reals t = (Reals)0, u = (Reals)0, v = (Reals)0;
-        Mask met = intersect_triangle(&shear, axis, &triangles[THIS_ITEM], &t, &u, &v) & THIS_LANE;
+        Mask met = intersect_triangle(&shear, &triangles[THIS_ITEM], &t, &u, &v) & THIS_LANE;
         hit.t = met ? t : hit.t;
         hit.u = met ? u : hit.u;
         hit.v = met ? v : hit.v;
@@ -284,8 +282,7 @@ __kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const
         } else if (triangle < 0) {
             met &= intersect_cone(&ray, &cones[cone], ray.from == prim, &t);
         } else {
-            Index axis = lane_of(shear.axis, lane);
-            met &= intersect_triangle(&shear, axis, &triangles[triangle], &t, &u, &v);
+            met &= intersect_triangle(&shear, &triangles[triangle], &t, &u, &v);
             met &= ray.from != prim;
         }
         hit.t = met ? t : hit.t;
