@@ -11,7 +11,8 @@
 
 void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal, Search* search) {
     Index first, end;
-    enter_kind(traversal, scene->params.sphere_root, scene->params.sphere_count);
+    enter_kind(traversal, scene->params.sphere_root, scene->params.sphere_count, scene->spheres,
+               sizeof(Sphere));
     while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
         for (Index prim = first; prim < end; ++prim) {
             __global const Sphere* sphere = &scene->spheres[prim];
@@ -24,7 +25,8 @@ void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal
 
 void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, Search* search) {
     Index first, end;
-    enter_kind(traversal, scene->params.cone_root, scene->params.cone_count);
+    enter_kind(traversal, scene->params.cone_root, scene->params.cone_count, scene->cones,
+               sizeof(Cone));
     while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
         for (Index i = first; i < end; ++i) {
             Index prim = scene->params.sphere_count + i;
@@ -39,7 +41,8 @@ void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, 
 void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* shear,
                       Traversal* traversal, Search* search) {
     Index first, end;
-    enter_kind(traversal, scene->params.triangle_root, scene->params.triangle_count);
+    enter_kind(traversal, scene->params.triangle_root, scene->params.triangle_count,
+               scene->triangles, sizeof(Triangle));
     while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
         for (Index i = first; i < end; ++i) {
             Reals t, u, v;
@@ -98,7 +101,8 @@ bool block(Reals* t_max, Mask blocked) {
 bool blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal,
                         Reals* t_max) {
     Index first, end;
-    enter_kind(traversal, scene->params.sphere_root, scene->params.sphere_count);
+    enter_kind(traversal, scene->params.sphere_root, scene->params.sphere_count, scene->spheres,
+               sizeof(Sphere));
     while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index prim = first; prim < end; ++prim) {
             __global const Sphere* sphere = &scene->spheres[prim];
@@ -115,7 +119,8 @@ bool blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* trave
 
 bool blocked_by_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals* t_max) {
     Index first, end;
-    enter_kind(traversal, scene->params.cone_root, scene->params.cone_count);
+    enter_kind(traversal, scene->params.cone_root, scene->params.cone_count, scene->cones,
+               sizeof(Cone));
     while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index i = first; i < end; ++i) {
             Reals t;
@@ -137,7 +142,8 @@ bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
     if (is_brute && caster_count == 0) return false;
     RayShear shear = make_shear(ray, *t_max > (Reals)0);
     Index first, end;
-    enter_kind(traversal, scene->params.triangle_root, caster_count);
+    enter_kind(traversal, scene->params.triangle_root, caster_count, scene->triangles,
+               sizeof(Triangle));
     while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index i = first; i < end; ++i) {
             Index index = has_list ? scene->casters[first_caster + i] : i;
