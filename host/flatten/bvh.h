@@ -15,9 +15,9 @@ using BvhBox = typename Flat<T>::BvhNode;
 
 /// How to build. Costs are in units of testing one primitive.
 struct BvhSettings {
-    double inner_cost = 1.4;  ///< of a ray's visit to an inner node
-    int most_in_leaf = 8;     ///< at most this many primitives in a leaf
-    int threads = 1;          ///< to build with; the hierarchy does not depend on it
+    double inner_cost = 3;  ///< of a ray's visit to an inner node
+    int most_in_leaf = 8;   ///< at most this many primitives in a leaf
+    int threads = 1;        ///< to build with; the hierarchy does not depend on it
 };
 
 /// The most inner nodes on a path from the root to a leaf. A traversal that pushes both children,
