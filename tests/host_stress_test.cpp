@@ -107,6 +107,16 @@ TEST(StressJudge, ABrokenPictureFails) {
     EXPECT_EQ(exceeded_tolerance(figures, StressTolerance{}), "off by 0.001");
 }
 
+TEST(StressJudge, RaysMustBeTracedAndRight) {
+    StressTolerance tolerance;
+    tolerance.most_wrong = 2;
+    EXPECT_EQ(exceeded_tolerance(RayFigures{0, 0, 0}, tolerance), "no ray was traced");
+    EXPECT_EQ(exceeded_tolerance(RayFigures{10, 2, 1e-5}, tolerance), "");
+    EXPECT_EQ(exceeded_tolerance(RayFigures{10, 3, 0}, tolerance), "3 of 10 rays fail");
+    EXPECT_EQ(exceeded_tolerance(RayFigures{10, 0, 0.5}, tolerance), "off by 0.5");
+    EXPECT_NE(exceeded_tolerance(RayFigures{10, 0, NAN}, tolerance), "");
+}
+
 TEST(StressJudge, NaNIsWrongAndInfinityOnlySaturates) {
     ReferencePicture reference(small_still_life(), ReferenceKind::quad);
     Picture picture = reference.as_picture();
@@ -154,6 +164,19 @@ TEST(StressVerdict, OneRowOrOneDisagreementBreaksIt) {
     one.rows[1].judged = false;
     EXPECT_TRUE(result.passed());
     one.disagreement = "devices differ";
+    EXPECT_FALSE(result.passed());
+}
+
+TEST(StressVerdict, NothingMeasuredIsNoPass) {
+    StressResult result;
+    EXPECT_FALSE(result.passed());
+    result.families.resize(1);
+    EXPECT_FALSE(result.passed());
+    result.families[0].cases.resize(1);
+    EXPECT_FALSE(result.passed());
+    result.families[0].cases[0].rows.resize(1);
+    EXPECT_TRUE(result.passed());
+    result.families[0].cases[0].rows[0].naive = true;
     EXPECT_FALSE(result.passed());
 }
 

@@ -52,6 +52,10 @@ class Output(unittest.TestCase):
         hashes = {row["picture"]["hash"] for case in result["families"][0]["cases"]
                   for row in case["rows"] if not row["naive"] and row["precision"] == "float"}
         self.assertEqual(len(hashes), 1)
+        rays = {(row["renderer"], row["precision"]): row["rays"]["traced"] for row in rows
+                if "rays" in row}
+        self.assertEqual(len(rays), 4)  # threads and PoCL in float and double
+        self.assertGreater(min(rays.values()), 10_000)
         naive = [row for case in result["families"][0]["cases"] for row in case["rows"]
                  if row["naive"]]
         self.assertEqual(len(naive), 8)

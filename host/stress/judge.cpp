@@ -80,4 +80,15 @@ std::string exceeded_tolerance(const PictureFigures& figures, const StressTolera
     return "";
 }
 
+std::string exceeded_tolerance(const RayFigures& rays, const StressTolerance& tolerance) {
+    if (rays.rays == 0) return "no ray was traced";
+    if (rays.failures > tolerance.most_wrong) {
+        return fmt::format("{} of {} rays fail", rays.failures, rays.rays);
+    }
+    if (!(rays.max_error <= tolerance.max_error)) {
+        return fmt::format("off by {:.2g}", rays.max_error);
+    }
+    return "";
+}
+
 }  // namespace rt

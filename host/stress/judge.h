@@ -25,5 +25,6 @@ PictureFigures count_non_numbers(const Picture& picture);
 
 /// What exceeds the tolerance, in words; empty if nothing does.
 std::string exceeded_tolerance(const PictureFigures& figures, const StressTolerance& tolerance);
+std::string exceeded_tolerance(const RayFigures& rays, const StressTolerance& tolerance);
 
 }  // namespace rt

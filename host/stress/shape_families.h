@@ -14,10 +14,11 @@ using SceneOfRadius = std::function<Scene(double radius)>;
 using TrialOfRadius = std::function<RayTrial(double radius)>;
 
 /// Rounding coordinates to float alone moves a small object by 2^-24 of its distance, which is 1.
+/// Float is not judged where that is too much; double must be right there.
 inline StressTolerance small_tolerance(double size) {
     StressTolerance tolerance;
-    if (size < 1) tolerance.max_error = 1e-4 + 16 * 0x1p-24 / size;
     tolerance.in_float = size >= 1e-4;
+    if (tolerance.in_float && size < 1) tolerance.max_error = 1e-4 + 16 * 0x1p-24 / size;
     return tolerance;
 }
 

@@ -46,16 +46,6 @@ RayCaster ray_caster(const DeviceChoice& choice) {
             [=](const auto& scene) { return make_cl_ray_tracer<double>(scene, device, {}); }};
 }
 
-std::string exceeded_by_rays(const RayFigures& rays, const StressTolerance& tolerance) {
-    if (rays.rays == 0) return "no ray was traced";
-    if (rays.failures > tolerance.most_wrong) {
-        return fmt::format("{} of {} rays fail", rays.failures, rays.rays);
-    }
-    if (!(rays.max_error <= tolerance.max_error))
-        return fmt::format("off by {:.2g}", rays.max_error);
-    return "";
-}
-
 /// The first image hash of each group of pictures that must agree in every bit.
 using FirstHashes = std::map<std::string, std::uint64_t>;
 
@@ -231,6 +221,7 @@ class Runner {
                 if (stop_flag() != 0) return;
                 render_text(scene, one.tolerance, row, hasher);
             }
+            if (row.why.empty() && row.rendered == 0) row.why = "every scene was refused";
             row.hash = hasher.value();
             result.rows.push_back(std::move(row));
         }
@@ -246,7 +237,7 @@ class Runner {
                 const RayCaster caster = ray_caster(device_of(row));
                 row.rays = row.double_precision ? trial.in_double(rays, caster)
                                                 : trial.in_float(rays, caster);
-                row.why = exceeded_by_rays(*row.rays, one.tolerance);
+                row.why = exceeded_tolerance(*row.rays, one.tolerance);
             } catch (const Error& error) {
                 row.why = first_line(error);
             }
