@@ -4,6 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include "host/console.h"
 #include "host/error.h"
@@ -99,16 +104,43 @@ TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
     return timed;
 }
 
+/// Hashes of a scene's pictures as threads compute them: every device must give these bits.
+class ThreadsHashes {
+   public:
+    explicit ThreadsHashes(const Scene& scene) : scene_(scene) {}
+
+    /// Empty if the render was stopped.
+    std::optional<std::uint64_t> of(RenderSettings settings) {
+        const auto [place, is_new] = hashes_.try_emplace(
+            Key{settings.precision, settings.max_bounces, to_string(*settings.aa)});
+        if (is_new) {
+            settings.lanes = 0;
+            Scene scene = scene_;
+            apply_overrides(scene, settings);
+            const RenderStats stats = render_quietly(scene, settings, threads_device()).stats;
+            if (stats.complete()) place->second = stats.image_hash;
+        }
+        return place->second;
+    }
+
+   private:
+    using Key = std::tuple<Precision, std::optional<int>, std::string>;
+    const Scene& scene_;
+    std::map<Key, std::optional<std::uint64_t>> hashes_;
+};
+
 /// Times the points of the result against the converged picture.
 void time_points(const Scene& scene, double load_seconds, const ConvergedPicture& converged,
                  const ConvergeOptions& options, const std::vector<ListedDevice>& devices,
                  ConvergeResult& result) {
     std::vector<TimedCase> cases;
+    ThreadsHashes hashes(scene);
     for (const ConvergePoint& point : result.points) {
         TimedCase timed = timed_case(point.asked, options, devices);
         timed.scene = &scene;
         timed.reference = &converged.picture;
         timed.load_seconds = load_seconds;
+        if (!point.asked.fast_math) timed.expected_hash = hashes.of(timed.settings);
         cases.push_back(std::move(timed));
     }
     result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
@@ -157,8 +189,9 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     const std::vector<ListedDevice> devices = swept_devices(options);
     result.points = planned_points(options, bounces, devices);
     if (result.points.empty()) {
-        throw Error(ExitCode::usage,
-                    "nothing to sweep: none of the devices supports this --precision and --math");
+        throw Error(
+            ExitCode::usage,
+            "nothing to measure: no device supports this combination of --precision and --math");
     }
     bounces.push_back(scene.max_bounces);
     scene.max_bounces = *std::max_element(bounces.begin(), bounces.end());
