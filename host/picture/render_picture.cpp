@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <future>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -15,6 +17,7 @@
 #include "host/opencl/cl_tiles.h"
 #include "host/picture/crew_members.h"
 #include "host/picture/device_stats.h"
+#include "host/picture/late_message.h"
 #include "host/picture/picture_journal.h"
 #include "host/picture/render_cache.h"
 #include "host/picture/tile_check.h"
@@ -56,6 +59,9 @@ bool has_opencl(const Devices& devices) {
     return std::any_of(devices.begin(), devices.end(),
                        [](const DeviceChoice& choice) { return !choice.use_threads; });
 }
+
+/// Until users are told what they are waiting for.
+constexpr std::chrono::seconds compile_patience(1);
 
 /// Tile size in pixels for checking a picture that was not rendered in this run.
 constexpr PictureSize final_tile{32, 32};
@@ -119,7 +125,7 @@ class Job {
             note_devices(devices);
         } else {
             Crew<T> crew = make_crew(devices);
-            crew.open();
+            open(crew, devices);
             render_with(crew, joined_names(devices));
             note_devices(crew, devices);
         }
@@ -130,6 +136,15 @@ class Job {
     }
 
    private:
+    void open(Crew<T>& crew, const Devices& devices) const {
+        std::optional<LateMessage> late;
+        if (events_.compiling && has_opencl(devices)) {
+            late.emplace(compile_patience,
+                         [&] { events_.compiling(joined_names(devices) + ": compiling kernels"); });
+        }
+        crew.open();
+    }
+
     SharedScene<T> flattened(const Scene& scene) const {
         FlattenOptions options;
         options.hierarchies = settings_.hierarchies;

@@ -30,6 +30,8 @@ struct RenderedPicture {
 struct RenderEvents {
     std::function<void(const std::string& line)> message;  ///< what users should know
     std::function<void(const std::string& line)> detail;   ///< what they may want to know
+    /// A device still compiles after a second; on a thread of its own.
+    std::function<void(const std::string& line)> compiling;
     /// Tracing begins. Until `ended`, any thread may ask the queue for progress.
     std::function<void(const TileQueue&)> started;
     std::function<void()> progressed;  ///< a tile or some pixels are finished; on any thread

@@ -107,11 +107,13 @@ std::function<void(const std::string& line)> message_printer(const RenderOptions
 RenderConsole::RenderConsole(const RenderOptions& options) {
     events_.message = message_printer(options);
     if (options.verbose) events_.detail = events_.message;
+    const ProgressMode progress = progress_mode_for_stderr(options);
+    if (progress == ProgressMode::bar) events_.compiling = events_.message;
     show(options);
     const bool has_bar = !options.view.preview || options.progress != ProgressMode::automatic;
-    events_.started = [this, &options, has_bar](const TileQueue& queue) {
+    events_.started = [this, progress, has_bar](const TileQueue& queue) {
         install_stop_signals();
-        if (has_bar) progress_.emplace(queue, progress_mode_for_stderr(options));
+        if (has_bar) progress_.emplace(queue, progress);
     };
     if (is_worker()) events_.progressed = note_worker_progress;
     events_.ended = [this] {

@@ -24,6 +24,7 @@ GRAY = {"ambient": 1, "diffuse": 1}
 def environment(build, repo):
     """The program, the scenes, and an OpenCL kernel cache that all tests share."""
     SETTINGS["program"] = str((build / "mirrorball").resolve())
+    SETTINGS["shim"] = str((build / "libcl_shim.so").resolve())
     SETTINGS["scenes"] = (repo / "scenes").resolve()
     with tempfile.TemporaryDirectory(prefix="mirrorball-cli-") as folder:
         for name in ["cache", "no-drivers"]:

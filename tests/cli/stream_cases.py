@@ -8,7 +8,7 @@ import struct
 import termios
 import threading
 
-from harness import CliTest, scene_path
+from harness import SETTINGS, CliTest, scene_path
 
 LONG = ["--size", "2000", "--aa", "grid:8", "--device", "threads", "-o", "out.pfm"]
 
@@ -67,8 +67,10 @@ class Progress(CliTest):
         process.kill()
         return lines
 
-    def on_terminal(self, columns=0, **env):
-        """What a rendering of a second or so writes to a terminal."""
+    A_SECOND_OR_SO = ["--size", "500", "--device", "threads:1", "--aa", "grid:12"]
+
+    def on_terminal(self, columns=0, options=A_SECOND_OR_SO, **env):
+        """What a rendering writes to a terminal."""
         try:
             ours, terminal = pty.openpty()
         except OSError as error:
@@ -78,8 +80,8 @@ class Progress(CliTest):
         written = []
         reader = threading.Thread(target=self.read_all, args=[ours, written])
         reader.start()  # a terminal that nobody reads takes 4 kB, and then holds its writer up
-        result = self.run_cli("render", scene_path("mirror-hall"), "--size", "500", "--device",
-                              "threads:1", "--aa", "grid:12", stderr=terminal, env=env)
+        result = self.run_cli("render", scene_path("mirror-hall"), *options, stderr=terminal,
+                              env=env)
         os.close(terminal)
         reader.join()
         self.assertEqual(result.returncode, 0)
@@ -113,6 +115,14 @@ class Progress(CliTest):
         self.assertTrue(last)
         for line in last:
             self.assertNotIn("ETA", line)
+
+    def test_a_slow_compiler_is_named(self):
+        options = ["--size", "8", "--device", "pocl"]
+        slow = {"LD_PRELOAD": SETTINGS["shim"], "CL_SHIM_DIE_IN": "clBuildProgram",
+                "CL_SHIM_DIE_BY": "delay"}
+        self.assertIn(": compiling kernels", self.on_terminal(options=options, TERM="xterm", **slow))
+        result = self.run_cli("render", scene_path("mirror-hall"), *options, env=slow)
+        self.assertNotIn("compiling", result.stderr)
 
     def test_no_bar_on_a_dumb_terminal(self):
         self.assertNotIn("[", self.on_terminal(TERM="dumb"))
