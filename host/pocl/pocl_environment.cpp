@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -52,7 +53,7 @@ std::string variable(const char* name) {
 bool is_ours(const fs::path& folder) {
     struct stat status {};
     if (stat(folder.c_str(), &status) != 0) return errno == ENOENT;
-    return status.st_uid == geteuid() && (status.st_mode & S_IWOTH) == 0;
+    return status.st_uid == geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
 /// Empty if there is no home.
@@ -60,6 +61,20 @@ fs::path own_cache_folder() {
     if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) return xdg;
     const std::string home = variable("HOME");
     return home.empty() ? fs::path() : fs::path(home) / ".cache";
+}
+
+/// PoCL leaves an empty file there per build, and others when it crashes. Removes those that no
+/// running build can need.
+void remove_leftovers(const fs::path& cache) {
+    const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
+    std::error_code error;
+    for (auto entry = fs::directory_iterator(cache, error); !error && entry != fs::end(entry);
+         entry.increment(error)) {
+        if (!entry->path().filename().string().starts_with("tempfile_")) continue;
+        std::error_code failed;
+        const auto written = entry->last_write_time(failed);
+        if (!failed && written < long_ago) fs::remove(entry->path(), failed);
+    }
 }
 
 void set_cache_folder() {
@@ -76,7 +91,9 @@ void set_cache_folder() {
     fs::create_directories(folder, error);
     folder /= "pocl";
     mkdir(folder.c_str(), S_IRWXU);
-    if (is_ours(folder)) setenv(cache_variable, folder.c_str(), overwrite);
+    if (!is_ours(folder)) return;
+    remove_leftovers(folder);
+    setenv(cache_variable, folder.c_str(), overwrite);
 }
 
 void find_linker() {

@@ -2,9 +2,11 @@
 """A machine that misbehaves: busy, out of memory, with broken drivers. Where it cannot be had, a
 library loaded first (LD_PRELOAD) plays it."""
 import json
+import os
 import pathlib
 import shutil
 import subprocess
+import time
 
 from hang_limit import HANG_LIMIT
 from harness import SETTINGS, CliTest, clean_environment, scene_path
@@ -179,14 +181,24 @@ class KernelCache(CliTest):
         """Where none is named, or one that others can put kernels into."""
         shared = self.folder / "shared"
         shared.mkdir()
-        shared.chmod(0o777)
-        own = self.render_on_pocl(POCL_CACHE_DIR=str(shared))
-        self.assertEqual(list(shared.iterdir()), [])
+        for mode in [0o777, 0o770]:
+            shared.chmod(mode)
+            own = self.render_on_pocl(POCL_CACHE_DIR=str(shared))
+            self.assertEqual(list(shared.iterdir()), [])
         self.assertTrue(list(own.iterdir()))
         self.assertEqual(own.stat().st_mode & 0o777, 0o700)
         shutil.rmtree(own)
         self.render_on_pocl(POCL_CACHE_DIR="")
         self.assertTrue(list(own.iterdir()))
+
+    def test_what_builds_leave_is_removed_after_an_hour(self):
+        own = self.render_on_pocl(POCL_CACHE_DIR="")
+        for name, age in [("tempfile_a", 4000), ("tempfile_b", 60), ("other", 4000)]:
+            (own / name).touch()
+            os.utime(own / name, times=(time.time() - age,) * 2)
+        self.render_on_pocl(POCL_CACHE_DIR="")
+        self.assertEqual([name for name in ["tempfile_a", "tempfile_b", "other"]
+                          if (own / name).exists()], ["tempfile_b", "other"])
 
     def test_needs_no_path_to_the_linker(self):
         """PoCL calls ld, and ends the process where it finds none."""
