@@ -8,6 +8,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <clocale>
 #include <string>
 #include <string_view>
@@ -18,7 +20,8 @@ namespace rt {
 
 namespace {
 
-constexpr int answer_patience_ms = 300;
+/// For all of the answer: a terminal whose user types must not be waited for.
+constexpr std::chrono::milliseconds answer_patience(300);
 
 /// Whether the locale's encoding is UTF-8.
 bool is_utf8() {
@@ -33,6 +36,13 @@ bool is_utf8() {
 /// every terminal reports: "ESC [ ? 6 2 ; 4 c", 4 for sixels. So the last answer always comes.
 constexpr std::string_view questions = "\x1b_Gi=4211,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[c";
 
+/// Milliseconds until then, or 0 if it is past.
+int milliseconds_until(std::chrono::steady_clock::time_point then) {
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(then - std::chrono::steady_clock::now());
+    return static_cast<int>(std::max(left, std::chrono::milliseconds(0)).count());
+}
+
 std::string answers(int terminal) {
     termios usual{};
     if (tcgetpgrp(terminal) != getpgrp() || tcgetattr(terminal, &usual) != 0) return "";
@@ -43,8 +53,9 @@ std::string answers(int terminal) {
     if (tcsetattr(terminal, TCSANOW, &raw) != 0) return "";
     std::string text;
     if (write(terminal, questions.data(), questions.size()) > 0) {
+        const auto deadline = std::chrono::steady_clock::now() + answer_patience;
         pollfd waited{terminal, POLLIN, 0};
-        while (poll(&waited, 1, answer_patience_ms) == 1) {
+        while (poll(&waited, 1, milliseconds_until(deadline)) == 1) {
             char bytes[256];
             const ssize_t got = read(terminal, bytes, sizeof(bytes));
             if (got <= 0) break;

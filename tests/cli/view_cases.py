@@ -12,18 +12,23 @@ import struct
 import subprocess
 import termios
 import threading
+import time
 
+from hang_limit import HANG_LIMIT
 from harness import SETTINGS, CliTest, clean_environment, scene_path
 from pictures import read_pfm, read_png
 
 UTF8 = {"TERM": "xterm-256color", "LC_ALL": "C.UTF-8", "COLORTERM": "truecolor"}
 ASKS = b"\x1b[c"
+BLOCK = "▀".encode()
 TAKES_A_WHILE = ["--size", "300", "--aa", "grid:8", "--lanes", "1", "--tile", "30"]
 
 
-def on_terminal(arguments, folder, env, answer=b"", columns=80, rows=24, pixels=(0, 0)):
+def on_terminal(arguments, folder, env, answer=b"", columns=80, rows=24, pixels=(0, 0),
+                keys=()):
     """(exit code, what a terminal of so many cells and pixels gets) of the program, which is in
-    front there. The terminal answers when it is asked what it is."""
+    front there. The terminal answers when it is asked what it is, and its user types keys until a
+    picture begins."""
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, *pixels))
     process = subprocess.Popen(
@@ -46,7 +51,12 @@ def on_terminal(arguments, folder, env, answer=b"", columns=80, rows=24, pixels=
 
     reader = threading.Thread(target=read)
     reader.start()
-    code = process.wait(60)
+    for key in keys:
+        os.write(ours, key)
+        time.sleep(0.05)
+        if BLOCK in got:
+            break
+    code = process.wait(HANG_LIMIT)
     reader.join()
     os.close(ours)
     return code, bytes(got).replace(b"\r\n", b"\n")
@@ -161,6 +171,11 @@ class Preview(CliTest):
             text = self.preview("--preview", "--size", "8", answer=answer)
             self.assertEqual(decoded_half_blocks(text.split(ASKS)[1]), self.saved())
 
+    def test_a_user_who_types_is_not_waited_for(self):
+        keys = iter([b"x"] * 200)
+        self.preview("--preview", "--size", "8", keys=keys)
+        self.assertIsNotNone(next(keys, None), "typed for ten seconds before there was a picture")
+
     def test_none_in_a_pipe_and_on_terminals_that_cannot(self):
         result = self.render("single-sphere", "--size", "8", "--preview", env=UTF8)
         self.assertIn("no preview", result.stderr)
@@ -168,7 +183,7 @@ class Preview(CliTest):
         for change in [{"TERM": "dumb"}, {"NO_COLOR": "1"}, {"LC_ALL": "C"}]:
             text = self.preview("--preview", "--size", "8", env=dict(UTF8, **change))
             self.assertIn(b"no preview", text)
-            self.assertNotIn("▀".encode(), text)
+            self.assertNotIn(BLOCK, text)
 
     def test_a_worker_process_draws_too(self):
         text = self.preview("--preview=half", "--size", "8", device="pocl")
