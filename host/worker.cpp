@@ -231,7 +231,7 @@ WorkerEnd run_worker(const std::vector<std::string>& command,
     if (end.is_hung) {
         end.how = fmt::format("did nothing for {:g} s", deadline);
     } else if (WIFSIGNALED(wait_status)) {
-        end.how = "was ended by " + name_of_signal(WTERMSIG(wait_status));
+        end.how = "was killed by " + name_of_signal(WTERMSIG(wait_status));
     } else {
         end.how = fmt::format("ended with exit code {}", WEXITSTATUS(wait_status));
     }

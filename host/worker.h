@@ -14,7 +14,7 @@ struct WorkerEnd {
     int status = 0;           ///< exit code
     bool is_hung = false;     ///< killed because it made no progress
     int stop_signal = 0;      ///< signal that ended it, and should end this process
-    std::string how;          ///< otherwise: "was ended by SIGABRT", "did nothing for 10 s"
+    std::string how;          ///< otherwise: "was killed by SIGABRT", "did nothing for 10 s"
 };
 
 /// Runs the program again with the same arguments and these environment changes ("NAME=value"), and

@@ -335,7 +335,7 @@ class Ablation(FiguresTest):
     def test_table(self):
         table = run("bench", SCENE, "--ablate", "--sizes", "16", "--devices", "threads:1",
                     "--repeats", "1", "-q").stdout
-        self.assertIn("as usual", table)
+        self.assertIn("default", table)
         self.assertIn("no caster lists", table)
         self.assertLessEqual(max(len(line) for line in table.splitlines()), 100)
 

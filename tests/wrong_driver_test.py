@@ -78,6 +78,17 @@ class Bench(WrongDriver):
         self.assertIn("changes from run to run", why)
 
 
+class Converge(WrongDriver):
+    ARGUMENTS = ["converge", SCENE, "--size", "24", "--aa", "none,grid:2", "--precision", "float",
+                 "--devices", "pocl", "--repeats", "5", "--reference-samples", "16", "-q"]
+
+    def test_a_picture_that_is_off_in_a_bit_is_wrong(self):
+        self.assertEqual(self.run_with({}, *self.ARGUMENTS).returncode, 0)
+        result = self.run_with(brighter("1.000001"), *self.ARGUMENTS)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("where threads compute", result.stderr)
+
+
 class Stress(WrongDriver):
     def stress(self, shim, code, *arguments):
         result = self.run_with(shim, "stress", "-q", *arguments)
@@ -180,7 +191,7 @@ class Dies(WrongDriver):
                              *self.ARGUMENTS, *arguments)
 
     def test_costs_time_and_not_the_picture(self):
-        words = {"abort": "was ended by SIGABRT", "segfault": "was ended by SIGSEGV",
+        words = {"abort": "was killed by SIGABRT", "segfault": "was killed by SIGSEGV",
                  "exit": "ended with exit code 1", "hang": "did nothing for 1 s"}
         for place, call in self.PLACES.items():
             for by, word in words.items():
@@ -234,7 +245,7 @@ class Dies(WrongDriver):
     def test_is_an_error_without_fallback(self):
         result = self.die("clBuildProgram", "abort", "--no-fallback")
         self.assertEqual(result.returncode, 5)
-        self.assertIn("was ended by SIGABRT", result.stderr.splitlines()[-1])
+        self.assertIn("was killed by SIGABRT", result.stderr.splitlines()[-1])
 
     def test_takes_the_program_along_where_nobody_isolates_it(self):
         self.assertEqual(self.die("clBuildProgram", "abort", "--isolate", "never").returncode, -6)
@@ -243,7 +254,7 @@ class Dies(WrongDriver):
         result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "segfault"},
                                "doctor")
         self.assertEqual(result.returncode, 5, result.stderr)
-        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its process was ended by SIGSEGV")
+        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its process was killed by SIGSEGV")
         self.assertRegex(result.stdout, r"ok +threads: ")
 
     def test_devices_survives(self):

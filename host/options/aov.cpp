@@ -33,8 +33,8 @@ const char* to_string(Aov aov) {
 
 void add_aov(const CommandLine& verb, std::vector<Aov>& aovs) {
     verb.option("--aov", "LIST",
-                "what else to save of each pixel: depth, normal, id, rays, samples; beside an .exr "
-                "as channels of NAME.aov.exr, else in false colors as NAME.depth.png, ...",
+                "also save per-pixel data: depth, normal, id, rays, samples; with an .exr as "
+                "channels of NAME.aov.exr, otherwise in false colors as NAME.depth.png, ...",
                 [&](const std::string& text) {
                     for (const std::string& name : split_list("--aov", text)) {
                         const Aov aov = parse_aov(name);

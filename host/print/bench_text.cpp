@@ -74,7 +74,7 @@ std::string header_text() {
 
 std::string ablation_row_text(const BenchResult& result, const BenchRow& row) {
     const bool usual = row.asked.change.empty();
-    const std::string head = fmt::format(" {:<31}", usual ? "as usual" : row.asked.change);
+    const std::string head = fmt::format(" {:<31}", usual ? "default" : row.asked.change);
     const auto figures = ablation_figures(result, row);
     if (figures) {
         return head + fmt::format(" {:>8.5f} {:>3.0f} {:>5.2f} {:>7.3f}  {}\n",

@@ -87,8 +87,8 @@ std::vector<HtmlCell> verdict_row(const StressFamilyResult& family, std::size_t 
 std::string verdicts_table(const StressResult& result) {
     HtmlTable table{
         "Families by how much of their tolerance they use (bars: six decades, full at 100 %). "
-        "Worst "
-        "of every family's cases and renderers, float and double; times on threads, in float",
+        "Worst of every family's cases and renderers, float and double; times on threads, in float "
+        "(textbook: without caster lists)",
         {"family", "verdict", "tolerance used", "error", "tolerance", "wrong", "textbook wrong",
          "textbook error", "ms", "textbook ms", "typical failure"},
         {}};

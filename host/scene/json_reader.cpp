@@ -65,7 +65,7 @@ std::optional<double> read_not_negative(const JsonValue& value, std::string_view
                                         Mistakes& mistakes) {
     const auto number = read_number(value, name, mistakes);
     if (!number || *number >= 0) return number;
-    note_number(value, name, *number, "0 or a number above it", mistakes);
+    note_number(value, name, *number, "0 or more", mistakes);
     return std::nullopt;
 }
 

@@ -156,7 +156,7 @@ class NffReader {
             mistakes_.add(apex_offset, "apex is the same point as base; move one of them");
         }
         if (std::min(*base_radius, *apex_radius) < 0 && std::max(*base_radius, *apex_radius) > 0) {
-            mistakes_.add(offset, "one radius is negative and one is above 0; make both alike");
+            mistakes_.add(offset, "the radii have opposite signs; give both the same sign");
         } else if (*base_radius == 0 && *apex_radius == 0) {
             mistakes_.add(offset, "both radii are 0; make one of them larger");
         }

@@ -84,7 +84,7 @@ bool NffTokens::has_number(std::string_view name) {
         return false;
     }
     if (token_.is_number() || number_of(token_.text)) return true;
-    mistakes_.add(token_.offset, fmt::format("{} is missing, here is {}; write {}", name,
+    mistakes_.add(token_.offset, fmt::format("expected {}, found {}; write {}", name,
                                              in_quotes(token_.text), usage_));
     return false;
 }
@@ -103,7 +103,7 @@ std::optional<double> NffTokens::read_not_negative(std::string_view name) {
     const std::size_t offset = token_.offset;
     const auto number = read_number(name);
     if (!number || *number >= 0) return number;
-    mistakes_.add(offset, fmt::format("{} is {}; write 0 or a number above it", name, *number));
+    mistakes_.add(offset, fmt::format("{} is {}; write 0 or more", name, *number));
     return std::nullopt;
 }
 

@@ -58,7 +58,7 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
         "{}\n"
         "  hash       {}\n"
         "  picture    {}x{} pixels, {}, up to {}\n"
-        "  holds      {}, {}, {} ({} smooth), {}, {}\n"
+        "  contains   {}, {}, {} ({} smooth), {}, {}\n"
         "  on device  {} bytes in float\n",
         scene.name, hash_text(scene_hash(scene)), scene.width, scene.height, to_string(scene.aa),
         counted(static_cast<std::size_t>(scene.max_bounces), "mirror bounce"),
@@ -82,7 +82,7 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
         text += fmt::format("  {:<10} {}\n", used ? "needs" : "leaves out", feature.name);
     }
     if (flat.lights.size() < scene.lights.size()) {
-        text += fmt::format("  leaves out {} that lit nothing\n",
+        text += fmt::format("  ignores    {} that light nothing\n",
                             counted(scene.lights.size() - flat.lights.size(), "light"));
     }
     for (const std::string& note : scene.notes) text += fmt::format("  note       {}\n", note);
