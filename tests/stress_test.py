@@ -34,11 +34,6 @@ def validate(result):
     jsonschema.Draft202012Validator(own, resolver=resolver).validate(result)
 
 
-class Quick(unittest.TestCase):
-    def test_passes_everywhere(self):
-        stress("--quick", "-q", "--all-features")
-
-
 class Output(unittest.TestCase):
     SMALL = ["--case", "scale-2/2^0,scale-2/2^20,no-geometry,leaving-sphere/1", "--quick", "-q"]
 

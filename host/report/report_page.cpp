@@ -123,7 +123,7 @@ std::string navigation(const Report& report) {
         html += fmt::format("<li><a href=\"#scene-{}\">{}</a></li>\n", i,
                             html_text(scene_name(report.scenes[i])));
     }
-    if (report.stress) html += "<li><a href=\"#stress\">Numerical stability</a></li>\n";
+    if (report.stress) html += "<li><a href=\"#stability\">Numerical stability</a></li>\n";
     return html +
            "<li><a href=\"#machine\">Environment</a></li>\n"
            "<li><a href=\"#commands\">Reproduce</a></li>\n"

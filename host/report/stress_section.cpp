@@ -170,7 +170,7 @@ Plot family_plot(const StressFamilyResult& family, std::size_t index) {
 std::string stress_section(const StressResult& result) {
     if (result.families.empty()) return "";
     std::string html =
-        "<section aria-labelledby=\"stress\">\n<h2 id=\"stress\">Numerical stability</h2>\n"
+        "<section aria-labelledby=\"stability\">\n<h2 id=\"stability\">Numerical stability</h2>\n"
         "<p class=\"lead\">" +
         html_text(stress_verdict(result)) +
         "</p>\n<p>Stiff and extreme scenes against a reference in 113-bit arithmetic. A pixel is "
