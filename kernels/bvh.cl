@@ -82,7 +82,7 @@ Traversal begin_traversal(const Ray* ray, Mask live) {
 // Starts on a kind of primitive: `count` of them, under the node `root` or without a hierarchy.
 void enter_kind(Traversal* traversal, Index root, Index count, __global const void* prims,
                 Index prim_size) {
-    traversal->prims = prims;
+    traversal->prims = (__global const char*)prims;
     traversal->prim_size = prim_size;
     traversal->whole = count;
     traversal->size = 1;
