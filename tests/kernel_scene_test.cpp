@@ -224,7 +224,52 @@ TYPED_TEST(ClosestHit, IsTheSameThroughAHierarchySeenFromFarAway) {
     EXPECT_GT(found, rays.size() / 4);
 }
 
+/// The deepest hierarchy there may be: each inner node holds the next and a leaf. All boxes are
+/// alike, so that every leaf but one waits on the stack. Triangle i is about (3 i, 0, 1).
+template <typename T>
+struct DeepestHierarchy {
+    FlatScene<T> scene{};
+    std::vector<ProbeRay<T>> rays;  ///< one at each triangle
+
+    DeepestHierarchy() {
+        for (int i = 0; i <= max_bvh_depth; ++i) {
+            const double x = 3 * i;
+            scene.triangles.push_back(
+                make_triangle<T>({x - 1, -1, 1}, {x + 1, -1, 1}, {x, 1, 1}, i));
+            rays.push_back(make_ray<T>({x, 0, 0}, {0, 0, 1}));
+            rays.back().t_max = 1;
+        }
+        count_primitives(scene);
+        const auto node = [](int first, int count) {
+            return typename Flat<T>::BvhNode{
+                {-999, -999, -999}, Index<T>(first), {999, 999, 999}, Index<T>(count)};
+        };
+        scene.nodes = {node(0, 0), node(2, 0)};
+        for (int i = 0; i < max_bvh_depth; ++i) {
+            const bool is_last = i == max_bvh_depth - 1;
+            scene.nodes.push_back(is_last ? node(max_bvh_depth, 1) : node(2 * i + 4, 0));
+            scene.nodes.push_back(node(i, 1));
+        }
+        scene.params.triangle_root = 1;
+    }
+};
+
+TYPED_TEST(ClosestHit, VisitsEveryLeafOfTheDeepestHierarchy) {
+    const DeepestHierarchy<TypeParam> deepest;
+    const auto hits = run<TypeParam, Hit<TypeParam>>("closest_hit", deepest.rays.size(),
+                                                     deepest.scene, deepest.rays);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        EXPECT_EQ(hits[i].prim, static_cast<Index<TypeParam>>(i));
+    }
+}
+
 KERNEL_SUITE(AnyHit);
+TYPED_TEST(AnyHit, VisitsEveryLeafOfTheDeepestHierarchy) {
+    const DeepestHierarchy<TypeParam> deepest;
+    const auto found = run<TypeParam, Index<TypeParam>>("any_hit", deepest.rays.size(),
+                                                        deepest.scene, deepest.rays);
+    EXPECT_EQ(std::count(found.begin(), found.end(), 0), 0);
+}
 TYPED_TEST(AnyHit, SkipsTheTriangleItLeaves) {
     Doorstep<TypeParam> at;
     for (auto& ray : at.rays) ray.t_max = TypeParam(0.5);

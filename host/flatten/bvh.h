@@ -20,8 +20,8 @@ struct BvhSettings {
     int threads = 1;        ///< to build with; the hierarchy does not depend on it
 };
 
-/// The most inner nodes on a path from the root to a leaf. A traversal that pushes both children,
-/// the nearer one on top, has one node more on its stack than it has gone down.
+/// The most inner nodes on a path from the root to a leaf. A traversal's stack holds at most one
+/// node for each inner node above it, and its end.
 inline constexpr int max_bvh_depth = f32::RT_BVH_STACK - 2;
 
 /// Properties of a finished hierarchy.
