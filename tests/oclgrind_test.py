@@ -43,7 +43,8 @@ class Oclgrind(unittest.TestCase):
 
     def test_every_scene(self):
         """Their cones, meshes, hierarchies, and the stack of glass."""
-        scenes = sorted(path.name for path in (ROOT / "scenes").glob("*.json")
+        folder = ROOT / "scenes"
+        scenes = sorted(str(path.relative_to(folder)) for path in folder.rglob("*.json")
                         if path.name != "scene.schema.json")
         self.assertGreater(len(scenes), 10)
         for scene in scenes:

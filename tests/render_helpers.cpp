@@ -60,9 +60,10 @@ Picture clamped(const Film<T>& film) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> scene_files() {
+std::vector<std::filesystem::path> scene_files(const std::string& folder) {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(MIRRORBALL_SCENES_DIR)) {
+    const std::filesystem::path scenes(MIRRORBALL_SCENES_DIR);
+    for (const auto& entry : std::filesystem::directory_iterator(scenes / folder)) {
         const std::string name = entry.path().filename().string();
         if (name.ends_with(".json") && !name.ends_with(".schema.json")) {
             files.push_back(entry.path());

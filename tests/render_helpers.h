@@ -13,8 +13,8 @@
 
 namespace rt::test {
 
-/// Every scene file in scenes/, sorted.
-std::vector<std::filesystem::path> scene_files();
+/// Every scene file in scenes/ or a folder there, sorted, without those in its subfolders.
+std::vector<std::filesystem::path> scene_files(const std::string& folder = "");
 
 /// A scene from scenes/ by its stem, such as "cornell-box".
 Scene load_scene(const std::string& stem);
