@@ -5,6 +5,7 @@ Faults that remove a guard of the arithmetic are in guards.py instead.
 import dataclasses
 
 K, F, M, S, V = "kernels/", "host/flatten/", "host/measure/", "host/scene/", "host/verbs/"
+I, J = "host/image/", "host/journal/"
 
 
 @dataclasses.dataclass
@@ -170,4 +171,70 @@ MUTANTS = [
         ("host/render/tile_queue.cpp", "x < region.width; x += tile_width",
          "x + 1 < region.width; x += tile_width"),
     ], [("host_render_test", "MakeTiles.*")]),
+    # What is written, kept, limited and checked
+    Mutant("pictures are written in place", [
+        (I + "output_path.cpp", "destination.in_place = !S_ISREG(status.st_mode);",
+         "destination.in_place = true;"),
+    ], [("host_atomic_file_test", "WriteFileAtomically.*")]),
+    Mutant("replaced pictures lose their mode", [
+        (I + "atomic_file.cpp", "if (destination_.existing) {", "if (false) {"),
+    ], [("host_atomic_file_test", "WriteFileAtomically.*")]),
+    Mutant("temporary files of living processes are removed", [
+        (I + "temporary_file.cpp", "return ::kill(process, 0) == 0 || errno != ESRCH;",
+         "return process == 0;"),
+        (I + "temporary_file.cpp", "::flock(open.number(), LOCK_EX | LOCK_NB) == 0", "true"),
+    ], [("host_atomic_file_test", "AbandonedTemporaries.*")]),
+    Mutant("an output may be an input", [
+        (I + "output_path.cpp", "source.st_ino != target.st_ino", "source.st_ino == target.st_ino"),
+    ], [("host_atomic_file_test", "OutputPath.*")]),
+    Mutant("a small PNG may promise a huge picture", [
+        (I + "png_reader.cpp", "check_stored_size(path_, stored, 1032, file_size);",
+         "check_stored_size(path_, 0, 1032, file_size);"),
+    ], [("host_picture_read_test", "ReadPicture.PngThatPromises*")]),
+    Mutant("EXR channels may share a name", [
+        (I + "exr_limits.cpp", "if (!header.channels.insert(name).second)",
+         "if (!header.channels.insert(name).second && false)"),
+    ], [("host_picture_read_test", "ReadPicture.ExrWith*")]),
+    Mutant("PLY indices past the end pass", [
+        (S + "ply_file.cpp", "static_cast<std::uint64_t>(index) < count) return;",
+         "static_cast<std::uint64_t>(index) <= count) return;"),
+    ], [("host_ply_test", "ParsePly.BadFiles*")]),
+    Mutant("buffers may exceed the free memory", [
+        ("host/memory_limit.cpp", "if (bytes <= free.bytes) return;",
+         "if (bytes > 0 || bytes <= free.bytes) return;"),
+    ], [("host_memory_test", "CheckMemory.*")]),
+    Mutant("journals without checksums", [
+        (J + "journal_reader.cpp",
+         "if (record_crc(kind_, body_) != number_at<std::uint32_t>(head, 8)) return false;", ""),
+    ], [("host_journal_test", "Journals.*")]),
+    Mutant("a resumed picture takes another picture's journal", [
+        ("host/picture/picture_journal.cpp", "reader.header().key != key() ||", "false ||"),
+    ], [("host_journal_test", "Journals.*")]),
+    Mutant("two processes write one journal", [
+        (J + "journal_file.cpp", "::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && ", "false && "),
+    ], [("host_journal_test", "Journals.*")]),
+    Mutant("merge takes parts of other pictures", [
+        (J + "merge.cpp", "if (header.key == first.key && ", "if ("),
+    ], [("host_journal_test", "Journals.*")]),
+    Mutant("merge overlooks pixels that differ", [
+        (J + "merge.cpp", "&film.rgb[3 * i], bytes) != 0) {", "&film.rgb[3 * i], bytes) > 999) {"),
+    ], [("host_journal_test", "Journals.*")]),
+    Mutant("merge forgets that pixels are missing", [
+        (J + "merge.cpp", "if (merged.missing_pixels > 0) merged",
+         "if (merged.missing_pixels > 9999999) merged"),
+    ], [("cli", "journal_cases.Shares.test_that_are_missing_are_named")]),
+    Mutant("the self-test of a device always passes", [
+        ("host/picture/tile_check.cpp", "if (wrong == 0) return;", "if (wrong < 9999) return;"),
+    ], [("wrong_driver_test.py", "Wrong.test_by_its_self_test")]),
+    Mutant("--check compares tiles with themselves", [
+        ("host/picture/tile_check.cpp", "part_of(again, around, tile), part_of(film",
+         "part_of(film, region, tile), part_of(film"),
+    ], [("wrong_driver_test.py", "Wrong.test_by_tracing_tiles_again")]),
+    Mutant("a worker that hangs is waited for", [
+        ("host/worker.cpp", "return idle_ >= deadline_;", "return idle_ >= 99 * deadline_;"),
+    ], [("wrong_driver_test.py", "Dies.test_costs_time_and_not_the_picture")]),
+    Mutant("NaN in a picture is no error", [
+        (V + "render_steps.cpp", "non_finite ? ExitCode::non_finite : ExitCode::done",
+         "non_finite ? ExitCode::done : ExitCode::done"),
+    ], [("cli", "picture_cases.NotFinite.test_on_threads")]),
 ]

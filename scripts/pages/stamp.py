@@ -7,6 +7,7 @@ import pathlib
 import re
 import subprocess
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BENCH_STAMP = "MIRRORBALL_BENCH_STAMP"
 
 
@@ -14,8 +15,7 @@ def environment(program):
     """The environment that `mirrorball bench --json` reports."""
     result = subprocess.run([program, "bench", "scenes/empty.json", "--sizes", "8", "--aa", "none",
                              "--devices", "threads:1", "--repeats", "1", "--json", "-q"], check=True,
-                            capture_output=True, text=True,
-                            cwd=pathlib.Path(__file__).resolve().parent.parent.parent)
+                            capture_output=True, text=True, cwd=ROOT)
     return json.loads(result.stdout)["environment"]
 
 
@@ -24,6 +24,13 @@ def processor_model():
     text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
     numbers = [re.search(rf"^{name}\s*:\s*(\d+)$", text, re.M) for name in ["cpu family", "model"]]
     return " (family {}, model {})".format(*(n[1] for n in numbers)) if all(numbers) else ""
+
+
+def revision_stamp():
+    """One line of Markdown for results that do not depend on the machine: date and revision."""
+    revision = subprocess.run(["git", "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"],
+                              check=True, capture_output=True, text=True, cwd=ROOT).stdout.strip()
+    return f"*{datetime.date.today()}, revision {revision}.*"
 
 
 def stamp(program):
