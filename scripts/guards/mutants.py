@@ -230,9 +230,10 @@ MUTANTS = [
         ("host/picture/tile_check.cpp", "part_of(again, around, tile), part_of(film",
          "part_of(film, region, tile), part_of(film"),
     ], [("wrong_driver_test.py", "Wrong.test_by_tracing_tiles_again")]),
-    Mutant("a worker that hangs is waited for", [
-        ("host/worker.cpp", "return idle_ >= deadline_;", "return idle_ >= 99 * deadline_;"),
-    ], [("wrong_driver_test.py", "Dies.test_costs_time_and_not_the_picture")]),
+    Mutant("a driver that crashes is not tried again", [
+        (V + "render.cpp", "end.stop_signal == 0) end = try_again(end);",
+         "end.stop_signal == 0) {}"),
+    ], [("wrong_driver_test.py", "Dies.test_once_is_tried_once_more")]),
     Mutant("NaN in a picture is no error", [
         (V + "render_steps.cpp", "non_finite ? ExitCode::non_finite : ExitCode::done",
          "non_finite ? ExitCode::done : ExitCode::done"),
