@@ -17,8 +17,8 @@ install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball)
 install(FILES docs/bench.schema.json docs/compare.schema.json docs/converge.schema.json
     docs/results.schema.json docs/stress.schema.json
     DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball/schemas)
-install(FILES README.md docs/many-machines.md docs/scene-format.md docs/results-format.md docs/numerics.md
-    DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md docs/features.md docs/many-machines.md docs/numerics.md docs/results-format.md
+    docs/scene-format.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 configure_file(cmake/debian_changelog.in changelog.Debian)
 install(CODE "
