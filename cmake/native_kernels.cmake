@@ -17,7 +17,10 @@ endif()
 set(NATIVE_KERNEL_FLAGS -x cl -cl-std=CL1.2 -cl-no-stdinc
     -include ${CMAKE_SOURCE_DIR}/kernels/native/opencl_c.h -I${CMAKE_SOURCE_DIR}
     -O3 -ffp-contract=off -cl-fp32-correctly-rounded-divide-sqrt -fno-math-errno -fPIC
-    -Wall -Wextra -Werror -Wno-unused-parameter -Wno-unused-function -Wno-psabi)
+    -Wall -Wextra -Wno-unused-parameter -Wno-unused-function -Wno-psabi)
+if(MIRRORBALL_WERROR)
+    list(APPEND NATIVE_KERNEL_FLAGS -Werror)
+endif()
 
 # Under sanitizers the kernels of all features stand for all: they take long to compile.
 set(NATIVE_SETS plain_4 plain mesh_4 mesh all)
