@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "host/huge_pages.h"
 #include "host/render/rect.h"
 
 namespace rt {
@@ -12,10 +13,10 @@ namespace rt {
 /// The rendered picture in linear light, unclamped: three numbers a pixel, row 0 at the top.
 template <typename T>
 struct Film {
-    Film(int film_width, int film_height)
-        : width(film_width),
-          height(film_height),
-          rgb(3 * static_cast<std::size_t>(film_width) * static_cast<std::size_t>(film_height)) {}
+    Film(int film_width, int film_height) : width(film_width), height(film_height) {
+        resize_huge(
+            rgb, 3 * static_cast<std::size_t>(film_width) * static_cast<std::size_t>(film_height));
+    }
 
     int width, height;  ///< pixels
     std::vector<T> rgb;
