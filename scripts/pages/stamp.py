@@ -33,11 +33,12 @@ def revision_stamp():
     return f"*{datetime.date.today()}, revision {revision}.*"
 
 
-def stamp(program):
-    """One line of Markdown; scripts/bench's own for the scripts it runs, whose load is its work."""
+def stamp(program, has_times=True):
+    """One line of Markdown; scripts/bench's own for the scripts it runs, whose load is its work. A busy
+    machine matters where there are times."""
     if BENCH_STAMP in os.environ:
         return os.environ[BENCH_STAMP]
     machine = environment(program)
-    busy = "; **the machine was busy**" if machine["busy"] else ""
+    busy = "; **the machine was busy**" if has_times and machine["busy"] else ""
     return (f"*{datetime.date.today()}, {machine['cpu']}{processor_model()}, {machine['cores']} cores, "
             f"{machine['os']}; {machine['program']}, revision {machine['git_revision']}{busy}.*")
