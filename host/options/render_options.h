@@ -40,6 +40,7 @@ struct RenderOptions : RenderSettings {
     double deadline = 10;              ///< seconds without progress after which a driver is hung
     std::string failed_device;         ///< that threads replace
     std::string drivers;               ///< where OpenCL finds its .icd files
+    std::string batch_log;             ///< descriptor of memory shared by workers; see BatchLog
     std::vector<std::string> command;  ///< the program's own, to start workers
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar

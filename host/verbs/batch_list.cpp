@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -52,11 +53,16 @@ std::string frame_output(const std::string& pattern, int frame) {
            pattern.substr(number->at + number->length);
 }
 
-LineReader::LineReader(const std::string& path)
-    : file_(path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (file_) return;
-    throw Error(ExitCode::input,
-                fmt::format("{}: cannot open the list of scenes: {}", path, std::strerror(errno)));
+LineReader::LineReader(const std::string& path, BatchLog& log)
+    : log_(log), file_(path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (!file_) {
+        throw Error(ExitCode::input, fmt::format("{}: cannot open the list of scenes: {}", path,
+                                                 std::strerror(errno)));
+    }
+    struct stat status {};
+    if (path == "-" || fstat(file_.number(), &status) != 0 || !S_ISREG(status.st_mode)) return;
+    chunk_ = 4096;
+    lseek(file_.number(), static_cast<off_t>(log.bytes_of_lines()), SEEK_SET);
 }
 
 /// Returns whether more was read.
@@ -64,12 +70,20 @@ bool LineReader::read_more() {
     pollfd ready{file_.number(), POLLIN, 0};
     if (poll(&ready, 1, -1) < 0) return false;  // interrupted by a signal, unlike read
     char chunk[4096];
-    const ssize_t size = read(file_.number(), chunk, sizeof chunk);
+    const ssize_t size = read(file_.number(), chunk, chunk_);
     if (size > 0) text_.append(chunk, static_cast<std::size_t>(size));
     return size > 0;
 }
 
 std::optional<std::string> LineReader::next() {
+    std::optional<std::string> line = log_.next_line();
+    if (line) return line;
+    line = read_line();
+    if (line) log_.add_line(*line);
+    return line;
+}
+
+std::optional<std::string> LineReader::read_line() {
     std::size_t end = text_.find('\n');
     while (end == std::string::npos && !at_end_) {
         at_end_ = !read_more();
@@ -81,8 +95,8 @@ std::optional<std::string> LineReader::next() {
     return line;
 }
 
-BatchList::BatchList(const RenderOptions& options) : options_(options) {
-    if (!options.batch.empty()) lines_.emplace(options.batch);
+BatchList::BatchList(const RenderOptions& options, BatchLog& log) : options_(options) {
+    if (!options.batch.empty()) lines_.emplace(options.batch, log);
 }
 
 bool BatchList::take(BatchItem& item) {
@@ -118,6 +132,7 @@ bool BatchList::take(BatchItem& item) {
 
 bool BatchList::next(BatchItem& item) {
     item = {};
+    item.number = ++number_;
     if (!take(item)) return false;
     if (item.output.empty()) item.output = batch_output(options_.output, item.scene);
     if (item.output.empty()) return true;

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <set>
 #include <string>
 
 #include "host/file_descriptor.h"
 #include "host/options/render_options.h"
+#include "host/verbs/batch_log.h"
 
 namespace rt {
 
 /// A picture of a batch.
 struct BatchItem {
-    std::string where;  ///< "list.txt:3: ", for messages; empty: the command line
+    std::size_t number = 0;  ///< from 1
+    std::string where;       ///< "list.txt:3: ", for messages; empty: the command line
     std::string scene;
     std::string output;  ///< empty: none
     std::optional<int> frame;
@@ -28,20 +31,24 @@ std::string batch_output(const std::string& pattern, const std::string& scene);
 /// The pattern with its %d or %04d replaced by the frame number.
 std::string frame_output(const std::string& pattern, int frame);
 
-/// Reads lines as they arrive. A stop signal ends the wait for one.
+/// Reads lines as they arrive, after those that an earlier process has read, and logs them. A stop
+/// signal ends the wait for one.
 class LineReader {
    public:
     /// "-": stdin. Throws Error (ExitCode::input) when it cannot be opened.
-    explicit LineReader(const std::string& path);
+    LineReader(const std::string& path, BatchLog& log);
 
     /// Empty at the end of the file and after a stop signal.
     std::optional<std::string> next();
 
    private:
     bool read_more();
+    std::optional<std::string> read_line();
 
+    BatchLog& log_;
     FileDescriptor file_;
-    std::string text_;  ///< read, but not yet returned
+    std::size_t chunk_ = 1;  ///< bytes to read at once: of a pipe, none of the next line
+    std::string text_;       ///< read, but not yet returned
     bool at_end_ = false;
 };
 
@@ -49,7 +56,7 @@ class LineReader {
 class BatchList {
    public:
     /// Throws Error (ExitCode::input) when the list cannot be opened.
-    explicit BatchList(const RenderOptions& options);
+    BatchList(const RenderOptions& options, BatchLog& log);
 
     /// Gets the next item; false if there is none. Throws Error for an invalid line, and
     /// ExitCode::usage if two scenes would share an output file; the next call continues after it.
@@ -59,6 +66,7 @@ class BatchList {
     bool take(BatchItem& item);
 
     const RenderOptions& options_;
+    std::size_t number_ = 0;
     std::size_t given_ = 0;  ///< frames or command-line scenes taken so far
     std::optional<LineReader> lines_;
     int line_ = 0;

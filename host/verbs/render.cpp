@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,14 +11,11 @@
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
-#include "host/journal/journal_file.h"
-#include "host/opencl/icd_files.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
-#include "host/scene/stdin_text.h"
 #include "host/stop_signal.h"
-#include "host/temporary_folder.h"
 #include "host/verbs/aov.h"
+#include "host/verbs/isolated_render.h"
 #include "host/verbs/render_batch.h"
 #include "host/verbs/render_mpi.h"
 #include "host/verbs/render_steps.h"
@@ -56,7 +52,7 @@ void say_unsaved(const RenderOptions& options) {
 
 int render_scene(RenderOptions options, double seconds_before_main) {
     const Stopwatch total;
-    if (options.timeout > 0) stop_after(options.timeout);
+    start_timeout(options);
     check_output(options);
     check_output_is_no_input(options.output, {options.scene, options.reference});
     check_aov_files(options);
@@ -91,95 +87,22 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     return status;
 }
 
-/// Renders in worker processes, which load the drivers.
-class IsolatedRender {
-   public:
-    IsolatedRender(RenderOptions options, double seconds_before_main)
-        : options_(std::move(options)),
-          seconds_before_(seconds_before_main),
-          name_(options_.device.empty() ? "OpenCL" : "--device " + options_.device) {}
-
-    /// If the first worker crashes, another one tries. If that crashes too, or one hangs, threads
-    /// resume here from the journal.
-    int run() {
-        if (options_.scene == stdin_scene) keep_stdin();  // each worker reads it
-        if (options_.fresh) remove_journal();
-        WorkerEnd end = work({});
-        if (!end.is_regular && !end.is_hung && end.stop_signal == 0) end = try_again(end);
-        if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
-        if (end.is_regular) return end.status;
-        if (options_.no_fallback) {
-            throw Error(ExitCode::device, name_ + ": the driver process " + end.how);
-        }
-        say(end, "rendering on threads instead");
-        if (options_.timeout > 0) {
-            options_.timeout = std::max(options_.timeout - watch_.seconds(), 0.001);
-        }
-        options_.failed_device = name_;
-        options_.device = "threads";
-        return render_scene(options_, seconds_before_ + watch_.seconds());
-    }
-
-   private:
-    /// Called once, before a worker leaves a journal there to be resumed.
-    void remove_journal() {
-        RenderOptions chosen = options_;
-        choose_journal(chosen);
-        if (!chosen.journal.empty()) {
-            JournalFile file(chosen.journal);
-            if (file.found() != JournalFile::Found::something_else) file.remove();
-        }
-        options_.fresh = false;
-        std::erase(options_.command, "--fresh");
-    }
-
-    WorkerEnd work(const std::vector<std::string>& changes) const {
-        return run_worker(options_.command, changes, options_.deadline,
-                          seconds_before_ + watch_.seconds());
-    }
-
-    /// Without drivers that crash when listing their devices, else with an empty kernel cache.
-    WorkerEnd try_again(const WorkerEnd& first) const {
-        const IcdFiles files = try_icd_files(options_.drivers);
-        const TemporaryFolder cache;
-        const UsableIcdFiles usable(files);
-        if (cache.name().empty() || usable.place().empty()) return first;
-        if (!files.any_dangerous) {
-            say(first, "trying again with an empty kernel cache");
-            return work({"POCL_CACHE_DIR=" + cache.name()});
-        }
-        if (files.usable.empty()) return first;
-        say(first, "trying again with the other drivers");
-        const WorkerEnd second = work({"OCL_ICD_VENDORS=" + usable.place()});
-        const bool lacks_device =
-            second.is_regular && second.status == static_cast<int>(ExitCode::device);
-        return lacks_device ? first : second;
-    }
-
-    void say(const WorkerEnd& end, const char* then) const {
-        if (options_.quiet) return;
-        print_message(
-            fmt::format("mirrorball: {}: the driver process {}; {}\n", name_, end.how, then));
-    }
-
-    RenderOptions options_;
-    const double seconds_before_;
-    const std::string name_;
-    const Stopwatch watch_;
-};
+int render_here(const RenderOptions& options, double seconds_before_main) {
+    if (options.is_batch()) return render_batch(options);
+    return render_scene(options, seconds_before_main);
+}
 
 int render_once(const RenderOptions& options, double seconds_before_main) {
     if (options.isolate && !is_worker() && needs_opencl(options.device)) {
-        return IsolatedRender(options, seconds_before_main).run();
+        return render_isolated(options, seconds_before_main, render_here);
     }
-    return render_scene(options, seconds_before_main);
+    return render_here(options, seconds_before_main);
 }
 
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
     if (options.mpi) return render_mpi(options);
-    if (options.is_batch()) return render_batch(options);
     if (!options.watch || is_worker()) return render_once(options, seconds_before_main);
     return watch_scene(options.scene, options.quiet, [&] {
         return render_once(options, std::exchange(seconds_before_main, 0.0));

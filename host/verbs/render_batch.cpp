@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <string>
 #include <utility>
@@ -22,7 +23,9 @@
 #include "host/scene/camera_path.h"
 #include "host/stop_signal.h"
 #include "host/verbs/batch_list.h"
+#include "host/verbs/batch_log.h"
 #include "host/verbs/render_steps.h"
+#include "host/worker.h"
 
 namespace rt {
 
@@ -34,11 +37,15 @@ struct ResultsLost : Error {
 };
 
 /// JSON of a batch: one line per picture.
-void print_batch_results(const RenderStats& stats, const RenderOptions& options) {
+void print_batch_results(const RenderStats& stats, const RenderOptions& options,
+                         const std::function<void()>& note) {
     try {
         if (options.stats == StatsFormat::json) {
-            print_result(stats_json(stats).dump() + "\n");
+            const std::string line = stats_json(stats).dump() + "\n";
+            note();
+            print_result(line);
         } else {
+            note();
             print_results(stats, options);
         }
         flush_results();
@@ -47,14 +54,17 @@ void print_batch_results(const RenderStats& stats, const RenderOptions& options)
     }
 }
 
-/// Writes a picture and reports how it went. Returns the exit status.
-int finish_picture(RenderedPicture rendered, const RenderOptions& options, const Stopwatch& total) {
+/// Writes a picture and reports how it went. Returns the exit status. `note` gets it just before
+/// the results are printed: a driver may end this process at any moment.
+int finish_picture(RenderedPicture rendered, const RenderOptions& options, const Stopwatch& total,
+                   const std::function<void(int status)>& note) {
     const Stopwatch writing;
     const std::string path = save_picture(rendered, options);
     rendered.stats.phases.write = writing.seconds();
     rendered.stats.phases.total = total.seconds();
-    print_batch_results(rendered.stats, options);
-    return verdict(rendered, path);
+    const int status = verdict(rendered, path);
+    print_batch_results(rendered.stats, options, [&] { note(status); });
+    return status;
 }
 
 /// Renders a picture while the one before it is written.
@@ -62,7 +72,8 @@ class Batch {
    public:
     explicit Batch(const RenderOptions& options)
         : options_(options),
-          list_(options),
+          log_(options.batch_log),
+          list_(options, log_),
           devices_(find_devices(options.device, options.threads, restore_stop_signals).get()) {
         if (!options.output.empty()) check_picture_path(batch_output(options.output, "scene"));
     }
@@ -73,7 +84,14 @@ class Batch {
             bool is_there = true;
             const bool is_right = attempt(item, [&] { is_there = list_.next(item); });
             if (!is_there) break;
-            if (is_right) attempt(item, [&] { start(item); });
+            if (!is_right) continue;
+            if (const std::optional<int> status = log_.status_of(item.number)) {
+                count(item, *status);
+                continue;
+            }
+            watch_worker(true);
+            attempt(item, [&] { start(item); });
+            watch_worker(false);
         }
         settle();
         return sum_up();
@@ -112,12 +130,19 @@ class Batch {
         const Scene& scene = load(item, options);
         const double load_seconds = watch.lap();
         RenderedPicture rendered = render(scene, options);
+        if (!options.failed_device.empty()) {
+            rendered.stats.device.fallback_from = options.failed_device;
+        }
         rendered.stats.scene.path = options.scene;
         rendered.stats.phases.load = load_seconds;
         settle();
         written_ = item;
-        writing_ = std::async(std::launch::async, finish_picture, std::move(rendered),
-                              std::move(options), total);
+        writing_ = std::async(
+            std::launch::async, [this, rendered = std::move(rendered), options = std::move(options),
+                                 total, number = item.number]() mutable {
+                return finish_picture(std::move(rendered), options, total,
+                                      [&](int status) { log_.add_finished(number, status); });
+            });
     }
 
     /// A camera path's scene is loaded once.
@@ -149,8 +174,12 @@ class Batch {
     }
 
     void note(const BatchItem& item, const Error& error) {
-        print_message(fmt::format("mirrorball: {}{}\n", item.where, error.what()));
-        count(item, static_cast<int>(error.exit_code()));
+        const int status = static_cast<int>(error.exit_code());
+        if (!log_.status_of(item.number)) {
+            print_message(fmt::format("mirrorball: {}{}\n", item.where, error.what()));
+            log_.add_finished(item.number, status);
+        }
+        count(item, status);
     }
 
     void count(const BatchItem& item, int status) {
@@ -190,6 +219,7 @@ class Batch {
     }
 
     const RenderOptions& options_;
+    BatchLog log_;
     BatchList list_;
     std::vector<DeviceChoice> devices_;
     RenderCache cache_;
@@ -206,8 +236,11 @@ class Batch {
 }  // namespace
 
 int render_batch(const RenderOptions& options) {
-    if (options.timeout > 0) stop_after(options.timeout);
-    return Batch(options).run();
+    start_timeout(options);
+    watch_worker(true);
+    Batch batch(options);
+    watch_worker(false);
+    return batch.run();
 }
 
 }  // namespace rt

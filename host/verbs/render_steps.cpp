@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -49,6 +50,10 @@ bool report_non_finite(const Picture& picture, const Rect& region, std::size_t c
                     "very large numbers in the scene\n",
                     count, count == 1 ? " is" : "s are", region.x + x, region.y + y));
     return true;
+}
+
+void start_timeout(const RenderOptions& options) {
+    if (options.timeout > 0) stop_after(std::max(options.timeout - seconds_before_worker(), 0.001));
 }
 
 void check_output(const RenderOptions& options) {

@@ -22,6 +22,9 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
 /// Returns whether any are.
 bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count);
 
+/// Starts the clock of --timeout.
+void start_timeout(const RenderOptions& options);
+
 /// Rejects, before anything is computed, an output that could not be written.
 void check_output(const RenderOptions& options);
 

@@ -231,7 +231,7 @@ MUTANTS = [
          "part_of(film, region, tile), part_of(film"),
     ], [("wrong_driver_test.py", "Wrong.test_by_tracing_tiles_again")]),
     Mutant("a driver that crashes is not tried again", [
-        (V + "render.cpp", "end.stop_signal == 0) end = try_again(end);",
+        (V + "isolated_render.cpp", "end.stop_signal == 0) end = try_again(end);",
          "end.stop_signal == 0) {}"),
     ], [("wrong_driver_test.py", "Dies.test_once_is_tried_once_more")]),
     Mutant("NaN in a picture is no error", [

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/verbs/isolated_render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/console.h"
+#include "host/error.h"
+#include "host/journal/journal_file.h"
+#include "host/opencl/icd_files.h"
+#include "host/render/stopwatch.h"
+#include "host/scene/scene_file.h"
+#include "host/scene/stdin_text.h"
+#include "host/stop_signal.h"
+#include "host/temporary_folder.h"
+#include "host/verbs/batch_log.h"
+#include "host/verbs/render_steps.h"
+#include "host/worker.h"
+
+namespace rt {
+
+namespace {
+
+/// Renders in worker processes, which load the drivers.
+class IsolatedRender {
+   public:
+    IsolatedRender(RenderOptions options, double seconds_before_main, RenderHere render_here)
+        : options_(std::move(options)),
+          seconds_before_(seconds_before_main),
+          render_here_(std::move(render_here)),
+          name_(options_.device.empty() ? "OpenCL" : "--device " + options_.device) {}
+
+    /// If the first worker crashes, another one tries. If that crashes too, or one hangs, threads
+    /// resume here from the journal. A batch gets a new worker as long as pictures are finished.
+    int run() {
+        if (options_.scene == stdin_scene) keep_stdin();  // each worker reads it
+        if (options_.fresh && !options_.is_batch()) remove_journal();
+        if (batch_log_) options_.batch_log = std::to_string(batch_log_.number());
+        WorkerEnd end = work({});
+        for (std::size_t before = 0, now = 0; has_failed(end); before = now) {
+            now = BatchLog(options_.batch_log).finished();
+            if (now == before) break;
+            say(end, "starting it again");
+            end = work({});
+        }
+        if (!end.is_regular && !end.is_hung && end.stop_signal == 0) end = try_again(end);
+        if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
+        if (end.is_regular) return end.status;
+        if (options_.no_fallback) {
+            throw Error(ExitCode::device, name_ + ": the driver process " + end.how);
+        }
+        say(end, "rendering on threads instead");
+        if (options_.timeout > 0) {
+            options_.timeout = std::max(options_.timeout - watch_.seconds(), 0.001);
+        }
+        options_.failed_device = name_;
+        options_.device = "threads";
+        return render_here_(options_, seconds_before_ + watch_.seconds());
+    }
+
+   private:
+    static bool has_failed(const WorkerEnd& end) { return !end.is_regular && end.stop_signal == 0; }
+
+    /// Called once, before a worker leaves a journal there to be resumed.
+    void remove_journal() {
+        RenderOptions chosen = options_;
+        choose_journal(chosen);
+        if (!chosen.journal.empty()) {
+            JournalFile file(chosen.journal);
+            if (file.found() != JournalFile::Found::something_else) file.remove();
+        }
+        options_.fresh = false;
+        std::erase(options_.command, "--fresh");
+    }
+
+    WorkerEnd work(std::vector<std::string> changes) const {
+        if (batch_log_) changes.push_back("MIRRORBALL_BATCH=" + options_.batch_log);
+        return run_worker(options_.command, changes, options_.deadline,
+                          seconds_before_ + watch_.seconds());
+    }
+
+    /// Without drivers that crash when listing their devices, else with an empty kernel cache.
+    WorkerEnd try_again(const WorkerEnd& first) const {
+        const IcdFiles files = try_icd_files(options_.drivers);
+        const TemporaryFolder cache;
+        const UsableIcdFiles usable(files);
+        if (cache.name().empty() || usable.place().empty()) return first;
+        if (!files.any_dangerous) {
+            say(first, "trying again with an empty kernel cache");
+            return work({"POCL_CACHE_DIR=" + cache.name()});
+        }
+        if (files.usable.empty()) return first;
+        say(first, "trying again with the other drivers");
+        const WorkerEnd second = work({"OCL_ICD_VENDORS=" + usable.place()});
+        const bool lacks_device =
+            second.is_regular && second.status == static_cast<int>(ExitCode::device);
+        return lacks_device ? first : second;
+    }
+
+    void say(const WorkerEnd& end, const char* then) const {
+        if (options_.quiet) return;
+        print_message(
+            fmt::format("mirrorball: {}: the driver process {}; {}\n", name_, end.how, then));
+    }
+
+    RenderOptions options_;
+    const double seconds_before_;
+    const RenderHere render_here_;
+    const std::string name_;
+    const FileDescriptor batch_log_ =
+        options_.is_batch() ? BatchLog::make_memory() : FileDescriptor();
+    const Stopwatch watch_;
+};
+
+}  // namespace
+
+int render_isolated(const RenderOptions& options, double seconds_before_main,
+                    RenderHere render_here) {
+    return IsolatedRender(options, seconds_before_main, std::move(render_here)).run();
+}
+
+}  // namespace rt
