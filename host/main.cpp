@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "host/console.h"
 #include "host/error.h"
 #include "host/exit_status.h"
@@ -12,10 +16,24 @@
 
 namespace {
 
+/// Measures in a worker process, which the OpenCL drivers it loads may crash.
+int isolated(const std::vector<std::string>& command, double seconds_before_main,
+             const std::function<int()>& measure) {
+    if (rt::is_worker()) return measure();
+    const rt::WorkerEnd end = rt::run_worker(command, {}, 0, seconds_before_main);
+    if (end.stop_signal != 0) rt::end_by_stop_signal(end.stop_signal);
+    if (end.is_regular) return end.status;
+    throw rt::Error(rt::ExitCode::device, "the process that measures " + end.how +
+                                              "; `mirrorball doctor` finds a driver that crashes");
+}
+
 int run(int argc, char** argv, double seconds_before_main) {
     const rt::Options options = rt::parse_options(argc, argv);
     if (rt::become_worker(options.worker_link)) seconds_before_main += rt::seconds_before_worker();
     if (options.quiet()) rt::stop_quietly();
+    const auto in_worker = [&](const std::function<int()>& measure) {
+        return isolated(options.render.command, seconds_before_main, measure);
+    };
     switch (options.verb) {
         case rt::Verb::render:
             return rt::run_render(options.render, seconds_before_main);
@@ -24,13 +42,13 @@ int run(int argc, char** argv, double seconds_before_main) {
         case rt::Verb::compare:
             return rt::run_compare(options.compare);
         case rt::Verb::bench:
-            return rt::run_bench(options.bench);
+            return in_worker([&] { return rt::run_bench(options.bench); });
         case rt::Verb::converge:
-            return rt::run_converge(options.converge);
+            return in_worker([&] { return rt::run_converge(options.converge); });
         case rt::Verb::stress:
-            return rt::run_stress(options.stress);
+            return in_worker([&] { return rt::run_stress(options.stress); });
         case rt::Verb::report:
-            return rt::run_report(options.report);
+            return in_worker([&] { return rt::run_report(options.report); });
         case rt::Verb::devices:
             return rt::run_devices(options.devices);
         case rt::Verb::doctor:

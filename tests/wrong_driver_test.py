@@ -257,6 +257,15 @@ class Dies(WrongDriver):
         self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its process was killed by SIGSEGV")
         self.assertRegex(result.stdout, r"ok +threads: ")
 
+    def test_measuring_ends_with_one_line(self):
+        for verb in [["bench", SCENE], ["converge", SCENE], ["stress", "--quick"],
+                     ["report", SCENE, "-o", str(self.folder / "report.html")]]:
+            result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs",
+                                    "CL_SHIM_DIE_BY": "abort"}, *verb, "-q")
+            self.assertEqual(result.returncode, 5, result.stderr)
+            self.assertEqual(result.stderr, "mirrorball: the process that measures was killed by "
+                             "SIGABRT; `mirrorball doctor` finds a driver that crashes\n")
+
     def test_devices_survives(self):
         result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort"},
                                "devices", "--json")
