@@ -94,8 +94,9 @@ TEST_F(WritePicture, OpenImageIoWritesOtherFormats) {
     }
     const float rounding = 0.5f / 255 * 1.001f, lossy = 0.04f;
     const std::pair<const char*, float> formats[] = {
-        {"a.tif", 0.0f},     {"a.TIFF", 0.0f},      {"a.bmp", rounding}, {"a.tga", rounding},
-        {"a.ppm", rounding}, {"a.hdr", 1 / 100.0f}, {"a.jpg", lossy},    {"a.webp", lossy},
+        {"a.tif", 0.0f},     {"a.TIFF", 0.0f},    {"a.bmp", rounding},
+        {"a.tga", rounding}, {"a.ppm", rounding}, {"a.hdr", 1 / 100.0f},
+        {"a.jpg", lossy},    {"a.webp", lossy},   {"a.dpx", rounding},
     };
     for (const auto& [name, tolerance] : formats) {
         write_picture(path(name), picture, Encoding::display);
@@ -149,8 +150,8 @@ TEST_F(WritePicture, PngAlphaIsNeitherCurvedNorMultiplied) {
 
 TEST_F(WritePicture, SamePictureGivesTheSameBytes) {
     const PictureMetadata metadata{{"mirrorball:Scene", "spheres"}, {"mirrorball:Rays", "7"}};
-    const char* const names[] = {"a.png", "a.exr",  "a.pfm", "a.tif", "a.jpg",
-                                 "a.hdr", "a.webp", "a.tga", "a.bmp", "a.ppm"};
+    const char* const names[] = {"a.png",  "a.exr", "a.pfm", "a.tif", "a.jpg", "a.hdr",
+                                 "a.webp", "a.tga", "a.bmp", "a.ppm", "a.dpx"};
     for (const char* name : names) {
         write_picture(path(name), ramp_picture(40, 30), Encoding::srgb, metadata);
     }

@@ -99,13 +99,21 @@ int read_all_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const Pi
     std::vector<float> values;
     for (int first = 0; first < spec.height; first += step) {
         const int last = std::min(first + step, spec.height);
-        if (!read_rows(input, spec, first, last, values)) {
+        // Some readers report success and still leave an error: TIFF of a file cut short.
+        if (!read_rows(input, spec, first, last, values) || input.has_error()) {
             const std::string complaint = input.geterror();
             return fail(error, complaint.empty() ? "the pixels are damaged" : complaint);
         }
         if (sink.rows(sink.context, values.data(), values.size()) == 0) return 0;
     }
     return 1;
+}
+
+/// The library allocates whole tiles.
+bool has_huge_tiles(const OIIO::ImageSpec& spec) {
+    constexpr double usual = 1 << 20;
+    const double pixels = static_cast<double>(spec.width) * spec.height;
+    return static_cast<double>(spec.tile_width) * spec.tile_height > 4 * pixels + usual;
 }
 
 int decode_picture(const char* path, const char* format, const PictureSink& sink, ErrorText error) {
@@ -120,6 +128,7 @@ int decode_picture(const char* path, const char* format, const PictureSink& sink
         return fail(error, complaint.empty() ? "the header is damaged" : complaint);
     }
     if (spec.depth > 1 || spec.deep) return fail(error, "not a flat picture");
+    if (has_huge_tiles(spec)) return fail(error, "its tiles are much larger than the picture");
     if (sink.header(sink.context, spec.width, spec.height, spec.nchannels) == 0) return 0;
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
         if (attribute.type() != OIIO::TypeString) continue;

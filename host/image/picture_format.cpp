@@ -29,6 +29,7 @@ constexpr FormatNames formats[] = {
     {PictureFormat::tga, "TGA", "targa", {".tga"}},
     {PictureFormat::bmp, "BMP", "bmp", {".bmp"}},
     {PictureFormat::pnm, "PNM", "pnm", {".ppm", ".pgm", ".pnm"}},
+    {PictureFormat::dpx, "DPX", "dpx", {".dpx"}},
 };
 
 const FormatNames& names_of(PictureFormat format) {
@@ -71,12 +72,15 @@ std::optional<PictureFormat> known_picture_format(const std::string& path) {
 }
 
 PictureFormat picture_format_of_name(const std::string& path) {
-    if (const auto format = known_picture_format(path)) return *format;
     const std::string ending = ending_of(path);
+    if (ending == ".pgm") {
+        throw Error(ExitCode::usage, path + ": PGM pictures have no color; name the picture .ppm");
+    }
+    if (const auto format = known_picture_format(path)) return *format;
     throw Error(ExitCode::usage,
                 path + ": " + (ending.empty() ? "no ending" : "unknown ending '" + ending + "'") +
                     "; name the picture .png, .exr or .pfm (or .tif, .jpg, .webp, .hdr, .tga, "
-                    ".bmp, .ppm)");
+                    ".bmp, .ppm, .dpx)");
 }
 
 std::optional<PictureFormat> picture_format_of_bytes(std::string_view first_bytes) {
@@ -98,6 +102,8 @@ std::optional<PictureFormat> picture_format_of_bytes(std::string_view first_byte
         {"#?RADIANCE"sv, PictureFormat::hdr},
         {"#?RGBE"sv, PictureFormat::hdr},
         {"BM"sv, PictureFormat::bmp},
+        {"SDPX"sv, PictureFormat::dpx},
+        {"XPDS"sv, PictureFormat::dpx},
     };
     for (const Signature& signature : signatures) {
         if (first_bytes.starts_with(signature.bytes)) return signature.format;

@@ -8,7 +8,7 @@
 namespace rt {
 
 /// The formats pictures are read and written in.
-enum class PictureFormat { png, exr, pfm, tiff, jpeg, webp, hdr, tga, bmp, pnm };
+enum class PictureFormat { png, exr, pfm, tiff, jpeg, webp, hdr, tga, bmp, pnm, dpx };
 
 /// "PNG", "EXR", ...
 std::string_view to_string(PictureFormat format);

@@ -16,10 +16,10 @@ namespace rt {
 
 /// Writes a picture in the format of its extension: .png (8 bits a channel, 1 to 4 channels), .exr
 /// (32-bit float, zip, lossless), .pfm (32-bit float, 1 or 3 channels), or what OpenImageIO writes:
-/// .tif (32-bit float), .hdr (shared exponents), .jpg .webp .tga .bmp .ppm (8 bits). The encoding
-/// applies to 8 bits only. A given format overrides the extension. The file appears whole or not at
-/// all (atomic_file.h), and the same arguments always give the same bytes: no time stamp, no
-/// program name.
+/// .tif (32-bit float), .hdr (shared exponents), .jpg .webp .tga .bmp .ppm .dpx (8 bits). The
+/// encoding applies to 8 bits only. A given format overrides the extension. The file appears whole
+/// or not at all (atomic_file.h), and the same arguments always give the same bytes: no time stamp,
+/// no program name.
 ///
 /// Metadata goes to .png as text chunks and to .exr as string attributes, under its own names; the
 /// other formats drop it. Each name must be "mirrorball:" and then 1 to 20 of [A-Za-z0-9_]. Texts

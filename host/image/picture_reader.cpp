@@ -13,6 +13,7 @@
 #include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
 #include "host/image/png_file.h"
+#include "host/image/stored_size.h"
 
 namespace rt {
 namespace {
@@ -20,8 +21,10 @@ namespace {
 /// What the module fills, and what went wrong on our side of the border.
 struct Target {
     const std::string& path;
-    PictureFile file;
-    std::exception_ptr failure;
+    PictureFormat format;
+    std::uintmax_t size;  ///< of the file, in bytes
+    PictureFile file = {};
+    std::exception_ptr failure = nullptr;
 };
 
 /// Runs a callback of the module: saves an exception for later and returns 0 to stop the module.
@@ -40,6 +43,8 @@ int keep_exception(void* context, Call call) {
 int take_header(void* context, int width, int height, int channels) {
     return keep_exception(context, [=](Target& target) {
         check_picture_size(target.path, width, height, channels);
+        check_stored_values(target.path, target.format, std::uintmax_t(width) * height * channels,
+                            target.size);
         check_picture_memory(target.path, width, height, channels);
         target.file.picture = {width, height, channels, {}};
     });
@@ -88,7 +93,7 @@ PictureFormat find_format(const std::string& path, InputFile& file) {
         refuse_picture(path, "is no " + std::string(to_string(*named)) + " picture",
                        "write it again");
     refuse_picture(path, "is not a picture we can read",
-                   "give a PNG, EXR, PFM, TIFF, JPEG, WebP, HDR, TGA, BMP or PNM file");
+                   "give a PNG, EXR, PFM, TIFF, JPEG, WebP, HDR, TGA, BMP, PNM or DPX file");
 }
 
 std::string one_line(std::string text) {
@@ -97,8 +102,9 @@ std::string one_line(std::string text) {
     return text;
 }
 
-PictureFile read_with_module(const std::string& path, PictureFormat format) {
-    Target target{path, {}, {}};
+PictureFile read_with_module(const std::string& path, PictureFormat format, InputFile file) {
+    if (format == PictureFormat::jpeg) check_jpeg_end(path, file);
+    Target target{path, format, file.size};
     const module::PictureSink sink{&target, take_header, take_attribute, take_rows};
     char error[1024] = "";
     const module::Module& library = picture_module(format, ExitCode::input);
@@ -120,7 +126,7 @@ PictureFile read_picture_file(const std::string& path) try {
     const PictureFormat format = find_format(path, file);
     if (format == PictureFormat::png) return read_png(path, file.stream, file.size);
     if (format == PictureFormat::pfm) return {read_pfm(path, std::move(file)), {}};
-    return read_with_module(path, format);
+    return read_with_module(path, format, std::move(file));
 } catch (const std::bad_alloc&) {
     throw Error(ExitCode::limit,
                 path + ": not enough memory for its pixels; scale the picture down first");

@@ -74,11 +74,12 @@ class WrongName(CliTest):
     def test_openimageio_writes_other_formats(self):
         for name, start in [("out.jpg", b"\xff\xd8\xff"), ("out.tif", b"II*\0"), ("out.hdr", b"#?"),
                             ("out.webp", b"RIFF"), ("out.bmp", b"BM"), ("out.ppm", b"P6"),
-                            ("out.tga", b"\0\0")]:
+                            ("out.tga", b"\0\0"), ("out.dpx", b"XPDS")]:
             with self.subTest(name=name):
                 result = self.render_to(name)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertTrue((self.folder / name).read_bytes().startswith(start))
+        self.assert_refused(self.render_to("out.pgm"), 2, "no color")
         self.render_to("out.exr")
         result = self.run_cli("compare", "out.tif", "out.exr", "--max-abs", "0")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)

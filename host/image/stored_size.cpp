@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/stored_size.h"
+
+#include <iterator>
+
+#include "host/error.h"
+
+namespace rt {
+namespace {
+
+/// The most values that a byte of a file can hold; 0: no limit. Generous where it is not exact.
+std::uintmax_t values_per_byte(PictureFormat format) {
+    switch (format) {
+        case PictureFormat::tiff:
+            return 8 * 1032;  // one bit each, deflated
+        case PictureFormat::jpeg:
+            return 64 * 32;  // blocks of 64, runs of empty ones
+        case PictureFormat::hdr:
+        case PictureFormat::tga:
+        case PictureFormat::bmp:
+        case PictureFormat::dpx:
+            return 4 * 128;  // runs of pixels, two bytes each
+        case PictureFormat::pnm:
+            return 8;  // one bit each
+        default:
+            return 0;
+    }
+}
+
+}  // namespace
+
+void check_stored_values(const std::string& path, PictureFormat format, std::uintmax_t values,
+                         std::uintmax_t file_size) {
+    const std::uintmax_t most = values_per_byte(format);
+    if (most != 0) check_stored_size(path, values, most, file_size);
+}
+
+void check_jpeg_end(const std::string& path, InputFile& file) {
+    const std::string bytes{std::istreambuf_iterator<char>(file.stream), {}};
+    const std::size_t scan = bytes.rfind("\xff\xda");  // the last one; thumbnails come before
+    if (scan != bytes.npos && bytes.find("\xff\xd9", scan) != bytes.npos) return;
+    throw Error(ExitCode::input, path +
+                                     ": the JPEG picture has no end; it may be truncated: "
+                                     "write it again");
+}
+
+}  // namespace rt
