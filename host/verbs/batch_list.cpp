@@ -14,17 +14,43 @@
 #include <sstream>
 
 #include "host/error.h"
+#include "host/image/output_path.h"
 #include "host/options/frame_number.h"
 #include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
 
 namespace rt {
 
+namespace {
+
+/// The next name; empty at the end of the line.
+std::optional<std::string> next_name(std::istringstream& words) {
+    if ((words >> std::ws).eof()) return std::nullopt;
+    std::string name;
+    if (!(words >> std::quoted(name))) {
+        throw Error(ExitCode::usage, "no closing quote; put names with blanks in double quotes");
+    }
+    if (name.empty()) throw Error(ExitCode::usage, "an empty name; give SCENE or SCENE OUTPUT");
+    return name;
+}
+
+/// Through all symbolic links; the same for any name of a file that may not exist yet.
+std::string canonical_name(const std::string& path) {
+    std::error_code error;
+    const auto target = find_output_destination(path).file;
+    const auto name = std::filesystem::weakly_canonical(std::filesystem::absolute(target), error);
+    return error ? path : name.string();
+}
+
+}  // namespace
+
 std::optional<BatchItem> parse_batch_line(const std::string& line) {
     std::istringstream words(line);
     BatchItem item;
-    if (!(words >> std::quoted(item.scene)) || item.scene.starts_with("#")) return std::nullopt;
-    words >> std::quoted(item.output);
+    const std::optional<std::string> scene = next_name(words);
+    if (!scene || scene->starts_with("#")) return std::nullopt;
+    item.scene = *scene;
+    item.output = next_name(words).value_or("");
     std::string more;
     if (words >> more) {
         throw Error(ExitCode::usage,
@@ -60,7 +86,11 @@ LineReader::LineReader(const std::string& path, BatchLog& log)
                                                  std::strerror(errno)));
     }
     struct stat status {};
-    if (path == "-" || fstat(file_.number(), &status) != 0 || !S_ISREG(status.st_mode)) return;
+    if (fstat(file_.number(), &status) == 0 && S_ISDIR(status.st_mode)) {
+        throw Error(ExitCode::input,
+                    path + ": Is a directory; give a file that lists scenes, one per line");
+    }
+    if (path == "-" || !S_ISREG(status.st_mode)) return;
     chunk_ = 4096;
     lseek(file_.number(), static_cast<off_t>(log.bytes_of_lines()), SEEK_SET);
 }
@@ -136,8 +166,7 @@ bool BatchList::next(BatchItem& item) {
     if (!take(item)) return false;
     if (item.output.empty()) item.output = batch_output(options_.output, item.scene);
     if (item.output.empty()) return true;
-    const auto path = std::filesystem::absolute(item.output).lexically_normal().string();
-    if (!outputs_.insert(path).second) {
+    if (!outputs_.insert(canonical_name(item.output)).second) {
         throw Error(
             ExitCode::usage,
             item.output + " is already the output of another scene; give each scene its own file");

@@ -124,7 +124,7 @@ class Batch {
             return;
         }
         check_output(options);
-        check_output_is_no_input(options.output, {options.scene});
+        check_output_is_no_input(options.output, {options.scene, options.batch});
         choose_journal(options);
         Stopwatch watch;
         const Scene& scene = load(item, options);
@@ -191,7 +191,8 @@ class Batch {
 
     static std::string name_of(const BatchItem& item) {
         if (item.frame) return fmt::format("frame {}", *item.frame);
-        return item.scene.empty() ? item.where : item.scene;
+        if (!item.scene.empty()) return item.scene;
+        return item.where.substr(0, item.where.rfind(": "));
     }
 
     int sum_up() const {

@@ -95,6 +95,40 @@ class List(BatchTest):
         self.assertEqual(self.files(), ["cones.png", "list", "with blank.png"])
         self.assertEqual(self.bytes_of("cones.png"), self.bytes_of("with blank.png"))
 
+    def test_lines_that_cannot_be_read_are_named(self):
+        scene = scene_path("cones")
+        text = f'{scene} 1.png\n"{scene} 2.png\n""\n{scene} "3.png\n{scene} ""\n'
+        self.write_text("list", text)
+        result = self.run_cli("render", "--batch", "list", *SMALL)
+        self.assertEqual(result.returncode, 2)
+        for line, word in [(2, "no closing quote"), (3, "empty name"), (4, "no closing quote"),
+                           (5, "empty name")]:
+            self.assertRegex(result.stderr, f"mirrorball: list:{line}: .*{word}")
+        self.assertEqual(result.stderr.splitlines()[-1],
+                         "mirrorball: 4 of 5 pictures failed, with exit codes: list:2 (2), "
+                         "list:3 (2), list:4 (2), list:5 (2)")
+        self.assertEqual(self.files(), ["1.png", "list"])
+
+    def test_the_list_is_not_overwritten(self):
+        text = f"{scene_path('cones')} list.png"
+        result = self.run_cli("render", "--batch", self.write_text("list.png", text), *SMALL)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("list.png: is the same file as", result.stderr)
+        self.assertEqual((self.folder / "list.png").read_text(), text)
+
+    def test_one_file_by_two_names_is_not_written_twice(self):
+        (self.folder / "b.png").symlink_to("a.png")
+        (self.folder / "folder").symlink_to(".")
+        scene = scene_path("cones")
+        self.write_text("list", f"{scene} a.png\n{scene} b.png\n{scene} folder/a.png\n")
+        result = self.run_cli("render", "--batch", "list", *SMALL)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("list:2: b.png is already the output of another scene", result.stderr)
+        self.assertIn("list:3: folder/a.png is already the output of another scene", result.stderr)
+
+    def test_a_folder_is_no_list(self):
+        self.assert_refused(self.run_cli("render", "--batch", "."), 3, "Is a directory")
+
     def test_no_scene_at_all(self):
         self.assert_refused(self.run_cli("render", "--batch", self.write_text("list", "# none\n")),
                             2, "no scene")
