@@ -24,12 +24,33 @@ struct Task {
     const std::function<void(int)>* work;
     std::atomic<Gate>* gate;
     int index;
-    std::exception_ptr failure;
+    const cpu_set_t* cores;  ///< this process's
+    std::exception_ptr failure = nullptr;
 };
+
+/// The i-th core of a set, as a set; empty if there are fewer.
+cpu_set_t one_core(const cpu_set_t& cores, int i) {
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    for (std::size_t core = 0; core < CPU_SETSIZE; ++core) {
+        if (CPU_ISSET(core, &cores) && i-- == 0) CPU_SET(core, &one);
+    }
+    return one;
+}
+
+/// Threads that wake together often share a core for a few milliseconds: each starts on a core of
+/// its own, and may then go anywhere.
+void start_on_own_core(const Task& task) {
+    const cpu_set_t own = one_core(*task.cores, task.index);
+    const bool is_moved =
+        CPU_COUNT(&own) == 1 && pthread_setaffinity_np(pthread_self(), sizeof own, &own) == 0;
+    task.gate->wait(Gate::closed);
+    if (is_moved) pthread_setaffinity_np(pthread_self(), sizeof own, task.cores);
+}
 
 void* run_task(void* argument) {
     Task& task = *static_cast<Task*>(argument);
-    task.gate->wait(Gate::closed);
+    start_on_own_core(task);
     if (task.gate->load() == Gate::abandoned) return nullptr;
     try {
         (*task.work)(task.index);
@@ -64,12 +85,14 @@ int available_cores() {
 
 void run_on_threads(int count, const std::function<void(int)>& work) {
     std::atomic<Gate> gate = Gate::closed;
+    cpu_set_t cores;
+    if (sched_getaffinity(0, sizeof cores, &cores) != 0) CPU_ZERO(&cores);
     std::vector<Task> tasks(static_cast<std::size_t>(count));
     std::vector<pthread_t> threads;
     threads.reserve(tasks.size());
     for (int i = 0; i < count; ++i) {
         Task& task = tasks[static_cast<std::size_t>(i)];
-        task = {&work, &gate, i, nullptr};
+        task = {&work, &gate, i, &cores};
         pthread_t thread;
         const int status = pthread_create(&thread, nullptr, run_task, &task);
         if (status != 0) {

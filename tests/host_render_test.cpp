@@ -2,6 +2,7 @@
 //
 // The small parts around the tracer: tiles, threads, device choice, film, image error, statistics.
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -135,6 +136,21 @@ TEST(RunOnThreads, RunsEachIndexOnceAndRethrows) {
         if (i == 3) throw Error(ExitCode::bug, "three");
     };
     EXPECT_THROW(run_on_threads(5, fail), Error);
+}
+
+TEST(RunOnThreads, LetsEachRunOnAnyCore) {
+    const auto cores = [] {
+        cpu_set_t mask;
+        return sched_getaffinity(0, sizeof mask, &mask) == 0 ? CPU_COUNT(&mask) : -1;
+    };
+    run_on_threads(available_cores() + 1, [&](int) { EXPECT_EQ(cores(), available_cores()); });
+    cpu_set_t before, one;
+    ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+    CPU_ZERO(&one);
+    CPU_SET(static_cast<std::size_t>(sched_getcpu()), &one);
+    ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+    run_on_threads(3, [&](int) { EXPECT_EQ(cores(), 1); });
+    ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
 }
 
 TEST(ThreadCount, BuffersNeverUseMoreThreadsThanSamples) {
