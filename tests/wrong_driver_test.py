@@ -150,10 +150,12 @@ class Fails(WrongDriver):
             self.check_fails_at(launch, "--aa", "adaptive:0.01")
 
     def test_beside_others(self):
-        right = self.figures({}, "threads", *self.TILES)
-        got = self.figures({"CL_SHIM_FAIL_LAUNCH": "4"}, "pocl,threads", *self.TILES)
+        picture = ["--aa", "grid:64", "--tile", "100x10"]
+        right = self.figures({}, "threads", *picture)
+        got = self.figures({"CL_SHIM_FAIL_LAUNCH": "4"}, "pocl,threads", *picture)
         self.assertEqual(got["image"]["hash"], right["image"]["hash"])
         self.assertEqual(got["rays"], right["rays"])
+        self.assertIn("CL_OUT_OF_RESOURCES", got["devices"][0]["failure"])
 
     def test_in_a_batch_it_is_not_asked_again(self):
         right = self.figures({}, "threads", *self.TILES)
