@@ -156,10 +156,12 @@ class Job {
         if (events_.message) events_.message(line);
     }
 
-    /// Threads that share tiles with others cannot render whole sample buffers.
-    ThreadsOptions threads_beside_others() const {
+    /// Threads that stand in for devices, some tiles of which may be finished: they cannot render
+    /// whole sample buffers, and the settings of packets are the devices'.
+    ThreadsOptions spare_threads() const {
         ThreadsOptions options = threads_options(settings_, 0);
         options.schedule = Schedule::tiles;
+        options.lanes = 0;
         return options;
     }
 
@@ -179,7 +181,7 @@ class Job {
         }
         std::optional<CrewMember<T>> spare;
         if (!settings_.no_fallback && has_opencl(devices)) {
-            spare = threads_member<T>(scene_, threads_beside_others());
+            spare = threads_member<T>(scene_, spare_threads());
         }
         return Crew<T>(std::move(members), std::move(spare),
                        [this](const std::string& line) { say(line); });
@@ -265,7 +267,7 @@ class Job {
         const std::vector<DeviceShare> shares = crew.shares();
         if (shares.size() > 1) stats_.shares = shares;
         if (crew.uses_spare()) {
-            stats_.device = threads_stats<T>(*scene_, stats_.aa, threads_beside_others());
+            stats_.device = threads_stats<T>(*scene_, stats_.aa, spare_threads());
             stats_.device.fallback_from = shares.front().name;
         } else {
             note_devices(devices);
@@ -312,11 +314,11 @@ class Job {
         if (settings_.no_fallback) throw Error(ExitCode::device, what);
         say(what + "; rendering on threads instead");
         const std::string failed = stats_.device.name;
-        Crew<T> threads({threads_member<T>(scene_, threads_beside_others())}, {}, {});
+        Crew<T> threads({threads_member<T>(scene_, spare_threads())}, {}, {});
         threads.open();
         stats_.resumed = 0;
         render_with(threads, "threads");
-        stats_.device = threads_stats<T>(*scene_, stats_.aa, threads_beside_others());
+        stats_.device = threads_stats<T>(*scene_, stats_.aa, spare_threads());
         stats_.device.fallback_from = failed;
     }
 
