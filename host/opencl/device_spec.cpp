@@ -93,6 +93,10 @@ std::vector<std::string> specs_of(const std::string& list) {
         specs.push_back(list.substr(at, end - at));
         at = end + 1;
     }
+    if (specs.size() > 1 && std::find(specs.begin(), specs.end(), "") != specs.end()) {
+        throw Error(ExitCode::usage,
+                    fmt::format("--device '{}': a name is missing beside a comma", list));
+    }
     return specs;
 }
 
@@ -112,18 +116,32 @@ class DeviceFinder {
         std::vector<DeviceChoice> found;
         for (const std::string& spec : specs_of(list)) {
             if (spec == all_devices) {
-                found.push_back(threads_choice());
+                add(found, threads_choice());
                 add_usable(found);
                 continue;
             }
-            found.push_back(find_one(spec));
+            const DeviceChoice choice = find_one(spec);
+            add(found, choice);
             // Threads trace while the automatically chosen device still compiles.
-            if (is_auto(spec) && !found.back().use_threads) found.push_back(threads_choice());
+            if (is_auto(spec) && !choice.use_threads) add(found, threads_choice());
         }
         return found;
     }
 
    private:
+    /// Each device once, by however many names.
+    static void add(std::vector<DeviceChoice>& found, const DeviceChoice& choice) {
+        for (const DeviceChoice& other : found) {
+            if (choice.use_threads != other.use_threads) continue;
+            if (choice.use_threads && choice.threads != other.threads) {
+                throw Error(ExitCode::usage,
+                            "--device names threads twice, with different numbers of them");
+            }
+            if (choice.use_threads || choice.device.index == other.device.index) return;
+        }
+        found.push_back(choice);
+    }
+
     DeviceChoice find_one(const std::string& spec) {
         if (const auto choice = choose_without_opencl(spec)) {
             if (choice->threads > 0 && threads_ > 0 && choice->threads != threads_) {
@@ -140,7 +158,9 @@ class DeviceFinder {
     void add_usable(std::vector<DeviceChoice>& found) {
         for (const ClDevice& device : listed()) {
             if (!device.unusable.empty()) continue;
-            found.emplace_back().device = device;
+            DeviceChoice choice;
+            choice.device = device;
+            add(found, choice);
         }
     }
 

@@ -86,7 +86,9 @@ std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs) 
             add_once(list, threads_entry(spec, choice.threads));
         } else {
             const auto& all = devices.list();
-            add_once(list, list_entry(choose_device(spec, all, devices.problems()).device));
+            choice = choose_device(spec, all, devices.problems());
+            add_once(list,
+                     choice.use_threads ? threads_entry("threads", 0) : list_entry(choice.device));
         }
     }
     return list;

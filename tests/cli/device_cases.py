@@ -111,6 +111,32 @@ class Choice(CliTest):
             with self.subTest(spec=spec):
                 self.refused(spec, 2, "4096")
 
+    def test_lists(self):
+        for spec in ["pocl,", ",", ",threads", "threads,,pocl"]:
+            with self.subTest(spec=spec):
+                self.refused(spec, 2, "missing")
+        self.assert_refused(self.run_cli("render", scene_path("empty"), "-o", "out.png",
+                                         "--device", "threads:1,threads:2"), 2, "threads twice")
+        for spec, names in [("threads,threads", []), ("pocl,0,cpu", []), ("auto,threads", []),
+                            ("all,0,threads", ["threads", "pthread"])]:
+            with self.subTest(spec=spec):
+                stats = self.stats_of("empty", "--size", "4", "--device", spec)
+                self.assertEqual([device["name"].split("-")[0]
+                                  for device in stats.get("devices", [])], names)
+
+    def test_auto_in_verbs_that_measure(self):
+        options = [scene_path("single-sphere"), "--aa", "none", "--precision", "float"]
+        for verb in [["bench", *options, "--sizes", "4", "--repeats", "3", "--devices"],
+                     ["stress", "--case", "scale-2/2^0", "--device"]]:
+            result = self.run_cli(*verb, "auto", "-q")
+            self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_fallback_needs_no_packets_of_the_width_asked_for(self):
+        if "x86-64-v2" not in json.loads(self.run_cli("devices", "--json").stdout)["threads"]["isas"]:
+            self.skipTest("no kernels for x86-64-v2 here")
+        self.render("empty", "--size", "4", "--device", "pocl", "--isa", "x86-64-v2", "--lanes",
+                    "16")
+
     def test_no_such_device(self):
         for spec in ["99", "7:7", "0:9", "gpu", "name:nobody"]:
             with self.subTest(spec=spec):
