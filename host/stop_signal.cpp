@@ -8,6 +8,8 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <string_view>
 
 #include "host/console.h"
@@ -27,9 +29,11 @@ struct StopSignal {
 
 StopFlag received = 0;
 std::atomic<bool> stops_quietly = false, is_working = false;
-std::atomic<pid_t> worker = 0, boss = 0;  ///< where to forward signals, and whose to handle
+std::atomic<pid_t> worker = 0, boss = 0;    ///< where to forward signals, and whose to handle
+std::atomic<std::int64_t> received_at = 0;  ///< ms
 void (*exit_listener)(int status) = nullptr;
-std::atomic<int> passed_on = 0;  ///< the last signal forwarded
+std::atomic<int> passed_on = 0;     ///< the last signal forwarded
+constexpr std::int64_t echo = 200;  ///< ms; timeout(1) signals the process, then its group
 std::array<StopSignal, 6> stop_signals{{{SIGINT, "interrupted (Ctrl-C)", true},
                                         {SIGTERM, "terminated (SIGTERM)", true},
                                         {SIGHUP, "hung up (SIGHUP)", true},
@@ -78,51 +82,71 @@ void write_line(std::string_view a, std::string_view b) {
     _exit(128 + signal.number);
 }
 
-/// Time limits apply to each process separately.
-bool is_meant(int number, const siginfo_t* info) {
-    return boss == 0 || number == SIGXCPU || number == SIGALRM ||
-           (info->si_code <= 0 && info->si_pid == boss);
+/// Forwards stop signals to a worker, which ignores others. Unlike those it is queued: a terminal
+/// signals both processes, and two equal signals become one while the first one waits.
+int forwarding_signal() { return SIGRTMIN; }
+
+/// The number of the stop signal; 0: it was not meant for us. Time limits apply to each process.
+int meant_number(int number, const siginfo_t* info) {
+    if (boss == 0 || number == SIGXCPU || number == SIGALRM) return number;
+    const bool is_forwarded = number == forwarding_signal() && info->si_pid == boss;
+    return is_forwarded ? info->si_value.sival_int : 0;
+}
+
+std::int64_t milliseconds_now() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return now.tv_sec * std::int64_t{1000} + now.tv_nsec / 1000000;
 }
 
 void stop_setting_up(int number, siginfo_t* info, void*) {
-    if (!is_meant(number, info)) return;
+    number = meant_number(number, info);
+    if (number == 0) return;
     const StopSignal& signal = of_number(number);
     write_line(signal.reason, "; nothing is saved");
     end_by(signal);
 }
 
 void stop_working(int number, siginfo_t* info, void*) {
-    if (!is_meant(number, info)) return;
+    number = meant_number(number, info);
+    if (number == 0) return;
     const int saved = errno;
     const StopSignal& signal = of_number(number);
     int none = 0;
     if (received.compare_exchange_strong(none, number)) {
+        received_at = milliseconds_now();
         if (!stops_quietly)
             write_line("stopping, saving what is finished; interrupt again to quit at once", "");
-    } else if (signal.by_hand) {
+    } else if (signal.by_hand && milliseconds_now() - received_at > echo) {
         end_by(signal);
     }
     errno = saved;
 }
 
 void pass_on(int number, siginfo_t*, void*) {
+    const int saved = errno;
     passed_on = number;
-    if (const pid_t to = worker; to > 0) ::kill(to, number);
+    sigval value{};
+    value.sival_int = number;
+    if (const pid_t to = worker; to > 0) ::sigqueue(to, forwarding_signal(), value);
+    errno = saved;
 }
 
 using Handler = void (*)(int, siginfo_t*, void*);
 
 void handle_stop_signals(Handler handler) {
-    for (const StopSignal& signal : stop_signals) {
+    const auto handle = [&](int number, bool is_ignored) {
         struct sigaction action {};
-        if (signal.ignored) {
+        if (is_ignored) {
             action.sa_handler = SIG_IGN;
         } else {
             action.sa_sigaction = handler;
         }
-        action.sa_flags = SA_RESTART | (signal.ignored ? 0 : SA_SIGINFO);
-        sigaction(signal.number, &action, nullptr);
-    }
+        action.sa_flags = SA_RESTART | (is_ignored ? 0 : SA_SIGINFO);
+        sigaction(number, &action, nullptr);
+    };
+    for (const StopSignal& signal : stop_signals) handle(signal.number, signal.ignored);
+    if (boss != 0) handle(forwarding_signal(), false);
 }
 
 }  // namespace
@@ -187,6 +211,7 @@ void end_by_stop_signal(int number) { end_by(of_number(number)); }
 void heed_stop_signals_of(pid_t process, void (*listener)(int status)) {
     exit_listener = listener;
     boss = process;
+    restore_stop_signals();
 }
 
 }  // namespace rt

@@ -245,6 +245,7 @@ bool become_worker(const std::string& link) {
     ::unsetenv(link_name);
     if (::fcntl(pipe, F_SETFD, FD_CLOEXEC) != 0) return false;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    ::prctl(PR_SET_NAME, "mirrorball");     // not "exe"
     if (::getppid() != parent) ::_exit(1);  // it has already ended
     link_pipe = pipe;
     heed_stop_signals_of(parent, note_worker_end);

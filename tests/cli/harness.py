@@ -91,7 +91,7 @@ class CliTest(unittest.TestCase):
         process = subprocess.Popen(
             [SETTINGS["program"], *map(str, arguments)], cwd=self.folder, text=True,
             stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-            env=clean_environment(env or {}))
+            env=clean_environment(env or {}), start_new_session=True)
         self.addCleanup(self._finish, process)
         return process
 

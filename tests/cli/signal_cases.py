@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """SIGINT and SIGTERM: exit 130 or 143, the picture so far saved and whole."""
 import json
+import os
 import re
 import signal
 import time
@@ -93,6 +94,27 @@ class Interrupted(CliTest):
         self.assert_stopped("pocl", signal.SIGINT, "out.pfm")
         self.assert_has_light_and_gaps("out.partial.pfm")
 
+    def test_as_a_terminal_sends_it(self):
+        """To the program and its worker process."""
+        for path in ["threads", "pocl", "pocl", "pocl", "pocl"]:
+            process = self.start_and_wait_until_tiles_are_done(path, "out.pfm")
+            os.killpg(process.pid, signal.SIGINT)
+            stderr = process.communicate(timeout=HANG_LIMIT)[1]
+            self.assertEqual(process.returncode, 130, stderr)
+            self.assertEqual(self.pictures(), ["out.partial.pfm"])
+            (self.folder / "out.pfm.mbj").unlink(missing_ok=True)
+
+    def test_as_timeout_sends_it(self):
+        """To the program, and at once to its group."""
+        for path in ["threads", "pocl"]:
+            process = self.start_and_wait_until_tiles_are_done(path, "out.pfm")
+            process.send_signal(signal.SIGTERM)
+            os.killpg(process.pid, signal.SIGTERM)
+            stderr = process.communicate(timeout=HANG_LIMIT)[1]
+            self.assertEqual(process.returncode, 143, stderr)
+            self.assertEqual(self.pictures(), ["out.partial.pfm"])
+            (self.folder / "out.pfm.mbj").unlink(missing_ok=True)
+
     def test_pocl_sigterm(self):
         self.assert_stopped("pocl", signal.SIGTERM, "out.png")
         png_chunks((self.folder / "out.partial.png").read_bytes())
@@ -114,12 +136,12 @@ class Interrupted(CliTest):
     def start_and_wait_until_it_renders(self, *more):
         """One tile that takes minutes."""
         process = self.start("render", scene_path("glass"), "-o", "out.png", "--size", "2000",
-                             "--tile", "2000", "--aa", "sobol:4096", "--device", "threads",
+                             "--tile", "2000", "--aa", "sobol:4096", "--device", "threads", "--lanes", "1",
                              "--progress", "json", *more)
-        for line in process.stderr:
-            if line.startswith("{"):
-                return process
-        self.fail(f"ended before it could be interrupted: {process.wait()}")
+        lines = (line for line in process.stderr if line.startswith("{"))
+        if not next(lines, None) or not next(lines, None):  # before the first it may not have begun
+            self.fail(f"ended before it could be interrupted: {process.wait()}")
+        return process
 
     def next_word(self, process):
         for line in process.stderr:
@@ -140,6 +162,7 @@ class Interrupted(CliTest):
             process = self.start_and_wait_until_it_renders()
             process.send_signal(first)
             self.assertIn("again to quit", self.next_word(process))
+            time.sleep(0.25)  # else it is taken for an echo of the first
             process.send_signal(second)
             sent = time.monotonic()
             process.communicate(timeout=HANG_LIMIT)
