@@ -132,34 +132,34 @@ class Fails(WrongDriver):
         return device["pixels"]
 
     def test_at_any_launch(self):
-        # The first is of nothing, the second the self-test's.
-        finished = [self.check_fails_at(launch, *self.TILES) for launch in range(1, 6)]
-        self.assertEqual(finished[:3], [0, 0, 0])
-        self.assertGreater(finished[3], 0)
-        self.assertGreater(finished[4], finished[3])
+        # The first is of nothing, the next four are the self-test's.
+        finished = [self.check_fails_at(launch, *self.TILES) for launch in [1, 2, 5, 6, 7, 8]]
+        self.assertEqual(finished[:4], [0, 0, 0, 0])
+        self.assertGreater(finished[4], 0)
+        self.assertGreater(finished[5], finished[4])
 
     def test_samples_as_work_items(self):
-        for launch in [4, 5, 6, 7, 8]:
+        for launch in [8, 9, 10, 11, 12]:
             self.check_fails_at(launch, "--launch", "sample", *self.TILES)
 
     def test_when_what_was_finished_cannot_be_read(self):
-        self.assertEqual(self.check_fails_at(5, *self.TILES, CL_SHIM_FAIL_READ="1"), 0)
+        self.assertEqual(self.check_fails_at(8, *self.TILES, CL_SHIM_FAIL_READ="1"), 0)
 
     def test_while_refining(self):
-        for launch in [4, 5]:
+        for launch in [11, 12]:
             self.check_fails_at(launch, "--aa", "adaptive:0.01")
 
     def test_beside_others(self):
         picture = ["--aa", "grid:64", "--tile", "100x10"]
         right = self.figures({}, "threads", *picture)
-        got = self.figures({"CL_SHIM_FAIL_LAUNCH": "4"}, "pocl,threads", *picture)
+        got = self.figures({"CL_SHIM_FAIL_LAUNCH": "7"}, "pocl,threads", *picture)
         self.assertEqual(got["image"]["hash"], right["image"]["hash"])
         self.assertEqual(got["rays"], right["rays"])
         self.assertIn("CL_OUT_OF_RESOURCES", got["devices"][0]["failure"])
 
     def test_in_a_batch_it_is_not_asked_again(self):
         right = self.figures({}, "threads", *self.TILES)
-        result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "4"}, *self.ARGUMENTS, "pocl", SCENE,
+        result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "7"}, *self.ARGUMENTS, "pocl", SCENE,
                                *self.TILES)
         first, second = map(json.loads, result.stdout.splitlines())
         for got in (first, second):
@@ -169,7 +169,7 @@ class Fails(WrongDriver):
         self.assertNotIn("fallback_from", second["device"])
 
     def test_is_an_error_without_fallback(self):
-        result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "4"}, *self.ARGUMENTS, "pocl", "--no-fallback")
+        result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "7"}, *self.ARGUMENTS, "pocl", "--no-fallback")
         self.assertEqual(result.returncode, 5, result.stderr)
 
 
@@ -303,8 +303,8 @@ class DiesInABatch(WrongDriver):
         lines = [json.loads(line) for line in result.stdout.splitlines()]
         return [(line["scene"]["path"], line["image"]["hash"]) for line in lines], result.stderr
 
-    def check(self, code, text, *arguments, by="abort", at="9"):
-        """By a worker that dies at its `at`-th launch (two a picture). Returns what was said."""
+    def check(self, code, text, *arguments, by="abort", at="22"):
+        """By a worker that dies at its `at`-th launch (up to six a picture). Returns what was said."""
         right, _ = self.figures(code, text, [*arguments, "--device", "threads"])
         got, said = self.figures(code, text, [*arguments, "--device", "pocl", "--deadline", "1"],
                                  CL_SHIM_DIE_IN="clEnqueueNDRangeKernel", CL_SHIM_DIE_BY=by,
@@ -321,7 +321,7 @@ class DiesInABatch(WrongDriver):
     def test_of_a_list(self):
         scenes = [f"{scene}\n" for scene in self.scenes]
         scenes[2:2] = ["# a comment\n", "nowhere.json\n", "a b c\n"]
-        last = "mirrorball: 2 of 8 pictures failed, with exit codes: nowhere.json (3), stdin:5: "
+        last = "mirrorball: 2 of 8 pictures failed, with exit codes: nowhere.json (3), stdin:5 (2)"
         said = self.check(3, "".join(scenes), "--batch", "-", *self.SMALL)
         self.assertEqual(said.count("nowhere.json: "), 1)
         self.assertIn(last, said.splitlines()[-1])
@@ -373,17 +373,33 @@ class Wrong(WrongDriver):
         self.assertNotIn("fallback_from", figures["device"])
         self.assertGreater(figures["tiles_checked"], 1)
         self.assertGreater(figures["seconds"]["self_test"], 0)
+        for share, tiles in [("1%", 1), ("20%", 5), ("21%", 6)]:
+            result = self.render({}, 0, "--check", share, "--tile", "20")
+            self.assertEqual(json.loads(result.stdout)["tiles_checked"], tiles)
 
-    # A fault at the left edge alone, where the self-test does not look.
-    LEFT_EDGE = {"CL_SHIM_OLD": "RT_TO_REALS(x) + offset.x",
-                 "CL_SHIM_NEW": "RT_TO_REALS(x) + (x < 3 ? (Reals)0.25f : offset.x)"}
+    def test_by_its_self_test_wherever_it_is(self):
+        for where in ["x < 1", "x >= 99", "y < 25", "y >= 75"]:
+            shim = {"CL_SHIM_OLD": self.CORNERS["CL_SHIM_OLD"], "CL_SHIM_NEW":
+                    f"RT_TO_REALS(x) + ({where} ? (Reals)0.25f : offset.x)"}
+            self.assertIn("fails its self-test", self.render(shim, 0).stderr)
+
+    def test_by_its_self_test_when_it_refines(self):
+        shim = {"CL_SHIM_OLD": "store_lanes(colors, color, live ? number.all",
+                "CL_SHIM_NEW": "store_lanes(colors, scale3((Reals)0.5f, color), live ? number.all"}
+        self.assertNotIn("self-test", self.render({}, 0, "--aa", "adaptive:0.1").stderr)
+        result = self.render(shim, 0, "--aa", "adaptive:0.1")
+        self.assertIn("fails its self-test", result.stderr)
+
+    # A fault in the left corners alone, where the self-test does not look.
+    CORNERS = {"CL_SHIM_OLD": "RT_TO_REALS(x) + offset.x",
+               "CL_SHIM_NEW": "RT_TO_REALS(x) + (x < 3 & (y < 8 | y > 92) ? (Reals)0.25f : offset.x)"}
 
     def test_by_tracing_tiles_again(self):
-        arguments = ["--check", "50%", "--tile", "20"]
-        result = self.render(self.LEFT_EDGE, 0, *arguments)
+        arguments = ["--check", "100%", "--tile", "20"]
+        result = self.render(self.CORNERS, 0, *arguments)
         self.assertIn("tiles that threads traced again are different", result.stderr)
         self.assertEqual(json.loads(result.stdout)["image"]["hash"], self.right_hash())
-        self.render(self.LEFT_EDGE, 5, "--no-fallback", *arguments)
+        self.render(self.CORNERS, 5, "--no-fallback", *arguments)
 
     def hash_of(self, code, *arguments, shim=None):
         result = self.run_with(shim or {}, *arguments)
@@ -394,8 +410,8 @@ class Wrong(WrongDriver):
         part = str(self.folder / "part.mbj")
         share = ["render", SCENE, "--size", "100", "--shard", "0/1", "-o", part]
         for more in [[], ["--aa", "adaptive:0.05"]]:
-            _, said = self.hash_of(5, *share, *more, "--device", "pocl", "--check", "50%", "--fresh",
-                                   "--no-fallback", shim=self.LEFT_EDGE)
+            _, said = self.hash_of(5, *share, *more, "--device", "pocl", "--check", "100%", "--fresh",
+                                   "--no-fallback", shim=self.CORNERS)
             self.assertIn("are different", said)
             self.assertEqual(os.path.getsize(part), 0)
             self.hash_of(0, *share, *more, "--device", "pocl")
@@ -406,7 +422,7 @@ class Wrong(WrongDriver):
         bad, good = str(self.folder / "bad.mbj"), str(self.folder / "good.mbj")
         share = ["render", SCENE, "--size", "100", "--device", "pocl", "--aa", "adaptive:0.05",
                  "--precision", "double"]
-        self.hash_of(0, *share, "--shard", "0,1/3", "-o", bad, shim=self.LEFT_EDGE)
+        self.hash_of(0, *share, "--shard", "0,1/3", "-o", bad, shim=self.CORNERS)
         self.hash_of(0, *share, "--shard", "2/3", "-o", good)
         out = self.folder / "out.png"
         merge = ["merge", good, bad, "-o", str(out)]
@@ -419,8 +435,8 @@ class Wrong(WrongDriver):
     def test_is_replaced_in_a_finished_share(self):
         part = str(self.folder / "part.mbj")
         share = ["render", SCENE, "--size", "100", "--shard", "0/1", "-o", part]
-        self.hash_of(0, *share, "--device", "pocl", shim=self.LEFT_EDGE)
-        _, said = self.hash_of(0, *share, "--device", "threads", "--check", "50%")
+        self.hash_of(0, *share, "--device", "pocl", shim=self.CORNERS)
+        _, said = self.hash_of(0, *share, "--device", "threads", "--check", "100%")
         self.assertIn("the journal: ", said)
         self.assertEqual(self.hash_of(0, "merge", part)[0], self.right_hash())
 
@@ -429,9 +445,9 @@ class Wrong(WrongDriver):
         right = self.right_hash()
         for device, code in [("threads", 0), ("pocl", 0)]:
             self.hash_of(0, "render", SCENE, "--size", "100", "--shard", "0/1", "-o", journal,
-                         "--device", "pocl", shim=self.LEFT_EDGE)
+                         "--device", "pocl", shim=self.CORNERS)
             found, said = self.hash_of(code, "render", SCENE, "--size", "100", "--device", device,
-                                       "-o", picture, "--check", "50%")
+                                       "-o", picture, "--check", "100%")
             self.assertIn("the journal: ", said)
             self.assertEqual(found, right)
             self.assertFalse(os.path.exists(journal))

@@ -64,8 +64,8 @@ CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& s
     };
     if (settings.self_test && !settings.fast_math) {
         const std::string isa = settings.isa;
-        member.test = [scene, name = device.name, isa](Renderer<T>& renderer) {
-            self_test(renderer, name, *scene, isa);
+        member.test = [scene, name = device.name, isa, refines](Renderer<T>& renderer) {
+            self_test(renderer, name, *scene, isa, refines);
         };
     }
     return member;

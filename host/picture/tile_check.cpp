@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <random>
 
 #include "host/error.h"
 #include "host/render/picture_loop.h"
@@ -15,8 +17,8 @@ namespace rt {
 
 namespace {
 
-constexpr double test_samples = 4096;
-constexpr int largest_test = 32;
+constexpr int strips = 4, refined_grid = 2;
+constexpr double strip_samples = 8192;
 
 const StopFlag never_stopped = 0;
 
@@ -45,32 +47,70 @@ std::size_t differing_pixels(const Film<T>& a, const Film<T>& b) {
     return count;
 }
 
-/// In the middle of the picture, with few samples.
+/// Narrow strips across the whole picture, or as much of it as has few samples: they meet more of a
+/// scene than a square does.
 template <typename T>
-Rect test_tile(const Renderer<T>& device, const typename Flat<T>::LaunchParams& params) {
+std::vector<Rect> test_strips(const Renderer<T>& device,
+                              const typename Flat<T>::LaunchParams& params) {
     const auto width = static_cast<int>(params.width), height = static_cast<int>(params.height);
-    const auto pixels = std::min(test_samples / static_cast<double>(params.samples),
-                                 static_cast<double>(device.most_tile_pixels()));
-    const int side = std::clamp(static_cast<int>(std::sqrt(pixels)), 1, largest_test);
-    const int across = std::min(side, width), down = std::min(side, height);
-    return {(width - across) / 2, (height - down) / 2, across, down};
+    const auto samples = static_cast<double>(params.samples);
+    const int down = std::clamp(static_cast<int>(4 / std::sqrt(samples)), 1, height);
+    const double pixels =
+        std::min(strip_samples / samples, static_cast<double>(device.most_tile_pixels()));
+    const int across = std::clamp(static_cast<int>(pixels) / down, 1, width);
+    std::vector<Rect> tiles;
+    for (int i = 0; i < strips; ++i) {
+        const int y = (2 * i + 1) * height / (2 * strips);
+        tiles.push_back({(width - across) / 2, std::min(y, height - down), across, down});
+    }
+    return tiles;
+}
+
+/// A tile at each stage of a picture: as rendered, and as refined.
+template <typename T>
+std::vector<Film<T>> stages(Renderer<T>& renderer, const Rect& tile, bool refines) {
+    std::vector<Film<T>> films{rendered(renderer, AaMode{}, tile)};
+    if (!refines) return films;
+    std::vector<std::int32_t> pixels(static_cast<std::size_t>(tile.pixels()));
+    std::iota(pixels.begin(), pixels.end(), 0);
+    films.push_back(films.front());
+    TileQueue queue({tile}, never_stopped);
+    renderer.refine(pixels, refined_grid, queue, tile, films.back());
+    return films;
+}
+
+/// A share of the numbers below n, at least one, spread evenly; other ones each time.
+std::vector<std::size_t> sample(std::size_t n, double share) {
+    const auto count = static_cast<std::size_t>(std::ceil(share * static_cast<double>(n)));
+    std::random_device random;
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t first = i * n / count, end = (i + 1) * n / count;
+        numbers.push_back(std::uniform_int_distribution<std::size_t>(first, end - 1)(random));
+    }
+    return numbers;
 }
 
 }  // namespace
 
 template <typename T>
 void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
-               const std::string& isa) {
-    const Rect tile = test_tile(device, scene.params);
+               const std::string& isa, bool refines) {
     const auto threads = checking_renderer(scene, isa);
-    const std::size_t wrong =
-        differing_pixels(rendered(device, AaMode{}, tile), rendered(*threads, AaMode{}, tile));
+    std::size_t wrong = 0, pixels = 0;
+    for (const Rect& strip : test_strips(device, scene.params)) {
+        const auto got = stages(device, strip, refines), right = stages(*threads, strip, refines);
+        for (std::size_t i = 0; i < got.size(); ++i) {
+            wrong += differing_pixels(got[i], right[i]);
+            pixels += static_cast<std::size_t>(strip.pixels());
+        }
+    }
     if (wrong == 0) return;
     throw Error(ExitCode::device,
                 fmt::format("{} fails its self-test: {} of {} pixels differ from what threads "
                             "compute; clear its kernel cache, update its driver, or use --device "
                             "threads",
-                            name, wrong, tile.pixels()));
+                            name, wrong, pixels));
 }
 
 template <typename T>
@@ -81,9 +121,7 @@ TileCheck check_tiles(const FlatScene<T>& scene, const AaMode& aa, const std::st
     const auto width = static_cast<int>(scene.params.width);
     const auto height = static_cast<int>(scene.params.height);
     TileCheck check;
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const auto steps = [&](std::size_t n) { return std::ceil(share * static_cast<double>(n)); };
-        if (steps(i + 1) == steps(i)) continue;
+    for (const std::size_t i : sample(tiles.size(), share)) {
         const Rect& tile = tiles[i];
         const Rect around = region_to_render(aa, tile, width, height);
         const Film<T> again = rendered(*threads, aa, around);
@@ -111,9 +149,9 @@ std::string impossible_rays(const RayCounts& rays, std::size_t lights, int max_b
 }
 
 template void self_test(Renderer<float>&, const std::string&, const FlatScene<float>&,
-                        const std::string&);
+                        const std::string&, bool);
 template void self_test(Renderer<double>&, const std::string&, const FlatScene<double>&,
-                        const std::string&);
+                        const std::string&, bool);
 template TileCheck check_tiles(const FlatScene<float>&, const AaMode&, const std::string&,
                                const std::vector<Rect>&, double, const Rect&, const Film<float>&);
 template TileCheck check_tiles(const FlatScene<double>&, const AaMode&, const std::string&,

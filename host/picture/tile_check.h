@@ -10,12 +10,13 @@
 
 namespace rt {
 
-/// Renders a small tile in the middle of the picture on the device and on threads. Throws Error
-/// (ExitCode::device) unless the bits are the same: the driver, or the kernel it keeps in its
-/// cache, is broken. Strict arithmetic only. At most 4,096 samples, a millisecond.
+/// Renders four strips across the picture on the device and on threads, and refines them if the
+/// picture will be. Throws Error (ExitCode::device) unless the bits are the same: the driver, or
+/// the kernel it keeps in its cache, is broken. Strict arithmetic only. At most 33,000 samples, a
+/// millisecond or two.
 template <typename T>
 void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
-               const std::string& isa);
+               const std::string& isa, bool refines);
 
 /// Describes a ray count too high for so many lights and bounces, which a device must have
 /// miscounted; empty if it is possible. A path has at most one ray per bounce, with glass a binary
@@ -30,8 +31,8 @@ struct TileCheck {
     std::size_t wrong_tiles = 0;  ///< with different bits
 };
 
-/// Traces `share` (0 to 1) of the tiles again, spread over the region that the film shows; the
-/// tiles lie in it.
+/// Traces `share` (0 to 1) of the tiles again, at least one, spread over the region that the film
+/// shows, and other ones each time; the tiles lie in it.
 template <typename T>
 TileCheck check_tiles(const FlatScene<T>& scene, const AaMode& aa, const std::string& isa,
                       const std::vector<Rect>& tiles, double share, const Rect& region,
