@@ -191,7 +191,7 @@ int exit_code_of_stop(int number) {
     return number == SIGALRM ? static_cast<int>(ExitCode::incomplete) : 128 + number;
 }
 
-void stop_quietly() { stops_quietly = true; }
+bool stop_quietly(bool quietly) { return stops_quietly.exchange(quietly); }
 
 void pass_stop_signals_to(const std::function<pid_t()>& start) {
     sigset_t stops, before;

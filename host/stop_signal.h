@@ -39,8 +39,8 @@ void stop_after(double seconds);
 /// The exit code of a program stopped by this signal number.
 int exit_code_of_stop(int number);
 
-/// Suppresses the message at the first stop signal.
-void stop_quietly();
+/// Whether to suppress the message at the first stop signal; returns the setting before.
+bool stop_quietly(bool quietly = true);
 
 /// Forwards stop signals to the process that `start` returns, from its creation on, instead of
 /// handling them. If it returns 0, they are handled here again.

@@ -69,7 +69,6 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     RenderedPicture rendered =
         render_picture(scene, options, std::move(devices), console.events(), stop_flag());
     watch_worker(false);
-    console.finish(rendered.picture);
     RenderStats& stats = rendered.stats;
     if (!options.failed_device.empty()) stats.device.fallback_from = options.failed_device;
     stats.scene.path = options.scene;
@@ -79,6 +78,7 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     const std::string path = save_picture(rendered, options);
     stats.phases.write = watch.seconds();
     stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
+    console.finish(rendered.picture);
     if (reference) stats.error = image_error(rendered.picture, *reference);
     print_results(stats, options);
     const bool has_aovs = write_aovs(scene, stats, options);

@@ -129,7 +129,11 @@ class Batch {
         Stopwatch watch;
         const Scene& scene = load(item, options);
         const double load_seconds = watch.lap();
-        RenderedPicture rendered = render(scene, options);
+        RenderConsole console(options);
+        RenderedPicture rendered =
+            render_picture(scene, options, devices_, console.events(), stop_flag(), &cache_);
+        prepare_for_next(devices_, rendered.stats);
+        console.finish(rendered.picture);
         if (!options.failed_device.empty()) {
             rendered.stats.device.fallback_from = options.failed_device;
         }
@@ -137,12 +141,12 @@ class Batch {
         rendered.stats.phases.load = load_seconds;
         settle();
         written_ = item;
-        writing_ = std::async(
-            std::launch::async, [this, rendered = std::move(rendered), options = std::move(options),
-                                 total, number = item.number]() mutable {
-                return finish_picture(std::move(rendered), options, total,
-                                      [&](int status) { log_.add_finished(number, status); });
-            });
+        writing_ = std::async(std::launch::async, [this, rendered = std::move(rendered), options,
+                                                   total, number = item.number]() mutable {
+            return finish_picture(std::move(rendered), options, total,
+                                  [&](int status) { log_.add_finished(number, status); });
+        });
+        console.wait();
     }
 
     /// A camera path's scene is loaded once.
@@ -154,17 +158,6 @@ class Batch {
         scene_.camera = camera_at(scene_, *item.frame);
         set_image_size(scene_, scene_.width, scene_.height);
         return scene_;
-    }
-
-    /// A device that failed is not used again.
-    RenderedPicture render(const Scene& scene, const RenderOptions& options) {
-        RenderConsole console(options);
-        RenderedPicture rendered =
-            render_picture(scene, options, devices_, console.events(), stop_flag(), &cache_);
-        console.finish(rendered.picture);
-        console.wait();
-        prepare_for_next(devices_, rendered.stats);
-        return rendered;
     }
 
     /// Waits for the picture that is being written.

@@ -144,7 +144,10 @@ void RenderConsole::finish(const Picture& picture) {
 }
 
 void RenderConsole::wait() {
-    if (live_) live_->wait([] { return stop_flag() != 0; });
+    if (!live_) return;
+    const bool before = stop_quietly(true);
+    live_->wait([] { return stop_flag() != 0; });
+    stop_quietly(before);
 }
 
 void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats) {

@@ -51,7 +51,8 @@ class RenderConsole {
     /// Shows the final picture in the viewers, if any.
     void finish(const Picture& picture);
 
-    /// Waits until the windows are closed or a stop signal comes.
+    /// Waits until the windows are closed and viewers have the picture, or a stop signal comes, of
+    /// which nothing is said: all is done.
     void wait();
 
    private:

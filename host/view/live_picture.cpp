@@ -13,6 +13,8 @@ namespace {
 /// Time between updates: smooth to watch, and cheap.
 constexpr std::chrono::milliseconds interval(100);
 
+constexpr std::chrono::seconds patience(5);
+
 }  // namespace
 
 LivePicture::LivePicture(std::vector<std::unique_ptr<Viewer>> viewers)
@@ -45,7 +47,7 @@ void LivePicture::tell(bool begins, const std::vector<Rect>& parts) {
     for (const auto& viewer : viewers_) {
         if (begins) viewer->begin(shown_.width, shown_.height);
         if (!parts.empty()) viewer->update(shown_, parts);
-        viewer->tick();
+        viewer->tick(shown_);
     }
 }
 
@@ -56,7 +58,7 @@ bool LivePicture::any_open() const {
 
 void LivePicture::run() {
     std::unique_lock lock(mutex_);
-    while (!is_done_ && final_ == nullptr) {
+    while (!is_done_ && !final_) {
         const bool begins = std::exchange(has_begun_, false);
         const std::vector<Part> parts = std::exchange(parts_, {});
         if (begins) shown_ = {width_, height_, 3, {}};
@@ -69,19 +71,25 @@ void LivePicture::run() {
         }
         tell(begins, changed);
         lock.lock();
-        changed_.wait_for(lock, interval, [this] { return is_done_ || final_ != nullptr; });
+        changed_.wait_for(lock, interval, [this] { return is_done_ || final_; });
     }
-    if (final_ != nullptr) {
+    if (final_) {
         const bool begins = has_begun_ || shown_.width == 0;
+        shown_ = std::move(*final_);
+        lock.unlock();
         for (const auto& viewer : viewers_) {
-            if (begins) viewer->begin(final_->width, final_->height);
-            viewer->finish(*final_);
+            if (begins) viewer->begin(shown_.width, shown_.height);
+            viewer->finish(shown_);
+            viewer->tick(shown_);
         }
+        lock.lock();
         is_shown_ = true;
         changed_.notify_all();
     }
     while (!is_done_ && any_open()) {
+        lock.unlock();
         tell(false, {});
+        lock.lock();
         changed_.wait_for(lock, interval, [this] { return is_done_; });
     }
     is_done_ = true;
@@ -97,11 +105,11 @@ LivePicture::~LivePicture() {
     thread_.join();
 }
 
-void LivePicture::finish(const Picture& picture) {
+void LivePicture::finish(Picture picture) {
     std::unique_lock lock(mutex_);
-    final_ = &picture;
+    final_ = std::move(picture);
     changed_.notify_all();
-    changed_.wait(lock, [this] { return is_shown_; });
+    changed_.wait_for(lock, patience, [this] { return is_shown_; });
 }
 
 void LivePicture::wait(const std::function<bool()>& is_stopped) {

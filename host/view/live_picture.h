@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -14,8 +15,8 @@
 
 namespace rt {
 
-/// Passes a picture in progress to viewers, calling them all on its own thread: a slow viewer gets
-/// fewer updates and only `finish` waits for it.
+/// Passes a picture in progress to viewers, calling them all on its own thread: one that is slow or
+/// hangs never holds the render up.
 class LivePicture {
    public:
     explicit LivePicture(std::vector<std::unique_ptr<Viewer>> viewers);
@@ -29,10 +30,11 @@ class LivePicture {
     /// Adds the pixels of a rectangle, three numbers each, row by row; callable from any thread.
     void put(const Rect& part, std::vector<float> rgb);
 
-    /// Shows the final picture. Call it once.
-    void finish(const Picture& picture);
+    /// Shows the final picture, waiting up to five seconds for viewers that hang. Call it once.
+    void finish(Picture picture);
 
-    /// After `finish`: waits until all windows are closed or `is_stopped`.
+    /// After `finish`: waits until all windows are closed and viewers have the picture, or
+    /// `is_stopped`.
     void wait(const std::function<bool()>& is_stopped);
 
    private:
@@ -52,7 +54,7 @@ class LivePicture {
     int width_ = 0, height_ = 0;
     std::vector<Part> parts_;  ///< not yet sent to viewers
     bool has_begun_ = false;   ///< begun, but not yet sent to viewers
-    const Picture* final_ = nullptr;
+    std::optional<Picture> final_;
     bool is_shown_ = false;  ///< the final picture is
     bool is_done_ = false;
     Picture shown_;  ///< so far; used only by the thread

@@ -24,7 +24,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers go into packets as they are");
 
 constexpr char create_image = 4, update_image_v3 = 6;
-constexpr int send_patience_ms = 2000;
+constexpr std::chrono::milliseconds reading_patience(2000), last_patience(10000), turn(100);
 constexpr int most_pixels = 1 << 20;  ///< of a packet
 
 class Packet {
@@ -61,9 +61,9 @@ void add_channels(Packet& packet) {
 }
 
 /// Waits until a socket can be written to.
-bool is_writable(int socket) {
+bool is_writable(int socket, std::chrono::milliseconds longest) {
     pollfd waited{socket, POLLOUT, 0};
-    return ::poll(&waited, 1, send_patience_ms) == 1;
+    return ::poll(&waited, 1, static_cast<int>(longest.count())) == 1;
 }
 
 /// Returns an open connection; on failure `why` tells the reason.
@@ -85,7 +85,7 @@ FileDescriptor connect_to(const TevAddress& address, std::string& why) {
         if (error == EINPROGRESS) {
             socklen_t size = sizeof(error);
             error = ETIMEDOUT;
-            if (is_writable(socket.number())) {
+            if (is_writable(socket.number(), reading_patience)) {
                 ::getsockopt(socket.number(), SOL_SOCKET, SO_ERROR, &error, &size);
             }
         }
@@ -137,34 +137,61 @@ void TevViewer::begin(int width, int height) {
                                        address_.host, address_.port, why));
         }
     }
-    send(tev_create_image(name_, width, height));
+    last_sent_ = Clock::now();
+    parts_.clear();
+    const auto packet = tev_create_image(name_, width, height);
+    packets_.insert(packets_.end(), packet.begin(), packet.end());
 }
 
-void TevViewer::update(const Picture& picture, std::span<const Rect> changed) {
-    for (const Rect& part : changed) send_part(picture, part);
-}
-
-void TevViewer::finish(const Picture& picture) {
-    send_part(picture, {0, 0, picture.width, picture.height});
-}
-
-void TevViewer::send_part(const Picture& picture, const Rect& part) {
+void TevViewer::note(const Rect& part) {
+    if (!socket_) return;
     const int rows = std::max(most_pixels / part.width, 1);
-    for (int y = 0; y < part.height && socket_; y += rows) {
-        send(tev_update_image(name_, picture,
-                              {part.x, part.y + y, part.width, std::min(rows, part.height - y)}));
+    for (int y = 0; y < part.height; y += rows) {
+        parts_.push_back({part.x, part.y + y, part.width, std::min(rows, part.height - y)});
     }
 }
 
-void TevViewer::send(const std::vector<std::byte>& packet) {
-    std::span<const std::byte> left = packet;
-    while (socket_ && !left.empty()) {
-        const ssize_t count = ::send(socket_.number(), left.data(), left.size(), MSG_NOSIGNAL);
-        if (count >= 0) {
-            left = left.subspan(static_cast<std::size_t>(count));
-        } else if (errno == EAGAIN && !is_writable(socket_.number())) {
-            give_up("tev reads nothing; going on without it");
-        } else if (errno != EAGAIN && errno != EINTR) {
+void TevViewer::update(const Picture&, std::span<const Rect> changed) {
+    for (const Rect& part : changed) note(part);
+}
+
+void TevViewer::finish(const Picture& picture) {
+    parts_.clear();
+    note({0, 0, picture.width, picture.height});
+    deadline_ = Clock::now() + last_patience;
+}
+
+void TevViewer::tick(const Picture& picture) {
+    if (!is_open()) {
+        last_sent_ = Clock::now();
+        return;
+    }
+    send(picture);
+    if (!is_open()) return;
+    const auto now = Clock::now();
+    if (now - last_sent_ > reading_patience)
+        return give_up("tev reads nothing; going on without it");
+    if (now > deadline_) give_up("tev reads too slowly; going on without it");
+}
+
+void TevViewer::send(const Picture& picture) {
+    const auto end = Clock::now() + turn;
+    while (is_open() && Clock::now() < end) {
+        if (packets_.empty()) {
+            packets_ = tev_update_image(name_, picture, parts_.front());
+            parts_.pop_front();
+        }
+        const ssize_t count = ::send(socket_.number(), packets_.data() + sent_,
+                                     packets_.size() - sent_, MSG_NOSIGNAL);
+        if (count > 0) {
+            last_sent_ = Clock::now();
+            sent_ += static_cast<std::size_t>(count);
+            if (sent_ < packets_.size()) continue;
+            packets_.clear();
+            sent_ = 0;
+        } else if (errno == EAGAIN) {
+            is_writable(socket_.number(), turn);
+        } else if (errno != EINTR) {
             give_up(fmt::format("tev is gone ({}); going on without it", std::strerror(errno)));
         }
     }

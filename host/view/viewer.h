@@ -22,10 +22,10 @@ class Viewer {
     /// The final picture.
     virtual void finish(const Picture& picture) = 0;
 
-    /// Called ten times a second from `begin` on.
-    virtual void tick() {}
+    /// Called ten times a second from `begin` on, with the picture so far.
+    virtual void tick(const Picture&) {}
 
-    /// Whether people see it until they close it.
+    /// After `finish`: whether it still wants ticks, as a window does until it is closed.
     virtual bool is_open() const { return false; }
 };
 

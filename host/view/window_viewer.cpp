@@ -99,7 +99,7 @@ void WindowViewer::finish(const Picture& picture) {
 }
 
 /// Handles window events; redraws what was covered.
-void WindowViewer::tick() {
+void WindowViewer::tick(const Picture&) {
     sdl::Event event{};
     bool any = false;
     while (window_ != nullptr && sdl_->PollEvent(&event) != 0) {

@@ -23,7 +23,7 @@ class WindowViewer : public Viewer {
     void begin(int width, int height) override;
     void update(const Picture& picture, std::span<const Rect> changed) override;
     void finish(const Picture& picture) override;
-    void tick() override;
+    void tick(const Picture& picture) override;
     bool is_open() const override { return window_ != nullptr; }
 
    private:

@@ -7,6 +7,7 @@ import os
 import pathlib
 import pty
 import re
+import signal
 import socket
 import struct
 import subprocess
@@ -199,10 +200,11 @@ class Preview(CliTest):
 class TevServer:
     """Reads packets as tev's Ipc.cpp does."""
 
-    def __init__(self, reads=True):
+    def __init__(self, reads=True, slowly=False):
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.port = self.listener.getsockname()[1]
-        self.reads, self.created, self.updates, self.pixels = reads, [], 0, {}
+        self.reads, self.slowly, self.data = reads, slowly, bytearray()
+        self.created, self.updates, self.pixels = [], 0, {}
         self.thread = threading.Thread(target=self.serve, daemon=True)
         self.thread.start()
 
@@ -210,10 +212,24 @@ class TevServer:
         self.connection, _ = self.listener.accept()
         if not self.reads:
             return
+        while self.slowly and (read := self.connection.recv(100000)):
+            self.data += read
+            time.sleep(0.05)
         with self.connection.makefile("rb") as stream:
             while length := stream.read(4):
                 packet = stream.read(struct.unpack("<I", length)[0] - 4)
                 {4: self.create, 6: self.update}[packet[0]](packet[2:])
+
+    def wait_for_more(self):
+        before = len(self.data)
+        while len(self.data) < before + 500000 and self.thread.is_alive():
+            time.sleep(0.05)
+
+    def has_whole_packets(self):
+        at = 0
+        while at < len(self.data):
+            at += struct.unpack_from("<I", self.data, at)[0]
+        return at == len(self.data)
 
     @staticmethod
     def texts(data, count):
@@ -271,6 +287,27 @@ class Tev(CliTest):
         server = TevServer(reads=False)
         result = self.render_to(server, "--size", "2000")
         self.assertIn("tev reads nothing", result.stderr)
+
+    def test_nothing_waits_for_one_that_reads_slowly(self):
+        for outputs in [["out.pfm"], ["%s.pfm", scene_path("glass")]]:
+            with self.subTest(outputs=outputs):
+                server = TevServer(slowly=True)
+                process = self.start("render", scene_path("cornell-box"), "--device", "threads",
+                                     "--size", "2000", f"--tev=127.0.0.1:{server.port}", "-o",
+                                     *outputs)
+                self.assertIn("cornell-box: 2000x2000", process.stderr.readline())
+                self.assertTrue((self.folder / outputs[0].replace("%s", "cornell-box")).exists())
+                server.wait_for_more()
+                process.send_signal(signal.SIGINT)
+                rest = process.communicate(timeout=HANG_LIMIT)[1]
+                self.assertNotIn("stopping", rest)
+                self.assertEqual(process.returncode, 0 if len(outputs) == 1 else 130, rest)
+                server.thread.join(HANG_LIMIT)
+                self.assertFalse(server.has_whole_packets(), "there was nothing left to send")
+
+    def test_one_that_reads_slowly_is_left_alone_in_the_end(self):
+        result = self.render_to(TevServer(slowly=True), "--size", "2000")
+        self.assertIn("tev reads too slowly", result.stderr)
 
     def test_one_that_is_not_there(self):
         with socket.create_server(("127.0.0.1", 0)) as taken:
