@@ -45,6 +45,7 @@ void add_view_options(const CommandLine& verb, ViewSettings& view) {
     view.terminal.kind = environment("TERM");
     view.terminal.colors = environment("COLORTERM");
     view.terminal.without_colors = !environment("NO_COLOR").empty();
+    view.terminal.is_shared = !environment("TMUX").empty() || !environment("STY").empty();
     verb.optional_value(
         "--preview", "auto|half|kitty|sixel",
         "show the picture in the terminal as it is rendered, by half blocks or one of the "

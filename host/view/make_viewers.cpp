@@ -23,7 +23,8 @@ std::vector<std::unique_ptr<Viewer>> make_viewers(const ViewSettings& settings,
         say("no preview: standard error is not a terminal");
         return viewers;
     }
-    const Terminal terminal = ask_terminal(settings.terminal);
+    const bool asks_it = *settings.preview == PreviewMode::automatic;
+    const Terminal terminal = find_terminal(settings.terminal, asks_it);
     const PreviewMode mode = preview_mode(terminal, *settings.preview);
     if (mode == PreviewMode::half && !terminal.has_blocks) {
         say("no preview: the terminal is without colors, or its text is not UTF-8");

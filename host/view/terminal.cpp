@@ -32,9 +32,17 @@ bool is_utf8() {
     return result;
 }
 
-/// Queries support for a one-pixel picture in kitty's protocol, then the device attributes, which
-/// every terminal reports: "ESC [ ? 6 2 ; 4 c", 4 for sixels. So the last answer always comes.
-constexpr std::string_view questions = "\x1b_Gi=4211,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[c";
+/// Queries support for a one-pixel picture in kitty's protocol. tmux and screen take it for a
+/// title.
+constexpr const char* kitty_question = "\x1b_Gi=4211,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\";
+
+/// Queries the device attributes, which every terminal reports, so that the last answer always
+/// comes: "ESC [ ? 6 2 ; 4 c", 4 for sixels.
+constexpr const char* attributes_question = "\x1b[c";
+
+bool is_shared(const TerminalNames& names) {
+    return names.is_shared || names.kind.starts_with("screen") || names.kind.starts_with("tmux");
+}
 
 /// Milliseconds until then, or 0 if it is past.
 int milliseconds_until(std::chrono::steady_clock::time_point then) {
@@ -43,7 +51,7 @@ int milliseconds_until(std::chrono::steady_clock::time_point then) {
     return static_cast<int>(std::max(left, std::chrono::milliseconds(0)).count());
 }
 
-std::string answers(int terminal) {
+std::string answers(int terminal, const std::string& questions) {
     termios usual{};
     if (tcgetpgrp(terminal) != getpgrp() || tcgetattr(terminal, &usual) != 0) return "";
     termios raw = usual;
@@ -91,17 +99,18 @@ TerminalSize terminal_size() {
     return result;
 }
 
-Terminal ask_terminal(const TerminalNames& names) {
+Terminal find_terminal(const TerminalNames& names, bool asks_it) {
     Terminal terminal;
     terminal.size = terminal_size();
     terminal.true_color =
         names.colors == "truecolor" || names.colors == "24bit" || names.kind.ends_with("-direct");
     const bool is_plain = names.kind.empty() || names.kind == "dumb" || names.without_colors;
     terminal.has_blocks = !is_plain && is_utf8();
-    if (is_plain) return terminal;
+    if (is_plain || !asks_it) return terminal;
     const FileDescriptor device(open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC));
     if (!device) return terminal;
-    const std::string text = answers(device.number());
+    const std::string kitty = is_shared(names) ? "" : kitty_question;
+    const std::string text = answers(device.number(), kitty + attributes_question);
     terminal.shows_kitty = text.find("_Gi=4211;OK") != text.npos;
     terminal.shows_sixels = has_sixels(text);
     return terminal;

@@ -22,8 +22,8 @@ struct Terminal {
     bool has_blocks = false;  ///< non-ASCII characters and colors
 };
 
-/// Queries stderr's terminal for what it can show, waiting 300 ms for an answer; skipped if this
-/// process is not in the foreground.
-Terminal ask_terminal(const TerminalNames& names);
+/// What stderr's terminal is by its names and size. With `asks_it`, unless this process is in the
+/// background, the terminal itself is queried for graphics protocols: up to 300 ms.
+Terminal find_terminal(const TerminalNames& names, bool asks_it);
 
 }  // namespace rt

@@ -18,6 +18,7 @@ struct TerminalNames {
     std::string kind;             ///< TERM
     std::string colors;           ///< COLORTERM
     bool without_colors = false;  ///< NO_COLOR
+    bool is_shared = false;       ///< by tmux or screen: TMUX or STY is set
 };
 
 /// Where a picture is shown while it is rendered.

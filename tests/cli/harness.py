@@ -58,7 +58,8 @@ def clean_environment(changes):
     variables = dict(os.environ)
     variables.setdefault("POCL_CACHE_DIR", SETTINGS["cache"])
     for name in ["MIRRORBALL_DEVICE", "POCL_DEVICES", "POCL_AFFINITY", "POCL_MAX_PTHREAD_COUNT",
-                 "POCL_PTHREAD_MIN_THREADS", "OCL_ICD_VENDORS", "TERM"]:
+                 "POCL_PTHREAD_MIN_THREADS", "OCL_ICD_VENDORS", "TERM", "TMUX",
+                 "STY"]:
         variables.pop(name, None)
     if os.path.exists(POCL_DRIVER):
         variables["OCL_ICD_VENDORS"] = POCL_DRIVER

@@ -174,6 +174,21 @@ class Preview(CliTest):
             text = self.preview("--preview", "--size", "8", answer=answer)
             self.assertEqual(decoded_half_blocks(text.split(ASKS)[1]), self.saved())
 
+    def test_tmux_and_screen_are_asked_for_sixels_alone(self):
+        for change in [{"TMUX": "/tmp/tmux-1/default,1,0"}, {"STY": "1.pts-0.host"},
+                       {"TERM": "screen-256color"}, {"TERM": "tmux-256color"}]:
+            with self.subTest(change=change):
+                text = self.preview("--preview", "--size", "8", env=dict(UTF8, **change),
+                                    answer=b"\x1b[?62;4c")
+                self.assertNotIn(b"\x1b_G", text)
+                self.assertEqual(decoded_sixels(text)[:2], (8, 8))
+
+    def test_a_terminal_is_not_asked_for_what_is_given(self):
+        for mode in ["half", "kitty", "sixel"]:
+            text = self.preview(f"--preview={mode}", "--size", "8")
+            self.assertNotIn(b"Gi=4211", text)
+            self.assertNotIn(ASKS, text)
+
     def test_a_user_who_types_is_not_waited_for(self):
         keys = iter([b"x"] * 200)
         self.preview("--preview", "--size", "8", keys=keys)
