@@ -11,8 +11,8 @@
 
 #include "host/console.h"
 #include "host/error.h"
-#include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
+#include "host/verbs/scene_files.h"
 
 namespace rt {
 
@@ -34,17 +34,6 @@ std::vector<FileState> states_of(const std::vector<std::string>& files) {
     return states;
 }
 
-/// The scene's file and those it names; the file alone while it has errors.
-std::vector<std::string> files_of(const std::string& scene) {
-    std::vector<std::string> files{scene};
-    try {
-        const Scene loaded = load_scene(scene);
-        files.insert(files.end(), loaded.model_files.begin(), loaded.model_files.end());
-    } catch (const Error&) {
-    }
-    return files;
-}
-
 /// Waits until a file differs from `before` and has been left alone for a moment: an editor may
 /// still be writing it.
 void await_change(const std::vector<std::string>& files, const std::vector<FileState>& before) {
@@ -61,21 +50,19 @@ void await_change(const std::vector<std::string>& files, const std::vector<FileS
 
 int watch_scene(const std::string& scene, bool is_quiet, const std::function<int()>& render) {
     while (stop_flag() == 0) {
-        const std::vector<FileState> before = states_of({scene});
+        const FileState scene_before = states_of({scene}).front();
+        const std::vector<std::string> files = scene_files(scene);
+        std::vector<FileState> before = states_of(files);
+        before.front() = scene_before;
         try {
             render();
+            flush_results();
         } catch (const Error& error) {
             print_error(error.what());
         }
         if (stop_flag() != 0) break;
         if (!is_quiet) print_message("mirrorball: waiting for " + scene + " to change\n");
-        std::vector<std::string> files{scene};
-        std::vector<FileState> known = before;
-        if (states_of(files) == before) {
-            files = files_of(scene);
-            known = states_of(files);
-        }
-        await_change(files, known);
+        await_change(files, before);
     }
     return exit_code_of_stop(stop_flag());
 }

@@ -4,6 +4,7 @@ import json
 import signal
 import threading
 
+from hang_limit import HANG_LIMIT
 from harness import CAMERA, GRAY, CliTest
 
 
@@ -12,14 +13,15 @@ class Watch(CliTest):
         super().setUp()
         self.lines, self.news = [], threading.Condition()
 
-    def watch(self, device):
-        process = self.start("render", "scene.json", "--size", "8", "--device", device, "--watch",
-                             "-o", "out.png")
-        threading.Thread(target=self.read, args=[process], daemon=True).start()
+    def watch(self, device, *more, size=8):
+        process = self.start("render", "scene.json", "--size", size, "--device", device, "--watch",
+                             "-o", "out.png", *more)
+        for stream in [process.stdout, process.stderr]:
+            threading.Thread(target=self.read, args=[stream], daemon=True).start()
         return process
 
-    def read(self, process):
-        for line in process.stderr:
+    def read(self, stream):
+        for line in stream:
             with self.news:
                 self.lines.append(line)
                 self.news.notify_all()
@@ -28,7 +30,7 @@ class Watch(CliTest):
         """Until so many lines have the part."""
         with self.news:
             there = self.news.wait_for(
-                lambda: sum(part in line for line in self.lines) >= count, 20)
+                lambda: sum(part in line for line in self.lines) >= count, HANG_LIMIT)
         self.assertTrue(there, self.lines)
 
     def write(self, radius):
@@ -53,6 +55,49 @@ class Watch(CliTest):
                 self.assertNotEqual((self.folder / "out.png").read_bytes(), small)
                 process.send_signal(signal.SIGINT)
                 self.assertIn(process.wait(10), [130, -signal.SIGINT])
+
+    def write_model(self, last_corner="0 1 0"):
+        if not (self.folder / "scene.json").exists():
+            self.write_scene(meshes=[{"file": "model.obj"}], ambient_light=1)
+        self.write_text("model.obj", f"mtllib a b.mtl\nv 0 0 0\nv 1 0 0\nv {last_corner}\n"
+                                     "usemtl gray\nf 1 2 3\n")
+
+    def test_a_model_that_is_wrong_missing_or_new_is_looked_at_again(self):
+        self.write_model()
+        (self.folder / "model.obj").write_text("wrong\n")
+        self.watch("threads")
+        self.wait_for("waiting for", 1)
+        self.wait_for("model.obj:1:1: ", 1)
+        self.write_model()
+        self.wait_for("waiting for", 2)
+        (self.folder / "model.obj").unlink()
+        self.wait_for("waiting for", 3)
+        self.write_model("0 2 0")
+        self.wait_for("waiting for", 4)
+
+    def test_material_libraries_are_watched_and_may_come_later(self):
+        self.write_model()
+        self.watch("threads")
+        for count, color in [(1, None), (2, "1 0 0"), (3, "0 1 0")]:
+            if color:
+                self.write_text("a b.mtl", f"newmtl gray\nKa {color}\n")
+            self.wait_for("waiting for", count)
+        self.assertEqual(sum("gray" in line for line in self.lines), 1, self.lines)
+
+    def test_a_model_that_changes_while_it_is_rendered_is_rendered_again(self):
+        self.write_model()
+        self.watch("threads", "--progress", "json", "--aa", "grid:16", "--lanes", "1", size=400)
+        self.wait_for('{"fraction"', 1)
+        self.write_model("0 2 0")
+        self.wait_for("waiting for", 2)
+
+    def test_results_are_printed_with_each_picture(self):
+        self.write(0.5)
+        self.run_cli("render", "scene.json", "--size", "8", "-o", "reference.pfm")
+        self.watch("threads", "--reference", "reference.pfm")
+        self.wait_for("PSNR", 1)
+        self.write(1)
+        self.wait_for("PSNR", 2)
 
     def test_what_it_cannot_be_with(self):
         self.write(1)
