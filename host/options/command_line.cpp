@@ -95,7 +95,10 @@ struct CommandLineParser {
         for (const CLI::Option* option : verb.get_options()) {
             for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
         }
-        if (std::find(names.begin(), names.end(), name) != names.end()) return;
+        if (std::find(names.begin(), names.end(), name) != names.end()) {
+            if (word == name + "=") refuse_line("'" + word + "' lacks its value");
+            return;
+        }
         refuse_line(fmt::format("unknown option '{}'{}", name, guess_text(name, names)));
     }
 

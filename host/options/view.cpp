@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <iterator>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include "host/options/parse.h"
 #include "host/options/verb_options.h"
@@ -39,6 +45,20 @@ TevAddress parse_tev_address(const std::string& text) {
     return address;
 }
 
+/// Whether a word is an address rather than a scene: no file, and without a scene's ending.
+bool is_tev_address(const std::string& text) {
+    std::error_code ignored;
+    if (text.empty() || text.starts_with('-') || std::filesystem::exists(text, ignored)) {
+        return false;
+    }
+    if (text.find(':') != std::string::npos) return true;
+    std::string ending = std::filesystem::path(text).extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    constexpr std::string_view endings[] = {".json", ".nff", ".obj", ".ply"};
+    return text.find('/') == std::string::npos &&
+           std::ranges::find(endings, ending) == std::end(endings);
+}
+
 }  // namespace
 
 void add_view_options(const CommandLine& verb, ViewSettings& view) {
@@ -61,10 +81,9 @@ void add_view_options(const CommandLine& verb, ViewSettings& view) {
               "when it is closed");
     const TevAddress usual;
     verb.optional_value(
-        "--tev", "HOST:PORT",
+        "--tev", "HOST[:PORT]",
         "show it in the image viewer tev as it is rendered (default: 127.0.0.1:14158)",
-        usual.host + ":" + usual.port,
-        [](const std::string& text) { return text.find(':') != std::string::npos; },
+        usual.host + ":" + usual.port, is_tev_address,
         [&view](const std::string& text) { view.tev = parse_tev_address(text); });
 }
 

@@ -324,6 +324,21 @@ class Tev(CliTest):
         result = self.render_to(TevServer(slowly=True), "--size", "2000")
         self.assertIn("tev reads too slowly", result.stderr)
 
+    def test_an_address_needs_no_port(self):
+        scene = self.write_text("scene", pathlib.Path(scene_path("single-sphere")).read_text())
+        for words in [["localhost:1", scene], ["localhost", scene], [scene], ["scene"]]:
+            result = self.run_cli("render", "--size", "8", "--tev", *words)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(result.stderr.count("8x8"), 1, result.stderr)
+        for missing in ["missing.json", "./missing", "MISSING.OBJ"]:
+            self.assert_refused(self.run_cli("render", "--tev", missing), 3, f"{missing}: ")
+
+    def test_an_option_takes_no_other_for_its_value(self):
+        for option in ["--tev=", "--preview=", "--size="]:
+            result = self.run_cli("render", scene_path("single-sphere"), option, "-o", "out.png")
+            self.assert_refused(result, 2, f"'{option}' lacks its value")
+        self.assertEqual(self.files(), [])
+
     def test_one_that_is_not_there(self):
         with socket.create_server(("127.0.0.1", 0)) as taken:
             port = taken.getsockname()[1]
