@@ -2,10 +2,30 @@
 #include "host/view/sdl.h"
 
 #include <dlfcn.h>
+#include <unistd.h>
+
+#include <csetjmp>
 
 namespace rt::sdl {
 
+namespace {
+
+bool is_lost = false;
+thread_local std::jmp_buf* way_out = nullptr;
+
+/// Xlib's handler of I/O errors, which must not return.
+int leave(void*) {
+    if (way_out != nullptr) std::longjmp(*way_out, 1);
+    for (;;) ::pause();  // a driver's own thread
+}
+
+}  // namespace
+
 const Library* load(std::string& why) {
+    if (is_lost) {
+        why = "the X server is gone";
+        return nullptr;
+    }
     void* const handle = dlopen("libSDL2-2.0.so.0", RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) {
         why = "SDL 2 is missing: install libsdl2-2.0-0";
@@ -34,6 +54,27 @@ const Library* load(std::string& why) {
     find(library.RenderPresent, "SDL_RenderPresent");
     find(library.PollEvent, "SDL_PollEvent");
     return why.empty() ? &library : nullptr;
+}
+
+void expect_loss() {
+    void* const xlib = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+    if (xlib == nullptr) return;
+    using SetHandler = void* (*)(int (*)(void*));
+    const auto set = reinterpret_cast<SetHandler>(dlsym(xlib, "XSetIOErrorHandler"));
+    if (set != nullptr) set(leave);
+    dlclose(xlib);
+}
+
+bool survives(const std::function<void()>& calls) {
+    std::jmp_buf here;
+    if (setjmp(here) != 0) {
+        is_lost = true;
+        return false;
+    }
+    way_out = &here;
+    calls();
+    way_out = nullptr;
+    return true;
 }
 
 }  // namespace rt::sdl

@@ -27,7 +27,9 @@ class WindowViewer : public Viewer {
     bool is_open() const override { return window_ != nullptr; }
 
    private:
-    bool open(int width, int height);
+    void call(const std::function<void()>& calls);
+    void open(int width, int height);
+    void start(int width, int height);
     void close();
     void put(const Picture& picture, const Rect& part);
     void present();
@@ -41,7 +43,7 @@ class WindowViewer : public Viewer {
     sdl::Renderer* renderer_ = nullptr;
     sdl::Texture* texture_ = nullptr;
     std::int64_t pixels_ = 0, pixels_shown_ = 0;
-    bool was_closed_ = false;
+    bool was_closed_ = false;  ///< or cannot be opened, or has lost its screen
 };
 
 }  // namespace rt
