@@ -14,7 +14,7 @@ if(KERNEL_CLANG_VERSION VERSION_LESS 17)
 endif()
 
 # The flags of every variant. The pictures' bits depend on -ffp-contract=off.
-set(NATIVE_KERNEL_FLAGS -x cl -cl-std=CL1.2 -cl-no-stdinc
+set(NATIVE_KERNEL_FLAGS -x cl -cl-std=CL1.2 -cl-no-stdinc -Xclang -cl-ext=+cl_khr_fp64
     -include ${CMAKE_SOURCE_DIR}/kernels/native/opencl_c.h -I${CMAKE_SOURCE_DIR}
     -O3 -ffp-contract=off -cl-fp32-correctly-rounded-divide-sqrt -fno-math-errno -fPIC
     -Wall -Wextra -Wno-unused-parameter -Wno-unused-function -Wno-psabi)
