@@ -91,16 +91,20 @@ ProcessState state_of(pid_t process) {
 /// Detects that a watched process has been idle for too long.
 class Watchdog {
    public:
-    Watchdog(pid_t process, double deadline) : process_(process), deadline_(deadline) {}
+    Watchdog(pid_t process, double deadline, double longest)
+        : process_(process), deadline_(deadline), longest_(longest) {}
 
     void hear(char byte) {
         if (byte == watched || byte == unwatched) is_watched_ = byte == watched;
         was_heard_ = true;
     }
 
+    bool is_overdue() const { return total_.seconds() > longest_; }
+
     /// Call at least every poll_seconds. Time in which this process did not run does not count.
     bool is_late() {
         const double passed = std::min(watch_.lap(), 2 * poll_seconds);
+        if (is_overdue()) return true;
         if (!is_watched_) return false;
         const ProcessState now = state_of(process_);
         const bool has_computed = now.processor_seconds - processor_before_ >= idle_seconds;
@@ -115,7 +119,8 @@ class Watchdog {
 
    private:
     const pid_t process_;
-    const double deadline_;
+    const double deadline_, longest_;
+    const Stopwatch total_;
     Stopwatch watch_;
     bool is_watched_ = false, was_heard_ = false;
     double idle_ = 0, processor_before_ = 0;
@@ -199,7 +204,7 @@ std::string name_of_signal(int number) {
 
 WorkerEnd run_worker(const std::vector<std::string>& command,
                      const std::vector<std::string>& changes, double deadline,
-                     double seconds_before) {
+                     double seconds_before, double longest) {
     int ends[2];
     WorkerEnd end;
     end.how = "could not be started";
@@ -214,7 +219,7 @@ WorkerEnd run_worker(const std::vector<std::string>& command,
     pass_stop_signals_to([&] { return process = start(command, all); });
     theirs = FileDescriptor();
     if (process == 0) return end;
-    Watchdog watchdog(process, deadline);
+    Watchdog watchdog(process, deadline, longest);
     const std::optional<int> status = listen(ours.number(), process, watchdog, end.is_hung);
     if (end.is_hung) ::kill(process, SIGKILL);
     int wait_status = 0;
@@ -229,7 +234,8 @@ WorkerEnd run_worker(const std::vector<std::string>& command,
     }
     end.stop_signal = passed;
     if (end.is_hung) {
-        end.how = fmt::format("did nothing for {:g} s", deadline);
+        end.how = watchdog.is_overdue() ? "did not end in time"
+                                        : fmt::format("made no progress for {:g} s", deadline);
     } else if (WIFSIGNALED(wait_status)) {
         end.how = "was killed by " + name_of_signal(WTERMSIG(wait_status));
     } else {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,18 +13,20 @@ namespace rt {
 struct WorkerEnd {
     bool is_regular = false;  ///< it reported its exit itself, with this status
     int status = 0;           ///< exit code
-    bool is_hung = false;     ///< killed because it made no progress
+    bool is_hung = false;     ///< killed because it made no progress or took too long
     int stop_signal = 0;      ///< signal that ended it, and should end this process
-    std::string how;          ///< otherwise: "was killed by SIGABRT", "did nothing for 10 s"
+    std::string how;          ///< otherwise: "was killed by SIGABRT", "made no progress for 10 s"
 };
 
 /// Runs the program again with the same arguments and these environment changes ("NAME=value"), and
 /// waits. Stop signals are forwarded to the worker. While watched, it counts as hung and is killed
-/// after `deadline` seconds without progress or processor time. If no process can be started, `how`
-/// says so. `seconds_before`: time since this process began.
+/// after `deadline` seconds without progress or processor time, or when `longest` seconds have
+/// passed. If no process can be started, `how` says so. `seconds_before`: time since this process
+/// began.
 WorkerEnd run_worker(const std::vector<std::string>& command,
                      const std::vector<std::string>& changes, double deadline,
-                     double seconds_before);
+                     double seconds_before,
+                     double longest = std::numeric_limits<double>::infinity());
 
 /// Makes this process a worker if `link` (environment variable MIRRORBALL_WORKER) is valid, and
 /// returns whether it is. It then dies with its parent. Call it before any thread has started.

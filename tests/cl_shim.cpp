@@ -8,8 +8,8 @@
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
 //   CL_SHIM_FAIL_READ          if not empty, reads and maps fail once a launch has failed
 //   CL_SHIM_DIE_IN             the function whose call fails
-//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang; or delay: two seconds, then it
-//   goes on CL_SHIM_DIE_AT             the first call that may fail, counted from 1
+//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin; or delay: by two seconds
+//   CL_SHIM_DIE_AT             the first call that may fail, counted from 1
 //   CL_SHIM_DIE_AFTER          seconds since that call before which none fails
 //   CL_SHIM_DIE_ONCE           a file made on failure; if it exists, nothing fails
 // Nothing in mirrorball knows about it.
@@ -73,6 +73,8 @@ void die_in(const char* function) {
     if (by == "exit") std::exit(1);
     if (by == "segfault") *static_cast<volatile int*>(nullptr) = 0;
     while (by == "hang") pause();
+    for (volatile bool spins = by == "spin"; spins;) {
+    }
     if (by == "delay") sleep(2);
 }
 

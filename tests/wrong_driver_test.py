@@ -194,7 +194,7 @@ class Dies(WrongDriver):
 
     def test_costs_time_and_not_the_picture(self):
         words = {"abort": "was killed by SIGABRT", "segfault": "was killed by SIGSEGV",
-                 "exit": "ended with exit code 1", "hang": "did nothing for 1 s"}
+                 "exit": "ended with exit code 1", "hang": "made no progress for 1 s"}
         for place, call in self.PLACES.items():
             for by, word in words.items():
                 if call > 1 and by in ["segfault", "exit"]:
@@ -243,6 +243,13 @@ class Dies(WrongDriver):
                           "--threads", "1", CL_SHIM_DIE_AT="4", CL_SHIM_DIE_AFTER="1.5")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stderr, r"resuming from .*part\.mbj, which has [1-9]\d* %")
+
+    def test_busy_for_ever_it_ends_at_the_timeout(self):
+        for place, at, word in [("clBuildProgram", "1", "nothing is saved"),
+                            ("clEnqueueNDRangeKernel", "6", "did not end in time; rendering on threads instead")]:
+            result = self.die(place, "spin", "--timeout", "1", CL_SHIM_DIE_AT=at)
+            self.assertEqual(result.returncode, 8, result.stderr)
+            self.assertIn(word, result.stderr)
 
     def test_is_an_error_without_fallback(self):
         result = self.die("clBuildProgram", "abort", "--no-fallback")

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,8 +80,14 @@ class IsolatedRender {
 
     WorkerEnd work(std::vector<std::string> changes) const {
         if (batch_log_) changes.push_back("MIRRORBALL_BATCH=" + options_.batch_log);
-        return run_worker(options_.command, changes, options_.deadline,
-                          seconds_before_ + watch_.seconds());
+        // A driver may busy-wait for ever: at --timeout the worker gets a while to save its
+        // picture.
+        const double passed = watch_.seconds();
+        const double longest = options_.timeout > 0
+                                   ? std::max(options_.timeout - passed, 0.0) + options_.deadline
+                                   : std::numeric_limits<double>::infinity();
+        return run_worker(options_.command, changes, options_.deadline, seconds_before_ + passed,
+                          longest);
     }
 
     /// Without drivers that crash when listing their devices, else with an empty kernel cache.
