@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Manual page and completions hold what --help tells of."""
+import os
+import pty
 import re
+import select
 import shutil
 import subprocess
 import unittest
 
-from harness import CliTest
+from hang_limit import HANG_LIMIT
+from harness import SETTINGS, CliTest, clean_environment
 
 VERBS = [["render"], ["merge"], ["compare"], ["bench"], ["converge"], ["stress"], ["report"],
          ["devices"], ["doctor"], ["explain"], ["scene", "info"], ["scene", "check"]]
@@ -55,10 +59,8 @@ class Shell(CliTest):
         self.assertEqual(self.complete("render", "--filter", "m"), ["mitchell"])
         self.assertEqual(self.complete("render", "a.json", "--no-f"), ["--no-fallback"])
 
-    def test_bash_completes_files(self):
-        self.write_text("picture.json", "")
-        for words in [("render", "pic"), ("render", "--batch", "pic"), ("scene", "info", "pic")]:
-            self.assertEqual(self.complete(*words), ["picture.json"])
+        self.assertEqual(self.complete("render", "--format", ""), ["png", "exr", "pfm"])
+        self.assertEqual(self.complete("--completions", ""), ["bash", "zsh", "fish"])
 
     def test_fish_completes_every_option(self):
         lines = self.text("--completions", "fish").splitlines()
@@ -67,6 +69,76 @@ class Shell(CliTest):
             own = [line for line in lines if f"-n '{seen}'" in line]
             offered = {f"--{name}" for line in own for name in re.findall(r" -l (\S+)", line)}
             offered |= {f"-{name}" for line in own for name in re.findall(r" -s (\S)", line)}
+            self.assertEqual(self.options(verb), offered, verb)
+
+    def words_of(self, shell, typed):
+        """The words of a line that was typed into a shell, its completions loaded."""
+        keys, terminal = pty.openpty()
+        self.addCleanup(os.close, keys)
+        process = subprocess.Popen(
+            [*shell, "-i"], cwd=self.folder, stdin=terminal, stdout=terminal, stderr=terminal,
+            start_new_session=True, env=clean_environment(
+                {"ZDOTDIR": str(self.folder), "MIRRORBALL": SETTINGS["program"], "TERM": "dumb"}))
+        os.close(terminal)
+        self.addCleanup(self._finish, process)
+        shown = b""
+        while select.select([keys], [], [], HANG_LIMIT)[0]:
+            try:
+                shown += os.read(keys, 4096)
+            except OSError:  # the shell has ended
+                break
+            if typed and b"READY" in shown:
+                os.write(keys, typed.encode() + b"\r")
+                typed = ""
+        process.wait(HANG_LIMIT)
+        words = self.folder / "words"
+        self.assertTrue(words.exists(), shown.decode(errors="replace"))
+        found = words.read_text().splitlines()
+        words.unlink()
+        return found
+
+    def check_typing(self, shell):
+        self.write_text("my scene.json", "")
+        self.write_text("picture.json", "")
+        for typed, words in [("ren\t", ["render"]),
+                             ("scene ch\t", ["scene", "check"]),
+                             ("render --no-f\t", ["render", "--no-fallback"]),
+                             ("render --filter m\t", ["render", "--filter", "mitchell"]),
+                             ("render --math=s\t", ["render", "--math=strict"]),
+                             ("render --stats=j\t", ["render", "--stats=json"]),
+                             ("--completions z\t", ["--completions", "zsh"]),
+                             ("render pic\t", ["render", "picture.json"]),
+                             ("render --batch pic\t", ["render", "--batch", "picture.json"]),
+                             ("scene info my\t", ["scene", "info", "my scene.json"])]:
+            self.assertEqual(self.words_of(shell, "mirrorball " + typed), words)
+
+    def test_bash_completes_what_is_typed(self):
+        self.write_text("rc", "PS1='READY '; source <($MIRRORBALL --completions bash)\n"
+                        "mirrorball() { printf '%s\\n' \"$@\" >words; exit; }\n")
+        self.check_typing(["bash", "--rcfile", "rc"])
+
+    @unittest.skipUnless(shutil.which("zsh"), "no zsh")
+    def test_zsh_completes_what_is_typed(self):
+        """From the first Tab on: each line is typed into a shell of its own."""
+        (self.folder / "site-functions").mkdir()
+        self.write_text("site-functions/_mirrorball", self.text("--completions", "zsh"))
+        self.write_text(".zshrc", "PS1='READY '; fpath=($ZDOTDIR/site-functions $fpath)\n"
+                        "autoload -U compinit; compinit -u -D\n"
+                        "mirrorball() { printf '%s\\n' \"$@\" >words; exit; }\n")
+        self.check_typing(["zsh", "-d"])
+
+    @unittest.skipUnless(shutil.which("zsh"), "no zsh")
+    def test_zsh_completes_every_option(self):
+        """Its script, with what it calls printing what it is given."""
+        for verb in VERBS:
+            script = self.text("--completions", "zsh")
+            self.write_text("run", f"words=(mirrorball {' '.join(verb)} -); CURRENT=$#words\n"
+                            "_arguments() { print -rl -- \"$@\"; }\n"
+                            f"complete() {{\n{script}\n}}\ncomplete\n")
+            result = subprocess.run(["zsh", "-f", "run"], cwd=self.folder, text=True, check=True,
+                                    capture_output=True, timeout=HANG_LIMIT)
+            self.assertEqual(result.stderr, "")
+            offered = set(re.findall(r"^(-\w|--[\w-]+)", result.stdout, re.M))
             self.assertEqual(self.options(verb), offered, verb)
 
     def test_unknown_shell(self):
