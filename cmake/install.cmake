@@ -40,7 +40,12 @@ install(FILES ${texts}/mirrorball.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${texts}/changelog.gz ${texts}/changelog.Debian.gz
     DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${texts}/mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES ${texts}/_mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+# Where zsh looks: its packages' folder in /usr, elsewhere that of the site.
+install(CODE "set(zsh_folder site-functions)
+    if(CMAKE_INSTALL_PREFIX MATCHES \"/usr$\")
+        set(zsh_folder vendor-completions)
+    endif()")
+install(FILES ${texts}/_mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/\${zsh_folder})
 install(FILES ${texts}/mirrorball.fish
     DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 

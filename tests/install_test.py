@@ -22,7 +22,7 @@ class Installed(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="mirrorball-test-"))
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def check(self, prefix):
+    def check(self, prefix, zsh):
         """Without an environment: pictures of each library's format, and where it comes from."""
         pictures = {}
         for ending in ["png", "exr", "tif"]:
@@ -38,7 +38,7 @@ class Installed(unittest.TestCase):
             self.assertTrue((prefix / f"share/mirrorball/schemas/{schema}.schema.json").is_file())
         for file in ["share/doc/mirrorball/copyright", "share/man/man1/mirrorball.1.gz",
                      "share/bash-completion/completions/mirrorball",
-                     "share/zsh/vendor-completions/_mirrorball",
+                     f"share/zsh/{zsh}/_mirrorball",
                      "share/fish/vendor_completions.d/mirrorball.fish"]:
             self.assertGreater((prefix / file).stat().st_size, 0, file)
 
@@ -46,7 +46,7 @@ class Installed(unittest.TestCase):
         run("cmake", "--install", BUILD, "--prefix", self.folder / "first")
         moved = (self.folder / "second").resolve()
         (self.folder / "first").rename(moved)
-        self.check(moved)
+        self.check(moved, zsh="site-functions")
 
     @unittest.skipUnless(shutil.which("dpkg-deb"), "no Debian")
     def test_a_package(self):
@@ -55,7 +55,7 @@ class Installed(unittest.TestCase):
         package = next(self.folder.glob("*.deb"))
         run("dpkg-deb", "-x", package, self.folder / "root")
         prefix = (self.folder / "root/usr").resolve()
-        self.check(prefix)
+        self.check(prefix, zsh="vendor-completions")
         # Imath comes with OpenEXR.
         depends = run("dpkg-deb", "-f", package, "Depends", "Recommends", "Suggests") + "libimath-3-1-29"
         files = [prefix / "bin/mirrorball", *(prefix / "lib/mirrorball").iterdir()]
