@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the commands of README.md and docs/tutorial.md as they are printed.
+"""Runs the commands of README.md and docs/tutorial.md as they are printed; reads those of all pages.
 
 usage: docs_test.py BUILD_DIR REPO_ROOT
 
@@ -21,6 +21,8 @@ import unittest
 sys.dont_write_bytecode = True
 BUILD, REPO = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 NAMES = {"mirrorball", "build/release/mirrorball"}
+PAGES = [REPO / "README.md", REPO / "CONTRIBUTING.md", REPO / "python/README.md",
+         *sorted((REPO / "docs").glob("*.md"))]
 
 
 def steps_of(page):
@@ -37,6 +39,34 @@ def steps_of(page):
                 words = shlex.split(line, comments=True)
                 if words and words[0] in NAMES:
                     yield "command", words[1:], line
+
+
+def code_of(page):
+    """The code of a page: blocks without a language or of a shell's, and what is between backquotes."""
+    text = page.read_text(encoding="utf-8")
+    block = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
+    for found in block.finditer(text):
+        if found[1] in ("", "sh"):
+            yield found[2]
+    yield from re.findall(r"`([^`]+)`", block.sub("", text))
+
+
+class Code(unittest.TestCase):
+    """What is not run, since it installs or takes long."""
+
+    def test_names_scripts_that_are_there(self):
+        for page in PAGES:
+            for script in re.findall(r"(?<![\w/.])scripts/[\w/.-]*\w", "\n".join(code_of(page))):
+                self.assertTrue((REPO / script).exists(), f"{page}: {script}")
+
+    def test_names_packages_as_apt_reads_them(self):
+        """To apt, `build/x.deb` is package build of release x.deb."""
+        commands = [(page, words.split()) for page in PAGES for code in code_of(page)
+                    for words in re.findall(r"apt(?:-get)? install ([^\n]+)", code)]
+        self.assertTrue(commands)
+        for page, words in commands:
+            for word in words:
+                self.assertRegex(word, r"^(\.{0,2}/.*|[^/]*)$", page)
 
 
 class Pages(unittest.TestCase):
