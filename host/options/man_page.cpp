@@ -96,17 +96,37 @@ a bug in mirrorball
 stopped by a signal; the picture so far is saved next to the output
 )";
 
+constexpr const char* file_section = R"(.SH FILES
+.I PREFIX
+is
+.I /usr
+for the Debian package, else what was given to
+.BR "cmake \-\-install \-\-prefix" .
+.TP
+.I PREFIX/share/mirrorball/scenes
+scenes to start from, such as
+.I cornell\-box.json
+.TP
+.I PREFIX/share/mirrorball/schemas
+JSON schemas of results
+.TP
+.I PREFIX/share/doc/mirrorball
+a tutorial, and descriptions of scenes, results and numerics
+)";
+
 }  // namespace
 
 std::string man_page(const VerbText& program, const std::string& version) {
     std::string text = fmt::format(".TH MIRRORBALL 1 \"\" \"{} {}\" \"User Commands\"\n",
                                    roff(program.name), roff(version));
+    text += ".ad l\n";
     text += fmt::format(".SH NAME\n{} \\- {}\n", roff(program.name), roff(program.help));
     text += ".SH SYNOPSIS\n" + synopses(program.name, program);
     text += ".SH OPTIONS\n" + sections(program.name, program);
     return text + exit_statuses +
            ".SH ENVIRONMENT\n.TP\n.B MIRRORBALL_DEVICE\nthe default of "
-           "\\fB\\-\\-device\\fR in \\fBrender\\fR\n";
+           "\\fB\\-\\-device\\fR in \\fBrender\\fR\n" +
+           file_section;
 }
 
 }  // namespace rt

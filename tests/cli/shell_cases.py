@@ -47,9 +47,13 @@ class Shell(CliTest):
 
     @unittest.skipUnless(shutil.which("groff"), "no groff")
     def test_manual_is_right_roff(self):
-        result = subprocess.run(["groff", "-man", "-ww", "-z"], input=self.text("--man"), text=True,
-                                capture_output=True, check=False)
-        self.assertEqual(result.stderr, "")
+        for more in [[], ["-Tutf8", "-rLL=80n"]]:  # the second as on a terminal
+            result = subprocess.run(["groff", "-man", "-ww", "-z", *more], input=self.text("--man"),
+                                    text=True, capture_output=True, check=False)
+            self.assertEqual(result.stderr, "", more)
+
+    def test_manual_names_the_files_that_are_installed(self):
+        self.assertIn("share/mirrorball/scenes", self.text("--man").split(".SH FILES")[1])
 
     def test_bash_completes_every_option(self):
         for verb in VERBS:
