@@ -66,5 +66,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
     "libc6 (>= 2.36), libgcc-s1, libstdc++6 (>= 12), libfmt9, libpng16-16, zlib1g, ocl-icd-libopencl1 | libopencl1")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenexr-3-1-30, libopenimageio2.4, pocl-opencl-icd")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopenmpi3")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopenmpi3, libsdl2-2.0-0")
 include(CPack)

@@ -42,6 +42,16 @@ class Installed(unittest.TestCase):
                      "share/fish/vendor_completions.d/mirrorball.fish"]:
             self.assertGreater((prefix / file).stat().st_size, 0, file)
 
+    def check_advice(self, program, packages):
+        """Without its modules, the program advises to install what its package names."""
+        alone = self.folder / "alone"
+        alone.mkdir()
+        shutil.copy(program, alone)
+        said = run(alone / "mirrorball", "doctor")
+        named = set(re.findall(r"(?:install|needs) (lib[\w.-]*\w)", said))
+        self.assertGreaterEqual(len(named), 3, said)
+        self.assertLessEqual(named, packages)
+
     def test_a_prefix_that_was_moved(self):
         run("cmake", "--install", BUILD, "--prefix", self.folder / "first")
         moved = (self.folder / "second").resolve()
@@ -56,8 +66,9 @@ class Installed(unittest.TestCase):
         run("dpkg-deb", "-x", package, self.folder / "root")
         prefix = (self.folder / "root/usr").resolve()
         self.check(prefix, zsh="vendor-completions")
-        # Imath comes with OpenEXR.
-        depends = run("dpkg-deb", "-f", package, "Depends", "Recommends", "Suggests") + "libimath-3-1-29"
+        depends = run("dpkg-deb", "-f", package, "Depends", "Recommends", "Suggests")
+        self.check_advice(prefix / "bin/mirrorball", set(re.findall(r"lib[\w.-]+", depends)))
+        depends += "libimath-3-1-29"  # comes with OpenEXR
         files = [prefix / "bin/mirrorball", *(prefix / "lib/mirrorball").iterdir()]
         self.assertGreaterEqual(len(files), 3)  # 4 where MPI is installed
         for file in files:

@@ -18,13 +18,14 @@ LoadedModule load(const char* name, const char* advice) {
 LoadedModule load_openimageio() {
     ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
     return load("libmirrorball_oiio.so",
-                "install libopenimageio and mirrorball again, or use .png, .exr or .pfm");
+                "install libopenimageio2.4 and mirrorball again, or use .png, .exr or .pfm");
 }
 
 /// Loaded by the first caller; others wait.
 const LoadedModule& loaded_exr() {
-    static const LoadedModule result = load(
-        "libmirrorball_exr.so", "install libopenexr and mirrorball again, or use .png or .pfm");
+    static const LoadedModule result =
+        load("libmirrorball_exr.so",
+             "install libopenexr-3-1-30 and mirrorball again, or use .png or .pfm");
     return result;
 }
 

@@ -20,12 +20,14 @@ static_assert(std::is_trivially_copyable_v<RankMessage>);  // sent as raw bytes
 const mpi_module::Module& load_mpi() {
     const LoadedModule loaded = load_module(
         {"libmirrorball_mpi.so", mpi_module::entry_point_name, mpi_module::interface_version, "MPI",
-         "--mpi needs Open MPI, and mirrorball built where libopenmpi-dev is installed"});
+         "--mpi needs libopenmpi3, and mirrorball built where libopenmpi-dev is installed"});
     if (loaded.interface == nullptr) throw Error(ExitCode::usage, loaded.error);
     return *static_cast<const mpi_module::Module*>(loaded.interface);
 }
 
 }  // namespace
+
+void check_mpi() { load_mpi(); }
 
 Ranks::Ranks() : mpi_(load_mpi()) {
     if (mpi_.start(&rank_, &size_) == 0) {

@@ -32,6 +32,9 @@ struct RankMessage {
     std::array<char, 512> text{};  ///< ends with a zero
 };
 
+/// Throws Error (ExitCode::usage) where MPI is missing. Does not start it.
+void check_mpi();
+
 /// The processes that mpirun started, as seen by one of them. Loads MPI. Only the thread that
 /// created it may use it.
 class Ranks {

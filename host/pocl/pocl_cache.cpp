@@ -15,12 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where PoCL keeps kernels.
-fs::path pocl_cache_folder() {
-    const char* const folder = getenv("POCL_CACHE_DIR");  // prepare_pocl has set it
-    return folder == nullptr ? "/tmp/pocl/kcache" : folder;
-}
-
 struct Search {
     fs::file_time_type start;
     BuildCache found = BuildCache::unknown;
@@ -44,6 +38,16 @@ int look_at(dl_phdr_info* info, std::size_t, void* data) {
 }
 
 }  // namespace
+
+fs::path pocl_cache_folder() {
+    const char* const folder = getenv("POCL_CACHE_DIR");
+    return folder == nullptr ? "/tmp/pocl/kcache" : folder;
+}
+
+bool pocl_keeps_kernels() {
+    const char* const wanted = getenv("POCL_KERNEL_CACHE");
+    return wanted == nullptr || *wanted == '1';
+}
 
 std::string why_pocl_cache_is_read_only() {
     const fs::path folder = pocl_cache_folder();

@@ -14,6 +14,12 @@ namespace rt {
 /// none. Costs microseconds, however large the cache.
 BuildCache pocl_build_since(std::filesystem::file_time_type start);
 
+/// Where PoCL keeps kernels, once prepare_pocl has been called.
+std::filesystem::path pocl_cache_folder();
+
+/// Whether it keeps them at all: POCL_KERNEL_CACHE=0 is for its developers.
+bool pocl_keeps_kernels();
+
 /// Why PoCL cannot write its kernel cache: "FOLDER: Permission denied"; empty where it can.
 std::string why_pocl_cache_is_read_only();
 

@@ -7,6 +7,7 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/image/picture_io.h"
+#include "host/mpi/ranks.h"
 #include "host/opencl/icd_files.h"
 #include "host/picture/render_picture.h"
 #include "host/pocl/pocl_cache.h"
@@ -18,6 +19,7 @@
 #include "host/verbs/default_scene.h"
 #include "host/verbs/verbs.h"
 #include "host/version.h"
+#include "host/view/sdl.h"
 #include "host/worker.h"
 
 namespace rt {
@@ -113,12 +115,35 @@ Finding test_format(const char* name, const char* ending) {
     }
 }
 
+Finding test_window() {
+    std::string why;
+    const bool is_there = sdl::load(why) != nullptr;
+    return {is_there ? State::fine : State::missing, "windows (--show)",
+            is_there ? "SDL 2 can be loaded" : why};
+}
+
+Finding test_mpi() {
+    try {
+        check_mpi();
+        return {State::fine, "MPI (--mpi)", "can be loaded"};
+    } catch (const Error& error) {
+        return {State::missing, "MPI (--mpi)", error.what()};
+    }
+}
+
 Finding test_kernel_cache() {
     const std::string why = why_pocl_cache_is_read_only();
-    if (why.empty()) return {State::fine, "kernel cache", "PoCL can save what it compiles"};
-    return {State::broken, "kernel cache",
-            "PoCL cannot write to it: " + why +
-                "; set POCL_CACHE_DIR to a folder that you can write to"};
+    if (!why.empty()) {
+        return {State::broken, "kernel cache",
+                "PoCL cannot write to it: " + why +
+                    "; set POCL_CACHE_DIR to a folder that you can write to"};
+    }
+    if (!pocl_keeps_kernels()) {
+        return {State::missing, "kernel cache",
+                "PoCL compiles every kernel again; unset POCL_KERNEL_CACHE"};
+    }
+    return {State::fine, "kernel cache",
+            "PoCL saves what it compiles in " + pocl_cache_folder().string()};
 }
 
 void examine_devices(const DoctorOptions& options, IcdFiles& files,
@@ -161,6 +186,8 @@ std::vector<Finding> examine(const DoctorOptions& options) {
     if (!files.usable.empty()) examine_devices(options, files, findings);
     findings.push_back(test_format("EXR pictures", ".exr"));
     findings.push_back(test_format("TIFF, JPEG and other pictures", ".tif"));
+    findings.push_back(test_window());
+    findings.push_back(test_mpi());
     return findings;
 }
 
