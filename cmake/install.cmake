@@ -17,9 +17,11 @@ install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball)
 install(FILES docs/bench.schema.json docs/compare.schema.json docs/converge.schema.json
     docs/results.schema.json docs/stress.schema.json
     DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball/schemas)
-install(FILES README.md docs/features.md docs/many-machines.md docs/numerics.md docs/results-format.md
-    docs/scene-format.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs/images DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+install(FILES scripts/kubernetes/render.yaml DESTINATION ${CMAKE_INSTALL_DOCDIR}/scripts/kubernetes)
+file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} *.md docs/*.md python/*.md)
+list(REMOVE_ITEM pages CHANGELOG.md)
 configure_file(cmake/debian_changelog.in changelog.Debian)
 install(CODE "
     function(write_text file)
@@ -28,6 +30,12 @@ install(CODE "
     set(program ${CMAKE_BINARY_DIR}/mirrorball)
     set(texts ${CMAKE_BINARY_DIR}/texts)
     file(MAKE_DIRECTORY \${texts})
+    foreach(page ${pages})
+        get_filename_component(folder \${texts}/pages/\${page} DIRECTORY)
+        file(MAKE_DIRECTORY \${folder})
+        write_text(\${texts}/pages/\${page} sed -f ${CMAKE_SOURCE_DIR}/cmake/installed_links.sed
+            ${CMAKE_SOURCE_DIR}/\${page})
+    endforeach()
     write_text(\${texts}/mirrorball.1 \${program} --man)
     write_text(\${texts}/mirrorball.1.gz gzip -9nc \${texts}/mirrorball.1)
     write_text(\${texts}/changelog.gz gzip -9nc ${CMAKE_SOURCE_DIR}/CHANGELOG.md)
@@ -36,6 +44,7 @@ install(CODE "
     write_text(\${texts}/_mirrorball \${program} --completions zsh)
     write_text(\${texts}/mirrorball.fish \${program} --completions fish)")
 set(texts ${CMAKE_BINARY_DIR}/texts)
+install(DIRECTORY ${texts}/pages/ DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${texts}/mirrorball.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${texts}/changelog.gz ${texts}/changelog.Debian.gz
     DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -41,6 +41,15 @@ class Installed(unittest.TestCase):
                      f"share/zsh/{zsh}/_mirrorball",
                      "share/fish/vendor_completions.d/mirrorball.fish"]:
             self.assertGreater((prefix / file).stat().st_size, 0, file)
+        self.check_links(prefix / "share/doc/mirrorball")
+
+    def check_links(self, docs):
+        pages = list(docs.rglob("*.md"))
+        for page in ["README.md", "docs/tutorial.md", "docs/gallery.md", "python/README.md"]:
+            self.assertIn(docs / page, pages)
+        for page in pages:
+            for link in re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8")):
+                self.assertTrue("://" in link or (page.parent / link).exists(), f"{page}: {link}")
 
     def check_advice(self, program, packages):
         """Without its modules, the program advises to install what its package names."""
