@@ -6,6 +6,7 @@
 #include <random>
 
 #include "host/measure/ray_tree.h"
+#include "host/scene/json_file.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -27,7 +28,7 @@ void check_parts(const RayNode& ray) {
 class ExplainedScene : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(ExplainedScene, AddsUpToItsPixels) {
-    Scene scene = load_scene(GetParam().stem().string());
+    Scene scene = load_json_scene(GetParam().string());
     set_image_size(scene, 160, 120);
     scene.aa = grid_aa(1);
     const FlatScene<double> flat = flatten<double>(scene);
@@ -48,12 +49,15 @@ TEST_P(ExplainedScene, AddsUpToItsPixels) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ExplainedScene, testing::ValuesIn(scene_files()),
-                         [](const auto& info) {
-                             std::string name = info.param.stem().string();
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
+std::string name_of(const testing::TestParamInfo<std::filesystem::path>& info) {
+    std::string name = info.param.stem().string();
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ExplainedScene, testing::ValuesIn(scene_files()), name_of);
+INSTANTIATE_TEST_SUITE_P(Gallery, ExplainedScene, testing::ValuesIn(scene_files("gallery")),
+                         name_of);
 
 TEST(Explain, HasATreeForEachSample) {
     Scene scene = load_scene("glass");
