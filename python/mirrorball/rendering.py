@@ -7,9 +7,13 @@ import sys
 import tempfile
 from typing import Any, Union
 
+from .errors import MissingPartsError
 from .picture import Picture, read_pfm
 from .program import Progress, option_words, run_json
 from .scenes import Scene, scene_path
+
+_NOT_HERE = ("output", "o", "format", "stats", "q", "quiet", "batch", "frames", "shard", "mpi", "aov",
+             "watch", "show", "preview")
 
 
 def _print_progress(fraction: float) -> None:
@@ -23,14 +27,19 @@ def render(scene: Scene, *, progress: Union[bool, Progress, None] = None,
 
     scene: a path or a dict. progress: True for a line on stderr, or a function of the share done,
     0 to 1. options: those of `mirrorball render`: device="pocl", aa="grid:2", size=500 or (640, 480),
-    precision="double" .. but for those that say where the picture and the figures go. Raises Error.
+    precision="double" .. but for those that say where the picture and the figures go, or that are for
+    more than one picture. Raises Error.
     """
-    taken = [name for name in ("output", "o", "stats", "q", "quiet", "shard") if name in options]
+    taken = [name for name in _NOT_HERE if options.get(name)]
     if taken:
-        raise TypeError(f"render() has no option {taken[0]}: save() the picture it returns")
+        raise TypeError(f"render() has no option {taken[0]}: it returns one picture, to save()")
     show = _print_progress if progress is True else progress or None
     with scene_path(scene) as path, tempfile.TemporaryDirectory(prefix="mirrorball-") as folder:
         pfm = pathlib.Path(folder) / "picture.pfm"
-        stats = run_json(["render", path, "-o", pfm, "--stats=json", "--progress",
-                          "json" if show else "none", *option_words(options)], show)
+        try:
+            stats = run_json(["render", path, "-o", pfm, "--stats=json", "--progress",
+                              "json" if show else "none", *option_words(options)], show)
+        except MissingPartsError as error:  # the finished part goes with the folder
+            message = str(error).split("; the finished part is in ")[0]
+            raise MissingPartsError(message, error.exit_code) from None
         return Picture(read_pfm(pfm), stats)

@@ -7,8 +7,9 @@ import json
 import os
 import pathlib
 import tempfile
-from typing import Iterator, Union
+from typing import IO, Any, Iterator, Union
 
+from .errors import OutputError
 from .program import find_program
 
 Scene = Union[str, "os.PathLike[str]", dict]
@@ -28,6 +29,22 @@ def scene(name: str) -> str:
     raise FileNotFoundError(f"no scene {name} beside {prefix}")
 
 
+def _plain(value: Any) -> Any:
+    """numpy's numbers and arrays as Python's."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"a scene has no place for a {type(value).__name__}: {value}")
+
+
+def _new_file(folder: str) -> IO[str]:
+    try:
+        return tempfile.NamedTemporaryFile("w", suffix=".json", prefix=".mirrorball-", dir=folder,
+                                           encoding="utf-8")
+    except OSError as error:
+        raise OutputError(f"{folder}: a scene with meshes is written to the working folder, which "
+                          "their names are relative to, and cannot be; change to another", 4) from error
+
+
 @contextlib.contextmanager
 def scene_path(scene: Scene) -> Iterator[str]:
     """A file that holds the scene while the block runs.
@@ -40,8 +57,7 @@ def scene_path(scene: Scene) -> Iterator[str]:
         return
     with tempfile.TemporaryDirectory(prefix="mirrorball-") as folder:
         place = os.getcwd() if scene.get("meshes") else folder
-        with tempfile.NamedTemporaryFile("w", suffix=".json", prefix=".mirrorball-", dir=place,
-                                         encoding="utf-8") as file:
-            json.dump({"name": "scene", **scene}, file)
+        with _new_file(place) as file:
+            json.dump({"name": "scene", **scene}, file, default=_plain)
             file.flush()
             yield file.name

@@ -98,9 +98,31 @@ def test_mistakes_are_exceptions_with_the_programs_message(call, error, code, wo
     assert words in str(caught.value)
 
 
-def test_what_render_does_itself_is_no_option():
-    with pytest.raises(TypeError):
-        mirrorball.render(PAPER, output="x.png")
+@pytest.mark.parametrize("name", ["output", "watch", "show", "preview", "aov", "frames"])
+def test_what_is_not_for_one_picture_is_no_option(name):
+    with pytest.raises(TypeError, match=name):
+        mirrorball.render(PAPER, **{name: True})
+    assert mirrorball.render(PAPER, **SMALL, **{name: None}).array.shape == (24, 24, 3)
+
+
+def test_a_picture_that_ran_out_of_time_names_no_file_that_is_gone():
+    with pytest.raises(mirrorball.MissingPartsError, match="out of time") as caught:
+        mirrorball.render(PAPER, device="threads:1", size=2000, aa="grid:64", timeout=1)
+    assert "mirrorball-" not in str(caught.value) and ".partial" not in str(caught.value)
+
+
+def test_scenes_hold_numpys_numbers():
+    sphere = {"center": numpy.zeros(3), "radius": numpy.float32(1), "material": "red"}
+    scene = {**BALL, "image": {"width": numpy.int64(20), "height": 10}, "spheres": [sphere]}
+    assert mirrorball.render(scene, **SMALL).hash == mirrorball.render(BALL, **SMALL).hash
+    with pytest.raises(TypeError, match="set"):
+        mirrorball.render({**BALL, "spheres": {1, 2}})
+
+
+def test_meshes_of_a_dict_need_a_folder_that_can_be_written(monkeypatch):
+    monkeypatch.chdir("/proc")
+    with pytest.raises(mirrorball.OutputError, match="/proc"):
+        mirrorball.scene_info({**BALL, "meshes": [{"file": "one.obj", "material": "red"}]})
 
 
 def test_a_program_that_is_not_there_is_said(monkeypatch):
