@@ -12,6 +12,7 @@ DeviceStats threads_stats(const FlatScene<T>& scene, const AaMode& aa,
     DeviceStats stats;
     stats.lanes = kernels.lanes;
     stats.isa = kernels.isa;
+    stats.kernels = kernels.features;
     stats.name = "threads";
     stats.threads = thread_count(options, aa.samples());
     stats.schedule = options.schedule == Schedule::tiles ? "tiles" : "buffers";

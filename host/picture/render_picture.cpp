@@ -282,6 +282,9 @@ class Job {
                                              threads_options(settings_, devices.front().threads));
         } else {
             stats_.device = device_stats<T>(devices.front().device, settings_);
+            stats_.device.kernels = settings_.all_features
+                                        ? Features{}
+                                        : either_of(scene_->features, settings_.also_features);
         }
     }
 

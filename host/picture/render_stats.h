@@ -21,12 +21,13 @@ struct DeviceStats {
     std::string name;      ///< "threads" or the OpenCL device's name
     std::string platform;  ///< OpenCL platform; empty for threads
     std::string driver;
-    std::string launch;         ///< "pixel" or "sample" work items; empty for threads
-    int lanes = 0;              ///< rays of a packet
-    std::string isa;            ///< of the threads' kernels: x86-64-v4; empty for OpenCL
-    std::string schedule;       ///< "tiles" or "buffers"; empty for OpenCL
-    int threads = 0;            ///< of the pthreads renderer; 0 for OpenCL
-    std::string fallback_from;  ///< the device that failed before; empty when none did
+    std::string launch;                ///< "pixel" or "sample" work items; empty for threads
+    int lanes = 0;                     ///< rays of a packet
+    std::string isa;                   ///< of the threads' kernels: x86-64-v4; empty for OpenCL
+    std::string schedule;              ///< "tiles" or "buffers"; empty for OpenCL
+    int threads = 0;                   ///< of the pthreads renderer; 0 for OpenCL
+    std::string fallback_from;         ///< the device that failed before; empty when none did
+    Features kernels = no_features();  ///< compiled into its kernels; none for several devices
 };
 
 /// What one of several devices did, or a device that failed.

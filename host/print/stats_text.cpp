@@ -28,6 +28,13 @@ std::string share_text(const DeviceShare& share) {
     return fmt::format("{}: {}, ready after {:.3f} s", share.name, pixels, share.ready);
 }
 
+Features without(Features features, const Features& others) {
+    for (const FeatureName& name : feature_names) {
+        if (others.*name.flag) features.*name.flag = false;
+    }
+    return features;
+}
+
 void add_phase(std::string& text, const char* name, double seconds, const std::string& note = "") {
     text += fmt::format("  {:<20}{:>10.4f} s{}\n", name, seconds, note.empty() ? "" : "   " + note);
 }
@@ -129,9 +136,12 @@ std::string stats_text(const RenderStats& stats) {
         text += fmt::format("        {} traced again on threads: identical\n",
                             counted(stats.tiles_checked, "tile"));
     }
-    text += fmt::format("needs   {}\nleaves out {}{}\n", names_text(stats.features, true),
-                        names_text(stats.features, false),
-                        stats.all_features ? " (compiled in anyway: --features all)" : "");
+    const Features compiled = either_of(stats.features, stats.device.kernels);
+    text += fmt::format("needs   {}\n", names_text(stats.features, true));
+    if (!(compiled == stats.features)) {
+        text += fmt::format("also has {}\n", names_text(without(compiled, stats.features), true));
+    }
+    text += fmt::format("leaves out {}\n", names_text(compiled, false));
     text += fmt::format("builds  {}\ncasters {}\n", hierarchies_text(stats.scene.flatten),
                         casters_text(stats.scene.flatten));
     text += phases_text(stats.phases) + rays_text(stats);

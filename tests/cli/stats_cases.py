@@ -124,4 +124,15 @@ class TextStats(CliTest):
 
     def test_features_all_is_said(self):
         result = self.render("empty", "--size", "4", "--features", "all", "--stats")
-        self.assertIn("--features all", result.stdout)
+        self.assertRegex(result.stdout, "also has .*spheres.*glass.*wide filters\n"
+                                        "leaves out nothing\n")
+
+    def test_features_that_the_kernels_have_are_not_left_out(self):
+        for device in ["threads", "pocl"]:
+            result = self.render("cornell-box", "--size", "4", "--features", "glass", "--stats",
+                                 "--device", device)
+            self.assertRegex(result.stdout, "also has .*glass")
+            self.assertNotRegex(result.stdout, "leaves out .*glass")
+        result = self.render("cornell-box", "--size", "4", "--stats", "--device", "pocl")
+        self.assertNotIn("also has", result.stdout)
+        self.assertRegex(result.stdout, "leaves out .*glass")
