@@ -111,17 +111,26 @@ std::string partial_path(const std::string& path) {
     return partial.string();
 }
 
-void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs) {
-    struct stat target {};
-    if (output == stdout_path || ::stat(output.c_str(), &target) != 0 || !S_ISREG(target.st_mode))
+void InputFiles::add(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0)
+        names_.try_emplace({status.st_dev, status.st_ino}, path);
+}
+
+void InputFiles::check(const std::string& output) const {
+    struct stat status {};
+    if (output == stdout_path || ::stat(output.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
         return;
-    for (const std::string& input : inputs) {
-        struct stat source {};
-        if (::stat(input.c_str(), &source) != 0) continue;
-        if (source.st_dev != target.st_dev || source.st_ino != target.st_ino) continue;
-        throw Error(ExitCode::usage,
-                    output + ": is the same file as " + input + ", which is read; name another");
-    }
+    const auto found = names_.find({status.st_dev, status.st_ino});
+    if (found == names_.end()) return;
+    throw Error(ExitCode::usage, output + ": is the same file as " + found->second +
+                                     ", which is read; name another");
+}
+
+void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs) {
+    InputFiles files;
+    for (const std::string& input : inputs) files.add(input);
+    files.check(output);
 }
 
 }  // namespace rt

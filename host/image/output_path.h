@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rt {
@@ -38,8 +40,20 @@ void check_output_path(const std::string& path);
 /// Where an unfinished picture goes: "dir/out.partial.png" for "dir/out.png".
 std::string partial_path(const std::string& path);
 
-/// Throws Error(ExitCode::usage) when the output is one of the inputs under any name or link: the
-/// same device and inode. Empty names and "-" never match.
+/// Files that are read, so that no output may replace them.
+class InputFiles {
+   public:
+    /// A name of no file is ignored.
+    void add(const std::string& path);
+
+    /// Throws Error(ExitCode::usage) when the output is one of them under any name or link: the
+    /// same device and inode. An empty name and "-" never match.
+    void check(const std::string& output) const;
+
+   private:
+    std::map<std::pair<dev_t, ino_t>, std::string> names_;
+};
+
 void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs);
 
 }  // namespace rt

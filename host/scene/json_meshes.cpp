@@ -43,6 +43,7 @@ void add_model(Model model, const MeshRequest& request, Scene& scene) {
     }
     scene.meshes.push_back(std::move(model.mesh));
     std::ranges::move(model.notes, std::back_inserter(scene.notes));
+    std::ranges::move(model.library_files, std::back_inserter(scene.model_files));
 }
 
 }  // namespace

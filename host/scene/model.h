@@ -15,11 +15,13 @@ struct Model {
     Scene::Mesh mesh;  ///< face_materials: indices into materials, or a single -1 if there are none
     std::vector<Scene::Material> materials;
     std::vector<std::string> notes;  ///< what was left out, a sentence each
+    std::vector<std::string> library_files;
 };
 
 /// A material library referenced by an OBJ: its text, or why it could not be read.
 struct LibraryFile {
-    std::string path, text;
+    std::string path;  ///< as opened
+    std::string text;
     std::string problem;  ///< "what is wrong; what to do"
 };
 

@@ -31,7 +31,7 @@ OpenLibrary library_opener(const std::string& model_path, const std::filesystem:
         const OpenedFile opened = open_beneath(folder, name);
         if (!opened.problem.empty()) return LibraryFile{{}, {}, opened.problem};
         const FileText text = read_text_file(opened.file, opened.path, max_model_bytes);
-        return LibraryFile{printable(opened.path), std::string(text.view()), {}};
+        return LibraryFile{opened.path, std::string(text.view()), {}};
     };
 }
 

@@ -103,6 +103,7 @@ Scene make_model_scene(Model model, const std::string& path) {
     }
     scene.meshes.push_back(std::move(model.mesh));
     scene.notes = std::move(model.notes);
+    scene.model_files = std::move(model.library_files);
     set_image_size(scene, scene.width, scene.height);
     return scene;
 }

@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "host/printable.h"
 #include "host/scene/line_scanner.h"
 #include "host/scene/mtl_file.h"
 #include "host/scene/words.h"
@@ -40,7 +41,8 @@ class Libraries {
         const LibraryFile file = open_(name);
         if (!file.problem.empty()) return file.problem;
         files_.insert(name);
-        MtlLibrary library = parse_mtl(file.text, file.path);
+        model_.library_files.push_back(file.path);
+        MtlLibrary library = parse_mtl(file.text, printable(file.path));
         for (Scene::Material& material : library.materials) {
             if (!known_.insert(material.name).second) continue;
             model_.materials.push_back(std::move(material));

@@ -113,11 +113,11 @@ class Aovs {
 
 }  // namespace
 
-void check_aov_files(const RenderOptions& options) {
+void check_aov_files(const RenderOptions& options, const std::vector<std::string>& inputs) {
     if (options.aovs.empty()) return;
     for (const std::string& file : aov_files(options)) {
         check_picture_path(file);
-        check_output_is_no_input(file, {options.scene, options.reference});
+        check_output_is_no_input(file, inputs);
     }
 }
 

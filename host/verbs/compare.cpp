@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "host/console.h"
 #include "host/error.h"
-#include "host/image/atomic_file.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/measure/flip.h"
 #include "host/measure/heatmap.h"
 #include "host/print/error_json.h"
 #include "host/print/error_text.h"
+#include "host/print/result_file.h"
+#include "host/print/run_json.h"
 #include "host/print/stats_json.h"
 #include "host/verbs/verbs.h"
 
@@ -166,7 +166,7 @@ void print_comparison(const Comparison& result, const CompareOptions& options) {
     const std::string json = json_text(comparison_json(result, options));
     if (options.json == "-") return print_result(json);
     if (!options.json.empty()) {
-        write_file_atomically(options.json, std::as_bytes(std::span(json)));
+        write_result(options.json, json);
     }
     print_result(comparison_text(result, options));
 }
@@ -174,11 +174,11 @@ void print_comparison(const Comparison& result, const CompareOptions& options) {
 }  // namespace
 
 int run_compare(const CompareOptions& options) {
-    if (!options.heatmap.empty()) check_picture_path(options.heatmap);
-    if (!options.json.empty() && options.json != "-") check_output_path(options.json);
     for (const std::string& output : {options.heatmap, options.json}) {
         check_output_is_no_input(output, {options.picture, options.reference});
     }
+    if (!options.heatmap.empty()) check_picture_path(options.heatmap);
+    check_result_path(options.json, json_start("mirrorball-compare"));
     const Comparison result = compare_pictures(options);
     if (!options.heatmap.empty()) write_heatmap(result, options);
     print_comparison(result, options);

@@ -54,13 +54,15 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     const Stopwatch total;
     start_timeout(options);
     check_output(options);
-    check_output_is_no_input(options.output, {options.scene, options.reference});
-    check_aov_files(options);
+    const std::vector<std::string> inputs{options.scene, options.reference};
+    check_output_is_no_input(options.output, inputs);
+    check_aov_files(options, inputs);
     choose_journal(options);
     watch_worker(true);
     auto devices = find_devices(options.device, options.threads, restore_stop_signals);
     Stopwatch watch;
     const Scene scene = scene_to_render(options);
+    check_aov_files(options, scene.model_files);
     const double load_seconds = watch.lap();
     const std::optional<Picture> reference = load_reference(options, scene);
     const double reference_seconds = watch.lap();

@@ -76,6 +76,8 @@ class Batch {
           list_(options, log_),
           devices_(find_devices(options.device, options.threads, restore_stop_signals).get()) {
         if (!options.output.empty()) check_picture_path(batch_output(options.output, "scene"));
+        inputs_.add(options.batch);
+        for (const std::string& scene : options.scenes) inputs_.add(scene);
     }
 
     int run() {
@@ -124,7 +126,8 @@ class Batch {
             return;
         }
         check_output(options);
-        check_output_is_no_input(options.output, {options.scene, options.batch});
+        inputs_.add(options.scene);
+        inputs_.check(options.output);
         choose_journal(options);
         Stopwatch watch;
         const Scene& scene = load(item, options);
@@ -151,10 +154,12 @@ class Batch {
 
     /// A camera path's scene is loaded once.
     const Scene& load(const BatchItem& item, const RenderOptions& options) {
-        if (!item.frame) return scene_ = scene_to_render(options);
-        if (!has_path_) scene_ = scene_to_render(options);
+        if (!has_path_) {
+            scene_ = scene_to_render(options);
+            for (const std::string& file : scene_.model_files) inputs_.add(file);
+        }
+        if (!item.frame) return scene_;
         has_path_ = true;
-        check_output_is_no_input(options.output, scene_.model_files);
         scene_.camera = camera_at(scene_, *item.frame);
         set_image_size(scene_, scene_.width, scene_.height);
         return scene_;
@@ -217,6 +222,7 @@ class Batch {
     BatchList list_;
     std::vector<DeviceChoice> devices_;
     RenderCache cache_;
+    InputFiles inputs_;  ///< as far as they are known
     Scene scene_;
     bool has_path_ = false;  ///< scene_ is the one for all frames
     std::size_t there_ = 0;  ///< frames skipped since their pictures existed

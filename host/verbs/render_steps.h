@@ -32,7 +32,7 @@ void check_output(const RenderOptions& options);
 void choose_journal(RenderOptions& options);
 
 /// Loads options.scene as it is to be rendered; reports on stderr what the reader skipped. Rejects
-/// an output that is one of its models.
+/// an output that is one of the files it names.
 Scene scene_to_render(const RenderOptions& options);
 
 /// Prints a render's messages on stderr: of each its first line, or all with --verbose; nothing

@@ -116,6 +116,22 @@ class List(BatchTest):
         self.assertIn("list.png: is the same file as", result.stderr)
         self.assertEqual((self.folder / "list.png").read_text(), text)
 
+    def test_no_scene_is_overwritten(self):
+        text = pathlib.Path(scene_path("cones")).read_text()
+        for name in ["1.json", "2.json"]:
+            self.write_text(name, text)
+        (self.folder / "1.png").symlink_to("2.json")
+        (self.folder / "2.png").symlink_to("1.json")
+        lists = [["1.json", "2.json", "-o", "%s.png"],
+                 ["--batch", self.write_text("list", "1.json 3.png\n2.json 2.png")]]
+        for arguments, failed in zip(lists, [["1", "2"], ["2"]]):
+            result = self.run_cli("render", *arguments, *SMALL)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            for name in failed:
+                self.assertIn(f"{name}.png: is the same file as", result.stderr)
+            for name in ["1.json", "2.json"]:
+                self.assertEqual((self.folder / name).read_text(), text)
+
     def test_one_file_by_two_names_is_not_written_twice(self):
         (self.folder / "b.png").symlink_to("a.png")
         (self.folder / "folder").symlink_to(".")

@@ -115,12 +115,32 @@ class OverInputs(CliTest):
                          meshes=[{"file": "torus.ply", "material": "grey"}])
         self.refuse("render", "scene.json", "-o", "out.png", files=["torus.ply"])
 
+    def test_material_library(self):
+        self.write_text("gem.mtl", "newmtl red\nKd 1 0 0\n")
+        self.write_text("gem.obj", "mtllib gem.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n")
+        self.write_scene(meshes=[{"file": "gem.obj"}])
+        os.symlink("gem.mtl", self.folder / "m.png")
+        os.symlink("gem.mtl", self.folder / "out.depth.png")
+        for scene in ["gem.obj", "scene.json"]:
+            self.refuse("render", scene, "-o", "m.png", files=["gem.mtl"])
+            self.refuse("render", scene, "-o", "out.png", "--aov", "depth", files=["gem.mtl"])
+
     def test_reference_and_compared_pictures(self):
         self.render(SCENE, "--size", "8", "--device", "threads", "-o", "a.png")
         self.refuse("render", scene_path(SCENE), "--reference", "a.png", "-o", "./a.png",
                     files=["a.png"])
         for option in ["--heatmap", "--json"]:
             self.refuse("compare", "a.png", "a.png", f"{option}=a.png", files=["a.png"])
+
+    def test_results_of_compare_replace_only_such_results(self):
+        self.render(SCENE, "--size", "8", "--device", "threads", "-o", "a.png")
+        self.write_text("notes.txt", "mine")
+        self.assert_refused(self.run_cli("compare", "a.png", "a.png", "--json=notes.txt"), 2,
+                            "does not hold such results")
+        self.assertEqual((self.folder / "notes.txt").read_text(), "mine")
+        for _ in range(2):
+            result = self.run_cli("compare", "a.png", "a.png", "--json=a.json")
+            self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_baseline_of_bench(self):
         self.write_text("old.json", '{\n  "format": "mirrorball-bench"')
