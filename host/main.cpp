@@ -10,6 +10,7 @@
 #include "host/exit_status.h"
 #include "host/options/options.h"
 #include "host/picture/render_stats.h"
+#include "host/pocl/pocl_environment.h"
 #include "host/stop_signal.h"
 #include "host/verbs/verbs.h"
 #include "host/worker.h"
@@ -76,6 +77,7 @@ int main(int argc, char** argv) {
         return result;
     });
     rt::note_worker_end(status);
+    rt::remove_private_pocl_cache();
     // Skips destructors: a driver may still be compiling for a picture that is finished.
     _exit(status);
 }

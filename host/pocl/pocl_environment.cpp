@@ -9,9 +9,12 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>
+
+#include "host/temporary_folder.h"
 
 namespace rt {
 
@@ -77,22 +80,32 @@ void remove_leftovers(const fs::path& cache) {
     }
 }
 
-void set_cache_folder() {
-    const std::string given = variable(cache_variable);
-    if (!given.empty() && is_ours(given)) return;
+/// The folder of this process alone, for want of another.
+std::optional<TemporaryFolder> private_cache;
+
+/// Empty if others can write there.
+fs::path kept_cache_folder() {
     std::error_code error;
     fs::path folder = own_cache_folder();
     if (folder.empty()) {
         folder = fs::temp_directory_path(error) / ("mirrorball-" + std::to_string(geteuid()));
         mkdir(folder.c_str(), S_IRWXU);
-        if (!is_ours(folder)) return;
+        if (!is_ours(folder)) return {};
     }
     folder /= "mirrorball";
     fs::create_directories(folder, error);
     folder /= "pocl";
     mkdir(folder.c_str(), S_IRWXU);
-    if (!is_ours(folder)) return;
+    if (!is_ours(folder)) return {};
     remove_leftovers(folder);
+    return folder;
+}
+
+void set_cache_folder() {
+    const std::string given = variable(cache_variable);
+    if (!given.empty() && is_ours(given)) return;
+    fs::path folder = kept_cache_folder();
+    if (folder.empty()) folder = private_cache.emplace().name();
     setenv(cache_variable, folder.c_str(), overwrite);
 }
 
@@ -112,5 +125,7 @@ void prepare_pocl(int count) {
     set_cache_folder();
     find_linker();
 }
+
+void remove_private_pocl_cache() { private_cache.reset(); }
 
 }  // namespace rt

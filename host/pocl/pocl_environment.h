@@ -12,10 +12,14 @@ namespace rt {
 /// process that may not use every core. POCL_AFFINITY=0 prevents pinning.
 ///
 /// Kernel cache: POCL_CACHE_DIR, unless it is empty, another user's, or world-writable; else
-/// mirrorball/pocl in $XDG_CACHE_HOME or ~/.cache, closed to others. PoCL runs what lies there.
+/// mirrorball/pocl in $XDG_CACHE_HOME or ~/.cache, without a home in $TMPDIR/mirrorball-UID, closed
+/// to others; else a temporary folder of this process. PoCL runs what lies there.
 ///
 /// PATH: adds /usr/bin and /bin if it has no `ld`, which PoCL calls, ending the process if it is
 /// missing.
 void prepare_pocl(int count);
+
+/// Removes the temporary folder, if there is one, when OpenCL is no longer needed.
+void remove_private_pocl_cache();
 
 }  // namespace rt

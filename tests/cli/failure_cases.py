@@ -191,6 +191,22 @@ class KernelCache(CliTest):
         self.render_on_pocl(POCL_CACHE_DIR="")
         self.assertTrue(list(own.iterdir()))
 
+    def test_is_temporary_where_no_folder_is_safe(self):
+        """Without a home, and with the folder in /tmp open to others."""
+        shared = self.folder / "shared"
+        folder = self.folder / "tmp" / f"mirrorball-{os.geteuid()}"
+        for place in [shared, folder]:
+            place.mkdir(parents=True)
+            place.chmod(0o777)
+        result = self.run_cli("render", scene_path("single-sphere"), "--size", "8", "--device",
+                              "pocl", "--no-fallback", "-q",
+                              env={"POCL_CACHE_DIR": str(shared), "XDG_CACHE_HOME": "", "HOME": "",
+                                   "TMPDIR": str(folder.parent), "LD_DEBUG": "files"})
+        self.assertEqual(result.returncode, 0, result.stderr[-1000:])
+        self.assertRegex(result.stderr, f"{folder.parent}/mirrorball-[^ ]*/[^ ]*\\.so")
+        self.assertEqual([*shared.iterdir(), *folder.iterdir()], [])
+        self.assertEqual(list(folder.parent.iterdir()), [folder])
+
     def test_what_builds_leave_is_removed_after_an_hour(self):
         own = self.render_on_pocl(POCL_CACHE_DIR="")
         for name, age in [("tempfile_a", 4000), ("tempfile_b", 60), ("other", 4000)]:
