@@ -3,6 +3,7 @@
 
 #include "host/measure/bench.h"
 #include "host/print/run_json.h"
+#include "host/printable.h"
 
 namespace rt {
 
@@ -28,7 +29,7 @@ Json figures_json(const BenchResult& result, const BenchRow& row) {
 }
 
 Json scene_json(const BenchCase& asked) {
-    return {{"path", asked.scene_path},
+    return {{"path", printable(asked.scene_path)},
             {"name", asked.scene_name},
             {"hash", hash_text(asked.scene_hash)}};
 }
@@ -70,7 +71,7 @@ Json ablation_json(const BenchResult& result, const BenchRow& row) {
 
 Json reference_json(const RenderStats& run) {
     Json json{{"scene",
-               {{"path", run.scene.path},
+               {{"path", printable(run.scene.path)},
                 {"name", run.scene.name},
                 {"hash", hash_text(run.scene.hash)}}}};
     json.update(run_json(run));

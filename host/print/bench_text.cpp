@@ -7,6 +7,7 @@
 
 #include "host/measure/bench.h"
 #include "host/measure/machine_load.h"
+#include "host/printable.h"
 
 namespace rt {
 
@@ -16,7 +17,7 @@ constexpr std::size_t device_columns = 19;
 
 /// The heading of a group of rows.
 std::string group_of(const BenchCase& asked) {
-    return fmt::format("{} {}x{}, {}, {}", asked.scene_path, asked.width, asked.height,
+    return fmt::format("{} {}x{}, {}, {}", printable(asked.scene_path), asked.width, asked.height,
                        to_string(asked.aa), asked.double_precision ? "double" : "float");
 }
 

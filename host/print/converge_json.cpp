@@ -4,6 +4,7 @@
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/print/run_json.h"
+#include "host/printable.h"
 
 namespace rt {
 
@@ -100,7 +101,7 @@ Json converge_json(const ConvergeResult& result) {
             {"version", 1},
             {"environment", bench_environment_json(result.load_before)},
             {"scene",
-             {{"path", result.scene_path},
+             {{"path", printable(result.scene_path)},
               {"name", result.scene_name},
               {"hash", hash_text(result.scene_hash)}}},
             {"width", result.width},

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/print/environment_json.h"
+#include "host/printable.h"
 #include "host/version.h"
 
 namespace rt {
@@ -20,7 +21,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::vector<std::string> what_cells(const RenderStats& run, const RunPlace& place) {
-    return {quoted(run.scene.path),
+    return {quoted(printable(run.scene.path)),
             hash_text(run.scene.hash),
             std::to_string(run.width),
             std::to_string(run.height),

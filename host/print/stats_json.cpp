@@ -6,6 +6,7 @@
 #include "host/print/environment_json.h"
 #include "host/print/error_json.h"
 #include "host/print/flatten_text.h"
+#include "host/printable.h"
 
 namespace rt {
 
@@ -14,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json scene_json(const RenderStats& stats) {
-    return {{"path", stats.scene.path},
+    return {{"path", printable(stats.scene.path)},
             {"name", stats.scene.name},
             {"hash", hash_text(stats.scene.hash)},
             {"spheres", stats.scene.spheres},

@@ -17,6 +17,7 @@
 #include "host/print/result_file.h"
 #include "host/print/run_json.h"
 #include "host/print/stats_json.h"
+#include "host/printable.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {
@@ -125,10 +126,11 @@ void write_heatmap(const Comparison& result, const CompareOptions& options) {
 }
 
 std::string comparison_text(const Comparison& result, const CompareOptions& options) {
-    std::string text = fmt::format("{} against {}: {}x{} pixels, {} channel{}{}\n", options.picture,
-                                   options.reference, result.picture.width, result.picture.height,
-                                   result.picture.channels, result.picture.channels == 1 ? "" : "s",
-                                   options.clamp ? ", clamped to 0..1" : "");
+    std::string text =
+        fmt::format("{} against {}: {}x{} pixels, {} channel{}{}\n", printable(options.picture),
+                    printable(options.reference), result.picture.width, result.picture.height,
+                    result.picture.channels, result.picture.channels == 1 ? "" : "s",
+                    options.clamp ? ", clamped to 0..1" : "");
     text += error_table(result.error, result.pixels());
     if (result.flip) {
         text +=
@@ -138,18 +140,18 @@ std::string comparison_text(const Comparison& result, const CompareOptions& opti
     }
     if (!options.heatmap.empty()) {
         text += fmt::format("  heat map    {}: black 0, yellow {:.4e}, cyan not finite\n",
-                            options.heatmap, result.heatmap_scale);
+                            printable(options.heatmap), result.heatmap_scale);
     }
     return text + (result.identical() ? "  identical\n" : "");
 }
 
 Json comparison_json(const Comparison& result, const CompareOptions& options) {
-    Json json{{"format", "mirrorball-compare"},      {"version", 1},
-              {"picture", options.picture},          {"reference", options.reference},
-              {"width", result.picture.width},       {"height", result.picture.height},
-              {"channels", result.picture.channels}, {"clamped", options.clamp},
-              {"identical", result.identical()},     {"passed", result.breaches.empty()},
-              {"breaches", result.breaches},         {"error", error_json(result.error)}};
+    Json json{{"format", "mirrorball-compare"},        {"version", 1},
+              {"picture", printable(options.picture)}, {"reference", printable(options.reference)},
+              {"width", result.picture.width},         {"height", result.picture.height},
+              {"channels", result.picture.channels},   {"clamped", options.clamp},
+              {"identical", result.identical()},       {"passed", result.breaches.empty()},
+              {"breaches", result.breaches},           {"error", error_json(result.error)}};
     if (result.error.non_finite == result.pixels()) json["error"] = nullptr;
     if (result.flip) {
         const FlipResult& flip = *result.flip;
@@ -157,7 +159,7 @@ Json comparison_json(const Comparison& result, const CompareOptions& options) {
                         {"note", flip.note}};
     }
     if (!options.heatmap.empty()) {
-        json["heatmap"] = {{"path", options.heatmap}, {"scale", result.heatmap_scale}};
+        json["heatmap"] = {{"path", printable(options.heatmap)}, {"scale", result.heatmap_scale}};
     }
     return json;
 }
@@ -165,9 +167,7 @@ Json comparison_json(const Comparison& result, const CompareOptions& options) {
 void print_comparison(const Comparison& result, const CompareOptions& options) {
     const std::string json = json_text(comparison_json(result, options));
     if (options.json == "-") return print_result(json);
-    if (!options.json.empty()) {
-        write_result(options.json, json);
-    }
+    write_result(options.json, json);
     print_result(comparison_text(result, options));
 }
 

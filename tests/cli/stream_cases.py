@@ -4,6 +4,7 @@ import fcntl
 import json
 import os
 import pty
+import shutil
 import struct
 import termios
 import threading
@@ -53,6 +54,27 @@ class HostileNames(CliTest):
                 self.assertIn("control character", result.stderr)
                 self.assertNotIn("\x1b", result.stdout + result.stderr)
                 self.assertNotIn("\nsecond", result.stdout + result.stderr)
+
+    def test_nor_do_those_of_files_in_measurements(self):
+        name = "a\n\x1b[31m\x9b\u202e"
+        shutil.copy(scene_path("single-sphere"), self.folder / f"{name}.json")
+        scene, picture, map_of = f"{name}.json", f"{name}.png", f"{name}-map.png"
+        self.assertEqual(self.run_cli("render", scene, "--size", "8", "-q", "-o", picture,
+                                      "--device", "threads").returncode, 0)
+        bench = ["bench", scene, "--sizes", "8", "--aa", "none", "--devices", "threads",
+                 "--repeats", "1", "-q"]
+        converge = ["converge", scene, "--size", "8", "--aa", "none", "--devices", "threads",
+                    "--reference-samples", "4", "-q"]
+        render = ["render", scene, "--size", "8", "--device", "threads", "--stats"]
+        compare = ["compare", picture, picture, "--heatmap", map_of]
+        for arguments in [[*bench], [*bench, "--csv=-"], [*bench, "--json=-"], converge,
+                          [*converge, "--json=-"], render, [*render, "json"], compare,
+                          [*compare, "--json=-"]]:
+            with self.subTest(arguments=arguments):
+                result = self.run_cli(*arguments, env={"XDG_CACHE_HOME": str(self.folder)})
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertNotRegex(result.stdout + result.stderr,
+                                    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u202e]|\na\n")
 
     def test_nul_in_a_scene_s_name_is_no_bug_of_ours(self):
         scene = self.write_scene(name="a\0b")
