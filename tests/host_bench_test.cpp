@@ -11,6 +11,7 @@
 #include "host/measure/pareto.h"
 #include "host/measure/picture_judge.h"
 #include "host/measure/statistics.h"
+#include "host/print/rounds_text.h"
 
 namespace rt {
 namespace {
@@ -208,6 +209,15 @@ TEST(Bench, RegressionsAreFoundByKey) {
     ASSERT_EQ(regressions(result, baseline, 0.05).size(), 1U);
     EXPECT_EQ(regressions(result, baseline, 0.05)[0].key, key_of(result.rows[1].asked));
     EXPECT_ANY_THROW(regressions(result, {}, 0.05));
+}
+
+TEST(Bench, RoundsAreThoseThatWereDone) {
+    const std::vector<BenchRow> rows{threads_row(1, {9, 9}), threads_row(2, {4})};
+    EXPECT_EQ(rounds_text(rows, 2, false), "2 rounds after a warm-up");
+    EXPECT_EQ(rounds_text(rows, 4, true), "2 of 4 rounds after a warm-up, interrupted");
+    EXPECT_EQ(rounds_text(std::vector{threads_row(1, {9})}, 1, false), "1 round after a warm-up");
+    EXPECT_EQ(rounds_text(std::vector{threads_row(1, {})}, 4, true),
+              "0 of 4 rounds after a warm-up, interrupted");
 }
 
 TEST(Converge, TargetBelowTheFloorIsNotDecided) {

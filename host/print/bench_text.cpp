@@ -7,6 +7,7 @@
 
 #include "host/measure/bench.h"
 #include "host/measure/machine_load.h"
+#include "host/print/rounds_text.h"
 #include "host/printable.h"
 
 namespace rt {
@@ -131,8 +132,9 @@ std::string bench_text(const BenchResult& result) {
         images[hash_text(row.repeats.back().image_hash)].push_back(row.asked.device + schedule);
     }
     text += images_text(images) + ablation_text(result);
-    text += fmt::format("\n{} rounds after a warm-up{}; load before {:.2f}\n{}",
-                        result.repeats_asked, result.interrupted ? ", interrupted" : "",
+    text += fmt::format("\n{}; load before {:.2f}\n{}",
+                        rounds_text(result.ablation.empty() ? result.rows : result.ablation,
+                                    result.repeats_asked, result.interrupted),
                         result.load_before, result.ablation.empty() ? legend : ablation_legend);
     return text;
 }

@@ -9,6 +9,7 @@
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
+#include "host/print/rounds_text.h"
 #include "host/printable.h"
 
 namespace rt {
@@ -109,12 +110,13 @@ std::string targets_text(const ConvergeResult& result) {
 std::string converge_text(const ConvergeResult& result) {
     const ConvergeReference& reference = result.reference;
     std::string text = fmt::format(
-        "{}\n{}x{}, {} rounds after a warm-up{}; load before {:.2f}\n"
+        "{}\n{}x{}, {}; load before {:.2f}\n"
         "reference: mean of {} and {} in double, {} bounces\n"
         "its halves differ by RMSE {:.2e}: floor {:.2e}; values clamped to [0,1]\n\n",
-        printable(result.scene_path), result.width, result.height, result.repeats_asked,
-        result.interrupted ? ", interrupted" : "", result.load_before, reference.aa_a,
-        reference.aa_b, reference.max_bounces, reference.halves_rmse, reference.floor());
+        printable(result.scene_path), result.width, result.height,
+        rounds_text(result.points, result.repeats_asked, result.interrupted), result.load_before,
+        reference.aa_a, reference.aa_b, reference.max_bounces, reference.halves_rmse,
+        reference.floor());
     if (const std::string busy = busy_text(load_of(result.load_before)); !busy.empty()) {
         text.insert(0, busy + "\n\n");
     }
