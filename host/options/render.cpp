@@ -195,7 +195,7 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
     verb.flag("--no-fallback", render.no_fallback,
               "fail if the device fails, instead of finishing on threads");
     verb.option(
-        "--check", "P%", "trace P% of a device's tiles again on threads and compare",
+        "--check", "P%", "trace P% of a device's or a journal's tiles again on threads and compare",
         [&](const std::string& text) { render.check = parse_percent("--check", text, 100); });
 }
 

@@ -41,6 +41,13 @@ void settle_journal(RenderOptions& render) {
     }
 }
 
+/// Threads have no fast math, so every tile would differ.
+void settle_check(const RenderOptions& render) {
+    if (render.check > 0 && render.fast_math) {
+        throw Error(ExitCode::usage, "--check compares bits: it needs --math strict");
+    }
+}
+
 void settle_watch(const RenderOptions& render) {
     if (!render.watch) return;
     if (render.is_batch() || render.scene == stdin_scene || render.shares) {
@@ -137,6 +144,7 @@ void settle_render(RenderOptions& render) {
     settle_streams(render);
     settle_scenes(render);
     settle_journal(render);
+    settle_check(render);
     settle_watch(render);
     settle_mpi(render);
     settle_aovs(render);

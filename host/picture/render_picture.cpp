@@ -294,7 +294,7 @@ class Job {
         const std::string rays = impossible_rays(stats_.rays, stats_.scene.lights,
                                                  stats_.max_bounces, scene_->features.glass);
         if (!rays.empty()) return "reports an impossible number of rays: " + rays;
-        if (settings_.check <= 0 || settings_.fast_math) return "";
+        if (settings_.check <= 0) return "";
         const TileCheck check = check_tiles(*scene_, stats_.aa, settings_.isa,
                                             journal_->final_tiles(tile_.width, tile_.height),
                                             settings_.check, region_, film_);

@@ -112,6 +112,9 @@ class WrongOption(CliTest):
             with self.subTest(bounces=bounces):
                 self.assert_option_refused(f"--max-bounces={bounces}")
 
+    def test_check_of_fast_math(self):
+        self.assert_option_refused("--check", "5%", "--math", "fast", says=["--math strict"])
+
     def test_unknown_choices(self):
         for option in ["--precision", "--math", "--launch", "--schedule", "--features",
                        "--progress", "--encoding"]:
