@@ -93,6 +93,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     }
     std::string path = options.output;
     if (!stats.complete()) {
+        if (stats.tiles_finished == 0 && stats.resumed == 0) return "";
         if (path == stdout_path) return "";  // a reader of stdout wants a whole picture
         path = partial_path(path);
         metadata.emplace_back("mirrorball:Partial", share_done(stats));

@@ -68,8 +68,8 @@ class RenderConsole {
 void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats);
 
 /// Writes the picture to options.output, an unfinished one next to it: the existing file may be
-/// finished. Removes a finished picture's journal. Shares are already written. Returns the name of
-/// the file; "" if none was written.
+/// finished. One without any tile is not written. Removes a finished picture's journal. Shares are
+/// already written. Returns the name of the file; "" if none was written.
 std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options);
 
 /// Prints what options.stats requests: the summary line on stderr, or figures on stdout.

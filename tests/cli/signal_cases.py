@@ -157,6 +157,12 @@ class Interrupted(CliTest):
                       self.next_word(process))
         self.assertLess(time.monotonic() - sent, 20)
 
+    def test_before_the_first_tile_is_done_nothing_is_saved(self):
+        code, lines = self.stop(self.start_and_wait_until_it_renders(), signal.SIGINT)
+        self.assertEqual(code, 130, lines)
+        self.assertRegex(lines[-1], r"interrupted \(Ctrl-C\) after 0 of 1 tiles$")
+        self.assertEqual(self.pictures(), [])
+
     def test_a_second_signal_of_any_kind_quits_at_once(self):
         for first, second in [(signal.SIGINT, signal.SIGINT), (signal.SIGUSR1, signal.SIGTERM)]:
             process = self.start_and_wait_until_it_renders()
@@ -189,7 +195,7 @@ class Interrupted(CliTest):
         process = self.start("render", scene_path("mirror-hall"), *options, "-o", "part.pfm",
                              "--progress", "json")
         for line in process.stderr:
-            if line.startswith("{"):
+            if line.startswith("{") and json.loads(line)["fraction"] > 0:
                 break
         self.stop(process, signal.SIGINT)
         whole, part = (read_pfm(self.folder / name)[2] for name in ["whole.pfm", "part.partial.pfm"])
