@@ -204,6 +204,15 @@ TEST(SvgPlot, NumbersOnAnAxisDoNotTouch) {
     EXPECT_TRUE(holds(svg, ">500²</text>"));
 }
 
+TEST(SvgPlot, TheLargestNumberOnAnAxisStays) {
+    rt::Plot plot = small_plot();
+    plot.x.ticks = {{95, "500²"}, {1, "20²"}, {90, "100²"}};
+    const std::string svg = rt::svg_plot(plot);
+    EXPECT_TRUE(holds(svg, ">20²</text>"));
+    EXPECT_FALSE(holds(svg, ">100²</text>"));
+    EXPECT_TRUE(holds(svg, ">500²</text>"));
+}
+
 TEST(SvgPlot, NeighborsOfOneLabelShareIt) {
     rt::Plot plot = small_plot();
     const auto times = [&](const std::string& text) {

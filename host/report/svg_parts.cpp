@@ -23,19 +23,30 @@ std::string line(double x1, double y1, double x2, double y2, const char* css_cla
         x1, y1, x2, y2);
 }
 
-/// The ticks, with numbers only where they do not overlap; those that begin with a 1 have priority.
+/// Those with numbers, by priority: the first, the last, those that begin with a 1, the others.
+std::vector<Tick*> by_priority(std::vector<Tick>& ticks) {
+    std::vector<Tick*> order;
+    for (Tick& tick : ticks) {
+        if (!tick.label.empty()) order.push_back(&tick);
+    }
+    std::ranges::sort(order, {}, [](const Tick* tick) { return tick->value; });
+    if (order.size() < 3) return order;
+    std::rotate(order.begin() + 1, order.end() - 1, order.end());
+    std::stable_partition(order.begin() + 2, order.end(),
+                          [](const Tick* tick) { return tick->label.starts_with('1'); });
+    return order;
+}
+
+/// The ticks, with numbers only where they do not overlap.
 std::vector<Tick> with_room(std::vector<Tick> ticks, const AxisScale& scale) {
     std::vector<std::pair<double, double>> taken;
-    for (const bool ones : {true, false}) {
-        for (Tick& tick : ticks) {
-            if (tick.label.empty() || tick.label.starts_with('1') != ones) continue;
-            const double at = scale.at(tick.value), half = svg_text_width(tick.label) / 2 + 3;
-            const bool is_free = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
-                return at - half < other.second && other.first < at + half;
-            });
-            if (is_free) taken.emplace_back(at - half, at + half);
-            if (!is_free) tick.label.clear();
-        }
+    for (Tick* const tick : by_priority(ticks)) {
+        const double at = scale.at(tick->value), half = svg_text_width(tick->label) / 2 + 3;
+        const bool is_free = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
+            return at - half < other.second && other.first < at + half;
+        });
+        if (is_free) taken.emplace_back(at - half, at + half);
+        if (!is_free) tick->label.clear();
     }
     return ticks;
 }
