@@ -17,8 +17,8 @@ void fail(void*, RTCError, const char* text) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const rt::FlatScene<float>& flat, int threads)
-    : device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
+EmbreeScene::EmbreeScene(const rt::FlatScene<float>& flat, int threads, RTCBuildQuality quality)
+    : quality_(quality), device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
     if (device_ == nullptr) fail(nullptr, rtcGetDeviceError(nullptr), "no device");
     rtcSetDeviceErrorFunction(device_, fail, nullptr);
     for (const auto& sphere : flat.spheres) materials_.push_back(sphere.material);
@@ -28,7 +28,7 @@ EmbreeScene::EmbreeScene(const rt::FlatScene<float>& flat, int threads)
     }
     const auto start = std::chrono::steady_clock::now();
     scene_ = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+    rtcSetSceneBuildQuality(scene_, quality_);
     if (!flat.spheres.empty()) attach_spheres(flat);
     if (!flat.triangles.empty()) attach_triangles(flat);
     rtcCommitScene(scene_);
@@ -60,7 +60,7 @@ void EmbreeScene::attach_triangles(const rt::FlatScene<float>& flat) {
 }
 
 void EmbreeScene::attach(RTCGeometry geometry, std::int32_t id) {
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcSetGeometryBuildQuality(geometry, quality_);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(id));
     rtcReleaseGeometry(geometry);

@@ -15,7 +15,7 @@ class EmbreeScene {
    public:
     static constexpr std::int32_t spheres = 0, triangles = 1;  ///< geometries
 
-    EmbreeScene(const rt::FlatScene<float>& flat, int threads);
+    EmbreeScene(const rt::FlatScene<float>& flat, int threads, RTCBuildQuality quality);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -31,6 +31,7 @@ class EmbreeScene {
     void attach_triangles(const rt::FlatScene<float>& flat);
     void attach(RTCGeometry geometry, std::int32_t id);
 
+    RTCBuildQuality quality_;
     RTCDevice device_;
     RTCScene scene_;
     std::vector<std::uint32_t> corners_;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Times Embree on a mirrorball scene, with the same rays, samples and shading, but Embree's tracing.
-// Prints JSON. Started by scripts/compare-embree.
+// Times Embree on a mirrorball scene, with the same rays, samples and shading, but Embree's
+// tracing. Prints JSON. Started by scripts/compare-embree.
 //
-// usage: embree-bench SCENE WIDTHxHEIGHT AA THREADS ROUNDS|once [PICTURE.pfm]
+// usage: embree-bench SCENE WIDTHxHEIGHT AA THREADS ROUNDS|once medium|high [PICTURE.pfm]
 //
+// medium, high: the quality with which Embree builds its hierarchy; medium is its default.
 // once: traces one picture with coherent packets, cold, as a renderer does; prints the seconds of
 // each phase.
 #include <embree3/rtcore.h>
@@ -99,7 +100,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 /// One picture, as a renderer's whole process makes it.
-int run_once(const std::vector<std::string>& arguments, int threads) {
+int run_once(const std::vector<std::string>& arguments, int threads, RTCBuildQuality quality) {
     const auto start = std::chrono::steady_clock::now();
     const rt::Scene scene = scene_of(arguments[0], arguments[1], arguments[2]);
     const double loaded = seconds_since(start);
@@ -108,13 +109,14 @@ int run_once(const std::vector<std::string>& arguments, int threads) {
     options.caster_lists = scene.triangles.size() < rt::triangle_crossover;
     const rt::FlatScene<float> flat = rt::flatten<float>(scene, options);
     check(flat);
-    const EmbreeScene embree(flat, threads);
+    const EmbreeScene embree(flat, threads, quality);
     const double built = seconds_since(start);
     const TracedPicture picture = trace(flat, embree, Mode::coherent, threads);
     const double traced = seconds_since(start);
-    if (arguments.size() == 6) write_pfm(arguments[5], flat, picture.rgb);
+    if (arguments.size() == 7) write_pfm(arguments[6], flat, picture.rgb);
     const Json json{{"load", loaded},
                     {"flatten", built - loaded},
+                    {"hierarchy", embree.build_seconds()},
                     {"trace", traced - built},
                     {"write", seconds_since(start) - traced}};
     std::printf("%s\n", json.dump().c_str());
@@ -128,12 +130,14 @@ bool is_countable(const rt::FlatScene<float>& flat) {
 }
 
 int run(const std::vector<std::string>& arguments) {
-    if (arguments.size() < 5 || arguments.size() > 6) {
+    if (arguments.size() < 6 || arguments.size() > 7) {
         throw std::runtime_error(
-            "usage: embree-bench SCENE WxH AA THREADS ROUNDS|once [PICTURE.pfm]");
+            "usage: embree-bench SCENE WxH AA THREADS ROUNDS|once medium|high [PICTURE.pfm]");
     }
     const int threads = std::stoi(arguments[3]);
-    if (arguments[4] == "once") return run_once(arguments, threads);
+    const RTCBuildQuality quality =
+        arguments[5] == "high" ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
+    if (arguments[4] == "once") return run_once(arguments, threads, quality);
     const int rounds = std::stoi(arguments[4]);
     rt::FlattenOptions options;
     options.hierarchies = false;
@@ -141,7 +145,7 @@ int run(const std::vector<std::string>& arguments) {
     options.caster_lists = scene.triangles.size() < rt::triangle_crossover;
     const rt::FlatScene<float> flat = rt::flatten<float>(scene, options);
     check(flat);
-    const EmbreeScene embree(flat, threads);
+    const EmbreeScene embree(flat, threads, quality);
     trace(flat, embree, Mode::coherent, threads);  // warms up
     std::map<std::string, std::vector<double>> seconds;
     TracedPicture picture;
@@ -152,7 +156,7 @@ int run(const std::vector<std::string>& arguments) {
         }
     }
     if (rounds == 0) picture = trace(flat, embree, Mode::coherent, threads);
-    if (arguments.size() == 6) write_pfm(arguments[5], flat, picture.rgb);
+    if (arguments.size() == 7) write_pfm(arguments[6], flat, picture.rgb);
     Json json{{"format", "mirrorball-embree"},
               {"version", 1},
               {"embree", RTC_VERSION_STRING},
