@@ -69,7 +69,7 @@ class Bench(WrongDriver):
     def test_a_picture_that_is_off_in_a_bit_is_wrong(self):
         threads, [(verdict, why)], _ = self.verdicts(brighter("1.000001"), 1)
         self.assertEqual((threads, verdict), ({"right"}, "wrong"))
-        self.assertIn("where threads compute", why)
+        self.assertIn("but threads produce", why)
 
     def test_a_picture_that_changes_between_repeats_is_wrong(self):
         shim = dict(brighter("1.000001"), CL_SHIM_FROM="3")
@@ -86,7 +86,7 @@ class Converge(WrongDriver):
         self.assertEqual(self.run_with({}, *self.ARGUMENTS).returncode, 0)
         result = self.run_with(brighter("1.000001"), *self.ARGUMENTS)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn("where threads compute", result.stderr)
+        self.assertIn("but threads produce", result.stderr)
 
 
 class Stress(WrongDriver):
