@@ -3,7 +3,7 @@
 """The mirrorball command line, from outside. Usage: cli_test.py BUILD_DIR REPO_ROOT [TEST...]
 
 TEST is a unittest name such as signal_cases or stats_cases.TextStats.test_sections, or `calm` or
-`timed` for all that mind no other tests beside them, or do.
+`timed` for those that may run next to other tests, or may not.
 """
 import pathlib
 import sys

@@ -49,7 +49,7 @@ TEST_F(ReadPicture, TheFirstBytesTellTheFormatAndANameMayNotDenyIt) {
         fs::copy_file(path("a.exr"), path(name));
         const auto [code, message] = refusal_of([&] { read_picture(path(name)); });
         EXPECT_EQ(code, ExitCode::input) << name;
-        EXPECT_EQ(message, path(name) + ": holds a picture in EXR format; name it so");
+        EXPECT_EQ(message, path(name) + ": holds a picture in EXR format; rename it to match");
     }
     put(path("c.png"), "no picture at all");
     EXPECT_EQ(refusal_of([&] { read_picture(path("c.png")); }).message,
@@ -286,14 +286,14 @@ TEST_F(ReadPicture, ExrThatPromisesTooMuchTakesNoMemory) {
 // OpenEXR reads one of them; the second channel's values would be missing.
 TEST_F(ReadPicture, ExrWithTwoChannelsOfOneNameIsRefused) {
     const std::string file = std::string(MIRRORBALL_PICTURES_DIR) + "/channel-twice.exr";
-    expect_cheap_refusal(file, "two of its channels have one name");
+    expect_cheap_refusal(file, "two channels have the same name");
 }
 
 // OpenEXR takes the union of all lists of channels.
 TEST_F(ReadPicture, ExrWithAChannelInTwoListsIsRefused) {
     const std::string list("channels\0chlist\0\x13\0\0\0G\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0\0", 39);
     put(path("a.exr"), exr_start(exr_window(std::string(4, '\0'), std::string(4, '\0')) + list, 0));
-    expect_cheap_refusal(path("a.exr"), "two of its channels have one name");
+    expect_cheap_refusal(path("a.exr"), "two channels have the same name");
 }
 
 /// 11x7 pixels as other programs write them, and what OpenImageIO reads (22 Nov 2026).

@@ -180,7 +180,7 @@ TEST(StressVerdict, NothingMeasuredIsNoPass) {
     EXPECT_FALSE(result.passed());
 }
 
-/// Two cases on threads, the second wrong, and a naive tracer's row beside each.
+/// Two cases on threads, the second wrong, and a naive tracer's row next to each.
 StressResult small_result() {
     StressResult result;
     StressFamily family{"scale-2", "scale", "absolute epsilons", {}};

@@ -72,7 +72,7 @@ class Bytes {
 void read_channels(Bytes& bytes, HeaderLimits& header) {
     constexpr std::array<std::uint64_t, 3> sizes{4, 2, 4};  // unsigned, half, float
     for (std::string name = bytes.text(); !name.empty(); name = bytes.text()) {
-        if (!header.channels.insert(name).second) refuse("two of its channels have one name");
+        if (!header.channels.insert(name).second) refuse("two channels have the same name");
         const auto type = bytes.number<std::uint32_t>();
         if (type >= sizes.size()) refuse("a channel of unknown type");
         bytes.number<std::uint32_t>();  // pLinear

@@ -86,7 +86,7 @@ PictureFormat find_format(const std::string& path, InputFile& file) {
     if (held && (!named || named == held)) return *held;
     if (held) {
         const std::string what(to_string(*held));
-        refuse_picture(path, "holds a picture in " + what + " format", "name it so");
+        refuse_picture(path, "holds a picture in " + what + " format", "rename it to match");
     }
     if (named == PictureFormat::tga) return *named;
     if (named)

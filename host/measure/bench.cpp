@@ -97,7 +97,7 @@ void judge_ablation(BenchResult& result) {
         const std::uint64_t expected = usual.repeats.front().image_hash;
         if (found == expected) continue;
         row.verdict = Verdict::wrong;
-        row.why = fmt::format("not the usual picture: {} instead of {}", hash_text(found),
+        row.why = fmt::format("not the default row's picture: {} instead of {}", hash_text(found),
                               hash_text(expected));
     }
 }

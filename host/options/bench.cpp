@@ -68,10 +68,11 @@ void add_bench(const CommandLine& program, Options& options) {
               "time 'threads' with 1 to N threads (default: all cores)");
     add_precisions(verb, bench.precisions);
     add_light_options(verb, bench.light);
-    verb.option("--schedules", "LIST",
-                "schedules for pthreads: tiles, buffers, scalar (tiles, one ray at a time; on one "
-                "thread and on the maximum); default: all",
-                [&](const std::string& text) { parse_schedules(text, bench); });
+    verb.option(
+        "--schedules", "LIST",
+        "schedules for pthreads: tiles, buffers, scalar (tiles, one ray at a time; with one "
+        "thread and with all threads); default: all",
+        [&](const std::string& text) { parse_schedules(text, bench); });
     add_count(verb, "--repeats", bench.repeats, 1, 1000,
               "timed rounds after the warm-up (default 5)");
     add_baseline(verb, bench);

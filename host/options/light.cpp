@@ -26,11 +26,10 @@ glm::dvec3 parse_ambient(const std::string& text) {
 }  // namespace
 
 void add_light_options(const CommandLine& verb, LightOverrides& light) {
-    verb.option(
-        "--light-scale", "X",
-        "intensity of lights whose file gives none (default: NFF sqrt(n)/2n, JSON 1, models "
-        "0.75 and 0.25)",
-        [&](const std::string& text) { light.light_scale = parse_light_scale(text); });
+    verb.option("--light-scale", "X",
+                "intensity for lights without one (default: NFF sqrt(n)/2n, JSON 1, models "
+                "0.75 and 0.25)",
+                [&](const std::string& text) { light.light_scale = parse_light_scale(text); });
     verb.option("--ambient", "R,G,B|X", "ambient light (default: the scene's)",
                 [&](const std::string& text) { light.ambient_light = parse_ambient(text); });
 }

@@ -21,7 +21,8 @@ void add_merge(const CommandLine& program, Options& options) {
     verb.option(
         "--verify", "P%", "render P% of the picture again, here and on threads, and compare",
         [&](const std::string& text) { merge.verify = parse_percent("--verify", text, 100); });
-    verb.option("--scene", "SCENE", "where --verify finds the scene (default: where it was)",
+    verb.option("--scene", "SCENE",
+                "where --verify finds the scene (default: the path recorded in the parts)",
                 [&](const std::string& text) { merge.scene = text; });
     verb.flag("-q,--quiet", merge.quiet, "print only errors");
     verb.when_chosen([&options] {

@@ -21,7 +21,7 @@ namespace {
 void check_renders_parts(const RenderOptions& render, const char* option) {
     if (!render.fast_math && render.schedule == Schedule::tiles) return;
     throw Error(ExitCode::usage, fmt::format("{} needs --math strict and --schedule tiles: the "
-                                             "parts of a picture must have the bits of the whole",
+                                             "parts must be bit-identical to the whole picture",
                                              option));
 }
 
@@ -83,8 +83,9 @@ void settle_streams(RenderOptions& render) {
     settle_picture_output(render.output, render.format);
     const bool prints = render.stats != StatsFormat::summary || !render.reference.empty();
     if (render.output == stdout_path && prints) {
-        throw Error(ExitCode::usage,
-                    "-o - takes standard output, where --stats and --reference print: name a file");
+        throw Error(
+            ExitCode::usage,
+            "-o - uses standard output, which --stats and --reference also need; write to a file");
     }
     const auto& scenes = render.scenes;
     if (render.batch == "-" &&

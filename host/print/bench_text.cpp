@@ -84,14 +84,14 @@ std::string ablation_row_text(const BenchResult& result, const BenchRow& row) {
                                   figures->ratio, figures->first_build,
                                   hash_text(row.repeats.back().image_hash));
     }
-    if (row.verdict == Verdict::right) return head + " the usual picture is missing\n";
+    if (row.verdict == Verdict::right) return head + " the default row is missing\n";
     if (row.verdict == Verdict::unfinished) return head + " not finished\n";
     return head + fmt::format(" {}, not timed: {}\n", to_string(row.verdict), row.why);
 }
 
 constexpr const char* ablation_legend =
-    "trace s: medians; +-%: median absolute deviation. ratio: over the median as\n"
-    "usual; above 1, slower. build: seconds before the first picture.\n";
+    "trace s: medians; +-%: median absolute deviation. ratio: relative to the\n"
+    "default row; above 1, slower. build: seconds before the first picture.\n";
 
 std::string ablation_text(const BenchResult& result) {
     std::string text;
@@ -109,8 +109,8 @@ std::string ablation_text(const BenchResult& result) {
 
 constexpr const char* legend =
     "Medians; +-%: median absolute deviation. total: flatten, open, build, upload,\n"
-    "trace, resolve, read back. speed-up: over one thread of the same kind, for\n"
-    "devices over tiles. Amdahl: the speed-up of total that it predicts,\n"
+    "trace, resolve, read back. speed-up: relative to one thread with the same\n"
+    "schedule (devices: tiles). Amdahl: the speed-up of total that it predicts,\n"
     "1/((1-f)+f/n), f = trace/total of one thread. scalar: one ray at a time. RMSE:\n"
     "from the same samples in double, clamped to [0,1].\n";
 

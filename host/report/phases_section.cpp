@@ -40,7 +40,7 @@ Bar phases_bar(const std::string& label, const std::string& source, int color,
     return bar;
 }
 
-bool built_anew(const BenchRow& row) {
+bool built_cold(const BenchRow& row) {
     return !row.warm_up.empty() &&
            row.warm_up.front().phases.renderer.build_cache == BuildCache::cold;
 }
@@ -68,7 +68,7 @@ std::string phases_figure(const std::vector<PlacedRow>& rows, const DeviceColors
                                   colors.of(placed.row->asked), placed.row->repeats));
     }
     for (const PlacedRow& placed : rows) {
-        if (!built_anew(*placed.row)) continue;
+        if (!built_cold(*placed.row)) continue;
         cold.push_back(phases_bar(cold_label(*placed.row), placed.source + "/warm_up",
                                   colors.of(placed.row->asked), placed.row->warm_up));
     }

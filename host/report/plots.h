@@ -19,7 +19,7 @@ std::string phases_figure(const std::vector<PlacedRow>& rows, const DeviceColors
 std::string size_figures(const std::vector<PlacedRow>& rows, std::size_t index,
                          const DeviceColors& colors);
 
-/// Measured speed-up against threads beside Amdahl's prediction: a plot for three or more thread
+/// Measured speed-up against threads next to Amdahl's prediction: a plot for three or more thread
 /// counts, a sentence for two, nothing for one.
 std::string threads_html(const std::vector<PlacedRow>& rows, std::size_t index);
 

@@ -12,7 +12,7 @@ namespace rt {
 namespace {
 
 /// A wall of 4 x 4 squares in two colors, 4 behind the origin.
-void add_chequered_wall(Scene& scene) {
+void add_checkered_wall(Scene& scene) {
     const std::array<int, 2> colors{add_matt(scene, {0.875, 0.75, 0.25}),
                                     add_matt(scene, {0.125, 0.25, 0.625})};
     for (int i = 0; i < 16; ++i) {
@@ -28,7 +28,7 @@ Scene glass_scene() {
     set_image_size(scene, 80, 60);
     scene.lights = {{{0.75, 1, -2.5}, glm::dvec3(0.625)}};
     set_view(scene, {0, 0.25, 5}, {0, 0, 0}, 40);
-    add_chequered_wall(scene);
+    add_checkered_wall(scene);
     return scene;
 }
 

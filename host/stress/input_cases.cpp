@@ -111,8 +111,7 @@ std::string random_number(std::mt19937_64& engine) {
 
 /// Ordinary scenes with up to three fields (never "bounces") replaced by random numbers.
 StressFamily random_bits() {
-    StressFamily family{
-        "random-bits", "seed", "numbers that nobody would write, several at once", {}};
+    StressFamily family{"random-bits", "seed", "several implausible numbers at once", {}};
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         std::mt19937_64 engine(seed);
         std::vector<std::string> texts;

@@ -61,8 +61,8 @@ Scene mirror_ball(int bounces) {
 StressFamily mirror_balls() {
     StressFamily family{"in-mirror-ball",
                         "mirror rays",
-                        "the far side of the ball one is in is "
-                        "lost, and images of images shake",
+                        "the enclosing ball is missed, and repeated "
+                        "reflections jitter",
                         {}};
     for (const int bounces : {4, 16, 64}) {
         family.cases.push_back(picture_case(fmt::format("{}", bounces), bounces,

@@ -77,7 +77,7 @@ Scene random_glass_scene(unsigned seed) {
 void add_ordinary_families(StressFamilies& families) {
     families.push_back({"ordinary",
                         "scene",
-                        "nothing stiff: what float costs where nothing is asked of it",
+                        "baseline: float error in an ordinary scene",
                         {picture_case("still-life", 1, InQuick::yes, still_life),
                          picture_case("still-life-2x2", 2, InQuick::no, fine_still_life),
                          picture_case("glass-still-life", 3, InQuick::yes, glass_still_life)}});

@@ -57,8 +57,7 @@ StressFamily t_junctions() {
     const Scene scene = mesh_scene(mesh, {0.125, 0.125, 0});
     StressTolerance tolerance;
     tolerance.most_wrong = std::numeric_limits<std::size_t>::max();
-    StressFamily family{
-        "t-junctions", "aim", "not closed whatever one does: counted, not judged", {}};
+    StressFamily family{"t-junctions", "aim", "never watertight; counted, not judged", {}};
     family.cases = {
         ray_case("edges", 0, InQuick::yes, leak_trial(scene, RayAim::edges), tolerance),
         ray_case("vertices", 1, InQuick::no, leak_trial(scene, RayAim::vertices), tolerance)};

@@ -82,11 +82,8 @@ StressFamily integer_shifts() {
 
 /// Coordinates are rounded to double after the shift; the reference sees the same doubles.
 StressFamily odd_shifts() {
-    StressFamily family{"shift-odd",
-                        "distance from the origin",
-                        "the same by distances that no "
-                        "float can say",
-                        {}};
+    StressFamily family{
+        "shift-odd", "distance from the origin", "offsets that float cannot represent", {}};
     for (int k = 0; k <= 9; ++k) {
         const double by = 1.1 * std::pow(10.0, k);
         family.cases.push_back(picture_case(fmt::format("1.1e{}", k), by, quick_if(k == 7), [by] {

@@ -26,7 +26,7 @@ std::string what_differs(const TimedCase& timed, const RenderStats& run) {
                            hash_text(runs->front().image_hash), hash_text(run.image_hash));
     }
     if (timed.expected_hash.value_or(run.image_hash) != run.image_hash) {
-        return fmt::format("image {}, where threads compute {}", hash_text(run.image_hash),
+        return fmt::format("image {}, but threads produce {}", hash_text(run.image_hash),
                            hash_text(*timed.expected_hash));
     }
     return "";

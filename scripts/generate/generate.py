@@ -4,7 +4,7 @@
 
   sphere-flake DEPTH    mirror balls, each carrying nine a third its size: 1 + 9 + 81 + ...
   bumpy-mesh N          a bumpy ring of N triangles (N even) on a mirror floor, with mirror balls;
-                        the mesh goes into a .ply file beside the scene (--plain: into the scene);
+                        the mesh goes into a .ply file next to the scene (--plain: into the scene);
                         --mirror: makes the mesh a mirror, too
   mirror-lattice N      N x N x N mirror balls
 """
