@@ -232,6 +232,16 @@ TEST_F(Journals, AreOfOneProcessAtATime) {
     }
 }
 
+TEST_F(Journals, CreatedByAnotherProcessAreLeftToIt) {
+    JournalFile second(path("p.mbj"));
+    render_shares(small("grid:2"), "0/2", path("p.mbj"));
+    const JournalFile first(path("p.mbj"));
+    const std::string bytes = bytes_of("p.mbj");
+    EXPECT_THROW(second.append({}), Error);
+    second.remove();
+    EXPECT_EQ(bytes_of("p.mbj"), bytes);
+}
+
 TEST_F(Journals, MergeRefusesWhatDiffers) {
     const RenderSettings settings = small("grid:2");
     render_shares(settings, "0/2", path("a.mbj"));
@@ -282,7 +292,7 @@ TEST_F(Journals, ForgetLostTiles) {
         return start;
     });
     {
-        JournalKeeper<float> keeper(file, {"host", "device", "1", 1}, film, header.film, 0);
+        JournalKeeper<float> keeper(file, {"host", "device", "1", 1}, film, header.film, 0, [] {});
         keeper.tile_finished({0, 0, 2, 2});
         keeper.tile_finished({2, 0, 2, 1});
         keeper.first_pass_ended();

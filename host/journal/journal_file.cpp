@@ -7,9 +7,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "host/error.h"
@@ -20,17 +23,29 @@ namespace rt {
 namespace {
 
 /// The last process to write to it.
-std::string last_writer(const std::string& path, std::uint64_t size) {
+JournalWriterInfo last_writer(const std::string& path) {
+    JournalWriterInfo last;
     try {
-        std::ifstream stream(path, std::ios::binary);
+        std::ifstream stream(path, std::ios::binary | std::ios::ate);
+        const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(stream.tellg(), 0));
+        stream.seekg(0);
         JournalReader reader(stream, size);
-        JournalWriterInfo last;
         while (const auto record = reader.next()) {
             if (record->kind == RecordKind::writer) last = record->writer;
         }
-        if (last.process > 0)
-            return fmt::format("process {} on {}", last.process, printable(last.host));
     } catch (const Error&) {
+    }
+    return last;
+}
+
+/// Who holds the lock: it may not have written yet.
+std::string holder(const std::string& path) {
+    constexpr int attempts = 20;
+    for (int i = 0; i < attempts; ++i) {
+        const JournalWriterInfo writer = last_writer(path);
+        if (writer.process > 0)
+            return fmt::format("process {} on {}", writer.process, printable(writer.host));
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return "another process";
 }
@@ -56,7 +71,7 @@ void JournalFile::open_existing() {
     if (!is_ours) {
         throw Error(ExitCode::output, fmt::format("{}: {} is rendering this picture; wait for it, "
                                                   "or name another output",
-                                                  path_, last_writer(path_, size)));
+                                                  path_, holder(path_)));
     }
     char magic[journal_magic.size()];
     const ssize_t got = ::pread(file.number(), magic, sizeof(magic), 0);
@@ -99,15 +114,16 @@ void JournalFile::fail(const char* what, int error) {
         fmt::format("{}: cannot {}: {}", path_, what, std::generic_category().message(error));
 }
 
+/// Throws Error (ExitCode::output) when another process created it first and holds its lock.
 bool JournalFile::create() {
     file_ = FileDescriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (!file_) {
-        fail("create", errno);
-        return false;
-    }
-    if (lock(file_)) return true;
-    fail("lock", EWOULDBLOCK);
+    if (file_ && lock(file_)) return true;
+    const int error = file_ ? EEXIST : errno;
     file_ = FileDescriptor();
+    if (error == EEXIST) open_existing();
+    end_ = 0;
+    if (file_) return true;
+    fail("create", error);
     return false;
 }
 
@@ -128,10 +144,12 @@ bool JournalFile::write_all(std::span<const std::byte> bytes) {
 
 void JournalFile::append(std::span<const std::byte> records) {
     if (!failure_.empty()) return;
+    const std::vector<std::byte> start = start_ ? start_() : std::vector<std::byte>();
     if (!file_ && !create()) return;
     const std::uint64_t before = end_;
     if (::ftruncate(file_.number(), static_cast<off_t>(end_)) != 0) return fail("cut", errno);
-    if (!write_all(start_ ? start_() : std::vector<std::byte>()) || !write_all(records)) {
+    if (start_) found_ = Found::nothing;
+    if (!write_all(start) || !write_all(records)) {
         // The old contents stay valid; if this fails too, readers stop at the first bad record.
         [[maybe_unused]] const int ignored =
             ::ftruncate(file_.number(), static_cast<off_t>(before));
@@ -149,11 +167,13 @@ void JournalFile::empty() {
         fail("empty", errno);
         ::unlink(path_.c_str());
     }
+    found_ = Found::nothing;
 }
 
 void JournalFile::remove() {
     if (!file_) return;
-    ::unlink(path_.c_str());
+    const bool is_of_another_picture = start_ && found_ == Found::journal;
+    if (!is_of_another_picture) ::unlink(path_.c_str());
     file_ = FileDescriptor();
 }
 

@@ -33,16 +33,17 @@ class JournalFile {
     /// Replaces its contents on the next write, which begins with what `start` returns.
     void restart(std::function<std::vector<std::byte>()> start);
 
-    /// Whether a file is there.
-    bool exists() const { return static_cast<bool>(file_); }
+    /// Whether a file is there that holds this picture.
+    bool exists() const { return file_ && !start_; }
 
-    /// Appends whole records and flushes them to disk.
+    /// Appends whole records and flushes them to disk. Throws Error (ExitCode::output) when another
+    /// process has created it since, and holds its lock.
     void append(std::span<const std::byte> records);
 
     /// Truncates the existing file at once; restart sets what is written next.
     void empty();
 
-    /// Removes the file.
+    /// Removes the file, unless it holds another picture: restarted, and nothing written since.
     void remove();
 
     /// Stops writing and stores the reason.

@@ -7,6 +7,9 @@
 #include <cstring>
 #include <new>
 #include <system_error>
+#include <utility>
+
+#include "host/error.h"
 
 namespace rt {
 
@@ -22,8 +25,9 @@ std::array<std::int32_t, 4> numbers_of(const Rect& rect) {
 
 template <typename T>
 JournalKeeper<T>::JournalKeeper(JournalFile& file, const JournalWriterInfo& writer,
-                                const Film<T>& film, const Rect& shown, double delay)
-    : file_(file), film_(film), shown_(shown), delay_(delay) {
+                                const Film<T>& film, const Rect& shown, double delay,
+                                std::function<void()> failed)
+    : file_(file), film_(film), shown_(shown), delay_(delay), failed_(std::move(failed)) {
     append_writer(records_, writer);
     bare_bytes_ = records_.size();
 }
@@ -46,21 +50,42 @@ void JournalKeeper<T>::have_thread() {
 
 template <typename T>
 void JournalKeeper<T>::keep() {
+    bool is_told = false;
     std::unique_lock lock(mutex_);
     while (!stopped_.wait_for(lock, period, [&] { return is_stopped_; })) {
         lock.unlock();
+        std::exception_ptr failure;
         try {
             write();
+            if (!file_.failure().empty() && !std::exchange(is_told, true)) failed_();
         } catch (const std::bad_alloc&) {
             file_.give_up("out of memory");
+        } catch (const Error&) {
+            failure = std::current_exception();
         }
         lock.lock();
+        failure_ = failure;
+        if (failure_) return;
     }
+}
+
+/// Requires the mutex, or that the thread has ended.
+template <typename T>
+void JournalKeeper<T>::check() const {
+    if (failure_) std::rethrow_exception(failure_);
+}
+
+template <typename T>
+void JournalKeeper<T>::claim() {
+    bare_bytes_ = 0;
+    write();
 }
 
 template <typename T>
 void JournalKeeper<T>::tile_finished(const Rect& tile) {
     const std::scoped_lock lock(mutex_);
+    check();
+    has_pixels_ = true;
     tiles_.push_back(tile);
     have_thread();
 }
@@ -113,6 +138,8 @@ void JournalKeeper<T>::refined(int pass, std::span<const std::int32_t> pixels) {
         color += 3 * sizeof(T);
     }
     const std::scoped_lock lock(mutex_);
+    check();
+    has_pixels_ = true;
     append_record(records_, RecordKind::refined, body);
     have_thread();
 }
@@ -142,8 +169,14 @@ void JournalKeeper<T>::stop() {
 }
 
 template <typename T>
-void JournalKeeper<T>::close() {
+void JournalKeeper<T>::discard() {
     stop();
+    check();
+}
+
+template <typename T>
+void JournalKeeper<T>::close() {
+    discard();
     if (is_time()) write();
 }
 

@@ -3,6 +3,8 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <mutex>
 #include <span>
 #include <string>
@@ -20,12 +22,17 @@ namespace rt {
 template <typename T>
 class JournalKeeper {
    public:
-    /// `writer` identifies this process. The film covers `shown` and must outlive this.
+    /// `writer` identifies this process. The film covers `shown` and must outlive this. `failed` is
+    /// called once if nothing more can be written, on the thread; if it throws Error, so do
+    /// tile_finished and refined from then on, as when another process has created the file.
     JournalKeeper(JournalFile& file, const JournalWriterInfo& writer, const Film<T>& film,
-                  const Rect& shown, double delay);
+                  const Rect& shown, double delay, std::function<void()> failed);
     JournalKeeper(const JournalKeeper&) = delete;
     JournalKeeper& operator=(const JournalKeeper&) = delete;
     ~JournalKeeper();
+
+    /// Writes at once who this is.
+    void claim();
 
     /// A rectangle of the picture is now in the film. Callable from any thread.
     void tile_finished(const Rect& tile);
@@ -39,16 +46,21 @@ class JournalKeeper {
     /// Pixels of the film were refined in this pass.
     void refined(int pass, std::span<const std::int32_t> pixels);
 
-    /// Ends the thread and writes what is left, if `delay` has passed.
+    /// Whether there is anything worth keeping.
+    bool has_pixels() const { return has_pixels_; }
+
+    /// Ends the thread and writes what is left, if `delay` has passed. Throws what the thread met.
     void close();
 
     /// As close, and marks the journal as finished.
     void close_finished();
 
-    /// Ends the thread and discards what is left.
-    void stop();
+    /// Ends the thread and discards what is left. Throws what the thread met.
+    void discard();
 
    private:
+    void stop();
+    void check() const;
     void have_thread();
     void keep();
     bool is_time() const { return watch_.seconds() >= delay_; }
@@ -59,11 +71,14 @@ class JournalKeeper {
     const Film<T>& film_;
     const Rect shown_;
     const double delay_;
+    const std::function<void()> failed_;
     const Stopwatch watch_;
     std::mutex mutex_;         ///< guards what follows
     std::vector<Rect> tiles_;  ///< finished, not yet copied
     std::vector<std::byte> records_;
-    std::size_t bare_bytes_;  ///< size of records_ while it holds only the writer
+    std::size_t bare_bytes_;      ///< size of records_ while it holds only the writer
+    bool has_pixels_ = false;     ///< it ever had more
+    std::exception_ptr failure_;  ///< Error that ends the render
     bool is_stopped_ = false;
     std::condition_variable stopped_;
     std::mutex write_mutex_;  ///< serializes writes

@@ -111,6 +111,7 @@ void PictureJournal<T>::open() {
              "over");
     }
     if (!known_) start_again();
+    if (settings_.fresh) file_->empty();
 }
 
 template <typename T>
@@ -184,8 +185,19 @@ void PictureJournal<T>::begin(const Film<T>& film, const std::string& device) {
     if (!file_) return;
     const JournalWriterInfo writer{host_name(), device, version, static_cast<int>(::getpid())};
     const double delay = settings_.shares ? 0 : settings_.journal_delay;
-    if (settings_.shares) file_->append({});  // ours from now on
-    keeper_ = std::make_unique<JournalKeeper<T>>(*file_, writer, film, film_rect_, delay);
+    keeper_ = std::make_unique<JournalKeeper<T>>(*file_, writer, film, film_rect_, delay,
+                                                 [this] { tell_failure(); });
+    if (delay == 0 || known_) keeper_->claim();
+    if (!file_->failure().empty()) tell_failure();
+}
+
+/// Shares that cannot be written are not worth rendering.
+template <typename T>
+void PictureJournal<T>::tell_failure() {
+    if (settings_.shares) throw Error(ExitCode::output, file_->failure());
+    if (std::exchange(failure_is_told_, true)) return;
+    say_(fmt::format("{}; {} are saved", file_->failure(),
+                     file_->exists() ? "no more tiles" : "no tiles"));
 }
 
 template <typename T>
@@ -252,15 +264,16 @@ void PictureJournal<T>::discard() {
 template <typename T>
 void PictureJournal<T>::end(bool is_complete) {
     if (!keeper_) return;
+    const auto keeper = std::move(keeper_);
     if (!is_complete) {
-        keeper_->close();
+        keeper->close();
+        if (!settings_.shares && !known_ && !keeper->has_pixels()) file_->remove();
     } else if (settings_.shares) {
-        keeper_->close_finished();
+        keeper->close_finished();
+    } else {
+        keeper->discard();
     }
-    keeper_.reset();
-    if (file_->failure().empty()) return;
-    if (settings_.shares) throw Error(ExitCode::output, file_->failure());
-    say_(file_->failure() + "; finished tiles were not saved");
+    if (!file_->failure().empty()) tell_failure();
 }
 
 template class PictureJournal<float>;

@@ -46,7 +46,9 @@ class PictureJournal {
     /// Tiles of the region whose pixels are final when all is rendered.
     std::vector<Rect> final_tiles(int width, int height) const;
 
-    /// Starts saving what is finished of this film. `device`: who renders it.
+    /// Starts saving what is finished of this film. `device`: who renders it. Throws Error (output)
+    /// if another process has begun the same picture since, or shares cannot be saved; the events
+    /// throw it if that turns out later.
     void begin(const Film<T>& film, const std::string& device);
     TileEvents tile_events();
     RefineEvents<T> refine_events();
@@ -67,6 +69,7 @@ class PictureJournal {
     void open();
     void read();
     void start_again();
+    void tell_failure();
     std::uint64_t key() const;
     void plan_pass(int pass, std::vector<Refinement>& plan, Film<T>& film);
 
@@ -80,6 +83,7 @@ class PictureJournal {
     std::vector<std::uint8_t> needs_;  ///< share_needs; empty: everything
     std::shared_ptr<JournalFile> file_;
     std::optional<KnownPixels<T>> known_;
+    bool failure_is_told_ = false;
     std::unique_ptr<JournalKeeper<T>> keeper_;
 };
 

@@ -208,11 +208,36 @@ class Resume(JournalTest):
         result = self.run_shell('ulimit -f 40; "$MIRRORBALL" render "$SCENE" --size 300 --aa '
                                 'grid:64 --device threads --resume -o out.png')
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stderr, r"out\.png\.mbj: cannot write: .*; finished tiles were not saved")
+        self.assertRegex(result.stderr, r"out\.png\.mbj: cannot write: .*; no more tiles are saved")
         self.assertEqual(self.files(), ["out.png"])
         result = self.run_shell('ulimit -f 1; "$MIRRORBALL" render "$SCENE" --size 300 '
                                 '--device threads --shard 0/2 -o part.mbj')
         self.assertEqual(result.returncode, 4, result.stderr)
+
+    def test_two_processes_that_start_together(self):
+        for more in [["--resume"], [], ["--shard", "0/2"]]:
+            with self.subTest(more=more):
+                output = "out.mbj" if "--shard" in more else "out.png"
+                arguments = [scene_path("mirror-hall"), "--size", "400", "--aa", "grid:64",
+                             "--device", "threads:1", "-o", output, *more]
+                both = [self.start("render", *arguments) for _ in range(2)]
+                while all(process.poll() is None for process in both):
+                    time.sleep(0.05)
+                first, second = sorted(both, key=lambda process: process.poll() is not None)
+                self.assertIsNone(first.poll())
+                first.kill()
+                stderr = second.stderr.read()
+                self.assertEqual(second.returncode, 4, stderr)
+                self.assertIn(f"process {first.pid} on ", stderr)
+                (self.folder / "out.png.mbj").unlink(missing_ok=True)
+
+    def test_of_another_picture_stays_after_a_quick_one(self):
+        self.interrupted(signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
+                         "grid:28", "--device", "threads:1")
+        journal = self.bytes_of("out.png.mbj")
+        result = self.render("mirror-hall", "--size", "30", "-o", "out.png")
+        self.assertIn("belongs to a different picture", result.stderr)
+        self.assertEqual(self.bytes_of("out.png.mbj"), journal)
 
     def test_fresh_ignores_it(self):
         self.interrupted(signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
