@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/error.h"
+
 namespace rt {
 
 /// The path that means standard output.
@@ -29,7 +31,12 @@ OutputDestination find_output_destination(const std::string& path);
 /// "." for a bare name.
 std::filesystem::path directory_of(const std::filesystem::path& file);
 
-/// Throws Error(ExitCode::output) "path: cannot write: reason; what to do".
+/// The disk, or our share of it, is full.
+struct DiskFull : Error {
+    using Error::Error;
+};
+
+/// Throws Error(ExitCode::output) "path: cannot write: reason; what to do", or DiskFull.
 [[noreturn]] void fail_to_write(const std::string& path, int error);
 
 /// Throws the Error that write_file_atomically would throw before writing: the directory is missing

@@ -98,7 +98,17 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         path = partial_path(path);
         metadata.emplace_back("mirrorball:Partial", share_done(stats));
     }
-    write_picture(path, rendered.picture, options.encoding, metadata, options.format);
+    const auto write = [&] {
+        write_picture(path, rendered.picture, options.encoding, metadata, options.format);
+    };
+    try {
+        write();
+    } catch (const DiskFull&) {
+        if (!stats.complete() || !rendered.journal || !rendered.journal->exists()) throw;
+        print_message(fmt::format("mirrorball: the disk is full: writing {} in place of {}\n", path,
+                                  rendered.journal->path()));
+        rendered.journal->make_room(write);
+    }
     if (rendered.journal && stats.complete()) rendered.journal->remove();
     return path;
 }

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Journals: renders that were interrupted go on, and shares of a picture are merged to the whole."""
 import random
+import shlex
 import shutil
 import signal
+import subprocess
 import time
 
 from harness import CliTest, scene_path
@@ -238,6 +240,29 @@ class Resume(JournalTest):
         result = self.render("mirror-hall", "--size", "30", "-o", "out.png")
         self.assertIn("belongs to a different picture", result.stderr)
         self.assertEqual(self.bytes_of("out.png.mbj"), journal)
+
+    def test_a_full_disk_is_for_the_picture(self):
+        namespace = ["unshare", "--map-root-user", "--mount"]
+        if shutil.which("unshare") is None or subprocess.run(
+                [*namespace, "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True,
+                check=False).returncode != 0:
+            self.skipTest("no tmpfs can be mounted here")
+        (self.folder / "t").mkdir()
+        self.share("0/1", "part.mbj", "--size", "300", "--device", "threads", scene="single-sphere")
+        part = self.bytes_of("part.mbj")
+        for journal, disk, code, left in [(part, "1500k", 0, "out.pfm"),
+                                          (part[:600000], "1000k", 4, "out.pfm.mbj")]:
+            (self.folder / "out.pfm.mbj").write_bytes(journal)
+            command = (f'mount -t tmpfs -o size={disk} none t && mv out.pfm.mbj t && "$MIRRORBALL" '
+                       'render "$SCENE" --size 300 --device threads -o t/out.pfm; code=$?; mv t/* .; '
+                       'exit $code')
+            result = self.run_shell(f"{' '.join(namespace)} bash -c {shlex.quote(command)}")
+            self.assertEqual(result.returncode, code, result.stderr)
+            self.assertIn("the disk is full: writing t/out.pfm in place of t/out.pfm.mbj",
+                          result.stderr)
+            self.assertEqual(self.files(), [left, "part.mbj", "t"])
+            self.assertGreater((self.folder / left).stat().st_size, 500000)
+            (self.folder / left).unlink()
 
     def test_fresh_ignores_it(self):
         self.interrupted(signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
