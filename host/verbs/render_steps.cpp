@@ -25,6 +25,20 @@ namespace rt {
 
 namespace {
 
+/// Removes what an interrupted render of the same picture left beside it.
+void remove_partial(const std::string& output, const PictureMetadata& metadata) {
+    if (output == stdout_path) return;
+    const std::string path = partial_path(output);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return;
+    try {
+        const PictureMetadata partial = read_picture_file(path).metadata;
+        const bool is_ours = !text_in(partial, "mirrorball:Partial").empty();
+        if (is_ours && shows_the_same(partial, metadata)) std::filesystem::remove(path, ignored);
+    } catch (const Error&) {
+    }
+}
+
 /// How much of a stopped picture is done.
 std::string share_done(const RenderStats& stats) {
     return fmt::format("{} of {} tiles{}", stats.tiles_finished, stats.tiles,
@@ -40,6 +54,20 @@ PictureMetadata picture_metadata(const std::string& scene, const std::string& sc
             {"mirrorball:Settings", settings},
             {"mirrorball:ImageHash", image_hash},
             {"mirrorball:Version", version}};
+}
+
+std::string text_in(const PictureMetadata& metadata, const std::string& name) {
+    for (const auto& [key, text] : metadata) {
+        if (key == name) return text;
+    }
+    return "";
+}
+
+bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
+    for (const char* name : {"mirrorball:SceneHash", "mirrorball:Settings"}) {
+        if (text_in(a, name) != text_in(b, name)) return false;
+    }
+    return true;
 }
 
 bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count) {
@@ -109,7 +137,9 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
                                   rendered.journal->path()));
         rendered.journal->make_room(write);
     }
-    if (rendered.journal && stats.complete()) rendered.journal->remove();
+    if (!stats.complete()) return path;
+    if (rendered.journal) rendered.journal->remove();
+    remove_partial(options.output, metadata);
     return path;
 }
 

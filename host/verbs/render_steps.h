@@ -18,6 +18,12 @@ namespace rt {
 PictureMetadata picture_metadata(const std::string& scene, const std::string& scene_hash,
                                  const std::string& settings, const std::string& image_hash);
 
+/// The text of that name; empty if there is none.
+std::string text_in(const PictureMetadata& metadata, const std::string& name);
+
+/// Whether both name the same scene and settings.
+bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b);
+
 /// Reports on stderr that `count` pixels of a picture of that region are not finite, if any.
 /// Returns whether any are.
 bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count);
@@ -68,8 +74,9 @@ class RenderConsole {
 void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats);
 
 /// Writes the picture to options.output, an unfinished one next to it: the existing file may be
-/// finished. One without any tile is not written. Removes a finished picture's journal. Shares are
-/// already written. Returns the name of the file; "" if none was written.
+/// finished. One without any tile is not written. Removes a finished picture's journal and what was
+/// unfinished of it. Shares are already written. Returns the name of the file; "" if none was
+/// written.
 std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options);
 
 /// Prints what options.stats requests: the summary line on stderr, or figures on stdout.

@@ -241,6 +241,15 @@ class Resume(JournalTest):
         self.assertIn("belongs to a different picture", result.stderr)
         self.assertEqual(self.bytes_of("out.png.mbj"), journal)
 
+    def test_the_unfinished_picture_goes_with_the_finished_one(self):
+        self.interrupted(signal.SIGTERM, scene_path("mirror-hall"), "--size", "300", "--aa",
+                         "grid:28", "--device", "threads:1")
+        self.assertIn("out.partial.png", self.files())
+        self.render("mirror-hall", "--size", "30", "-o", "out.png")
+        self.assertIn("out.partial.png", self.files())
+        self.render("mirror-hall", "--size", "300", "--aa", "grid:28", "-o", "out.png")
+        self.assertEqual(self.files(), ["out.png"])
+
     def test_a_full_disk_is_for_the_picture(self):
         namespace = ["unshare", "--map-root-user", "--mount"]
         if shutil.which("unshare") is None or subprocess.run(
