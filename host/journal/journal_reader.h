@@ -37,6 +37,8 @@ class JournalReader {
     /// The next record; empty at the end or at the first bad record.
     std::optional<JournalRecord> next();
 
+    std::uint64_t bytes() const { return size_; }
+
     /// Bytes up to the end of the last good record.
     std::uint64_t good_bytes() const { return good_bytes_; }
 

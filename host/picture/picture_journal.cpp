@@ -116,12 +116,14 @@ void PictureJournal<T>::open() {
 
 template <typename T>
 void PictureJournal<T>::read() {
+    std::uint64_t damaged_bytes = 0;
     const auto read_if_ours = [&](JournalReader& reader) {
         if (reader.header().key != key() || reader.header().shares != header_.shares ||
             reader.header().film != header_.film) {
             return;
         }
         known_ = read_known_pixels<T>(reader);
+        damaged_bytes = reader.bytes() - reader.good_bytes();
     };
     try {
         file_->read(read_if_ours);
@@ -129,9 +131,13 @@ void PictureJournal<T>::read() {
         if (error.exit_code() != ExitCode::input) throw;  // otherwise its header is damaged
     }
     if (!known_) return;
-    say_(fmt::format("resuming from {}, which has {:.0f} % of the first pass{}", file_->path(),
+    const std::string damage =
+        damaged_bytes == 0
+            ? ""
+            : fmt::format("; ignored its last {} bytes, which are damaged", damaged_bytes);
+    say_(fmt::format("resuming from {}, which has {:.0f} % of the first pass{}{}", file_->path(),
                      100 * known_->share_rendered(),
-                     known_->refined[0].pixels.empty() ? "" : " and some refined pixels"));
+                     known_->refined[0].pixels.empty() ? "" : " and some refined pixels", damage));
 }
 
 template <typename T>

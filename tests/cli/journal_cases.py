@@ -241,6 +241,12 @@ class Resume(JournalTest):
         self.assertIn("belongs to a different picture", result.stderr)
         self.assertEqual(self.bytes_of("out.png.mbj"), journal)
 
+    def test_that_ends_in_the_middle_of_a_tile(self):
+        self.share("0/1", "out.png.mbj", *SMALL)
+        (self.folder / "out.png.mbj").write_bytes(self.bytes_of("out.png.mbj")[:-20])
+        result = self.render("cornell-box", "-o", "out.png", *SMALL)
+        self.assertRegex(result.stderr, r"resuming .*; ignored its last \d+ bytes, which are damaged")
+
     def test_the_unfinished_picture_goes_with_the_finished_one(self):
         self.interrupted(signal.SIGTERM, scene_path("mirror-hall"), "--size", "300", "--aa",
                          "grid:28", "--device", "threads:1")
