@@ -39,17 +39,21 @@ Rect rect_at_start(std::span<const std::byte> body) {
 JournalReader::JournalReader(std::istream& stream, std::uint64_t size)
     : stream_(stream), size_(size) {
     char magic[journal_magic.size()];
-    if (!stream_.read(magic, sizeof(magic)) ||
-        std::string_view(magic, 6) != journal_magic.substr(0, 6)) {
+    stream_.read(magic, sizeof(magic));
+    const std::string_view found(magic, static_cast<std::size_t>(stream_.gcount()));
+    if (found.size() < sizeof(magic) && journal_magic.starts_with(found)) {
+        throw DamagedJournal(ExitCode::input, "is empty; render it again");
+    }
+    if (!found.starts_with(journal_magic.substr(0, 6))) {
         throw Error(ExitCode::input, "is not a journal; give a file that render --shard wrote");
     }
-    if (std::string_view(magic, sizeof(magic)) != journal_magic) {
+    if (found != journal_magic) {
         throw Error(ExitCode::input,
                     "is a journal of a different version of mirrorball; render it again");
     }
     good_bytes_ = sizeof(magic);
     if (!read_record() || kind_ != RecordKind::header) {
-        throw Error(ExitCode::input, "its header is damaged; render it again");
+        throw DamagedJournal(ExitCode::input, "its header is damaged; render it again");
     }
     header_ = parse_header(body_);
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/error.h"
 #include "host/journal/journal_format.h"
 #include "host/render/film.h"
 #include "host/render/picture_loop.h"
@@ -25,11 +26,17 @@ struct JournalRecord {
     JournalWriterInfo writer;            ///< of writer
 };
 
+/// A journal whose header is not there, or not whole.
+struct DamagedJournal : Error {
+    using Error::Error;
+};
+
 /// Reads a journal record by record; safe for arbitrary bytes.
 class JournalReader {
    public:
     /// Reads the header. Throws Error (ExitCode::input), without a file name, when this version
-    /// cannot read it. `size`: bytes of the stream.
+    /// cannot read it; DamagedJournal for one that was cut off or damaged. `size`: bytes of the
+    /// stream.
     JournalReader(std::istream& stream, std::uint64_t size);
 
     const JournalHeader& header() const { return header_; }

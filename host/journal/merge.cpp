@@ -18,8 +18,10 @@ namespace rt {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
-    throw Error(ExitCode::input, path + ": " + what);
+Shares shares_of(const JournalHeader& header) {
+    const auto shares = parse_shares(header.shares);
+    if (shares) return *shares;
+    throw Error(ExitCode::input, "its header is damaged (shares); render it again");
 }
 
 /// Calls read(reader, bytes) with a part, and adds its name to errors.
@@ -29,9 +31,11 @@ void read_part(const std::string& path, const Read& read) {
     try {
         JournalReader reader(file.stream, file.size);
         read(reader, file.size);
+    } catch (const DamagedJournal& error) {
+        throw DamagedJournal(error.exit_code(), path + ": " + error.what());
     } catch (const Error& error) {
         if (error.exit_code() != ExitCode::input) throw;
-        refuse(path, error.what());
+        throw Error(ExitCode::input, path + ": " + error.what());
     }
 }
 
@@ -63,8 +67,7 @@ class Merger {
     void add(const std::string& path, JournalReader& reader, std::uint64_t bytes,
              std::vector<std::string>& notes) {
         const JournalHeader& header = reader.header();
-        const auto shares = parse_shares(header.shares);
-        if (!shares) refuse(path, "its header is damaged (shares); render it again");
+        const Shares shares = shares_of(header);
         KnownPixels<T> known = read_known_pixels<T>(reader, std::move(used_film_));
         if (reader.good_bytes() < bytes) {
             notes.push_back(fmt::format("{}: ignored its last {} bytes, which are damaged", path,
@@ -77,9 +80,9 @@ class Merger {
         }
         Film<T> film = known.take_refined_film();
         if (header.film != region_) film = part_of(film, header.film, region_);
-        const std::vector<int> share_of = block_shares(blocks_.size(), shares->of);
+        const std::vector<int> share_of = block_shares(blocks_.size(), shares.of);
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
-            const auto& numbers = shares->numbers;
+            const auto& numbers = shares.numbers;
             if (!std::binary_search(numbers.begin(), numbers.end(), share_of[b])) continue;
             take_block(blocks_[b], header.film, known.is_rendered, film);
         }
@@ -104,7 +107,7 @@ class Merger {
         merged.header = header;
         merged.missing_pixels =
             static_cast<std::size_t>(std::count(owner_.begin(), owner_.end(), -1));
-        if (merged.missing_pixels > 0) merged.missing = missing(parse_shares(header.shares)->of);
+        if (merged.missing_pixels > 0) merged.missing = missing(shares_of(header).of);
         merged.image_hash = hash_of(film_);
         merged.picture.width = film_.width;
         merged.picture.height = film_.height;
@@ -193,9 +196,9 @@ class Merger {
 };
 
 template <typename T>
-MergedPicture merge(const std::vector<std::string>& paths, const JournalHeader& first) {
+MergedPicture merge(const std::vector<std::string>& paths, const JournalHeader& first,
+                    std::vector<std::string> notes) {
     Merger<T> merger(first);
-    std::vector<std::string> notes;
     for (const std::string& path : paths) {
         read_part(path, [&](JournalReader& reader, std::uint64_t bytes) {
             check_same_picture(path, reader.header(), paths.front(), first);
@@ -211,14 +214,22 @@ MergedPicture merge(const std::vector<std::string>& paths, const JournalHeader& 
 }  // namespace
 
 MergedPicture merge_journals(const std::vector<std::string>& parts) {
+    std::vector<std::string> readable, notes;
     JournalHeader first;
-    read_part(parts.front(),
-              [&](JournalReader& reader, std::uint64_t) { first = reader.header(); });
-    check_picture_size(parts.front(), first.region.width, first.region.height, 3);
-    if (!parse_shares(first.shares)) {
-        refuse(parts.front(), "its header is damaged (shares); render it again");
+    for (const std::string& path : parts) {
+        try {
+            read_part(path, [&](JournalReader& reader, std::uint64_t) {
+                if (readable.empty()) first = reader.header();
+                readable.push_back(path);
+            });
+        } catch (const DamagedJournal& error) {
+            notes.emplace_back(error.what());
+        }
     }
-    return first.double_precision ? merge<double>(parts, first) : merge<float>(parts, first);
+    if (readable.empty()) throw Error(ExitCode::input, notes.front());
+    check_picture_size(readable.front(), first.region.width, first.region.height, 3);
+    return first.double_precision ? merge<double>(readable, first, std::move(notes))
+                                  : merge<float>(readable, first, std::move(notes));
 }
 
 }  // namespace rt

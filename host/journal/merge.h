@@ -23,9 +23,10 @@ struct MergedPicture {
     std::vector<std::string> notes;  ///< about incomplete parts
 };
 
-/// Merges parts in any order. Pixels present in several parts must be equal. Throws Error: input
-/// for a part that is no journal or belongs to another picture than the first; different, with
-/// files, hosts and devices, where parts differ; limit.
+/// Merges parts in any order. Pixels present in several parts must be equal. Those without a
+/// whole header are left out, with a note. Throws Error: input for a part that is no journal or
+/// belongs to another picture than the first; different, with files, hosts and devices, where parts
+/// differ; limit.
 MergedPicture merge_journals(const std::vector<std::string>& parts);
 
 }  // namespace rt

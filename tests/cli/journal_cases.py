@@ -107,6 +107,17 @@ class Shares(JournalTest):
         self.render("cornell-box", "-o", "whole.png", *SMALL)
         self.assertEqual(self.bytes_of("out.png"), self.bytes_of("whole.png"))
 
+    def test_without_a_header_count_as_missing(self):
+        self.share("0/2", "a.mbj", *SMALL)
+        whole = self.bytes_of("a.mbj")
+        for part in [whole[:0], whole[:5], whole[:8], whole[:100]]:
+            (self.folder / "cut.mbj").write_bytes(part)
+            result = self.merge("cut.mbj", "a.mbj", expected=8)
+            self.assertIn("cut.mbj: ", result.stderr)
+            self.assertIn("render --shard 1/2\n", result.stderr)
+            self.merge("a.mbj", "cut.mbj", "--allow-missing", "-o", "out.png")
+            self.assert_refused(self.run_cli("merge", "cut.mbj"), 3, "cut.mbj: ")
+
     def test_that_are_there_are_not_rendered_again(self):
         self.share("0/2", "a.mbj", *SMALL)
         before = self.bytes_of("a.mbj")
@@ -147,10 +158,9 @@ class Shares(JournalTest):
         self.share("0/2", "a.mbj", *SMALL)
         self.share("1/2", "b.mbj", *SMALL, "--aa", "none")
         self.share("1/2", "c.mbj", *SMALL, scene="glass")
-        (self.folder / "cut.mbj").write_bytes(self.bytes_of("a.mbj")[:100])
         self.write_text("text.mbj", "no journal")
         for part, words in [("b.mbj", "different settings"), ("c.mbj", "different scene"),
-                            ("cut.mbj", "damaged"), ("text.mbj", "is not a journal"),
+                            ("text.mbj", "is not a journal"),
                             ("nowhere.mbj", "cannot read"), (".", "directory")]:
             self.assert_refused(self.run_cli("merge", "a.mbj", part, "-o", "x.png"), 3, part, words)
         self.assert_refused(self.run_cli("merge", "a.mbj", "-o", "a.mbj"), 2)
