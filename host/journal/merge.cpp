@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/error.h"
+#include "host/hash.h"
 #include "host/image/input_file.h"
 #include "host/journal/journal_reader.h"
 #include "host/printable.h"
@@ -109,6 +110,15 @@ class Merger {
             static_cast<std::size_t>(std::count(owner_.begin(), owner_.end(), -1));
         if (merged.missing_pixels > 0) merged.missing = missing(shares_of(header).of);
         merged.image_hash = hash_of(film_);
+        Hasher seed;
+        seed.add(merged.image_hash);
+        for (const Part& part : parts_) {
+            for (const JournalWriterInfo& writer : part.writers) {
+                seed.add(std::string_view(writer.host));
+                seed.add(writer.process);
+            }
+        }
+        merged.seed = seed.value();
         merged.picture.width = film_.width;
         merged.picture.height = film_.height;
         merged.picture.pixels.assign(film_.rgb.begin(), film_.rgb.end());

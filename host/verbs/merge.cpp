@@ -52,7 +52,7 @@ void verify(const MergedPicture& merged, const MergeOptions& options) {
     }
     const std::string again = folder.name() + "/rendered-here.mbj";
     install_stop_signals();
-    if (!render_part_again(merged.header, options.scene, options.verify, again)) return;
+    if (!render_part_again(merged, options.scene, options.verify, again)) return;
     std::vector<std::string> parts = options.parts;
     parts.push_back(again);
     merge_journals(parts);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "host/error.h"
@@ -36,19 +36,22 @@ Filter filter_of(const JournalHeader& header) {
 }
 
 /// Shares hand out the blocks of a region at random, so that any share is a sample of it.
-Shares sample_of(const Rect& region, double share) {
+Shares sample_of(const Rect& region, double share, std::uint64_t seed) {
     const auto blocks = static_cast<int>(share_blocks(region).size());
     const auto wanted = static_cast<int>(std::lround(share * blocks));
     Shares sample{std::vector<int>(static_cast<std::size_t>(std::clamp(wanted, 1, blocks))),
                   blocks};
-    std::iota(sample.numbers.begin(), sample.numbers.end(), 0);
+    auto number = static_cast<int>(seed % static_cast<std::uint64_t>(blocks));
+    for (int& chosen : sample.numbers) chosen = std::exchange(number, (number + 1) % blocks);
+    std::sort(sample.numbers.begin(), sample.numbers.end());
     return sample;
 }
 
 }  // namespace
 
-bool render_part_again(const JournalHeader& header, const std::string& scene, double share,
+bool render_part_again(const MergedPicture& merged, const std::string& scene, double share,
                        const std::string& part) {
+    const JournalHeader& header = merged.header;
     RenderSettings settings;
     settings.size = {header.width, header.height};
     settings.crop = header.region;
@@ -57,7 +60,7 @@ bool render_part_again(const JournalHeader& header, const std::string& scene, do
     settings.max_bounces = header.max_bounces;
     if (header.double_precision) settings.precision = Precision::float64;
     settings.journal = part;
-    settings.shares = sample_of(header.region, share);
+    settings.shares = sample_of(header.region, share, merged.seed);
     Scene loaded = load_scene(scene_to_load(header, scene), {});
     apply_overrides(loaded, settings);
     DeviceChoice threads;

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Journals: renders that were interrupted go on, and shares of a picture are merged to the whole."""
 import random
+import re
 import shlex
 import shutil
 import signal
+import struct
 import subprocess
 import time
+import zlib
 
 from harness import CliTest, scene_path
 
@@ -79,6 +82,33 @@ class Shares(JournalTest):
         self.merge("a.mbj", "--verify", "1%", "--scene", "moved.json")
         self.assert_refused(self.run_cli("merge", "a.mbj", "--verify", "1%", "--scene",
                                          scene_path("glass")), 3, "different scene")
+
+    def with_wrong_pixels(self, part):
+        """Writes wrong.mbj: that part from a device that gets every pixel wrong."""
+        whole, changed, at = self.bytes_of(part), self.bytes_of(part)[:8], 8
+        while at < len(whole):
+            kind, size, _ = struct.unpack_from("<III", whole, at)
+            body = bytearray(whole[at + 12:at + 12 + size])
+            if kind == 3:
+                for value in range(16, size, 4):
+                    body[value] ^= 1
+            head = struct.pack("<II", kind, size)
+            changed += head + struct.pack("<I", zlib.crc32(head + body)) + body
+            at += 12 + size
+        (self.folder / "wrong.mbj").write_bytes(changed)
+
+    def test_verified_in_a_few_blocks_that_vary(self):
+        found = set()
+        for _ in range(9):
+            self.share("0/1", "a.mbj", *SMALL)
+            self.with_wrong_pixels("a.mbj")
+            result = self.merge("wrong.mbj", "--verify", "4%", expected=1)
+            place = re.search(r"the first at (\d+,\d+)", result.stderr)[1]
+            again = self.merge("wrong.mbj", "--verify", "4%", expected=1)
+            self.assertIn(f"the first at {place};", again.stderr)
+            found.add(place)
+            (self.folder / "a.mbj").unlink()
+        self.assertGreater(len(found), 1)
 
     def test_verified_where_no_temporary_folder_can_be_made(self):
         self.share("0/1", "a.mbj", *SMALL)
