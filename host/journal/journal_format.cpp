@@ -45,6 +45,11 @@ bool bool_of(const Json& json, const char* name) {
     return value.get<bool>();
 }
 
+double number_of(const Json& value) {
+    if (!value.is_number()) refuse_header("a number");
+    return value.get<double>();
+}
+
 std::string text_of(const Json& json, const char* name) {
     const Json& value = member(json, name);
     if (!value.is_string()) refuse_header(name);
@@ -101,8 +106,7 @@ void append_record(std::vector<std::byte>& bytes, RecordKind kind,
 }
 
 void append_header(std::vector<std::byte>& bytes, const JournalHeader& header) {
-    append_json(bytes, RecordKind::header,
-                {{"key", fmt::format("{:016x}", header.key)},
+    Json json = {{"key", fmt::format("{:016x}", header.key)},
                  {"width", header.width},
                  {"height", header.height},
                  {"region", json_of(header.region)},
@@ -116,7 +120,12 @@ void append_header(std::vector<std::byte>& bytes, const JournalHeader& header) {
                  {"scene_file", header.scene_file},
                  {"aa", header.aa},
                  {"filter", header.filter},
-                 {"max_bounces", header.max_bounces}});
+                 {"max_bounces", header.max_bounces},
+                 {"caster_lists", header.caster_lists}};
+    if (header.light_scale) json["light_scale"] = *header.light_scale;
+    if (header.ambient_light) json["ambient_light"] = *header.ambient_light;
+    if (header.hierarchies) json["hierarchies"] = *header.hierarchies;
+    append_json(bytes, RecordKind::header, json);
 }
 
 void append_writer(std::vector<std::byte>& bytes, const JournalWriterInfo& writer) {
@@ -150,6 +159,14 @@ JournalHeader parse_header(std::span<const std::byte> body) {
     header.aa = text_of(json, "aa");
     header.filter = text_of(json, "filter");
     header.max_bounces = int_of(json, "max_bounces", 0, std::numeric_limits<int>::max());
+    if (json.contains("caster_lists")) header.caster_lists = bool_of(json, "caster_lists");
+    if (json.contains("hierarchies")) header.hierarchies = bool_of(json, "hierarchies");
+    if (json.contains("light_scale")) header.light_scale = number_of(json["light_scale"]);
+    if (json.contains("ambient_light")) {
+        const Json& light = json["ambient_light"];
+        if (!light.is_array() || light.size() != 3) refuse_header("ambient_light");
+        header.ambient_light = {number_of(light[0]), number_of(light[1]), number_of(light[2])};
+    }
     return header;
 }
 

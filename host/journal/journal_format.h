@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,6 +46,10 @@ struct JournalHeader {
     /// writer; may be empty.
     std::string scene_file, aa, filter;
     int max_bounces = 0;
+    std::optional<double> light_scale;  ///< that override the scene's light
+    std::optional<std::array<double, 3>> ambient_light;
+    std::optional<bool> hierarchies;  ///< not given: where they are faster
+    bool caster_lists = true;
 
     std::size_t pixel_bytes() const { return 3 * (double_precision ? 8 : 4); }
     bool operator==(const JournalHeader&) const = default;

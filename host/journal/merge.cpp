@@ -40,8 +40,8 @@ void read_part(const std::string& path, const Read& read) {
     }
 }
 
-void check_same_picture(const std::string& path, const JournalHeader& header,
-                        const std::string& first_path, const JournalHeader& first) {
+void check_same_picture(const JournalHeader& header, const std::string& first_path,
+                        const JournalHeader& first) {
     if (header.key == first.key && header.film == first.film && header.region == first.region &&
         header.double_precision == first.double_precision && header.refines == first.refines) {
         return;
@@ -49,10 +49,12 @@ void check_same_picture(const std::string& path, const JournalHeader& header,
     const auto what = [&]() -> std::string {
         if (header.scene_hash != first.scene_hash) return "shows a different scene";
         if (header.settings != first.settings) return "has different settings";
-        return "comes from a different version of mirrorball";
+        if (header.hierarchies != first.hierarchies) return "has other --hierarchies";
+        if (header.caster_lists != first.caster_lists) return "has other --caster-lists";
+        return "comes from a different version of mirrorball, or a device that rounds differently,";
     };
     throw Error(ExitCode::input,
-                printable(fmt::format("{}: {} than {} ({}, {}; {}, {})", path, what(), first_path,
+                printable(fmt::format("{} than {} ({}, {}; {}, {})", what(), first_path,
                                       header.scene, header.settings, first.scene, first.settings)));
 }
 
@@ -211,7 +213,7 @@ MergedPicture merge(const std::vector<std::string>& paths, const JournalHeader& 
     Merger<T> merger(first);
     for (const std::string& path : paths) {
         read_part(path, [&](JournalReader& reader, std::uint64_t bytes) {
-            check_same_picture(path, reader.header(), paths.front(), first);
+            check_same_picture(reader.header(), paths.front(), first);
             merger.add(path, reader, bytes, notes);
         });
     }

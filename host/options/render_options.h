@@ -25,8 +25,7 @@ struct RenderOptions : RenderSettings {
     std::string batch;                    ///< a file that names scenes, "-": stdin; empty: none
     std::vector<int> frames;              ///< of the scene's camera path; empty: the scene as it is
     std::string device;                   ///< comma-separated list; empty: the best available
-    LightOverrides light;
-    std::string reference;  ///< empty: none
+    std::string reference;                ///< empty: none
     Encoding encoding = Encoding::display;
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;

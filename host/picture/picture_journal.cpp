@@ -59,6 +59,12 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
     header_.aa = to_string(stats.aa);
     header_.filter = to_string(stats.filter);
     header_.max_bounces = stats.max_bounces;
+    header_.light_scale = settings.light.light_scale;
+    if (const auto& light = settings.light.ambient_light) {
+        header_.ambient_light = {light->x, light->y, light->z};
+    }
+    header_.hierarchies = settings.hierarchies;
+    header_.caster_lists = settings.caster_lists;
     open();
 }
 
