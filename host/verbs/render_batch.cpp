@@ -21,6 +21,7 @@
 #include "host/print/stats_json.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/camera_path.h"
+#include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"
 #include "host/verbs/batch_list.h"
 #include "host/verbs/batch_log.h"
@@ -35,6 +36,29 @@ namespace {
 struct ResultsLost : Error {
     using Error::Error;
 };
+
+/// Whether a frame that exists is the one to be rendered, as far as its metadata tell.
+bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options) {
+    const auto format = known_picture_format(path);
+    if (format != PictureFormat::png && format != PictureFormat::exr) return true;
+    RenderStats stats;
+    stats.width = scene.width;
+    stats.height = scene.height;
+    stats.region = options.crop.value_or(Rect{0, 0, scene.width, scene.height});
+    stats.aa = scene.aa;
+    stats.filter = scene.filter;
+    stats.max_bounces = scene.max_bounces;
+    stats.double_precision = options.precision == Precision::float64;
+    stats.fast_math = options.fast_math;
+    try {
+        const PictureMetadata found = read_picture_file(path).metadata;
+        return text_in(found, "mirrorball:SceneHash").empty() ||
+               shows_the_same(found, picture_metadata(scene.name, hash_text(scene_hash(scene)),
+                                                      settings_text(stats), ""));
+    } catch (const Error&) {
+        return false;
+    }
+}
 
 /// JSON of a batch: one line per picture.
 void print_batch_results(const RenderStats& stats, const RenderOptions& options,
@@ -121,7 +145,8 @@ class Batch {
         RenderOptions options = options_;
         options.scene = item.scene;
         options.output = item.output;
-        if (item.frame && options.resume && std::filesystem::exists(options.output)) {
+        if (item.frame && options.resume && std::filesystem::exists(options.output) &&
+            may_show(options.output, load(item, options), options)) {
             ++there_;
             return;
         }

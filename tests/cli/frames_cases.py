@@ -52,6 +52,22 @@ class Frames(CliTest):
         self.assertTrue((self.folder / "f03.pfm").exists())
         self.assertIn("3 frames were", self.frames("--frames", "1-3", "--resume").stderr)
 
+    def test_resume_replaces_those_of_other_pictures(self):
+        for ending in ["png", "exr"]:
+            with self.subTest(ending=ending):
+                output = f"f%02d.{ending}"
+                self.frames("--frames", "1-2", output=output)
+                again = ["--frames", "1-2", "--resume"]
+                self.assertIn("2 frames were already", self.frames(*again, output=output).stderr)
+                for change in [["--size", "16x12"], ["--ambient", "0.5"], ["--precision", "double"]]:
+                    self.frames("--frames", "1", *change, output=output)
+                    result = self.frames(*again, *change, output=output)
+                    self.assertIn("1 frame was already", result.stderr)
+                    result = self.frames(*again, *change, output=output)
+                    self.assertIn("2 frames were already", result.stderr)
+                (self.folder / f"f01.{ending}").write_text("cut")
+                self.assertIn("1 frame was", self.frames(*again, *change, output=output).stderr)
+
     def test_shares_of_them_are_all_of_them(self):
         for share in range(3):
             self.frames("--frames", "1-5", "--shard", f"{share}/3")
