@@ -32,8 +32,8 @@ namespace rt {
 
 namespace {
 
-/// Results can no longer be written.
-struct ResultsLost : Error {
+/// No other picture can be rendered or reported.
+struct BatchEnds : Error {
     using Error::Error;
 };
 
@@ -74,7 +74,7 @@ void print_batch_results(const RenderStats& stats, const RenderOptions& options,
         }
         flush_results();
     } catch (const Error& error) {
-        throw ResultsLost(error.exit_code(), error.what());
+        throw BatchEnds(error.exit_code(), error.what());
     }
 }
 
@@ -124,13 +124,13 @@ class Batch {
     }
 
    private:
-    /// Whether it succeeded; errors are noted, and end the batch only if results are lost.
+    /// Whether it succeeded; other errors than BatchEnds are noted.
     template <typename Work>
     bool attempt(const BatchItem& item, const Work& work) {
         try {
             work();
             return true;
-        } catch (const ResultsLost&) {
+        } catch (const BatchEnds&) {
             throw;
         } catch (const Error& error) {
             note(item, error);
@@ -177,17 +177,29 @@ class Batch {
         console.wait();
     }
 
-    /// A camera path's scene is loaded once.
+    /// A camera path's scene is loaded once. Throws BatchEnds where no frame can be rendered.
     const Scene& load(const BatchItem& item, const RenderOptions& options) {
-        if (!has_path_) {
-            scene_ = scene_to_render(options);
-            for (const std::string& file : scene_.model_files) inputs_.add(file);
+        if (!item.frame) {
+            load_afresh(options);
+            return scene_;
         }
-        if (!item.frame) return scene_;
-        has_path_ = true;
+        if (!has_path_) load_path(options);
         scene_.camera = camera_at(scene_, *item.frame);
         set_image_size(scene_, scene_.width, scene_.height);
         return scene_;
+    }
+
+    void load_afresh(const RenderOptions& options) {
+        scene_ = scene_to_render(options);
+        for (const std::string& file : scene_.model_files) inputs_.add(file);
+    }
+
+    void load_path(const RenderOptions& options) try {
+        load_afresh(options);
+        if (scene_.path.keys.empty()) camera_at(scene_, 0);  // throws
+        has_path_ = true;
+    } catch (const Error& error) {
+        throw BatchEnds(error.exit_code(), error.what());
     }
 
     /// Waits for the picture that is being written.

@@ -68,6 +68,11 @@ class Frames(CliTest):
                 (self.folder / f"f01.{ending}").write_text("cut")
                 self.assertIn("1 frame was", self.frames(*again, *change, output=output).stderr)
 
+    def test_a_scene_that_cannot_be_read_is_told_once(self):
+        (self.folder / "s.json").unlink()
+        result = self.frames("--frames", "1-3", code=3)
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+
     def test_shares_of_them_are_all_of_them(self):
         for share in range(3):
             self.frames("--frames", "1-5", "--shard", f"{share}/3")
