@@ -99,6 +99,9 @@ void settle_frames(RenderOptions& render) {
     if (render.scenes.size() != 1 || !render.batch.empty()) {
         throw Error(ExitCode::usage, "--frames takes one scene");
     }
+    if (!render.reference.empty()) {
+        throw Error(ExitCode::usage, "--reference is for one picture; leave out --frames");
+    }
     if (!render.output.empty() && !find_frame_number(render.output)) {
         throw Error(ExitCode::usage, fmt::format("-o '{}' names one file for several frames; use "
                                                  "%04d for the frame number, as in out.%04d.png",

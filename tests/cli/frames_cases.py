@@ -90,7 +90,8 @@ class Frames(CliTest):
         for options, words in [(["--frames", "5-1"], "ascending"), (["--frames", "x"], "ascending"),
                                (["--frames", "3,2"], "ascending"), (["--frames", "-1"], "frames"),
                                (["--frames", "1-9999999"], "999999"),
-                               (["--frames", "1", "--shard", "1/2"], "no frame")]:
+                               (["--frames", "1", "--shard", "1/2"], "no frame"),
+                               (["--frames", "1", "--reference", "f1.pfm"], "--reference")]:
             result = self.frames(*options, code=2)
             self.assertIn(words, result.stderr)
         for output in ["one.pfm", "f%d%d.pfm", "f%s.pfm"]:
