@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <exception>
 #include <optional>
 #include <string_view>
@@ -34,7 +35,7 @@ class MpiGuest {
             send(Kind::ready);
         });
         Stopwatch silence;
-        while (stop_flag() == 0) {
+        while (stop_flag() == 0 || stop_flag() == SIGALRM) {  // rank 0 is out of time, too
             const auto received = ranks_.receive();
             if (received) {
                 const Kind kind = received->message.kind;
