@@ -97,7 +97,9 @@ TEST_F(ReadPicture, TruncatedFilesAreRefusedOrWhole) {
         const std::string whole = contents(path(name));
         const Picture picture = read_picture(path(name));
         std::size_t accepted = 0;
-        for (std::size_t length = 0; length < whole.size(); ++length) {
+        // OpenImageIO's readers are slower, and not ours.
+        const std::size_t step = name == "a.png" || name == "a.exr" || name == "a.pfm" ? 1 : 13;
+        for (std::size_t length = 0; length < whole.size(); length += step) {
             put(path("cut-" + name), whole.substr(0, length));
             const auto [code, message] = refusal_of([&] {
                 EXPECT_EQ(bits(read_picture(path("cut-" + name))), bits(picture)) << length;
@@ -116,7 +118,8 @@ TEST_F(ReadPicture, FlippedBytesNeverCrash) {
         write_picture(path(name), ramp_picture(9, 20), Encoding::linear,
                       PictureMetadata{{"mirrorball:Scene", "text"}});
         const std::string whole = contents(path(name));
-        for (int round = 0; round < 300; ++round) {
+        const int rounds = name == "a.png" || name == "a.exr" || name == "a.pfm" ? 300 : 40;
+        for (int round = 0; round < rounds; ++round) {
             std::string bytes = whole;
             const unsigned flips = 1 + random() % 3;
             for (unsigned i = 0; i < flips; ++i) {
