@@ -246,11 +246,9 @@ class Dies(WrongDriver):
 
     def test_busy_for_ever_it_ends_at_the_timeout(self):
         self.run_with({}, *self.ARGUMENTS)  # compiles
-        for place, at, word in [("clBuildProgram", "1", "nothing is saved"),
-                                ("clEnqueueNDRangeKernel", "6", "did not end in time")]:
-            result = self.die(place, "spin", "--timeout", "2", CL_SHIM_DIE_AT=at)
-            self.assertIn(result.returncode, [0, 8], result.stderr)  # so small a picture may be whole
-            self.assertIn(word, result.stderr)
+        result = self.die("clEnqueueNDRangeKernel", "spin", "--timeout", "2", CL_SHIM_DIE_AT="6")
+        self.assertIn(result.returncode, [0, 8], result.stderr)  # so small a picture may be whole
+        self.assertIn("did not end in time", result.stderr)
 
     def test_is_an_error_without_fallback(self):
         result = self.die("clBuildProgram", "abort", "--no-fallback")

@@ -96,7 +96,7 @@ class Interrupted(CliTest):
 
     def test_as_a_terminal_sends_it(self):
         """To the program and its worker process."""
-        for path in ["threads", "pocl", "pocl", "pocl", "pocl"]:
+        for path in ["threads", "pocl", "pocl", "pocl"]:
             process = self.start_and_wait_until_tiles_are_done(path, "out.pfm")
             os.killpg(process.pid, signal.SIGINT)
             stderr = process.communicate(timeout=HANG_LIMIT)[1]
