@@ -26,6 +26,6 @@ add_fuzz_target(fuzz_png_picture mirrorball_image ${CMAKE_SOURCE_DIR}/tests/pict
 add_fuzz_target(fuzz_journal mirrorball_journal ${CMAKE_SOURCE_DIR}/tests/journals)
 add_fuzz_target(fuzz_exr_picture OpenEXR::OpenEXR ${CMAKE_SOURCE_DIR}/tests/pictures)
 target_sources(fuzz_exr_picture PRIVATE
-    ${CMAKE_SOURCE_DIR}/host/image/exr_limits.cpp
-    ${CMAKE_SOURCE_DIR}/host/image/exr_reader.cpp
-    ${CMAKE_SOURCE_DIR}/host/image/exr_threads.cpp)
+    ${CMAKE_SOURCE_DIR}/host/image/modules/exr_limits.cpp
+    ${CMAKE_SOURCE_DIR}/host/image/modules/exr_reader.cpp
+    ${CMAKE_SOURCE_DIR}/host/image/modules/exr_threads.cpp)

@@ -11,7 +11,7 @@
 #include <exception>
 #include <string>
 
-#include "host/image/exr_reader.h"
+#include "host/image/modules/exr_reader.h"
 
 namespace {
 

@@ -193,7 +193,7 @@ MUTANTS = [
          "check_stored_size(path_, 0, 1032, file_size);"),
     ], [("host_picture_read_test", "ReadPicture.PngThatPromises*")]),
     Mutant("EXR channels may share a name", [
-        (I + "exr_limits.cpp", "if (!header.channels.insert(name).second)",
+        (I + "modules/exr_limits.cpp", "if (!header.channels.insert(name).second)",
          "if (!header.channels.insert(name).second && false)"),
     ], [("host_picture_read_test", "ReadPicture.ExrWith*")]),
     Mutant("PLY indices past the end pass", [

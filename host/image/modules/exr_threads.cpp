@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/image/exr_threads.h"
+#include "host/image/modules/exr_threads.h"
 
 #include <ImfThreading.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/image/exr_writer.h"
+#include "host/image/modules/exr_writer.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/image/exr_threads.h"
+#include "host/image/modules/exr_threads.h"
 
 namespace rt::module {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
-#include "host/image/exr_reader.h"
-#include "host/image/exr_writer.h"
 #include "host/image/module_guard.h"
+#include "host/image/modules/exr_reader.h"
+#include "host/image/modules/exr_writer.h"
 
 namespace rt::module {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/image/exr_reader.h"
+#include "host/image/modules/exr_reader.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -16,8 +16,8 @@
 #include <tuple>
 #include <vector>
 
-#include "host/image/exr_limits.h"
-#include "host/image/exr_threads.h"
+#include "host/image/modules/exr_limits.h"
+#include "host/image/modules/exr_threads.h"
 
 namespace rt::module {
 namespace {
