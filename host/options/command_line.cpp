@@ -7,14 +7,24 @@
 #include <algorithm>
 
 #include "host/error.h"
-#include "host/options/guess.h"
 #include "host/options/verb_texts.h"
+#include "host/scene/words.h"
 
 namespace rt {
 
 namespace {
 
 CLI::App& app_of(void* app) { return *static_cast<CLI::App*>(app); }
+
+/// What a mistyped word may have meant: "; did you mean '--size'?", or "" if nothing is close.
+std::string guess_text(const std::string& word, const std::vector<std::string>& known) {
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    std::string_view guess = nearest_word(word, names);
+    for (const std::string_view name : names) {
+        if (word.size() > 3 && name.starts_with(word)) guess = name;
+    }
+    return guess.empty() ? "" : fmt::format("; did you mean '{}'?", guess);
+}
 
 std::vector<CLI::App*> verbs_of(CLI::App& app) {
     return app.get_subcommands([](const CLI::App*) { return true; });
