@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/stress/parallel_for.h"
+#include "host/parallel.h"
 
 namespace rt {
 
@@ -42,8 +42,10 @@ ReferencePicture::ReferencePicture(const Scene& scene, ReferenceKind kind)
       tracer_(make_reference_tracer(scene, kind)),
       colors_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)),
       edges_(colors_.size(), -1) {
-    parallel_for(colors_.size(), pixel_run,
-                 [&](std::size_t pixel) { colors_[pixel] = pixel_color(pixel, 0, 0); });
+    for_each_run(colors_.size(), pixel_run, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) colors_[i] = pixel_color(i, 0, 0);
+                 });
 }
 
 std::array<double, 3> ReferencePicture::pixel_color(std::size_t pixel, double dx, double dy) const {
@@ -65,10 +67,13 @@ bool ReferencePicture::changes_nearby(std::size_t pixel) const {
 }
 
 std::vector<bool> ReferencePicture::at_edges(std::span<const std::size_t> pixels) {
-    parallel_for(pixels.size(), pixel_run, [&](std::size_t i) {
-        std::int8_t& edge = edges_[pixels[i]];
-        if (edge < 0) edge = changes_nearby(pixels[i]) ? 1 : 0;
-    });
+    for_each_run(pixels.size(), pixel_run, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) {
+                         std::int8_t& edge = edges_[pixels[i]];
+                         if (edge < 0) edge = changes_nearby(pixels[i]) ? 1 : 0;
+                     }
+                 });
     std::vector<bool> answer;
     for (const std::size_t pixel : pixels) answer.push_back(edges_[pixel] == 1);
     return answer;
