@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -12,6 +11,7 @@
 
 #include "host/error.h"
 #include "host/image/atomic_file.h"
+#include "host/number.h"
 
 namespace rt {
 namespace {
@@ -42,15 +42,6 @@ std::string next_word(std::istream& stream) {
         word += static_cast<char>(c);
     }
     return {};
-}
-
-template <typename Number>
-std::optional<Number> parse_number(const std::string& word) {
-    Number number{};
-    const char* end = word.data() + word.size();
-    const auto [rest, error] = std::from_chars(word.data(), end, number);
-    if (word.empty() || error != std::errc() || rest != end) return std::nullopt;
-    return number;
 }
 
 Header read_header(const std::string& path, std::istream& stream) {

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "host/number.h"
 #include "host/render/picture_loop.h"
 #include "host/render/tile_queue.h"
 
@@ -18,18 +18,11 @@ namespace {
 constexpr double blocks_of_a_picture = 1000;
 constexpr int smallest_block = 16, largest_block = 256;
 
-std::optional<int> parse_number(std::string_view text) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || number < 0) return {};
-    return number;
-}
-
 /// Appends "7" or "20-25" to `numbers`; false when it is neither or not below `of`.
 bool parse_range(std::string_view text, int of, std::vector<int>& numbers) {
     const std::size_t dash = text.find('-');
-    const auto first = parse_number(text.substr(0, dash));
-    const auto last = dash == text.npos ? first : parse_number(text.substr(dash + 1));
+    const auto first = parse_number<int>(text.substr(0, dash));
+    const auto last = dash == text.npos ? first : parse_number<int>(text.substr(dash + 1));
     if (!first || !last || *last < *first || *last >= of) return false;
     for (int number = *first; number <= *last; ++number) numbers.push_back(number);
     return true;
@@ -70,7 +63,7 @@ void grow(std::vector<std::uint8_t>& needs, const Rect& film, std::uint8_t level
 std::optional<Shares> parse_shares(std::string_view text) {
     const std::size_t slash = text.find('/');
     if (slash == text.npos) return {};
-    const auto of = parse_number(text.substr(slash + 1));
+    const auto of = parse_number<int>(text.substr(slash + 1));
     if (!of || *of < 1 || *of > Shares::most) return {};
     Shares shares{{}, *of};
     std::string_view list = text.substr(0, slash);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
 #include <cmath>
 
 #include "host/image/picture_format.h"
+#include "host/number.h"
 #include "host/options/lists.h"
 #include "host/options/verb_options.h"
 
@@ -15,13 +15,11 @@ double parse_limit(const std::string& option, const std::string& text) {
     std::string_view digits = text;
     const bool is_level = digits.ends_with("/255");
     if (is_level) digits.remove_suffix(4);
-    double value = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto [stop, error] = std::from_chars(digits.data(), end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value) || value < 0) {
+    const auto value = parse_number<double>(digits);
+    if (!value || !std::isfinite(*value) || *value < 0) {
         refuse(option, text, "give a number that is not negative, as in 0.01 or 2/255");
     }
-    return is_level ? value / 255 : value;
+    return is_level ? *value / 255 : *value;
 }
 
 void add_limit(const CommandLine& verb, const std::string& option, std::optional<double>& limit,

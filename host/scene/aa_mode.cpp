@@ -3,19 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include "host/number.h"
 
 namespace rt {
 
 namespace {
-
-template <typename N>
-std::optional<N> parse_number(std::string_view text) {
-    N number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 std::optional<AaMode> counted(AaMode::Pattern pattern, std::string_view text, int most) {
     const auto count = parse_number<int>(text);
