@@ -10,6 +10,7 @@
 #include "host/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_program.h"
+#include "host/opencl/render_kernels.h"
 #include "tests/feature_scenes.h"
 #include "tests/render_helpers.h"
 

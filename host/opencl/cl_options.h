@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "host/flatten/features.h"
 #include "host/render/launch.h"
 
 namespace rt {
 
 class OpenDevices;
+
+/// Contexts and programs kept from picture to picture (open_devices.h).
+std::shared_ptr<OpenDevices> make_open_devices();
 
 struct ClOptions {
     Launch launch = Launch::automatic;

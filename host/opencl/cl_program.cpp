@@ -10,41 +10,33 @@
 #include "host/error.h"
 #include "host/opencl/kept_programs.h"
 #include "host/opencl/opencl.h"
-#include "host/pocl/pocl_cache.h"
+#include "host/pocl/pocl_build.h"
 
 namespace rt {
 
 namespace {
 
-/// PoCL reads 18,000 lines of declarations at every build, even a cached one, and spends most of
-/// its time on that. This tells its compiler that they were read (by the guard of Clang's
-/// opencl-c.h), and the kernels to declare what they call (kernels/builtins.h).
-constexpr const char* own_declarations = " -D_OPENCL_H_ -DRT_DECLARES_BUILTINS=1";
+/// The status of clBuildProgram: cl::Program::build hides it where there is no log.
+cl_int build(const cl::Program& program, const ClDevice& device, const std::string& flags) {
+    return clBuildProgram(program(), 1, &device.handle, flags.c_str(), nullptr, nullptr);
+}
 
-/// PoCL optimizes and compiles three copies of each kernel: its own, and two that loop over work
-/// groups. This leaves only a call in them (kernels/render.cl), in 0.75 of the time.
-constexpr const char* one_copy = " -DRT_ITEM=__attribute__((noinline))";
-
-/// The program as PoCL builds it fastest; empty if it calls what kernels/builtins.h does not
-/// declare, and on all other devices.
+/// The program as PoCL builds it fastest; empty if it cannot, and on all other devices.
 std::optional<cl::Program> built_for_pocl(const cl::Context& context, const ClDevice& device,
                                           const char* source, const std::string& flags) {
     if (!device.is_cpu || device.platform != pocl_platform) return {};
     const cl::Program program(context, std::string(source));
-    const std::string all_flags = flags + own_declarations + one_copy;
-    if (clBuildProgram(program(), 1, &device.handle, all_flags.c_str(), nullptr, nullptr) !=
-        CL_SUCCESS) {
-        return {};
-    }
+    if (build(program, device, flags + pocl_build_options) != CL_SUCCESS) return {};
     return program;
 }
 
-/// Advice after a failed build.
-std::string what_to_do(const ClDevice& device) {
-    const std::string cache = device.platform == pocl_platform ? why_pocl_cache_is_read_only() : "";
-    if (cache.empty()) return "update the driver";
-    return "PoCL cannot write its kernel cache (" + cache +
-           "): set POCL_CACHE_DIR to a folder that it can write";
+/// Empty where the driver has none.
+std::string build_log(const cl::Program& program, const ClDevice& device) {
+    try {
+        return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(handle_of(device));
+    } catch (const cl::Error&) {
+        return "";
+    }
 }
 
 }  // namespace
@@ -75,18 +67,17 @@ cl::Program build_program(const cl::Context& context, const ClDevice& device, co
     const std::string flags = build_options(device, options);
     if (auto kept = kept_program(context, device, source, flags)) return *std::move(kept);
     if (auto built = built_for_pocl(context, device, source, flags)) return *built;
-    const cl::Device handle = handle_of(device);
-    cl::Program program(context, std::string(source));
-    try {
-        program.build({handle}, flags.c_str());
-    } catch (const cl::Error& error) {
-        const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(handle);
+    const cl::Program program(context, std::string(source));
+    const cl_int status = build(program, device, flags);
+    if (status != CL_SUCCESS) {
+        const std::string advice =
+            device.platform == pocl_platform ? pocl_build_advice() : "update the driver";
         throw Error(
             ExitCode::device,
             fmt::format("the kernels do not build on {} (driver {}): {}; {} or use --device "
                         "threads\noptions: {}\n{}",
-                        device.name, device.driver, cl_status_text(error.err()), what_to_do(device),
-                        flags, log));
+                        device.name, device.driver, cl_status_text(status), advice, flags,
+                        build_log(program, device)));
     }
     keep_program(program, device, source, flags);
     return program;

@@ -11,9 +11,6 @@ namespace rt {
 
 inline cl::Device handle_of(const ClDevice& device) { return cl::Device(device.handle, true); }
 
-/// kernels/render.cl with its includes, embedded at build time (host/embed_kernels.cpp).
-extern const char* const render_kernels;
-
 /// The entry points of kernels/render.cl that a renderer launches; the switches RT_RENDERS_.. of
 /// kernels/features.h.
 struct EntryPoints {

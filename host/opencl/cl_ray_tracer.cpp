@@ -8,6 +8,7 @@
 #include "host/opencl/cl_program.h"
 #include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
+#include "host/opencl/render_kernels.h"
 
 namespace rt {
 

@@ -16,6 +16,7 @@
 #include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/opencl/open_devices.h"
+#include "host/opencl/render_kernels.h"
 #include "host/pocl/pocl_cache.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"

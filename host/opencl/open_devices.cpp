@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opencl/open_devices.h"
 
+#include "host/opencl/cl_options.h"
+
 namespace rt {
+
+std::shared_ptr<OpenDevices> make_open_devices() { return std::make_shared<OpenDevices>(); }
 
 cl::Context OpenDevices::context(const ClDevice& device) {
     const std::lock_guard lock(mutex_);

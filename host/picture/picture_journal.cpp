@@ -9,7 +9,7 @@
 
 #include "host/error.h"
 #include "host/hash.h"
-#include "host/opencl/cl_program.h"
+#include "host/opencl/render_kernels.h"
 #include "host/version.h"
 
 namespace rt {

@@ -2,11 +2,11 @@
 #include "host/picture/render_cache.h"
 
 #include "host/hash.h"
-#include "host/opencl/open_devices.h"
+#include "host/opencl/cl_options.h"
 
 namespace rt {
 
-RenderCache::RenderCache() : devices(std::make_shared<OpenDevices>()) {}
+RenderCache::RenderCache() : devices(make_open_devices()) {}
 
 std::uint64_t RenderCache::flat_key(const Scene& scene, std::uint64_t hash) {
     Hasher hasher;
