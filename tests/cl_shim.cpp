@@ -8,8 +8,8 @@
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
 //   CL_SHIM_FAIL_READ          if not empty, reads and maps fail once a launch has failed
 //   CL_SHIM_DIE_IN             the function whose call fails
-//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin; or delay: by two seconds
-//   CL_SHIM_DIE_AT             the first call that may fail, counted from 1
+//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error; or delay: by two
+//   seconds CL_SHIM_DIE_AT             the first call that may fail, counted from 1
 //   CL_SHIM_DIE_AFTER          seconds since that call before which none fails
 //   CL_SHIM_DIE_ONCE           a file made on failure; if it exists, nothing fails
 // Nothing in mirrorball knows about it.
@@ -54,18 +54,18 @@ void replace(std::string& text) {
     text.replace(at, old.size(), setting("CL_SHIM_NEW"));
 }
 
-/// Called at the start of each function below.
-void die_in(const char* function) {
-    if (setting("CL_SHIM_DIE_IN") != function) return;
+/// Called at the start of each function below; whether it returns an error.
+bool die_in(const char* function) {
+    if (setting("CL_SHIM_DIE_IN") != function) return false;
     static std::atomic<int> calls = 0;
     const std::string at = setting("CL_SHIM_DIE_AT"), once = setting("CL_SHIM_DIE_ONCE");
-    if (++calls < (at.empty() ? 1 : std::stoi(at))) return;
+    if (++calls < (at.empty() ? 1 : std::stoi(at))) return false;
     static const auto first = std::chrono::steady_clock::now();
     const std::string after = setting("CL_SHIM_DIE_AFTER");
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - first;
-    if (!after.empty() && passed.count() < std::stod(after)) return;
+    if (!after.empty() && passed.count() < std::stod(after)) return false;
     if (!once.empty()) {
-        if (access(once.c_str(), F_OK) == 0) return;
+        if (access(once.c_str(), F_OK) == 0) return false;
         std::ofstream(once) << function;
     }
     const std::string by = setting("CL_SHIM_DIE_BY");
@@ -76,18 +76,19 @@ void die_in(const char* function) {
     for (volatile bool spins = by == "spin"; spins;) {
     }
     if (by == "delay") sleep(2);
+    return by == "error";
 }
 
 }  // namespace
 
 extern "C" cl_int clGetPlatformIDs(cl_uint size, cl_platform_id* platforms, cl_uint* count) {
-    die_in("clGetPlatformIDs");
+    if (die_in("clGetPlatformIDs")) return CL_OUT_OF_HOST_MEMORY;
     return real<decltype(clGetPlatformIDs)>("clGetPlatformIDs")(size, platforms, count);
 }
 
 extern "C" cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type type, cl_uint size,
                                  cl_device_id* devices, cl_uint* count) {
-    die_in("clGetDeviceIDs");
+    if (die_in("clGetDeviceIDs")) return CL_OUT_OF_HOST_MEMORY;
     return real<decltype(clGetDeviceIDs)>("clGetDeviceIDs")(platform, type, size, devices, count);
 }
 
@@ -96,13 +97,16 @@ extern "C" cl_context clCreateContext(const cl_context_properties* properties, c
                                       void(CL_CALLBACK* notify)(const char*, const void*,
                                                                 std::size_t, void*),
                                       void* data, cl_int* error) {
-    die_in("clCreateContext");
+    if (die_in("clCreateContext")) {
+        *error = CL_OUT_OF_HOST_MEMORY;
+        return nullptr;
+    }
     return real<decltype(clCreateContext)>("clCreateContext")(properties, count, devices, notify,
                                                               data, error);
 }
 
 extern "C" cl_int clFinish(cl_command_queue queue) {
-    die_in("clFinish");
+    if (die_in("clFinish")) return CL_OUT_OF_HOST_MEMORY;
     return real<decltype(clFinish)>("clFinish")(queue);
 }
 
@@ -137,7 +141,7 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
                                          cl_uint dimensions, const std::size_t* offset,
                                          const std::size_t* size, const std::size_t* local,
                                          cl_uint count, const cl_event* waits, cl_event* event) {
-    die_in("clEnqueueNDRangeKernel");
+    if (die_in("clEnqueueNDRangeKernel")) return CL_OUT_OF_HOST_MEMORY;
     ++launches;
     if (has_failed()) return CL_OUT_OF_RESOURCES;
     return real<decltype(clEnqueueNDRangeKernel)>("clEnqueueNDRangeKernel")(
@@ -159,7 +163,7 @@ extern "C" void* clEnqueueMapBuffer(cl_command_queue queue, cl_mem buffer, cl_bo
 extern "C" cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices,
                                  const char* options, void(CL_CALLBACK* done)(cl_program, void*),
                                  void* user_data) {
-    die_in("clBuildProgram");
+    if (die_in("clBuildProgram")) return CL_OUT_OF_HOST_MEMORY;
     if (const std::string log = setting("CL_SHIM_LOG"); !log.empty()) {
         std::ofstream(log, std::ios::app) << (options == nullptr ? "" : options) << '\n';
     }

@@ -44,7 +44,7 @@ RenderStats render(const RenderSettings& settings, std::vector<std::string>* sai
         if (said != nullptr) said->push_back(line);
     };
     const RenderedPicture rendered =
-        render_picture(changed, settings, {DeviceChoice{true, 0, {}, ""}}, events, stop);
+        render_picture(changed, settings, {threads_choice()}, events, stop);
     return rendered.stats;
 }
 

@@ -211,6 +211,32 @@ class Dies(WrongDriver):
                         self.assertIn(word, line)
                     self.assertIn("rendering on threads instead", lines[-2])
 
+    def test_by_returning_an_error(self):
+        for place, call in self.PLACES.items():
+            with self.subTest(place=place):
+                result = self.die(place, "error", "--stats=json", CL_SHIM_DIE_AT=str(call))
+                self.assertEqual(result.returncode, 0, result.stderr)
+                lines = result.stderr.splitlines()
+                self.assertEqual(len(lines), 2, result.stderr)
+                self.assertIn("CL_OUT_OF_HOST_MEMORY", lines[0])
+                self.assertIn("rendering on threads instead", lines[1])
+                stats = json.loads(result.stdout)
+                self.assertEqual(stats["image"]["hash"], self.right)
+                self.assertIn("CL_OUT_OF_HOST_MEMORY", stats["devices"][0]["failure"])
+                result = self.die(place, "error", "--no-fallback", CL_SHIM_DIE_AT=str(call))
+                self.assertEqual(result.returncode, 5, result.stderr)
+
+    def test_by_returning_an_error_beside_others(self):
+        for devices, other in [("pocl,threads", "threads"), ("auto", None)]:
+            result = self.run_with({"CL_SHIM_DIE_IN": "clGetDeviceIDs", "CL_SHIM_DIE_BY": "error"},
+                                   *self.ARGUMENTS[:4], "--stats=json", "--device", devices)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            stats = json.loads(result.stdout)
+            self.assertEqual(stats["image"]["hash"], self.right)
+            if other:
+                self.assertIn("CL_OUT_OF_HOST_MEMORY", stats["devices"][0]["failure"])
+                self.assertIn("continuing without it", result.stderr)
+
     def test_once_is_tried_once_more(self):
         once = str(self.folder / "died")
         result = self.die("clBuildProgram", "abort", "--stats=json", CL_SHIM_DIE_ONCE=once)
@@ -281,6 +307,20 @@ class Dies(WrongDriver):
         answer = json.loads(result.stdout)
         self.assertEqual(answer["devices"], [])
         self.assertIn("crashes while listing its devices (Aborted)", answer["problems"][0])
+
+
+class IsNotAsked(WrongDriver):
+    def test_by_what_needs_no_opencl(self):
+        """A driver that would end the process when asked for its platforms."""
+        picture = str(self.folder / "out.png")
+        for arguments in [["--help"], ["--version"], ["render", "--help"], ["scene", "info", SCENE],
+                          ["scene", "check", SCENE], ["explain", SCENE, "--pixel", "5,5"],
+                          ["render", SCENE, "--size", "20", "--device", "threads", "--isolate", "never",
+                           "-o", picture], ["compare", picture, picture]]:
+            with self.subTest(arguments=arguments):
+                result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs",
+                                        "CL_SHIM_DIE_BY": "abort"}, *arguments)
+                self.assertEqual(result.returncode, 0, result.stderr)
 
 
 class DiesInABatch(WrongDriver):

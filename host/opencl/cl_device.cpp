@@ -75,12 +75,23 @@ std::vector<cl::Device> devices_of(const cl::Platform& platform) {
     return devices;
 }
 
+/// `problems` and `failure` as of list_cl_devices.
+struct Trouble {
+    std::vector<std::string>& problems;
+    std::string* failure;
+
+    void add_failure(std::string text) {
+        if (failure != nullptr && failure->empty()) *failure = text;
+        problems.push_back(std::move(text));
+    }
+};
+
 void list_platform(const cl::Platform& platform, int platform_index, std::vector<ClDevice>& found,
-                   std::vector<std::string>& problems) {
+                   Trouble trouble) {
     const std::string name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
     try {
         const std::vector<cl::Device> devices = devices_of(platform);
-        if (devices.empty()) problems.push_back(why_no_device(name));
+        if (devices.empty()) trouble.problems.push_back(why_no_device(name));
         int device_index = 0;
         for (const cl::Device& device : devices) {
             ClDevice described = describe(device);
@@ -91,7 +102,7 @@ void list_platform(const cl::Platform& platform, int platform_index, std::vector
             found.push_back(std::move(described));
         }
     } catch (const cl::Error& error) {
-        problems.push_back(
+        trouble.add_failure(
             fmt::format("OpenCL platform '{}' cannot list its devices: {}; check its driver", name,
                         cl_status_text(error.err())));
     }
@@ -99,20 +110,26 @@ void list_platform(const cl::Platform& platform, int platform_index, std::vector
 
 }  // namespace
 
-std::vector<ClDevice> list_cl_devices(std::vector<std::string>& problems) {
+std::vector<ClDevice> list_cl_devices(std::vector<std::string>& problems, std::string* failure) {
     std::vector<ClDevice> found;
     std::vector<cl::Platform> platforms;
+    Trouble trouble{problems, failure};
     try {
         cl::Platform::get(&platforms);
     } catch (const cl::Error& error) {
-        problems.push_back(
-            fmt::format("no OpenCL platform: {}; install pocl-opencl-icd or a GPU "
-                        "driver with OpenCL",
-                        cl_status_text(error.err())));
+        std::string text = fmt::format(
+            "no OpenCL platform: {}; install pocl-opencl-icd or a GPU "
+            "driver with OpenCL",
+            cl_status_text(error.err()));
+        if (error.err() == CL_PLATFORM_NOT_FOUND_KHR) {
+            problems.push_back(std::move(text));
+        } else {
+            trouble.add_failure(std::move(text));
+        }
         return found;
     }
     for (std::size_t i = 0; i < platforms.size(); ++i) {
-        list_platform(platforms[i], static_cast<int>(i), found, problems);
+        list_platform(platforms[i], static_cast<int>(i), found, trouble);
     }
     return found;
 }

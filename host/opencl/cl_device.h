@@ -29,7 +29,9 @@ struct ClDevice {
 };
 
 /// Every OpenCL device, in the loader's order; empty when there is no OpenCL. Never throws for a
-/// missing or broken platform: what went wrong is added to `problems`, one line each.
-std::vector<ClDevice> list_cl_devices(std::vector<std::string>& problems);
+/// missing or broken platform: what went wrong is added to `problems`, one line each; the first
+/// that a driver reported as an error, rather than having no device, is copied to `failure`.
+std::vector<ClDevice> list_cl_devices(std::vector<std::string>& problems,
+                                      std::string* failure = nullptr);
 
 }  // namespace rt

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <functional>
 #include <optional>
 #include <system_error>
 
 #include "host/error.h"
+#include "host/number.h"
 #include "host/opencl/gpu_nodes.h"
 #include "host/pocl/pocl_environment.h"
 
@@ -19,13 +19,6 @@ namespace rt {
 namespace {
 
 constexpr int most_threads_asked = 4096;
-
-std::optional<int> parse_number(std::string_view text) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size() || number < 0) return std::nullopt;
-    return number;
-}
 
 std::string lower(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -52,7 +45,7 @@ using Test = std::function<bool(const ClDevice&)>;
 /// The test for a spec that is neither threads nor "".
 Test test_for(const std::string& spec) {
     const auto colon = spec.find(':');
-    if (const auto index = parse_number(spec)) {
+    if (const auto index = parse_number<int>(spec); index && *index >= 0) {
         return [=](const ClDevice& device) { return device.index == *index; };
     }
     if (spec == "cpu") return [](const ClDevice& device) { return device.is_cpu; };
@@ -68,9 +61,9 @@ Test test_for(const std::string& spec) {
         };
     }
     if (colon != std::string::npos) {
-        const auto platform = parse_number(std::string_view(spec).substr(0, colon));
-        const auto index = parse_number(std::string_view(spec).substr(colon + 1));
-        if (platform && index) {
+        const auto platform = parse_number<int>(std::string_view(spec).substr(0, colon));
+        const auto index = parse_number<int>(std::string_view(spec).substr(colon + 1));
+        if (platform && index && *platform >= 0 && *index >= 0) {
             return [=](const ClDevice& device) {
                 return device.platform_index == *platform && device.device_index == *index;
             };
@@ -98,12 +91,6 @@ std::vector<std::string> specs_of(const std::string& list) {
                     fmt::format("--device '{}': a name is missing beside a comma", list));
     }
     return specs;
-}
-
-DeviceChoice threads_choice() {
-    DeviceChoice choice;
-    choice.use_threads = true;
-    return choice;
 }
 
 /// Resolves a list of specs, listing devices at most once.
@@ -137,7 +124,10 @@ class DeviceFinder {
                 throw Error(ExitCode::usage,
                             "--device names threads twice, with different numbers of them");
             }
-            if (choice.use_threads || choice.device.index == other.device.index) return;
+            if (choice.use_threads ||
+                (choice.device.index == other.device.index && choice.failure == other.failure)) {
+                return;
+            }
         }
         found.push_back(choice);
     }
@@ -152,7 +142,18 @@ class DeviceFinder {
             return *choice;
         }
         const std::vector<ClDevice>& devices = listed();
-        return choose_device(spec, devices, problems_);
+        if (!failure_.empty() && !is_auto(spec) &&
+            std::none_of(devices.begin(), devices.end(), test_for(spec))) {
+            DeviceChoice unlisted;
+            unlisted.device.name = "--device " + spec;
+            unlisted.failure = unlisted.device.name + ": " + failure_;
+            return unlisted;
+        }
+        DeviceChoice choice = choose_device(spec, devices, problems_);
+        if (choice.use_threads && choice.note.empty() && !failure_.empty()) {
+            choice.note = "rendering on threads: " + failure_;
+        }
+        return choice;
     }
 
     void add_usable(std::vector<DeviceChoice>& found) {
@@ -166,7 +167,7 @@ class DeviceFinder {
 
     const std::vector<ClDevice>& listed() {
         if (!devices_) {
-            devices_ = list_cl_devices(problems_);
+            devices_ = list_cl_devices(problems_, &failure_);
             if (loaded_) loaded_();
         }
         return *devices_;
@@ -176,6 +177,7 @@ class DeviceFinder {
     const std::function<void()> loaded_;
     std::optional<std::vector<ClDevice>> devices_;
     std::vector<std::string> problems_;
+    std::string failure_;  ///< of the first driver that could not list its devices
 };
 
 /// GPUs before other accelerators; never CPUs: threads run the same kernels there.
@@ -197,11 +199,17 @@ DeviceChoice best_device(const std::vector<ClDevice>& devices) {
 
 }  // namespace
 
+DeviceChoice threads_choice() {
+    DeviceChoice choice;
+    choice.use_threads = true;
+    return choice;
+}
+
 bool names_threads(const std::string& spec, DeviceChoice& choice) {
     if (spec != "threads" && spec.rfind("threads:", 0) != 0) return false;
     choice.use_threads = true;
     if (spec == "threads") return true;
-    const auto count = parse_number(std::string_view(spec).substr(8));
+    const auto count = parse_number<int>(std::string_view(spec).substr(8));
     if (!count || *count < 1 || *count > most_threads_asked) {
         throw Error(ExitCode::usage,
                     fmt::format("--device '{}': the number of threads must be 1 to {}", spec,

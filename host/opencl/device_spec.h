@@ -14,14 +14,18 @@ namespace rt {
 /// What `--device` names: the pthreads baseline, or one OpenCL device.
 struct DeviceChoice {
     bool use_threads = false;
-    int threads = 0;   ///< from threads:N; 0 when not given
-    ClDevice device;   ///< meaningless for threads
-    std::string note;  ///< why it may be unexpected, for stderr; often empty
+    int threads = 0;      ///< from threads:N; 0 when not given
+    ClDevice device;      ///< meaningless for threads
+    std::string failure;  ///< why its driver could not list it; then only device.name has a meaning
+    std::string note;     ///< why it may be unexpected, for stderr; often empty
 };
 
 /// Whether the text names the pthreads baseline ("threads" or "threads:N"), which needs no OpenCL.
 /// Throws Error (ExitCode::usage) for threads:0 and the like.
 bool names_threads(const std::string& spec, DeviceChoice& choice);
+
+/// As many threads as there are cores, or as settings say.
+DeviceChoice threads_choice();
 
 /// Whether the text leaves the choice to the program: "auto" or "".
 bool is_auto(const std::string& spec);

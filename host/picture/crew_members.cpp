@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/crew_members.h"
 
+#include "host/error.h"
 #include "host/opencl/cl_renderer.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/picture/tile_check.h"
@@ -71,6 +72,21 @@ CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& s
     return member;
 }
 
+template <typename T>
+CrewMember<T> unlisted_member(const SharedScene<T>& scene, const ThreadsOptions& stand_in,
+                              const DeviceChoice& choice) {
+    CrewMember<T> member = threads_member<T>(scene, stand_in);
+    member.name = choice.device.name;
+    member.make = [failure = choice.failure]() -> std::unique_ptr<Renderer<T>> {
+        throw Error(ExitCode::device, failure);
+    };
+    return member;
+}
+
+template CrewMember<float> unlisted_member(const SharedScene<float>&, const ThreadsOptions&,
+                                           const DeviceChoice&);
+template CrewMember<double> unlisted_member(const SharedScene<double>&, const ThreadsOptions&,
+                                            const DeviceChoice&);
 template CrewMember<float> threads_member(const SharedScene<float>&, const ThreadsOptions&);
 template CrewMember<double> threads_member(const SharedScene<double>&, const ThreadsOptions&);
 template CrewMember<float> device_member(const SharedScene<float>&, const RenderSettings&,

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "host/flatten/flat_scene.h"
-#include "host/opencl/cl_device.h"
+#include "host/opencl/device_spec.h"
 #include "host/picture/crew.h"
 #include "host/picture/render_settings.h"
 #include "host/render/threads_renderer.h"
@@ -32,5 +32,11 @@ CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& s
                             const ClDevice& device, bool refines, bool is_alone,
                             const std::shared_ptr<OpenDevices>& open,
                             const std::function<void()>& loaded);
+
+/// A device whose driver could not list it: creating its renderer throws Error
+/// (ExitCode::device).
+template <typename T>
+CrewMember<T> unlisted_member(const SharedScene<T>& scene, const ThreadsOptions& stand_in,
+                              const DeviceChoice& choice);
 
 }  // namespace rt

@@ -42,7 +42,8 @@ std::string joined_names(const std::vector<DeviceChoice>& devices) {
 std::string inexact_names(const std::vector<DeviceChoice>& devices) {
     std::string names;
     for (const DeviceChoice& choice : devices) {
-        const bool is_exact = choice.use_threads || choice.device.rounds_correctly;
+        const bool is_exact =
+            choice.use_threads || choice.device.rounds_correctly || !choice.failure.empty();
         if (!is_exact) names += choice.device.name + "\n";
     }
     return names;
@@ -63,6 +64,7 @@ void say_ignored_settings(const DeviceChoice& choice, const RenderSettings& sett
     if (settings.schedule != Schedule::tiles) {
         say("--schedule is for --device threads; OpenCL devices ignore it");
     }
+    if (!choice.failure.empty()) return;
     if (settings.threads > 0 && choice.device.platform != pocl_platform) {
         say("--threads is for --device threads and PoCL; " + choice.device.name + " ignores it");
     }

@@ -169,6 +169,10 @@ class Job {
         const bool is_alone = devices.size() == 1;
         std::vector<CrewMember<T>> members;
         for (const DeviceChoice& choice : devices) {
+            if (!choice.failure.empty()) {
+                members.push_back(unlisted_member<T>(scene_, spare_threads(), choice));
+                continue;
+            }
             if (!choice.use_threads) {
                 members.push_back(device_member<T>(
                     scene_, settings_, choice.device, stats_.aa.refines(), is_alone,

@@ -105,7 +105,7 @@ class Plan {
         picture.precision = Precision::float64;
         Scene scene = loaded.scene;
         apply_overrides(scene, picture);
-        RenderedPicture rendered = render_quietly(scene, picture, threads_device());
+        RenderedPicture rendered = render_quietly(scene, picture, threads_choice());
         if (!rendered.stats.complete()) return false;
         rendered.stats.scene.path = loaded.path;
         rendered.stats.phases.load = loaded.load_seconds;
@@ -114,7 +114,7 @@ class Plan {
         result.references.push_back(rendered.stats);
         references_.push_back(std::move(rendered.picture));
         picture.precision = Precision::float32;
-        const RenderedPicture in_float = render_quietly(scene, picture, threads_device());
+        const RenderedPicture in_float = render_quietly(scene, picture, threads_choice());
         hashes_[Precision::float32] = in_float.stats.image_hash;
         return in_float.stats.complete();
     }

@@ -117,7 +117,7 @@ class ThreadsHashes {
             settings.lanes = 0;
             Scene scene = scene_;
             apply_overrides(scene, settings);
-            const RenderStats stats = render_quietly(scene, settings, threads_device()).stats;
+            const RenderStats stats = render_quietly(scene, settings, threads_choice()).stats;
             if (stats.complete()) place->second = stats.image_hash;
         }
         return place->second;

@@ -104,7 +104,7 @@ Half make_half(Scene scene, int seed, const ConvergeOptions& options) {
     }
     RenderSettings settings = timed_settings();
     settings.precision = Precision::float64;
-    RenderedPicture rendered = render_quietly(scene, settings, threads_device());
+    RenderedPicture rendered = render_quietly(scene, settings, threads_choice());
     half.complete = rendered.stats.complete();
     half.picture = std::move(rendered.picture);
     if (half.complete && !half.path.empty() && count_non_finite(half.picture) == 0) {

@@ -192,7 +192,7 @@ void RenderConsole::wait() {
 }
 
 void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats) {
-    if (!stats.device.fallback_from.empty()) devices = {DeviceChoice{true, 0, {}, ""}};
+    if (!stats.device.fallback_from.empty()) devices = {threads_choice()};
     for (DeviceChoice& device : devices) device.note.clear();
 }
 

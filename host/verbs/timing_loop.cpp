@@ -93,12 +93,6 @@ RenderedPicture render_quietly(const Scene& scene, const RenderSettings& setting
     return render_picture(scene, settings, std::vector{device}, events, stop_flag());
 }
 
-DeviceChoice threads_device() {
-    DeviceChoice choice;
-    choice.use_threads = true;
-    return choice;
-}
-
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
     const Stopwatch watch;
     Stopwatch round_watch;

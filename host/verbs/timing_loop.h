@@ -41,9 +41,6 @@ RenderSettings timed_settings();
 RenderedPicture render_quietly(const Scene& scene, const RenderSettings& settings,
                                const DeviceChoice& device);
 
-/// Threads, as many as the settings or this processor have.
-DeviceChoice threads_device();
-
 /// Renders every case once to warm up, then again `repeats` times; the rounds go over all cases (A
 /// B A B), so that a slow moment of the machine hits all alike. Every picture is judged; a case
 /// that is wrong or fails is not run again. A signal ends it after the pictures finished so far.

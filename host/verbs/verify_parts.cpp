@@ -69,9 +69,7 @@ bool render_part_again(const MergedPicture& merged, const std::string& scene, do
     }
     Scene loaded = load_scene(scene_to_load(header, scene), settings.light);
     apply_overrides(loaded, settings);
-    DeviceChoice threads;
-    threads.use_threads = true;
-    return render_picture(loaded, settings, {threads}, {}, stop_flag()).stats.complete();
+    return render_picture(loaded, settings, {threads_choice()}, {}, stop_flag()).stats.complete();
 }
 
 }  // namespace rt
