@@ -221,3 +221,28 @@ class KernelCache(CliTest):
         self.render_on_pocl(POCL_CACHE_DIR=str(self.folder / "cold"), PATH="")
         self.assertTrue(list((self.folder / "cold").iterdir()))
 
+    def hash_on_pocl(self, **env):
+        """With fallback."""
+        result = self.run_cli("render", scene_path("single-sphere"), "--size", "8", "--device", "pocl",
+                              "--deadline", "5", env=env)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stderr.split()[-1]
+
+    def test_damaged_costs_no_picture(self):
+        """Each file of it: cut short, empty, or other bytes."""
+        right = self.hash_of("single-sphere", "--size", "8", "--device", "threads")
+        cache = self.folder / "cold"
+        self.assertEqual(self.hash_on_pocl(POCL_CACHE_DIR=str(cache)), right)
+        good = {file: file.read_bytes() for file in cache.rglob("*") if file.is_file()}
+        self.assertTrue(any(file.suffix == ".so" for file in good))
+        for damage in [lambda data: data[:len(data) // 2], lambda data: b"",
+                       lambda data: data[:64] + bytes(255 - byte for byte in data[64:])]:
+            for file, data in good.items():
+                file.write_bytes(damage(data))
+            self.assertEqual(self.hash_on_pocl(POCL_CACHE_DIR=str(cache)), right)
+
+    def test_full_disk_costs_no_picture(self):
+        right = self.hash_of("single-sphere", "--size", "8", "--device", "threads")
+        for size in ["8k", "64k"]:
+            place = self.small_disk(f"size={size}", size)
+            self.assertEqual(self.hash_on_pocl(POCL_CACHE_DIR=str(place)), right)

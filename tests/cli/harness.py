@@ -109,6 +109,19 @@ class CliTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         return result
 
+    def small_disk(self, options, name="disk"):
+        """A small file system of its own; the test is skipped where that is not allowed."""
+        if os.geteuid() != 0 or not shutil.which("mount"):
+            self.skipTest("mounting a tmpfs takes root")
+        place = self.folder / name
+        place.mkdir()
+        done = subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", place],
+                              capture_output=True, text=True, timeout=HANG_LIMIT, check=False)
+        if done.returncode != 0:
+            self.skipTest(f"cannot mount a tmpfs: {done.stderr.strip()}")
+        self.addCleanup(subprocess.run, ["umount", "-l", place], check=False, timeout=HANG_LIMIT)
+        return place
+
     def hash_of(self, scene, *arguments, **more):
         result = self.render(scene, *arguments, **more)
         found = image_hash(result.stderr.strip().splitlines()[-1])

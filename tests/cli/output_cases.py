@@ -204,21 +204,8 @@ class NoRoom(CliTest):
                 self.assert_refused(result, 4, name, "ulimit")
                 self.assert_old_file_untouched(folder, name)
 
-    def mount(self, options):
-        """A small file system of its own; the test is skipped where that is not allowed."""
-        if os.geteuid() != 0 or not shutil.which("mount"):
-            self.skipTest("mounting a tmpfs takes root")
-        place = self.folder / "disk"
-        place.mkdir()
-        done = subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", place],
-                              capture_output=True, text=True, timeout=HANG_LIMIT, check=False)
-        if done.returncode != 0:
-            self.skipTest(f"cannot mount a tmpfs: {done.stderr.strip()}")
-        self.addCleanup(subprocess.run, ["umount", "-l", place], check=False, timeout=HANG_LIMIT)
-        return place
-
     def test_full_disk(self):
-        place = self.mount("size=8k")
+        place = self.small_disk("size=8k")
         for name in ["out.pfm", "out.png", "out.exr"]:
             with self.subTest(name=name):
                 (place / name).write_text(self.OLD)
@@ -229,7 +216,7 @@ class NoRoom(CliTest):
                 (place / name).unlink()
 
     def test_read_only_disk(self):
-        place = self.mount("ro,size=64k")
+        place = self.small_disk("ro,size=64k")
         result = self.run_cli("render", scene_path(SCENE), "--size", "8", "-o", place / "out.png")
         self.assert_refused(result, 4, "out.png", "write")
 
