@@ -134,7 +134,8 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
         "--timeout", "S", "stop after S seconds and save what is finished",
         [&](const std::string& text) { render.timeout = parse_seconds("--timeout", text, 0.001); });
     verb.flag("--watch", render.watch,
-              "render again whenever the scene's file or one of its models changes, until Ctrl-C");
+              "render again whenever the scene's file or one of its models changes, until Ctrl-C "
+              "or, with --show, until the window is closed");
     verb.flag("--fresh", render.fresh,
               "ignore what an interrupted render left in FILE.mbj next to the output");
     verb.flag("--resume", render.resume,

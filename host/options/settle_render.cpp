@@ -53,10 +53,8 @@ void settle_watch(const RenderOptions& render) {
     if (render.is_batch() || render.scene == stdin_scene || render.shares) {
         throw Error(ExitCode::usage, "--watch is for one scene file");
     }
-    if (render.output == stdout_path || render.timeout > 0 || render.view.window) {
-        throw Error(ExitCode::usage,
-                    "--watch goes on until Ctrl-C: not with -o -, --timeout or --show (--preview "
-                    "and --tev show each picture)");
+    if (render.output == stdout_path || render.timeout > 0) {
+        throw Error(ExitCode::usage, "--watch goes on until Ctrl-C: not with -o - or --timeout");
     }
 }
 

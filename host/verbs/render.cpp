@@ -50,7 +50,8 @@ void say_unsaved(const RenderOptions& options) {
     print_message("mirrorball: without -o FILE the picture is not saved\n");
 }
 
-int render_scene(RenderOptions options, double seconds_before_main) {
+/// `kept`: viewers that stay open for the next picture; null: they wait to be closed.
+int render_scene(RenderOptions options, double seconds_before_main, LivePicture* kept) {
     const Stopwatch total;
     start_timeout(options);
     check_output(options);
@@ -67,7 +68,9 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     const std::optional<Picture> reference = load_reference(options, scene);
     const double reference_seconds = watch.lap();
     say_unsaved(options);
-    RenderConsole console(options);
+    const auto own = kept == nullptr ? make_live_picture(options) : nullptr;
+    LivePicture* const live = kept == nullptr ? own.get() : kept;
+    RenderConsole console(options, live);
     RenderedPicture rendered =
         render_picture(scene, options, std::move(devices), console.events(), stop_flag());
     watch_worker(false);
@@ -80,35 +83,39 @@ int render_scene(RenderOptions options, double seconds_before_main) {
     const std::string path = save_picture(rendered, options);
     stats.phases.write = watch.seconds();
     stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
-    console.finish(rendered.picture);
+    if (live != nullptr) live->finish(rendered.picture);
     if (reference) stats.error = image_error(rendered.picture, *reference);
     print_results(stats, options);
     const bool has_aovs = write_aovs(scene, stats, options);
     const int status = has_aovs ? verdict(rendered, path) : exit_code_of_stop(stop_flag());
-    console.wait();
+    if (own) wait_for_viewers(*own);
     return status;
+}
+
+/// Renders again and again, in the same viewers, until the window is closed.
+int render_and_watch(const RenderOptions& options, double seconds_before_main) {
+    const auto live = make_live_picture(options);
+    const auto render = [&] {
+        return render_scene(options, std::exchange(seconds_before_main, 0.0), live.get());
+    };
+    const auto is_over = [&] { return options.view.window && live->is_over(); };
+    return watch_scene(options.scene, options.quiet, render, is_over);
 }
 
 int render_here(const RenderOptions& options, double seconds_before_main) {
     if (options.is_batch()) return render_batch(options);
-    return render_scene(options, seconds_before_main);
-}
-
-int render_once(const RenderOptions& options, double seconds_before_main) {
-    if (options.isolate && !is_worker() && needs_opencl(options.device)) {
-        return render_isolated(options, seconds_before_main, render_here);
-    }
-    return render_here(options, seconds_before_main);
+    if (options.watch) return render_and_watch(options, seconds_before_main);
+    return render_scene(options, seconds_before_main, nullptr);
 }
 
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
     if (options.mpi) return render_mpi(options);
-    if (!options.watch || is_worker()) return render_once(options, seconds_before_main);
-    return watch_scene(options.scene, options.quiet, [&] {
-        return render_once(options, std::exchange(seconds_before_main, 0.0));
-    });
+    if (options.isolate && !is_worker() && needs_opencl(options.device)) {
+        return render_isolated(options, seconds_before_main, render_here);
+    }
+    return render_here(options, seconds_before_main);
 }
 
 }  // namespace rt

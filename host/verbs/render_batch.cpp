@@ -157,11 +157,12 @@ class Batch {
         Stopwatch watch;
         const Scene& scene = load(item, options);
         const double load_seconds = watch.lap();
-        RenderConsole console(options);
+        const auto live = make_live_picture(options);
+        RenderConsole console(options, live.get());
         RenderedPicture rendered =
             render_picture(scene, options, devices_, console.events(), stop_flag(), &cache_);
         prepare_for_next(devices_, rendered.stats);
-        console.finish(rendered.picture);
+        if (live) live->finish(rendered.picture);
         if (!options.failed_device.empty()) {
             rendered.stats.device.fallback_from = options.failed_device;
         }
@@ -174,7 +175,7 @@ class Batch {
             return finish_picture(std::move(rendered), options, total,
                                   [&](int status) { log_.add_finished(number, status); });
         });
-        console.wait();
+        if (live) wait_for_viewers(*live);
     }
 
     /// A camera path's scene is loaded once. Throws BatchEnds where no frame can be rendered.

@@ -150,12 +150,29 @@ std::function<void(const std::string& line)> message_printer(const RenderOptions
     };
 }
 
-RenderConsole::RenderConsole(const RenderOptions& options) {
+std::unique_ptr<LivePicture> make_live_picture(const RenderOptions& options) {
+    const std::string name = options.output.empty() ? options.scene : options.output;
+    auto viewers = make_viewers(options.view, name, options.encoding, message_printer(options));
+    return viewers.empty() ? nullptr : std::make_unique<LivePicture>(std::move(viewers));
+}
+
+void wait_for_viewers(LivePicture& live) {
+    const bool before = stop_quietly(true);
+    live.wait([] { return stop_flag() != 0; });
+    stop_quietly(before);
+}
+
+RenderConsole::RenderConsole(const RenderOptions& options, LivePicture* live) {
     events_.message = message_printer(options);
     if (options.verbose) events_.detail = events_.message;
     const ProgressMode progress = progress_mode_for_stderr(options);
     if (progress == ProgressMode::bar) events_.compiling = events_.message;
-    show(options);
+    if (live != nullptr) {
+        events_.began = [live](int width, int height) { live->begin(width, height); };
+        events_.rendered = [live](const Rect& part, std::vector<float> rgb) {
+            live->put(part, std::move(rgb));
+        };
+    }
     const bool has_bar = !options.view.preview || options.progress != ProgressMode::automatic;
     events_.started = [this, progress, has_bar](const TileQueue& queue) {
         install_stop_signals();
@@ -167,28 +184,6 @@ RenderConsole::RenderConsole(const RenderOptions& options) {
         progress_.reset();
     };
     events_.driver_loaded = restore_stop_signals;
-}
-
-void RenderConsole::show(const RenderOptions& options) {
-    const std::string name = options.output.empty() ? options.scene : options.output;
-    auto viewers = make_viewers(options.view, name, options.encoding, events_.message);
-    if (viewers.empty()) return;
-    live_.emplace(std::move(viewers));
-    events_.began = [this](int width, int height) { live_->begin(width, height); };
-    events_.rendered = [this](const Rect& part, std::vector<float> rgb) {
-        live_->put(part, std::move(rgb));
-    };
-}
-
-void RenderConsole::finish(const Picture& picture) {
-    if (live_) live_->finish(picture);
-}
-
-void RenderConsole::wait() {
-    if (!live_) return;
-    const bool before = stop_quietly(true);
-    live_->wait([] { return stop_flag() != 0; });
-    stop_quietly(before);
 }
 
 void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats) {

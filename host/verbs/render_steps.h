@@ -45,26 +45,23 @@ Scene scene_to_render(const RenderOptions& options);
 /// with --quiet. The options must outlive it.
 std::function<void(const std::string& line)> message_printer(const RenderOptions& options);
 
-/// Shows a render's events on stderr and in viewers. The options must outlive it.
+/// The viewers that the options ask for; null without any. The options must outlive it.
+std::unique_ptr<LivePicture> make_live_picture(const RenderOptions& options);
+
+/// After the final picture: waits until the windows are closed and viewers have the picture, or a
+/// stop signal comes, of which nothing is said: all is done.
+void wait_for_viewers(LivePicture& live);
+
+/// Shows a render's events on stderr and in viewers, if there are any. All must outlive it.
 class RenderConsole {
    public:
-    explicit RenderConsole(const RenderOptions& options);
+    RenderConsole(const RenderOptions& options, LivePicture* live);
     RenderConsole(const RenderConsole&) = delete;
     RenderConsole& operator=(const RenderConsole&) = delete;
 
     const RenderEvents& events() const { return events_; }
 
-    /// Shows the final picture in the viewers, if any.
-    void finish(const Picture& picture);
-
-    /// Waits until the windows are closed and viewers have the picture, or a stop signal comes, of
-    /// which nothing is said: all is done.
-    void wait();
-
    private:
-    void show(const RenderOptions& options);
-
-    std::optional<LivePicture> live_;
     std::optional<ProgressReporter> progress_;
     RenderEvents events_;
 };

@@ -13,6 +13,7 @@
 #include "host/error.h"
 #include "host/stop_signal.h"
 #include "host/verbs/scene_files.h"
+#include "host/worker.h"
 
 namespace rt {
 
@@ -34,11 +35,12 @@ std::vector<FileState> states_of(const std::vector<std::string>& files) {
     return states;
 }
 
-/// Waits until a file differs from `before` and has been left alone for a moment: an editor may
-/// still be writing it.
-void await_change(const std::vector<std::string>& files, const std::vector<FileState>& before) {
+/// Waits until `is_over`, or a file differs from `before` and has been left alone for a moment: an
+/// editor may still be writing it.
+void await_change(const std::vector<std::string>& files, const std::vector<FileState>& before,
+                  const std::function<bool()>& is_over) {
     std::vector<FileState> last = before;
-    while (stop_flag() == 0) {
+    while (stop_flag() == 0 && !is_over()) {
         std::this_thread::sleep_for(look_interval);
         std::vector<FileState> now = states_of(files);
         if (now != before && now == last && std::get<1>(now.front()) > 0) return;
@@ -48,8 +50,9 @@ void await_change(const std::vector<std::string>& files, const std::vector<FileS
 
 }  // namespace
 
-int watch_scene(const std::string& scene, bool is_quiet, const std::function<int()>& render) {
-    while (stop_flag() == 0) {
+int watch_scene(const std::string& scene, bool is_quiet, const std::function<int()>& render,
+                const std::function<bool()>& is_over) {
+    while (stop_flag() == 0 && !is_over()) {
         const FileState scene_before = states_of({scene}).front();
         const std::vector<std::string> files = scene_files(scene);
         std::vector<FileState> before = states_of(files);
@@ -58,13 +61,14 @@ int watch_scene(const std::string& scene, bool is_quiet, const std::function<int
             render();
             flush_results();
         } catch (const Error& error) {
+            watch_worker(false);
             print_error(error.what());
         }
-        if (stop_flag() != 0) break;
+        if (stop_flag() != 0 || is_over()) break;
         if (!is_quiet) print_message("mirrorball: waiting for " + scene + " to change\n");
-        await_change(files, before);
+        await_change(files, before, is_over);
     }
-    return exit_code_of_stop(stop_flag());
+    return stop_flag() == 0 ? 0 : exit_code_of_stop(stop_flag());
 }
 
 }  // namespace rt

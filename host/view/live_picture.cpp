@@ -26,7 +26,7 @@ void LivePicture::begin(int width, int height) {
     height_ = height;
     parts_.clear();
     has_begun_ = true;
-    changed_.notify_all();
+    is_shown_ = is_over_ = false;
 }
 
 void LivePicture::put(const Rect& part, std::vector<float> rgb) {
@@ -58,9 +58,10 @@ bool LivePicture::any_open() const {
 
 void LivePicture::run() {
     std::unique_lock lock(mutex_);
-    while (!is_done_ && !final_) {
+    while (!is_done_) {
         const bool begins = std::exchange(has_begun_, false);
         const std::vector<Part> parts = std::exchange(parts_, {});
+        std::optional<Picture> last = std::exchange(final_, {});
         if (begins) shown_ = {width_, height_, 3, {}};
         lock.unlock();
         shown_.pixels.resize(3 * static_cast<std::size_t>(shown_.width) * shown_.height);
@@ -70,30 +71,23 @@ void LivePicture::run() {
             changed.push_back(part.rect);
         }
         tell(begins, changed);
+        if (last) show_last(*std::move(last));
         lock.lock();
+        if (last && !has_begun_) is_shown_ = true;
+        is_over_ = is_shown_ && !any_open();
+        changed_.notify_all();
         changed_.wait_for(lock, interval, [this] { return is_done_ || final_; });
     }
-    if (final_) {
-        const bool begins = has_begun_ || shown_.width == 0;
-        shown_ = std::move(*final_);
-        lock.unlock();
-        for (const auto& viewer : viewers_) {
-            if (begins) viewer->begin(shown_.width, shown_.height);
-            viewer->finish(shown_);
-            viewer->tick(shown_);
-        }
-        lock.lock();
-        is_shown_ = true;
-        changed_.notify_all();
+}
+
+void LivePicture::show_last(Picture picture) {
+    const bool has_begun = shown_.width > 0;
+    shown_ = std::move(picture);
+    for (const auto& viewer : viewers_) {
+        if (!has_begun) viewer->begin(shown_.width, shown_.height);
+        viewer->finish(shown_);
+        viewer->tick(shown_);
     }
-    while (!is_done_ && any_open()) {
-        lock.unlock();
-        tell(false, {});
-        lock.lock();
-        changed_.wait_for(lock, interval, [this] { return is_done_; });
-    }
-    is_done_ = true;
-    changed_.notify_all();
 }
 
 LivePicture::~LivePicture() {
@@ -114,7 +108,12 @@ void LivePicture::finish(Picture picture) {
 
 void LivePicture::wait(const std::function<bool()>& is_stopped) {
     std::unique_lock lock(mutex_);
-    while (!is_done_ && !is_stopped()) changed_.wait_for(lock, interval);
+    while (!is_over_ && !is_stopped()) changed_.wait_for(lock, interval);
+}
+
+bool LivePicture::is_over() {
+    const std::scoped_lock lock(mutex_);
+    return is_over_;
 }
 
 }  // namespace rt

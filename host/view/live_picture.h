@@ -24,18 +24,21 @@ class LivePicture {
     LivePicture(const LivePicture&) = delete;
     LivePicture& operator=(const LivePicture&) = delete;
 
-    /// Begins a picture of this size, discarding the previous one, if any.
+    /// Begins a picture of this size, in place of the previous one, if any.
     void begin(int width, int height);
 
     /// Adds the pixels of a rectangle, three numbers each, row by row; callable from any thread.
     void put(const Rect& part, std::vector<float> rgb);
 
-    /// Shows the final picture, waiting up to five seconds for viewers that hang. Call it once.
+    /// Shows the final picture, waiting up to five seconds for viewers that hang.
     void finish(Picture picture);
 
     /// After `finish`: waits until all windows are closed and viewers have the picture, or
     /// `is_stopped`.
     void wait(const std::function<bool()>& is_stopped);
+
+    /// After `finish`: whether all windows are closed and viewers have the picture.
+    bool is_over();
 
    private:
     struct Part {
@@ -45,6 +48,7 @@ class LivePicture {
 
     void run();
     void add(const Part& part);
+    void show_last(Picture picture);
     void tell(bool begins, const std::vector<Rect>& parts);
     bool any_open() const;
 
@@ -56,6 +60,7 @@ class LivePicture {
     bool has_begun_ = false;   ///< begun, but not yet sent to viewers
     std::optional<Picture> final_;
     bool is_shown_ = false;  ///< the final picture is
+    bool is_over_ = false;   ///< it is, and no viewer wants anything more
     bool is_done_ = false;
     Picture shown_;  ///< so far; used only by the thread
     std::thread thread_;

@@ -48,6 +48,7 @@ const Library* load(std::string& why) {
     find(library.CreateRenderer, "SDL_CreateRenderer");
     find(library.RenderSetLogicalSize, "SDL_RenderSetLogicalSize");
     find(library.CreateTexture, "SDL_CreateTexture");
+    find(library.DestroyTexture, "SDL_DestroyTexture");
     find(library.UpdateTexture, "SDL_UpdateTexture");
     find(library.RenderClear, "SDL_RenderClear");
     find(library.RenderCopy, "SDL_RenderCopy");

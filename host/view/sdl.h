@@ -49,6 +49,7 @@ struct Library {
     Renderer* (*CreateRenderer)(Window*, int index, std::uint32_t flags);
     int (*RenderSetLogicalSize)(Renderer*, int w, int h);
     Texture* (*CreateTexture)(Renderer*, std::uint32_t format, int access, int w, int h);
+    void (*DestroyTexture)(Texture*);
     int (*UpdateTexture)(Texture*, const Box* part, const void* pixels, int pitch);
     int (*RenderClear)(Renderer*);
     int (*RenderCopy)(Renderer*, Texture*, const Box* from, const Box* to);

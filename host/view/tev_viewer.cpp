@@ -128,7 +128,6 @@ TevViewer::TevViewer(TevAddress address, std::string name, Say say)
     : address_(std::move(address)), name_(std::move(name)), say_(std::move(say)) {}
 
 void TevViewer::begin(int width, int height) {
-    if (has_failed_) return;
     if (!socket_) {
         std::string why;
         socket_ = connect_to(address_, why);
@@ -138,6 +137,7 @@ void TevViewer::begin(int width, int height) {
         }
     }
     last_sent_ = Clock::now();
+    deadline_ = Clock::time_point::max();
     parts_.clear();
     const auto packet = tev_create_image(name_, width, height);
     packets_.insert(packets_.end(), packet.begin(), packet.end());
@@ -198,7 +198,6 @@ void TevViewer::send(const Picture& picture) {
 }
 
 void TevViewer::give_up(const std::string& why) {
-    has_failed_ = true;
     socket_ = FileDescriptor();
     say_(why);
 }

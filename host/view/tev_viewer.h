@@ -23,7 +23,7 @@ std::vector<std::byte> tev_update_image(const std::string& name, const Picture& 
 
 /// Sends the picture to the viewer tev, in each tick what tev reads in a tenth of a second. If tev
 /// cannot be reached, reads nothing for two seconds, or lacks some of the picture ten seconds after
-/// `finish`, reports that once and sends no more.
+/// `finish`, reports that once and sends no more of that picture.
 class TevViewer : public Viewer {
    public:
     using Say = std::function<void(const std::string& line)>;
@@ -52,7 +52,6 @@ class TevViewer : public Viewer {
     std::size_t sent_ = 0;
     Clock::time_point last_sent_;
     Clock::time_point deadline_ = Clock::time_point::max();
-    bool has_failed_ = false;
 };
 
 }  // namespace rt

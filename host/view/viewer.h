@@ -13,7 +13,7 @@ class Viewer {
    public:
     virtual ~Viewer() = default;
 
-    /// A picture of this size in pixels begins, all black.
+    /// A picture of this size in pixels begins, all black, in place of the one before.
     virtual void begin(int width, int height) = 0;
 
     /// The picture so far, and the parts changed since the last call.

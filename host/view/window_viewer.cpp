@@ -48,9 +48,15 @@ void WindowViewer::start(int width, int height) {
                                  std::max(static_cast<int>(width * scale), 1),
                                  std::max(static_cast<int>(height * scale), 1), sdl::resizable);
     if (window_ != nullptr) renderer_ = sdl_->CreateRenderer(window_, -1, 0);
-    if (renderer_ == nullptr) return;
+    if (renderer_ != nullptr) make_texture(width, height);
+}
+
+void WindowViewer::make_texture(int width, int height) {
+    if (texture_ != nullptr) sdl_->DestroyTexture(texture_);
     sdl_->RenderSetLogicalSize(renderer_, width, height);
     texture_ = sdl_->CreateTexture(renderer_, sdl::rgb24, sdl::streaming, width, height);
+    texture_width_ = width;
+    texture_height_ = height;
 }
 
 void WindowViewer::close() {
@@ -67,6 +73,10 @@ void WindowViewer::close() {
 void WindowViewer::begin(int width, int height) {
     if (!was_closed_ && window_ == nullptr) open(width, height);
     if (was_closed_) return;
+    if (width != texture_width_ || height != texture_height_) {
+        call([&] { make_texture(width, height); });
+        if (texture_ == nullptr) return close();
+    }
     pixels_ = std::int64_t{width} * height;
     pixels_shown_ = 0;
     put({width, height, 3, std::vector<float>(static_cast<std::size_t>(3 * pixels_))},

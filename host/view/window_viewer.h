@@ -30,6 +30,7 @@ class WindowViewer : public Viewer {
     void call(const std::function<void()>& calls);
     void open(int width, int height);
     void start(int width, int height);
+    void make_texture(int width, int height);
     void close();
     void put(const Picture& picture, const Rect& part);
     void present();
@@ -42,6 +43,7 @@ class WindowViewer : public Viewer {
     sdl::Window* window_ = nullptr;
     sdl::Renderer* renderer_ = nullptr;
     sdl::Texture* texture_ = nullptr;
+    int texture_width_ = 0, texture_height_ = 0;
     std::int64_t pixels_ = 0, pixels_shown_ = 0;
     bool was_closed_ = false;  ///< or cannot be opened, or has lost its screen
 };

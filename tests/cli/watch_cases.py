@@ -101,6 +101,6 @@ class Watch(CliTest):
 
     def test_what_it_cannot_be_with(self):
         self.write(1)
-        for more in [["-o", "-"], ["--timeout", "5"], ["--show"], ["scene.json", "-o", "%s.png"]]:
+        for more in [["-o", "-"], ["--timeout", "5"], ["scene.json", "-o", "%s.png"]]:
             self.assert_refused(self.run_cli("render", "scene.json", "--watch", *more), 2, "--watch")
         self.assert_refused(self.run_cli("render", "-", "--watch"), 2, "--watch")
