@@ -9,9 +9,10 @@ namespace rt {
 
 namespace {
 
-constexpr const char* full_sweep = "none,grid:2,grid:4,sobol:4,sobol:16,adaptive:0.1,adaptive:0.03";
+constexpr const char* full_sweep =
+    "none,grid:2,grid:4,sobol:4,sobol:16,sobol:64,sobol:256,adaptive:0.1,adaptive:0.03";
 constexpr const char* quick_sweep = "none,grid:2,grid:3,sobol:4";
-constexpr int full_reference = 64, quick_reference = 32;
+constexpr int full_reference = 1024, quick_reference = 32;
 
 std::vector<AaMode> modes_of(std::string sweep) {
     std::vector<AaMode> modes;
