@@ -24,6 +24,8 @@ constexpr const char* compiler = __VERSION__;  // "Debian Clang 14.0.6"
 constexpr const char* compiler = "GCC " __VERSION__;
 #endif
 
+constexpr const char* unknown = "unknown";
+
 /// The text after `separator` in the first line of the file that begins with `key`.
 std::string value_in(const char* path, const std::string& key, const std::string& separator) {
     std::ifstream file(path);
@@ -34,7 +36,7 @@ std::string value_in(const char* path, const std::string& key, const std::string
             return line.substr(at + separator.size());
         }
     }
-    return "unknown";
+    return unknown;
 }
 
 std::string os_name() {
@@ -64,7 +66,15 @@ Json load_json() {
 
 }  // namespace
 
-std::string cpu_name() { return value_in("/proc/cpuinfo", "model name", ": "); }
+std::string cpu_name() {
+    const auto value = [](const char* key) { return value_in("/proc/cpuinfo", key, ": "); };
+    const std::string family = value("cpu family"), model = value("model\t");
+    std::string name = value("model name");
+    if (family != unknown && model != unknown) {
+        name += " (family " + family + ", model " + model + ")";
+    }
+    return name;
+}
 
 Json environment_json() {
     return {{"program", std::string("mirrorball ") + version},

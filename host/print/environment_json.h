@@ -6,7 +6,8 @@
 
 namespace rt {
 
-/// The processor's name; "unknown" where the system does not report it.
+/// The processor's name, with family and model on x86, where one name is given to many: "Intel(R)
+/// Xeon(R) Processor (family 6, model 143)"; "unknown" where the system does not report it.
 std::string cpu_name();
 
 /// The machine and program behind a result: program, git revision, compiler, CPU, cores, memory,

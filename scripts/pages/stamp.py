@@ -4,7 +4,6 @@ import datetime
 import json
 import os
 import pathlib
-import re
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -17,13 +16,6 @@ def environment(program):
                              "--devices", "threads:1", "--repeats", "1", "--json", "-q"], check=True,
                             capture_output=True, text=True, cwd=ROOT)
     return json.loads(result.stdout)["environment"]
-
-
-def processor_model():
-    """" (family 6, model 143)" on Linux on x86: one name is given to many processors."""
-    text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
-    numbers = [re.search(rf"^{name}\s*:\s*(\d+)$", text, re.M) for name in ["cpu family", "model"]]
-    return " (family {}, model {})".format(*(n[1] for n in numbers)) if all(numbers) else ""
 
 
 def revision_stamp():
@@ -40,5 +32,5 @@ def stamp(program, has_times=True):
         return os.environ[BENCH_STAMP]
     machine = environment(program)
     busy = "; **the machine was busy**" if has_times and machine["busy"] else ""
-    return (f"*{datetime.date.today()}, {machine['cpu']}{processor_model()}, {machine['cores']} cores, "
+    return (f"*{datetime.date.today()}, {machine['cpu']}, {machine['cores']} cores, "
             f"{machine['os']}; {machine['program']}, revision {machine['git_revision']}{busy}.*")

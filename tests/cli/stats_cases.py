@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """--stats and --stats=json: valid, complete, adding up."""
 import json
+import platform
 
 from harness import CliTest, image_hash, scene_path
 
@@ -14,6 +15,8 @@ class JsonStats(CliTest):
         self.assertEqual((stats["format"], stats["version"]), ("mirrorball-render", 1))
         for key in ["program", "git_revision", "cpu", "cores", "load"]:
             self.assertIn(key, stats["environment"])
+        if platform.machine() == "x86_64":
+            self.assertRegex(stats["environment"]["cpu"], r".+ \(family \d+, model \d+\)$")
         settings = stats["settings"]
         self.assertEqual((settings["width"], settings["height"]), (20, 10))
         self.assertEqual(settings["region"], [0, 0, 20, 10])
