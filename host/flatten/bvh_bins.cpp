@@ -9,24 +9,59 @@ namespace rt::bvh {
 
 namespace {
 
+constexpr std::size_t two_sets_from = 256;
+
+template <typename T>
+void clear(Bins<T>& bins, std::size_t count) {
+    bins.count = count;
+    for (std::size_t bin = 0; bin < count; ++bin) {
+        bins.bounds[bin].fill(Bounds<T>::none());
+        bins.boxes[bin] = Mask<T>{};
+    }
+}
+
+template <typename T>
+void merge(const Bins<T>& other, Bins<T>& bins) {
+    for (std::size_t bin = 0; bin < bins.count; ++bin) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            bins.bounds[bin][axis].add(other.bounds[bin][axis]);
+        }
+        bins.boxes[bin] += other.boxes[bin];
+    }
+}
+
+template <typename T>
+[[gnu::always_inline]] inline void add(const BvhBox<T>& box, const Binning<T>& binning,
+                                       Bins<T>& bins) {
+    const Bounds<T> added = bounds_of<T>(box);
+    const Mask<T> bin = binning.all(added.low + added.high);
+    // Constant lane indices: a loop over them would go through memory.
+    const auto x = static_cast<std::size_t>(bin[0]), y = static_cast<std::size_t>(bin[1]);
+    const auto z = static_cast<std::size_t>(bin[2]);
+    bins.bounds[x][0].add(added);
+    bins.bounds[y][1].add(added);
+    bins.bounds[z][2].add(added);
+    bins.boxes[x][0] += 1;
+    bins.boxes[y][1] += 1;
+    bins.boxes[z][2] += 1;
+}
+
+/// Long runs fill two sets of bins in turn: neighbors often fall into the same bin, and the second
+/// would wait for the first.
 template <typename T>
 void fill_run(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, Bins<T>& bins) {
-    bins.count = most_bins;
-    for (auto& bounds : bins.bounds) bounds.fill(Bounds<T>::none());
-    bins.boxes.fill(Mask<T>{});
-    for (const BvhBox<T>& box : boxes) {
-        const Bounds<T> added = bounds_of<T>(box);
-        const Mask<T> bin = binning.all(added.low + added.high);
-        // Constant lane indices: a loop over them would go through memory.
-        const auto x = static_cast<std::size_t>(bin[0]), y = static_cast<std::size_t>(bin[1]);
-        const auto z = static_cast<std::size_t>(bin[2]);
-        bins.bounds[x][0].add(added);
-        bins.bounds[y][1].add(added);
-        bins.bounds[z][2].add(added);
-        bins.boxes[x][0] += 1;
-        bins.boxes[y][1] += 1;
-        bins.boxes[z][2] += 1;
+    clear(bins, binning.count);
+    std::size_t i = 0;
+    if (boxes.size() >= two_sets_from) {
+        Bins<T> others;
+        clear(others, binning.count);
+        for (; i + 1 < boxes.size(); i += 2) {
+            add(boxes[i], binning, bins);
+            add(boxes[i + 1], binning, others);
+        }
+        merge(others, bins);
     }
+    for (; i < boxes.size(); ++i) add(boxes[i], binning, bins);
 }
 
 /// Half the surface area of each axis's bounds, with lengths multiplied by `scale` first.
@@ -70,14 +105,7 @@ void fill_bins(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, int 
         fill_run<T>(boxes.subspan(first, last - first), binning, parts[first / run_length]);
     });
     bins = parts[0];
-    for (std::size_t part = 1; part < parts.size(); ++part) {
-        for (std::size_t bin = 0; bin < bins.count; ++bin) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                bins.bounds[bin][axis].add(parts[part].bounds[bin][axis]);
-            }
-            bins.boxes[bin] += parts[part].boxes[bin];
-        }
-    }
+    for (std::size_t part = 1; part < parts.size(); ++part) merge(parts[part], bins);
 }
 
 template <typename T>

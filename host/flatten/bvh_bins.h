@@ -15,13 +15,14 @@ namespace rt::bvh {
 inline constexpr std::size_t most_bins = 16;
 inline constexpr std::size_t run_length = 1 << 14;  ///< boxes that a thread processes at a time
 
-/// Which of most_bins bins a center (times two) falls into, on each axis.
+/// Which of `count` bins a center (times two) falls into, on each axis.
 template <typename T>
 struct Binning {
     Vector<T> low, scale;
+    std::size_t count;
 
-    explicit Binning(const Bounds<T>& centers) : low(centers.low) {
-        const T almost = T(most_bins) * (T(1) - 4 * Flat<T>::roundoff);
+    Binning(const Bounds<T>& centers, std::size_t bins) : low(centers.low), count(bins) {
+        const T almost = T(bins) * (T(1) - 4 * Flat<T>::roundoff);
         for (int axis = 0; axis < 4; ++axis) {
             const T extent = axis < 3 ? centers.high[axis] - low[axis] : T(0);
             const T wanted = extent > 0 ? almost / extent : T(0);

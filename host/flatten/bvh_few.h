@@ -10,7 +10,7 @@
 // Few enough boxes to sort, with one bin each: every split between two of them is considered.
 namespace rt::bvh {
 
-inline constexpr std::size_t few_boxes = 8;
+inline constexpr std::size_t few_boxes = 12;
 
 /// The rank of each box on each axis when sorted by center; ties keep their order.
 template <typename T>

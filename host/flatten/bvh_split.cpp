@@ -82,7 +82,7 @@ class Splitting {
     }
 
     Halves<T> many(int threads) const {
-        const Binning<T> binning(range_.centers);
+        const Binning<T> binning(range_.centers, own_.size() > 64 ? most_bins : most_bins / 2);
         Bins<T> bins;
         fill_bins<T>(own_, binning, threads, bins);
         const Split<T> split = best_split<T>(bins, scale_);
