@@ -1,34 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <stdlib.h>
-
-#include <filesystem>
 #include <string>
-#include <system_error>
+
+#include "host/file_descriptor.h"
 
 namespace rt {
 
 /// An empty folder, deleted with its files on destruction; has no name if it could not be created.
+/// It is locked as long as its process lives. Folders that killed processes of this user left are
+/// deleted by the next one, an hour later.
 class TemporaryFolder {
    public:
-    TemporaryFolder() {
-        std::error_code error;
-        std::string name =
-            (std::filesystem::temp_directory_path(error) / "mirrorball-XXXXXX").string();
-        if (::mkdtemp(name.data()) != nullptr) name_ = name;
-    }
+    TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code error;
-        if (!name_.empty()) std::filesystem::remove_all(name_, error);
-    }
+    ~TemporaryFolder();
 
     const std::string& name() const { return name_; }
 
    private:
     std::string name_;
+    FileDescriptor lock_;
 };
 
 }  // namespace rt

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A machine that misbehaves: busy, out of memory, with broken drivers. Where it cannot be had, a
 library loaded first (LD_PRELOAD) plays it."""
+import fcntl
 import json
 import os
 import pathlib
@@ -203,7 +204,7 @@ class KernelCache(CliTest):
                               env={"POCL_CACHE_DIR": str(shared), "XDG_CACHE_HOME": "", "HOME": "",
                                    "TMPDIR": str(folder.parent), "LD_DEBUG": "files"})
         self.assertEqual(result.returncode, 0, result.stderr[-1000:])
-        self.assertRegex(result.stderr, f"{folder.parent}/mirrorball-[^ ]*/[^ ]*\\.so")
+        self.assertRegex(result.stderr, f"{folder.parent}/mirrorball.tmp[^ ]*/[^ ]*\\.so")
         self.assertEqual([*shared.iterdir(), *folder.iterdir()], [])
         self.assertEqual(list(folder.parent.iterdir()), [folder])
 
@@ -215,6 +216,21 @@ class KernelCache(CliTest):
         self.render_on_pocl(POCL_CACHE_DIR="")
         self.assertEqual([name for name in ["tempfile_a", "tempfile_b", "other"]
                           if (own / name).exists()], ["tempfile_b", "other"])
+
+    def test_folders_of_killed_processes_are_removed_after_an_hour(self):
+        """But not one that a process still uses, nor others of similar names."""
+        folder = self.folder / "tmp"
+        long_ago = (time.time() - 4000,) * 2
+        for name in ["mirrorball.tmp.old", "mirrorball.tmp.used", "mirrorball-old", "mirrorball.tmp.new"]:
+            (folder / name / "kernels").mkdir(parents=True)
+            if name != "mirrorball.tmp.new":
+                os.utime(folder / name, times=long_ago)
+        used = os.open(folder / "mirrorball.tmp.used", os.O_RDONLY)
+        self.addCleanup(os.close, used)
+        fcntl.flock(used, fcntl.LOCK_EX)
+        self.run_cli("doctor", env={"TMPDIR": str(folder)})
+        self.assertEqual({path.name for path in folder.iterdir()},
+                         {"mirrorball.tmp.used", "mirrorball-old", "mirrorball.tmp.new"})
 
     def test_needs_no_path_to_the_linker(self):
         """PoCL calls ld, and ends the process where it finds none."""
