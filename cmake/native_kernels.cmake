@@ -35,7 +35,7 @@ endif()
 
 # Each instruction set: its flags, and how many floats and doubles a vector holds.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    set(MIRRORBALL_ISAS x86-64-v4 x86-64-v3 x86-64-v2 CACHE STRING
+    set(MIRRORBALL_ISAS x86-64-v4 x86-64-v3 x86-64-v2 x86-64 CACHE STRING
         "Instruction sets to compile kernels for, the best first")
     if(NATIVE_FEWER_ISAS)
         set(MIRRORBALL_ISAS ${NATIVE_FEWER_ISAS})
@@ -48,6 +48,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(x86-64-v3_WIDTHS 8 4)
     set(x86-64-v2_FLAGS -march=x86-64-v2)
     set(x86-64-v2_WIDTHS 4 2)
+    set(x86-64_FLAGS -march=x86-64)
+    set(x86-64_WIDTHS 4 2)
 else()
     set(MIRRORBALL_ISAS generic CACHE STRING "Instruction sets to compile kernels for")
     set(generic_FLAGS "")
@@ -82,7 +84,8 @@ function(native_kernels TABLE OBJECTS)
     set(folder ${CMAKE_BINARY_DIR}/native)
     file(MAKE_DIRECTORY ${folder})
     set(objects "")
-    set(lean_isas x86-64-v2 ${MIRRORBALL_LEAN_ISAS})  # v2: slow whatever is left out, fma is a call
+    set(old_isas x86-64-v2 x86-64)  # slow whatever is left out: fma is a call
+    set(lean_isas ${old_isas} ${MIRRORBALL_LEAN_ISAS})
     set(names_float "")
     set(names_double "")
     foreach(isa IN LISTS MIRRORBALL_ISAS)
@@ -96,7 +99,7 @@ function(native_kernels TABLE OBJECTS)
             foreach(set IN LISTS NATIVE_SETS)
                 set(widths 1 ${width})
                 if(isa IN_LIST lean_isas)
-                    if(set MATCHES _4 AND type STREQUAL float AND NOT isa STREQUAL x86-64-v2)
+                    if(set MATCHES _4 AND type STREQUAL float AND NOT isa IN_LIST old_isas)
                         set(widths ${width})  # what most pictures take
                     elseif(NOT set STREQUAL all)
                         set(widths "")
@@ -122,7 +125,7 @@ function(native_kernels TABLE OBJECTS)
     # The tracer that tells what a path meets; for any processor.
     set(isa "")
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-        set(isa ${x86-64-v2_FLAGS})
+        set(isa ${x86-64_FLAGS})
     endif()
     compile_native_kernel(${folder}/rt_explain.o ${CMAKE_SOURCE_DIR}/kernels/native/explain.cl rt_explain
         ${isa} -DRT_DOUBLE=1 -DRT_LANES=1 -DRT_TRACES_RAYS=0)

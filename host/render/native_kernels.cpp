@@ -67,6 +67,7 @@ std::span<const NativeKernels<double>> all_kernels() {
 /// Whether the processor has what kernels use of this x86-64 level (see its psABI).
 bool processor_has([[maybe_unused]] const std::string& isa) {
 #ifdef __x86_64__
+    if (isa == "x86-64") return true;
     if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) return false;
     if (isa == "x86-64-v2") return true;
     if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") ||
@@ -110,7 +111,7 @@ std::vector<std::string> native_isas() {
     return isas;
 }
 
-bool has_fast_fma(const std::string& isa) { return isa != "x86-64-v2"; }
+bool has_fast_fma(const std::string& isa) { return isa != "x86-64-v2" && isa != "x86-64"; }
 
 template <typename T>
 const NativeKernels<T>& choose_native(const NativeChoice& choice) {
