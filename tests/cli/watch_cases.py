@@ -54,7 +54,7 @@ class Watch(CliTest):
                 self.wait_for("waiting for", 3)
                 self.assertNotEqual((self.folder / "out.png").read_bytes(), small)
                 process.send_signal(signal.SIGINT)
-                self.assertIn(process.wait(10), [130, -signal.SIGINT])
+                self.assertIn(process.wait(HANG_LIMIT), [130, -signal.SIGINT])
 
     def write_model(self, last_corner="0 1 0"):
         if not (self.folder / "scene.json").exists():
