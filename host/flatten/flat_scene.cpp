@@ -31,9 +31,10 @@ template <typename T>
 class Flattener {
    public:
     using Index = typename Flat<T>::Index;
+    using Params = typename Flat<T>::LaunchParams;
 
-    Flattener(const Scene& scene, const FlattenOptions& options)
-        : scene_(scene), options_(options), triangles_(scene) {
+    Flattener(const Scene& scene, const FlattenOptions& options, const FlatScene<T>* same_shapes)
+        : scene_(scene), options_(options), same_shapes_(same_shapes), triangles_(scene) {
         if (options_.threads == 0) options_.threads = available_cores();
         check_limits();
         view_ = make_view_frame(scene, triangles_, options_.threads);
@@ -43,10 +44,11 @@ class Flattener {
 
     FlatScene<T> run() {
         flat_.params = flatten_params<T>(view_, scene_);
-        spheres_order_ = flatten_kind(scene_.spheres, sphere_crossover, flatten_sphere<T>,
-                                      flat_.spheres, flat_.params.sphere_root, flat_.stats.spheres);
-        cones_order_ = flatten_kind(scene_.cones, cone_crossover, flatten_cone<T>, flat_.cones,
-                                    flat_.params.cone_root, flat_.stats.cones);
+        const Kind spheres{sphere_crossover, 0, &Params::sphere_root, &FlattenStats::spheres};
+        spheres_order_ = flatten_kind(spheres, scene_.spheres, flatten_sphere<T>, flat_.spheres);
+        const Kind cones{cone_crossover, scene_.spheres.size(), &Params::cone_root,
+                         &FlattenStats::cones};
+        cones_order_ = flatten_kind(cones, scene_.cones, flatten_cone<T>, flat_.cones);
         flatten_triangles();
         for (const auto& material : scene_.materials) {
             flat_.materials.push_back(flatten_material<T>(material));
@@ -65,6 +67,14 @@ class Flattener {
    private:
     /// For one kind, the number of each primitive in the scene; empty if the order was kept.
     using Order = std::vector<Index>;
+
+    /// One kind of primitive.
+    struct Kind {
+        std::size_t crossover;
+        std::size_t first;  ///< number of its first primitive
+        Index Params::*root;
+        BvhShape FlattenStats::*shape;
+    };
 
     /// Primitives and nodes (fewer than two a primitive) are numbered in a 32-bit Index.
     void check_limits() const {
@@ -102,29 +112,52 @@ class Flattener {
         });
     }
 
-    /// Builds the hierarchy over `count` primitives with the boxes box(i) if there are enough; sets
-    /// its root and its shape.
+    /// Adds the hierarchy over a kind's `count` primitives, with the boxes box(i), if there are
+    /// enough.
     template <typename Box>
-    Order build_hierarchy(std::size_t count, std::size_t crossover, const Box& box, Index& root,
-                          BvhShape& shape) {
+    Order add_hierarchy(const Kind& kind, std::size_t count, const Box& box) {
+        std::size_t crossover = kind.crossover;
         if (options_.hierarchies.has_value()) crossover = *options_.hierarchies ? 2 : count + 1;
         if (count < crossover) return {};
         const auto start = std::chrono::steady_clock::now();
-        std::vector<BvhBox<T>> boxes;
-        resize_huge(boxes, count);
-        for_each(count, [&](std::size_t i) {
-            boxes[i] = box(i);
-            boxes[i].first = static_cast<Index>(i);
-        });
         BvhSettings settings;
         settings.threads = options_.threads;
-        root = build_bvh<T>(boxes, settings, flat_.nodes);
-        shape = shape_of<T>(flat_.nodes, root, settings);
+        Index& root = flat_.params.*kind.root;
         Order order(count);
-        for_each(count, [&](std::size_t i) { order[i] = boxes[i].first; });
+        std::vector<BvhBox<T>> boxes;
+        resize_huge(boxes, count);
+        if (same_shapes_ != nullptr) {
+            const auto kept = same_shapes_->order.begin() + static_cast<std::ptrdiff_t>(kind.first);
+            for_each(count, [&](std::size_t i) {
+                order[i] = kept[static_cast<std::ptrdiff_t>(i)] - static_cast<Index>(kind.first);
+                boxes[i] = box(static_cast<std::size_t>(order[i]));
+            });
+            root = keep_nodes(kind);
+            refit_bvh<T>(boxes, root, options_.threads, flat_.nodes);
+        } else {
+            for_each(count, [&](std::size_t i) {
+                boxes[i] = box(i);
+                boxes[i].first = static_cast<Index>(i);
+            });
+            root = build_bvh<T>(boxes, settings, flat_.nodes);
+            for_each(count, [&](std::size_t i) { order[i] = boxes[i].first; });
+        }
+        flat_.stats.*kind.shape = shape_of<T>(flat_.nodes, root, settings);
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
         flat_.stats.bvh_seconds += taken.count();
         return order;
+    }
+
+    /// Copies a kind's nodes from same_shapes_ to where they are there; returns their root.
+    Index keep_nodes(const Kind& kind) {
+        const Index root = same_shapes_->params.*kind.root;
+        const std::size_t start = flat_.nodes.size();
+        const std::size_t end =
+            static_cast<std::size_t>(root) + (same_shapes_->stats.*kind.shape).nodes;
+        resize_huge(flat_.nodes, end);
+        for_each(end - start,
+                 [&](std::size_t i) { flat_.nodes[start + i] = same_shapes_->nodes[start + i]; });
+        return root;
     }
 
     template <typename Primitive>
@@ -148,15 +181,14 @@ class Flattener {
 
     /// Flattens one kind of primitive, then puts it into the order of its hierarchy's leaves.
     template <typename Listing, typename Primitive>
-    Order flatten_kind(const std::vector<Listing>& listing, std::size_t crossover,
+    Order flatten_kind(const Kind& kind, const std::vector<Listing>& listing,
                        Primitive (*flatten_one)(const ViewFrame&, const Listing&),
-                       std::vector<Primitive>& primitives, Index& root, BvhShape& shape) {
+                       std::vector<Primitive>& primitives) {
         primitives.resize(listing.size());
         for_each(primitives.size(),
                  [&](std::size_t i) { primitives[i] = flatten_one(view_, listing[i]); });
-        const Order order = build_hierarchy(
-            primitives.size(), crossover, [&](std::size_t i) { return box_of<T>(primitives[i]); },
-            root, shape);
+        const Order order = add_hierarchy(kind, primitives.size(),
+                                          [&](std::size_t i) { return box_of<T>(primitives[i]); });
         reorder(primitives, order);
         return order;
     }
@@ -165,15 +197,14 @@ class Flattener {
     /// leaf order: memory never holds them twice, nor along with the boxes.
     void flatten_triangles() {
         const auto count = static_cast<std::size_t>(triangles_.size());
-        triangles_order_ = build_hierarchy(
-            count, triangle_crossover,
-            [&](std::size_t i) {
-                const TriangleList::Corners corners = triangles_.corners(i);
-                return box_of<T>(pack_position<T>(view_, corners[0]),
-                                 pack_position<T>(view_, corners[1]),
-                                 pack_position<T>(view_, corners[2]));
-            },
-            flat_.params.triangle_root, flat_.stats.triangles);
+        const Kind kind{triangle_crossover, scene_.spheres.size() + scene_.cones.size(),
+                        &Params::triangle_root, &FlattenStats::triangles};
+        triangles_order_ = add_hierarchy(kind, count, [&](std::size_t i) {
+            const TriangleList::Corners corners = triangles_.corners(i);
+            return box_of<T>(pack_position<T>(view_, corners[0]),
+                             pack_position<T>(view_, corners[1]),
+                             pack_position<T>(view_, corners[2]));
+        });
         resize_huge(flat_.triangles, count);
         const std::vector<std::size_t> smooth = smooth_before_runs(count);
         flat_.vertex_normals.resize(smooth.back());
@@ -271,6 +302,7 @@ class Flattener {
 
     const Scene& scene_;
     FlattenOptions options_;
+    const FlatScene<T>* const same_shapes_;  ///< may be null
     const TriangleList triangles_;
     ViewFrame view_;
     MaterialUse material_use_;
@@ -294,13 +326,14 @@ std::size_t FlatScene<T>::bytes() const {
 }
 
 template <typename T>
-FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options) {
-    return Flattener<T>(scene, options).run();
+FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options,
+                     const FlatScene<T>* same_shapes) {
+    return Flattener<T>(scene, options, same_shapes).run();
 }
 
 template struct FlatScene<float>;
 template struct FlatScene<double>;
-template FlatScene<float> flatten(const Scene&, const FlattenOptions&);
-template FlatScene<double> flatten(const Scene&, const FlattenOptions&);
+template FlatScene<float> flatten(const Scene&, const FlattenOptions&, const FlatScene<float>*);
+template FlatScene<double> flatten(const Scene&, const FlattenOptions&, const FlatScene<double>*);
 
 }  // namespace rt

@@ -14,8 +14,9 @@ namespace rt {
 struct RenderCache {
     template <typename T>
     struct Flattened {
-        std::uint64_t key = 0;  ///< flat_key of its scene
-        SharedScene<T> scene;   ///< null: none yet
+        std::uint64_t key = 0;     ///< flat_key of its scene
+        std::uint64_t shapes = 0;  ///< shapes_hash of its scene
+        SharedScene<T> scene;      ///< null: none yet
     };
 
     RenderCache();

@@ -81,15 +81,12 @@ class Job {
         const Stopwatch watch;
         if (cache == nullptr) {
             auto figures = std::async(scene_stats, std::cref(scene));
-            scene_ = flattened(scene);
+            scene_ = flattened(scene, nullptr);
             stats_.phases.flatten = watch.seconds();
             stats_.scene = figures.get();
         } else {
             stats_.scene = scene_stats(scene);
-            auto& kept = std::get<RenderCache::Flattened<T>>(cache->scenes);
-            const std::uint64_t key = RenderCache::flat_key(scene, stats_.scene.hash);
-            if (!kept.scene || kept.key != key) kept = {key, flattened(scene)};
-            scene_ = kept.scene;
+            scene_ = kept_or_flattened(scene);
             stats_.phases.flatten = watch.seconds();
         }
         stats_.scene.triangles = scene_->triangles.size();
@@ -145,11 +142,23 @@ class Job {
         crew.open();
     }
 
-    SharedScene<T> flattened(const Scene& scene) const {
+    SharedScene<T> flattened(const Scene& scene, const FlatScene<T>* same_shapes) const {
         FlattenOptions options;
         options.hierarchies = settings_.hierarchies;
         options.caster_lists = settings_.caster_lists;
-        return std::make_shared<const FlatScene<T>>(flatten<T>(scene, options));
+        return std::make_shared<const FlatScene<T>>(flatten<T>(scene, options, same_shapes));
+    }
+
+    /// The cache's flattened scene if it is this one; else this one takes its place, and its
+    /// hierarchies if only its shapes are the same.
+    SharedScene<T> kept_or_flattened(const Scene& scene) const {
+        auto& kept = std::get<RenderCache::Flattened<T>>(cache_->scenes);
+        const std::uint64_t key = RenderCache::flat_key(scene, stats_.scene.hash);
+        if (kept.scene && kept.key == key) return kept.scene;
+        const std::uint64_t shapes = shapes_hash(scene);
+        const bool has_same_shapes = kept.scene && kept.shapes == shapes;
+        kept = {key, shapes, flattened(scene, has_same_shapes ? kept.scene.get() : nullptr)};
+        return kept.scene;
     }
 
     void say(const std::string& line) const {

@@ -107,6 +107,13 @@ void add(Hasher& hasher, const Scene::Mesh& mesh) {
     add_all(hasher, face_materials);
 }
 
+void add_shapes(Hasher& hasher, const Scene& scene) {
+    add_all(hasher, scene.spheres);
+    add_all(hasher, scene.cones);
+    add_all(hasher, scene.triangles);
+    add_all(hasher, scene.meshes);
+}
+
 }  // namespace
 
 std::uint64_t scene_hash(const Scene& scene) {
@@ -119,10 +126,13 @@ std::uint64_t scene_hash(const Scene& scene) {
     add(hasher, ambient_light);
     add_all(hasher, lights);
     add_all(hasher, materials);
-    add_all(hasher, spheres);
-    add_all(hasher, cones);
-    add_all(hasher, triangles);
-    add_all(hasher, meshes);
+    add_shapes(hasher, scene);
+    return hasher.value();
+}
+
+std::uint64_t shapes_hash(const Scene& scene) {
+    Hasher hasher;
+    add_shapes(hasher, scene);
     return hasher.value();
 }
 

@@ -9,7 +9,9 @@ SCENE = {
     "image": {"width": 32, "height": 24, "aa": "none"},
     "ambient_light": 1,
     "materials": {"red": {"ambient": [1, 0, 0]}},
-    "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "red"}],
+    "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "red"},
+                *({"center": [i / 10 - 2, i % 7 / 3 - 1, -1], "radius": 0.05, "material": "red"}
+                  for i in range(40))],  # enough for a hierarchy
     "path": {"interpolation": "linear",
              "keys": [{"frame": 1, "from": [-2, 0, 5]}, {"frame": 5, "from": [2, 0, 5]}]}}
 
