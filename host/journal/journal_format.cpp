@@ -120,11 +120,9 @@ void append_header(std::vector<std::byte>& bytes, const JournalHeader& header) {
                  {"scene_file", header.scene_file},
                  {"aa", header.aa},
                  {"filter", header.filter},
-                 {"max_bounces", header.max_bounces},
-                 {"caster_lists", header.caster_lists}};
+                 {"max_bounces", header.max_bounces}};
     if (header.light_scale) json["light_scale"] = *header.light_scale;
     if (header.ambient_light) json["ambient_light"] = *header.ambient_light;
-    if (header.hierarchies) json["hierarchies"] = *header.hierarchies;
     append_json(bytes, RecordKind::header, json);
 }
 
@@ -159,8 +157,6 @@ JournalHeader parse_header(std::span<const std::byte> body) {
     header.aa = text_of(json, "aa");
     header.filter = text_of(json, "filter");
     header.max_bounces = int_of(json, "max_bounces", 0, std::numeric_limits<int>::max());
-    if (json.contains("caster_lists")) header.caster_lists = bool_of(json, "caster_lists");
-    if (json.contains("hierarchies")) header.hierarchies = bool_of(json, "hierarchies");
     if (json.contains("light_scale")) header.light_scale = number_of(json["light_scale"]);
     if (json.contains("ambient_light")) {
         const Json& light = json["ambient_light"];

@@ -48,8 +48,6 @@ struct JournalHeader {
     int max_bounces = 0;
     std::optional<double> light_scale;  ///< that override the scene's light
     std::optional<std::array<double, 3>> ambient_light;
-    std::optional<bool> hierarchies;  ///< not given: where they are faster
-    bool caster_lists = true;
 
     std::size_t pixel_bytes() const { return 3 * (double_precision ? 8 : 4); }
     bool operator==(const JournalHeader&) const = default;

@@ -49,8 +49,6 @@ void check_same_picture(const JournalHeader& header, const std::string& first_pa
     const auto what = [&]() -> std::string {
         if (header.scene_hash != first.scene_hash) return "shows a different scene";
         if (header.settings != first.settings) return "has different settings";
-        if (header.hierarchies != first.hierarchies) return "has other --hierarchies";
-        if (header.caster_lists != first.caster_lists) return "has other --caster-lists";
         return "comes from a different version of mirrorball, or a device that rounds differently,";
     };
     throw Error(ExitCode::input,

@@ -16,12 +16,6 @@ namespace rt {
 
 namespace {
 
-template <typename Row>
-void add_rows(Hasher& hasher, const std::vector<Row>& rows) {
-    hasher.add(rows.size());
-    hasher.add_bytes(std::as_bytes(std::span(rows)));
-}
-
 std::string host_name() {
     char name[256] = "";
     return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
@@ -63,13 +57,11 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
     if (const auto& light = settings.light.ambient_light) {
         header_.ambient_light = {light->x, light->y, light->z};
     }
-    header_.hierarchies = settings.hierarchies;
-    header_.caster_lists = settings.caster_lists;
     open();
 }
 
-/// Hashes all that the film's bits depend on: the flat scene, how it is sampled and refined, and
-/// the program. Takes a tenth of a second for some million triangles.
+/// Hashes all that the film's bits depend on: the scene, how it is sampled and refined, and the
+/// program. Not on hierarchies, which also order the flat scene's arrays.
 template <typename T>
 std::uint64_t PictureJournal<T>::key() const {
     Hasher hasher;
@@ -77,10 +69,10 @@ std::uint64_t PictureJournal<T>::key() const {
     hasher.add(std::string_view(render_kernels));
     hasher.add(std::string_view(inexact_devices_));
     hasher.add(sizeof(T));
-#define RT_ADD_ROWS(type, name, text) add_rows(hasher, scene_.name);
-    RT_SCENE_ARRAYS(RT_ADD_ROWS)
-#undef RT_ADD_ROWS
-    hasher.add_bytes(std::as_bytes(std::span(&scene_.params, 1)));
+    hasher.add(std::string_view(header_.scene_hash));
+    auto params = scene_.params;
+    params.sphere_root = params.cone_root = params.triangle_root = 0;
+    hasher.add_bytes(std::as_bytes(std::span(&params, 1)));
     hasher.add(std::string_view(to_string(aa_)));
     hasher.add(aa_.threshold);
     for (const Rect& rect : {film_rect_, region_}) {

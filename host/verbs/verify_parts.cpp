@@ -61,8 +61,6 @@ bool render_part_again(const MergedPicture& merged, const std::string& scene, do
     if (header.double_precision) settings.precision = Precision::float64;
     settings.journal = part;
     settings.shares = sample_of(header.region, share, merged.seed);
-    settings.hierarchies = header.hierarchies;
-    settings.caster_lists = header.caster_lists;
     settings.light.light_scale = header.light_scale;
     if (const auto& light = header.ambient_light) {
         settings.light.ambient_light = glm::dvec3((*light)[0], (*light)[1], (*light)[2]);

@@ -84,19 +84,25 @@ class Shares(JournalTest):
                                          scene_path("glass")), 3, "different scene")
 
     def test_verified_with_the_options_of_the_parts(self):
-        for more in [["--ambient", "0.3"], ["--ambient", "0.1,0.2,0.3", "--light-scale", "0.4"],
-                     ["--caster-lists", "off"], ["--hierarchies", "on"]]:
+        for more in [["--ambient", "0.3"], ["--ambient", "0.1,0.2,0.3", "--light-scale", "0.4"]]:
             with self.subTest(more=more):
                 self.share("0/1", "a.mbj", *SMALL, *more, scene="mirror-hall")
                 self.merge("a.mbj", "--verify", "5%")
                 (self.folder / "a.mbj").unlink()
 
-    def test_that_differ_in_an_option_name_it(self):
+    def test_that_differ_in_settings_name_them(self):
         self.share("0/2", "a.mbj", *SMALL, scene="mirror-hall")
-        self.share("1/2", "b.mbj", *SMALL, "--hierarchies", "on", scene="mirror-hall")
+        self.share("1/2", "b.mbj", *SMALL, "--max-bounces", "2", scene="mirror-hall")
         result = self.run_cli("merge", "a.mbj", "b.mbj")
-        self.assert_refused(result, 3, "b.mbj: has other --hierarchies than a.mbj")
+        self.assert_refused(result, 3, "b.mbj: has different settings than a.mbj")
         self.assertEqual(result.stderr.count("b.mbj"), 1)
+
+    def test_fit_together_whatever_finds_their_hits(self):
+        self.run_cli("render", scene_path("mirror-hall"), *SMALL, "-o", "whole.pfm")
+        self.share("0/2", "a.mbj", *SMALL, "--hierarchies", "on", scene="mirror-hall")
+        self.share("1/2", "b.mbj", *SMALL, "--hierarchies", "off", scene="mirror-hall")
+        self.merge("a.mbj", "b.mbj", "-o", "merged.pfm")
+        self.assertEqual(self.bytes_of("merged.pfm"), self.bytes_of("whole.pfm"))
 
     def with_wrong_pixels(self, part):
         """Writes wrong.mbj: that part from a device that gets every pixel wrong."""
