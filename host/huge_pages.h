@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <vector>
 
 namespace rt {
@@ -18,5 +20,34 @@ void resize_huge(std::vector<Item>& items, std::size_t count) {
     advise_huge_pages(items.data() + items.size(), (count - items.size()) * sizeof(Item));
     items.resize(count);
 }
+
+/// Asks for huge pages, and leaves what `resize` adds uninitialized.
+template <typename Item>
+struct HugeAllocator {
+    using value_type = Item;
+
+    HugeAllocator() = default;
+    template <typename Other>
+    HugeAllocator(const HugeAllocator<Other>&) {}
+
+    Item* allocate(std::size_t count) {
+        Item* items = std::allocator<Item>().allocate(count);
+        advise_huge_pages(items, count * sizeof(Item));
+        return items;
+    }
+    void deallocate(Item* items, std::size_t count) {
+        std::allocator<Item>().deallocate(items, count);
+    }
+    template <typename Other>
+    void construct(Other* item) {
+        ::new (static_cast<void*>(item)) Other;
+    }
+    bool operator==(const HugeAllocator&) const = default;
+};
+
+/// A vector on huge pages for threads to fill after `resize`: the pages are first touched, and
+/// cleared by the system, on all of them.
+template <typename Item>
+using HugeVector = std::vector<Item, HugeAllocator<Item>>;
 
 }  // namespace rt

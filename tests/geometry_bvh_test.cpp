@@ -84,7 +84,7 @@ Boxes<T> boxes_of(const Cloud& cloud) {
 template <typename T>
 struct Built {
     Boxes<T> boxes;
-    std::vector<typename Flat<T>::BvhNode> nodes;
+    HugeVector<typename Flat<T>::BvhNode> nodes;
     typename Flat<T>::Index root = 0;
     BvhSettings settings;
 };
@@ -177,7 +177,7 @@ TYPED_TEST(BuildBvh, DoesNotDependOnTheNumberOfThreads) {
 
 TYPED_TEST(BuildBvh, PutsSeveralHierarchiesIntoOneArray) {
     const auto small = boxes_of<TypeParam>(clouds()[2]);
-    std::vector<typename Flat<TypeParam>::BvhNode> nodes;
+    HugeVector<typename Flat<TypeParam>::BvhNode> nodes;
     for (int i = 0; i < 3; ++i) {
         Boxes<TypeParam> boxes = small;
         const auto root = build_bvh<TypeParam>(boxes, {}, nodes);
@@ -244,7 +244,7 @@ TYPED_TEST(BuildBvh, SplitsFewBoxesWhereItCostsLeast) {
         }
         BvhSettings settings;
         settings.most_in_leaf = 1;
-        std::vector<typename Flat<TypeParam>::BvhNode> nodes;
+        HugeVector<typename Flat<TypeParam>::BvhNode> nodes;
         Boxes<TypeParam> ordered = boxes;
         const auto root = static_cast<std::size_t>(build_bvh<TypeParam>(ordered, settings, nodes));
         double cost = 0;

@@ -68,8 +68,8 @@ inline constexpr bool is_integers<f32::RayCounts> = true;
 template <>
 inline constexpr bool is_integers<f64::RayCounts> = true;
 
-template <typename X>
-void add_inputs(std::vector<ProbeInput>& inputs, const std::vector<X>& values) {
+template <typename X, typename Allocator>
+void add_inputs(std::vector<ProbeInput>& inputs, const std::vector<X, Allocator>& values) {
     inputs.push_back({values.data(), values.size() * sizeof(X)});
 }
 

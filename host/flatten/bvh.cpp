@@ -17,9 +17,9 @@
 #include <algorithm>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "host/flatten/bvh_split.h"
-#include "host/huge_pages.h"
 #include "host/parallel.h"
 
 namespace rt {
@@ -43,10 +43,10 @@ class Builder {
     Builder(std::span<BvhBox<T>> boxes, const BvhSettings& settings)
         : boxes_(boxes), settings_(settings) {}
 
-    Index build(std::vector<Node>& nodes) {
-        if (nodes.size() % 2 == 0) nodes.emplace_back();
+    Index build(HugeVector<Node>& nodes) {
+        if (nodes.size() % 2 == 0) nodes.push_back({});
         const std::size_t root = nodes.size();
-        nodes.emplace_back();
+        nodes.push_back({});
         split_large({{bvh::whole_range<T>(boxes_, settings_.threads), root}}, nodes);
         finish_tasks(nodes);
         return static_cast<Index>(root);
@@ -61,7 +61,7 @@ class Builder {
 
     /// Splits what is too large for one thread, level by level: the largest ranges one by one, each
     /// with all threads, the others in parallel.
-    void split_large(std::vector<Task> level, std::vector<Node>& nodes) {
+    void split_large(std::vector<Task> level, HugeVector<Node>& nodes) {
         const std::size_t task_size = std::max(smallest_task, boxes_.size() / 64);
         const auto threads = static_cast<std::size_t>(settings_.threads);
         while (!level.empty()) {
@@ -88,7 +88,7 @@ class Builder {
                 set_inner(nodes[level[i].node], level[i].range, nodes.size());
                 for (const bvh::Range<T>& side : halves[i].sides) {
                     next.push_back({side, nodes.size()});
-                    nodes.emplace_back();
+                    nodes.push_back({});
                 }
             }
             level = std::move(next);
@@ -104,7 +104,7 @@ class Builder {
 
     /// Builds the subtrees in parallel in one block, each in the space reserved for its boxes, and
     /// appends them. One block, since memory that many threads allocate and free stays with them.
-    void finish_tasks(std::vector<Node>& nodes) {
+    void finish_tasks(HugeVector<Node>& nodes) {
         const auto block = std::make_unique_for_overwrite<Node[]>(2 * boxes_.size());
         std::vector<Subtree> subtrees;
         for (const Task& task : tasks_) {
@@ -119,7 +119,7 @@ class Builder {
             starts.push_back(size);
             size += subtree.size - 2;
         }
-        resize_huge(nodes, size);
+        nodes.resize(size);
         for_each_run(tasks_.size(), 1, settings_.threads, [&](std::size_t i, std::size_t) {
             const auto moved = [&](Node node) {
                 if (node.count == 0) node.first += static_cast<Index>(starts[i]) - 2;
@@ -160,13 +160,13 @@ class Builder {
 
 template <typename T>
 typename Flat<T>::Index build_bvh(std::span<BvhBox<T>> boxes, const BvhSettings& settings,
-                                  std::vector<typename Flat<T>::BvhNode>& nodes) {
+                                  HugeVector<typename Flat<T>::BvhNode>& nodes) {
     return Builder<T>(boxes, settings).build(nodes);
 }
 
 template f32::Index build_bvh<float>(std::span<f32::BvhNode>, const BvhSettings&,
-                                     std::vector<f32::BvhNode>&);
+                                     HugeVector<f32::BvhNode>&);
 template f64::Index build_bvh<double>(std::span<f64::BvhNode>, const BvhSettings&,
-                                      std::vector<f64::BvhNode>&);
+                                      HugeVector<f64::BvhNode>&);
 
 }  // namespace rt

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "host/flatten/flat_types.h"
+#include "host/huge_pages.h"
 
 namespace rt {
 
@@ -36,7 +36,7 @@ struct BvhShape {
 /// leaves, whose `first` counts them from 0. At most max_bvh_depth deep for any finite boxes.
 template <typename T>
 typename Flat<T>::Index build_bvh(std::span<BvhBox<T>> boxes, const BvhSettings& settings,
-                                  std::vector<typename Flat<T>::BvhNode>& nodes);
+                                  HugeVector<typename Flat<T>::BvhNode>& nodes);
 
 /// Fits the last hierarchy in `nodes`, whose root is given, to new boxes of the primitives in its
 /// leaves, in their order.

@@ -15,7 +15,6 @@
 #include "host/flatten/flat_params.h"
 #include "host/flatten/flat_shapes.h"
 #include "host/flatten/view_frame.h"
-#include "host/huge_pages.h"
 #include "host/memory_limit.h"
 #include "host/parallel.h"
 
@@ -124,8 +123,7 @@ class Flattener {
         settings.threads = options_.threads;
         Index& root = flat_.params.*kind.root;
         Order order(count);
-        std::vector<BvhBox<T>> boxes;
-        resize_huge(boxes, count);
+        HugeVector<BvhBox<T>> boxes(count);
         if (same_shapes_ != nullptr) {
             const auto kept = same_shapes_->order.begin() + static_cast<std::ptrdiff_t>(kind.first);
             for_each(count, [&](std::size_t i) {
@@ -154,7 +152,7 @@ class Flattener {
         const std::size_t start = flat_.nodes.size();
         const std::size_t end =
             static_cast<std::size_t>(root) + (same_shapes_->stats.*kind.shape).nodes;
-        resize_huge(flat_.nodes, end);
+        flat_.nodes.resize(end);
         for_each(end - start,
                  [&](std::size_t i) { flat_.nodes[start + i] = same_shapes_->nodes[start + i]; });
         return root;
@@ -205,7 +203,7 @@ class Flattener {
                              pack_position<T>(view_, corners[1]),
                              pack_position<T>(view_, corners[2]));
         });
-        resize_huge(flat_.triangles, count);
+        flat_.triangles.resize(count);
         const std::vector<std::size_t> smooth = smooth_before_runs(count);
         flat_.vertex_normals.resize(smooth.back());
         for_each_run(count, run_length, options_.threads, [&](std::size_t first, std::size_t last) {
@@ -311,9 +309,9 @@ class Flattener {
     FlatScene<T> flat_{};
 };
 
-template <typename Item>
-std::size_t bytes_of(const std::vector<Item>& items) {
-    return items.size() * sizeof(Item);
+template <typename Items>
+std::size_t bytes_of(const Items& items) {
+    return items.size() * sizeof(items[0]);
 }
 
 }  // namespace

@@ -33,13 +33,13 @@ template <typename T>
 struct FlatScene {
     std::vector<typename Flat<T>::Sphere> spheres;
     std::vector<typename Flat<T>::Cone> cones;
-    std::vector<typename Flat<T>::Triangle> triangles;
+    HugeVector<typename Flat<T>::Triangle> triangles;
     std::vector<typename Flat<T>::VertexNormals> vertex_normals;
     std::vector<typename Flat<T>::Material> materials;
     std::vector<typename Flat<T>::Light> lights;
     /// Hierarchies over the kinds of primitive that have one (LaunchParams::..._root). Leaves index
     /// a kind's primitives from 0.
-    std::vector<typename Flat<T>::BvhNode> nodes;
+    HugeVector<typename Flat<T>::BvhNode> nodes;
     /// Each primitive's number in the author's order: ties go to the lowest. Empty if the arrays
     /// are in that order, for lack of a hierarchy.
     std::vector<typename Flat<T>::Index> order;

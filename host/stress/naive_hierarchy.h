@@ -104,7 +104,7 @@ class NaiveHierarchy {
         far = std::min(far, std::max(to_low, to_high));
     }
 
-    std::vector<Node> nodes_;
+    HugeVector<Node> nodes_;
     Index root_ = 0;
 };
 
