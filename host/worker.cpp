@@ -35,6 +35,10 @@ constexpr char watched = 'w', unwatched = 'u', progressed = 'p', ended = 'e';
 
 constexpr double poll_seconds = 0.2;
 
+/// A driver may compute for ever. Though it is busy, its first progress is overdue after so many
+/// deadlines, and any other after so many and this many times the longest wait so far.
+constexpr double first_deadlines = 60, later_deadlines = 6, longest_gaps = 10;
+
 /// Processor time that mere waiting may use up within a deadline.
 constexpr double idle_seconds = 0.1;
 
@@ -88,15 +92,22 @@ ProcessState state_of(pid_t process) {
     return result;
 }
 
-/// Detects that a watched process has been idle for too long.
+/// Detects that a watched process has been idle, or busy without progress, for too long.
 class Watchdog {
    public:
     Watchdog(pid_t process, double deadline, double longest)
         : process_(process), deadline_(deadline), longest_(longest) {}
 
     void hear(char byte) {
-        if (byte == watched || byte == unwatched) is_watched_ = byte == watched;
-        was_heard_ = true;
+        if (byte == progressed) {
+            longest_gap_ = std::max(longest_gap_, gap_);
+            has_progressed_ = true;
+        } else {
+            is_watched_ = byte == watched;
+            longest_gap_ = 0;
+            has_progressed_ = false;
+        }
+        gap_ = idle_ = 0;
     }
 
     bool is_overdue() const { return total_.seconds() > longest_; }
@@ -106,24 +117,33 @@ class Watchdog {
         const double passed = std::min(watch_.lap(), 2 * poll_seconds);
         if (is_overdue()) return true;
         if (!is_watched_) return false;
+        gap_ += passed;
         const ProcessState now = state_of(process_);
         const bool has_computed = now.processor_seconds - processor_before_ >= idle_seconds;
-        if (std::exchange(was_heard_, false) || now.is_busy || has_computed) {
+        if (now.is_busy || has_computed) {
             idle_ = 0;
             processor_before_ = now.processor_seconds;
-            return false;
+        } else {
+            idle_ += passed;
         }
-        idle_ += passed;
-        return idle_ >= deadline_;
+        const double longest_busy = has_progressed_
+                                        ? later_deadlines * deadline_ + longest_gaps * longest_gap_
+                                        : first_deadlines * deadline_;
+        return idle_ >= deadline_ || gap_ >= longest_busy;
     }
+
+    /// Since the last progress, or since it was last watched.
+    double seconds_without_progress() const { return gap_; }
 
    private:
     const pid_t process_;
     const double deadline_, longest_;
     const Stopwatch total_;
     Stopwatch watch_;
-    bool is_watched_ = false, was_heard_ = false;
-    double idle_ = 0, processor_before_ = 0;
+    bool is_watched_ = false;
+    double gap_ = 0, idle_ = 0, processor_before_ = 0;
+    bool has_progressed_ = false;
+    double longest_gap_ = 0;  ///< without progress
 };
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
@@ -235,7 +255,8 @@ WorkerEnd run_worker(const std::vector<std::string>& command,
     end.stop_signal = passed;
     if (end.is_hung) {
         end.how = watchdog.is_overdue() ? "did not end in time"
-                                        : fmt::format("made no progress for {:g} s", deadline);
+                                        : fmt::format("made no progress for {:.0f} s",
+                                                      watchdog.seconds_without_progress());
     } else if (WIFSIGNALED(wait_status)) {
         end.how = "was killed by " + name_of_signal(WTERMSIG(wait_status));
     } else {

@@ -20,9 +20,10 @@ struct WorkerEnd {
 
 /// Runs the program again with the same arguments and these environment changes ("NAME=value"), and
 /// waits. Stop signals are forwarded to the worker. While watched, it counts as hung and is killed
-/// after `deadline` seconds without progress or processor time, or when `longest` seconds have
-/// passed. If no process can be started, `how` says so. `seconds_before`: time since this process
-/// began.
+/// after `deadline` seconds without progress or processor time; when it is busy but its first
+/// progress takes 60 times `deadline`, or a later one 6 times `deadline` and ten times as long as
+/// any before; or when `longest` seconds have passed. If no process can be started, `how` says so.
+/// `seconds_before`: time since this process began.
 WorkerEnd run_worker(const std::vector<std::string>& command,
                      const std::vector<std::string>& changes, double deadline,
                      double seconds_before,

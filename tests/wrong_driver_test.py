@@ -276,6 +276,17 @@ class Dies(WrongDriver):
         self.assertIn(result.returncode, [0, 8], result.stderr)  # so small a picture may be whole
         self.assertIn("did not end in time", result.stderr)
 
+    def test_busy_for_ever_costs_time_and_not_the_picture(self):
+        picture = ["--aa", "grid:64", "--progress", "none", "--tile", "16"]
+        result = self.die("clEnqueueNDRangeKernel", "spin", *picture, CL_SHIM_DIE_AT="4",
+                          CL_SHIM_DIE_AFTER="0.5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("made no progress for", result.stderr)
+        self.assertIn("rendering on threads instead", result.stderr)
+        right = subprocess.run([str(BUILD / "mirrorball"), *self.ARGUMENTS[:4], *picture,
+                                "--device", "threads"], text=True, capture_output=True, check=True)
+        self.assertEqual(result.stderr.split()[-1], right.stderr.split()[-1])
+
     def test_is_an_error_without_fallback(self):
         result = self.die("clBuildProgram", "abort", "--no-fallback")
         self.assertEqual(result.returncode, 5)
