@@ -46,7 +46,9 @@ std::vector<Refined> refined(const char* aa) {
     TileQueue queue(make_tiles(region, 6, 1), never_stop);
     Film<float> film(6, 1);
     Halving renderer;
-    render_all(renderer, *parse_aa_mode(aa), queue, region, film);
+    const RenderedAll result = render_all(renderer, *parse_aa_mode(aa), queue, region, film);
+    EXPECT_TRUE(result.is_finished);
+    EXPECT_EQ(result.plan_seconds > 0, !renderer.calls.empty());
     return renderer.calls;
 }
 

@@ -214,16 +214,18 @@ class Job {
         journal_->begin(film_, names);
         TileQueue queue(journal_->tiles(tile_.width, tile_.height), stop_, tile_events());
         if (events_.started) events_.started(queue);
+        RenderedAll rendered;
         try {
-            stats_.refined =
-                render_all<T>(crew, stats_.aa, queue, rendered_, film_, refine_events());
+            rendered = render_all<T>(crew, stats_.aa, queue, rendered_, film_, refine_events());
         } catch (...) {
             if (events_.ended) events_.ended();
             journal_->end(false);
             throw;
         }
         if (events_.ended) events_.ended();
+        stats_.refined = rendered.is_finished;
         stats_.phases.renderer = crew.times();
+        stats_.phases.renderer.trace += rendered.plan_seconds;
         stats_.rays = queue.rays();
         stats_.tiles = queue.tiles().size();
         stats_.tiles_finished = queue.tiles_finished();

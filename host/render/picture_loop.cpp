@@ -49,31 +49,35 @@ Rect region_to_render(const AaMode& aa, const Rect& wanted, int picture_width, i
 }
 
 template <typename T>
-bool render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const Rect& region,
-                Film<T>& film, const RefineEvents<T>& events) {
+RenderedAll render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue,
+                       const Rect& region, Film<T>& film, const RefineEvents<T>& events) {
     renderer.render(queue, region, film);
-    if (queue.tiles_finished() < queue.tiles().size()) return false;
-    if (!aa.refines()) return true;
+    if (queue.tiles_finished() < queue.tiles().size()) return {};
+    if (!aa.refines()) return {true};
+    RenderedAll result;
     std::vector<std::uint8_t> levels(static_cast<std::size_t>(region.pixels()), 1);
     LaunchPacer pacer(first_samples, most_samples);
     for (int pass = 0; pass < refine_passes; ++pass) {
         const auto refined = [&](std::span<const std::int32_t> pixels) {
             if (events.refined) events.refined(pass, pixels);
         };
+        const Stopwatch planning;
         std::vector<Refinement> plan = plan_refinement(film, aa.threshold, levels);
+        result.plan_seconds += planning.seconds();
         if (events.planned) events.planned(pass, plan, film);
         for (const Refinement& refinement : plan) {
             if (!refine_all(renderer, refinement, pacer, queue, region, film, refined)) {
-                return false;
+                return result;
             }
         }
     }
-    return true;
+    result.is_finished = true;
+    return result;
 }
 
-template bool render_all(Renderer<float>&, const AaMode&, TileQueue&, const Rect&, Film<float>&,
-                         const RefineEvents<float>&);
-template bool render_all(Renderer<double>&, const AaMode&, TileQueue&, const Rect&, Film<double>&,
-                         const RefineEvents<double>&);
+template RenderedAll render_all(Renderer<float>&, const AaMode&, TileQueue&, const Rect&,
+                                Film<float>&, const RefineEvents<float>&);
+template RenderedAll render_all(Renderer<double>&, const AaMode&, TileQueue&, const Rect&,
+                                Film<double>&, const RefineEvents<double>&);
 
 }  // namespace rt

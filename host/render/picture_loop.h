@@ -27,11 +27,15 @@ struct RefineEvents {
     std::function<void(int pass, std::span<const std::int32_t> pixels)> refined;
 };
 
+struct RenderedAll {
+    bool is_finished = false;  ///< false: stopped with tiles left, or pixels to refine
+    double plan_seconds = 0;   ///< to choose what to refine: part of no renderer's times
+};
+
 /// Renders the queue's tiles and, for an adaptive mode, refines the picture until neighbors agree
-/// or two passes are done. `region` is what the film shows of the picture. Returns whether it
-/// finished: false if stopped with tiles left, or pixels to refine.
+/// or two passes are done. `region` is what the film shows of the picture.
 template <typename T>
-bool render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue, const Rect& region,
-                Film<T>& film, const RefineEvents<T>& events = {});
+RenderedAll render_all(Renderer<T>& renderer, const AaMode& aa, TileQueue& queue,
+                       const Rect& region, Film<T>& film, const RefineEvents<T>& events = {});
 
 }  // namespace rt
