@@ -52,10 +52,9 @@ void write_lines(std::string_view text) {
 
 void open_missing_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-        // open takes the lowest free number, which is this stream's.
-        if (fcntl(stream, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDWR) != stream) {
-            return;
-        }
+        if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+        // open takes the lowest free number, which is this stream's. What is written there fails.
+        if (open("/dev/null", O_RDONLY) != stream) return;
     }
 }
 

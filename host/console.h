@@ -6,8 +6,8 @@
 
 namespace rt {
 
-/// Opens /dev/null on each standard stream that is closed, so that no file of ours gets its number.
-/// Call it first.
+/// Opens /dev/null on each standard stream that is closed, for reading: no file of ours gets its
+/// number, and what is written there is an error. Call it first.
 void open_missing_streams();
 
 /// Prints text to stderr. Line ends, tabs and a leading carriage return are kept; other unprintable

@@ -16,6 +16,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "host/printable.h"
+
 namespace rt {
 
 namespace {
@@ -36,7 +38,7 @@ std::vector<fs::path> icd_files(const std::string& place) {
     return files;
 }
 
-/// The first line: the driver's library.
+/// The first line: the driver's library. Of a regular file: others may never end.
 std::string library_of(const fs::path& file) {
     std::ifstream in(file);
     std::string line;
@@ -86,7 +88,10 @@ struct Attempt {
     bool is_dangerous = false;
 };
 
-Attempt try_driver(const fs::path& file, const std::string& library) {
+Attempt try_driver(const fs::path& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return {"cannot be loaded: it is not a file", true};
+    const std::string library = library_of(file);
     if (library.empty()) return {"cannot be loaded: it names no library"};
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) return {};
@@ -116,15 +121,15 @@ Attempt try_driver(const fs::path& file, const std::string& library) {
 IcdFiles try_icd_files(const std::string& place) {
     IcdFiles files;
     for (const fs::path& file : icd_files(place)) {
-        const Attempt attempt = try_driver(file, library_of(file));
+        const Attempt attempt = try_driver(file);
         if (attempt.problem.empty()) {
             files.usable.push_back(file.string());
             continue;
         }
         files.any_dangerous |= attempt.is_dangerous;
         files.problems.push_back(
-            fmt::format("{}: its driver {}; reinstall the driver or remove the file", file.string(),
-                        attempt.problem));
+            printable(fmt::format("{}: its driver {}; reinstall the driver or remove the file",
+                                  file.string(), attempt.problem)));
     }
     return files;
 }

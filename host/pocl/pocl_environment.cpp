@@ -83,7 +83,7 @@ void remove_leftovers(const fs::path& cache) {
 /// The folder of this process alone, for want of another.
 std::optional<TemporaryFolder> private_cache;
 
-/// Empty if others can write there.
+/// Empty if others can write there, or we cannot.
 fs::path kept_cache_folder() {
     std::error_code error;
     fs::path folder = own_cache_folder();
@@ -96,7 +96,7 @@ fs::path kept_cache_folder() {
     fs::create_directories(folder, error);
     folder /= "pocl";
     mkdir(folder.c_str(), S_IRWXU);
-    if (!is_ours(folder)) return {};
+    if (!is_ours(folder) || access(folder.c_str(), W_OK | X_OK) != 0) return {};
     remove_leftovers(folder);
     return folder;
 }

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
+#include "host/error.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -69,8 +71,14 @@ OpenedFile open_beneath(const SceneFolder& folder, const std::string& name) {
     const fs::path root = fs::canonical(folder_or_here(folder.root), error);
     if (error || !lies_in(real, root)) return problem(outside);
     FileDescriptor file = open_steps(root, real.lexically_relative(root));
-    if (!file)
-        return problem(errno == EACCES ? "cannot be read; check its permissions" : unreachable);
+    if (!file && errno == EACCES) return problem("cannot be read; check its permissions");
+    if (!file && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENXIO)) {
+        return problem(unreachable);
+    }
+    if (!file) {
+        throw Error(ExitCode::limit, fmt::format("{}: cannot be opened: {}; raise the limit",
+                                                 in_quotes(name), std::strerror(errno)));
+    }
     if (!is_regular(file)) return problem("is not a regular file; name one");
     return {std::move(file), path.string(), {}};
 }

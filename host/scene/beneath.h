@@ -26,7 +26,7 @@ struct OpenedFile {
 
 /// Opens the regular file that a scene calls `name`. Refuses absolute names, "..", and symbolic
 /// links that lead out of the folder. The opened file lies beneath the folder even if files and
-/// links are replaced meanwhile.
+/// links are replaced meanwhile. Throws Error (ExitCode::limit) if the system allows no more files.
 OpenedFile open_beneath(const SceneFolder& folder, const std::string& name);
 
 }  // namespace rt

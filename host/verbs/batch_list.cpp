@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <sstream>
 
@@ -59,6 +60,20 @@ std::optional<BatchItem> parse_batch_line(const std::string& line) {
                                 more));
     }
     return item;
+}
+
+std::vector<std::string> scenes_of_list(const std::string& path) {
+    std::vector<std::string> scenes;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return scenes;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        try {
+            if (const auto item = parse_batch_line(line)) scenes.push_back(item->scene);
+        } catch (const Error&) {  // reported when its turn comes
+        }
+    }
+    return scenes;
 }
 
 std::string batch_output(const std::string& pattern, const std::string& scene) {

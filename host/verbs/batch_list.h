@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "host/file_descriptor.h"
 #include "host/options/render_options.h"
@@ -24,6 +25,9 @@ struct BatchItem {
 /// "SCENE" or "SCENE OUTPUT"; names with blanks go in double quotes. Empty for an empty line or one
 /// that begins with '#'. Throws Error (ExitCode::usage).
 std::optional<BatchItem> parse_batch_line(const std::string& line);
+
+/// The scenes that a list names; none if it is no regular file, whose end nobody knows.
+std::vector<std::string> scenes_of_list(const std::string& path);
 
 /// The pattern with each %s replaced by the scene's name, without folder and extension.
 std::string batch_output(const std::string& pattern, const std::string& scene);

@@ -42,14 +42,6 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
                                              reference.channels, width, height));
 }
 
-/// Warns that the picture is not saved, unless only figures are wanted.
-void say_unsaved(const RenderOptions& options) {
-    const bool wants_figures =
-        options.stats != StatsFormat::summary || !options.reference.empty() || options.quiet;
-    if (wants_figures || !options.output.empty()) return;
-    print_message("mirrorball: without -o FILE the picture is not saved\n");
-}
-
 /// `kept`: viewers that stay open for the next picture; null: they wait to be closed.
 int render_scene(RenderOptions options, double seconds_before_main, LivePicture* kept) {
     const Stopwatch total;

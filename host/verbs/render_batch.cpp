@@ -102,6 +102,7 @@ class Batch {
         if (!options.output.empty()) check_picture_path(batch_output(options.output, "scene"));
         inputs_.add(options.batch);
         for (const std::string& scene : options.scenes) inputs_.add(scene);
+        for (const std::string& scene : scenes_of_list(options.batch)) inputs_.add(scene);
     }
 
     int run() {
@@ -151,6 +152,7 @@ class Batch {
             return;
         }
         check_output(options);
+        if (!has_said_unsaved_) has_said_unsaved_ = say_unsaved(options);
         inputs_.add(options.scene);
         inputs_.check(options.output);
         choose_journal(options);
@@ -263,6 +265,7 @@ class Batch {
     InputFiles inputs_;  ///< as far as they are known
     Scene scene_;
     bool has_path_ = false;  ///< scene_ is the one for all frames
+    bool has_said_unsaved_ = false;
     std::size_t there_ = 0;  ///< frames skipped since their pictures existed
     std::future<int> writing_;
     BatchItem written_;

@@ -70,6 +70,14 @@ bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
     return true;
 }
 
+bool say_unsaved(const RenderOptions& options) {
+    const bool wants_figures =
+        options.stats != StatsFormat::summary || !options.reference.empty() || options.quiet;
+    if (wants_figures || !options.output.empty()) return false;
+    print_message("mirrorball: without -o FILE the picture is not saved\n");
+    return true;
+}
+
 bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count) {
     if (count == 0) return false;
     const auto [x, y] = first_non_finite(picture);

@@ -24,6 +24,9 @@ std::string text_in(const PictureMetadata& metadata, const std::string& name);
 /// Whether both name the same scene and settings.
 bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b);
 
+/// Warns that the picture is not saved, unless only figures are wanted. Returns whether it did.
+bool say_unsaved(const RenderOptions& options);
+
 /// Reports on stderr that `count` pixels of a picture of that region are not finite, if any.
 /// Returns whether any are.
 bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count);

@@ -35,6 +35,12 @@ std::vector<FileState> states_of(const std::vector<std::string>& files) {
     return states;
 }
 
+/// Whether another scene may help.
+bool concerns_scene(const Error& error) {
+    const ExitCode code = error.exit_code();
+    return code != ExitCode::usage && code != ExitCode::output && code != ExitCode::device;
+}
+
 /// Waits until `is_over`, or a file differs from `before` and has been left alone for a moment: an
 /// editor may still be writing it.
 void await_change(const std::vector<std::string>& files, const std::vector<FileState>& before,
@@ -52,7 +58,7 @@ void await_change(const std::vector<std::string>& files, const std::vector<FileS
 
 int watch_scene(const std::string& scene, bool is_quiet, const std::function<int()>& render,
                 const std::function<bool()>& is_over) {
-    while (stop_flag() == 0 && !is_over()) {
+    for (bool is_first = true; stop_flag() == 0 && !is_over(); is_first = false) {
         const FileState scene_before = states_of({scene}).front();
         const std::vector<std::string> files = scene_files(scene);
         std::vector<FileState> before = states_of(files);
@@ -61,12 +67,15 @@ int watch_scene(const std::string& scene, bool is_quiet, const std::function<int
             render();
             flush_results();
         } catch (const Error& error) {
+            if (is_first && !concerns_scene(error)) throw;
             watch_worker(false);
             print_error(error.what());
         }
         if (stop_flag() != 0 || is_over()) break;
         if (!is_quiet) print_message("mirrorball: waiting for " + scene + " to change\n");
+        const bool was_quiet = stop_quietly(true);  // nothing is left to save
         await_change(files, before, is_over);
+        stop_quietly(was_quiet);
     }
     return stop_flag() == 0 ? 0 : exit_code_of_stop(stop_flag());
 }

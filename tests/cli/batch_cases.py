@@ -49,6 +49,23 @@ class SeveralScenes(BatchTest):
             self.assertEqual(self.bytes_of("alone.png"),
                              self.bytes_of(pathlib.Path(name).stem + ".png"), name)
 
+    def test_without_outputs_it_says_once_that_nothing_is_saved(self):
+        for scenes in [[scene_path("cones"), scene_path("glass")],
+                       ["--batch", self.write_text("list", f"{scene_path('cones')}\n" * 2)]]:
+            result = self.run_cli("render", *scenes, *SMALL)
+            self.assertEqual(result.stderr.count("is not saved"), 1, result.stderr)
+            self.assertNotIn("is not saved", self.run_cli("render", *scenes, *SMALL, "-q").stderr)
+
+    def test_no_output_replaces_a_later_scene_of_the_list(self):
+        scene = pathlib.Path(scene_path("cones")).read_text()
+        later = self.write_text("later.png", scene)
+        (self.folder / "later.json").symlink_to(later)
+        items = self.write_text("list", f"{scene_path('glass')} later.png\nlater.json other.png\n")
+        result = self.run_cli("render", "--batch", items, *SMALL)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual((self.folder / "later.png").read_text(), scene)
+        self.assertIn("other.png", self.files())
+
     def test_a_bad_scene_stops_no_other(self):
         self.write_text("bad.json", "{")
         result = self.run_cli("render", "nowhere.json", scene_path("cones"),

@@ -156,6 +156,18 @@ class BrokenDrivers(PreloadTest):
         self.write_text("empty.icd", "")
         self.assertIn("names no library", self.problems()[0])
 
+    def test_names_and_contents_are_escaped(self):
+        self.write_text("x.icd", "\x1b[31m\x9b\n")
+        self.write_text("a\nb.icd", "\a\n")
+        for command in [["devices"], ["devices", "--json"], ["doctor"]]:
+            result = self.run_cli(*command, env={"OCL_ICD_VENDORS": str(self.folder)})
+            self.assertIn("a\\x0ab.icd", result.stdout.replace("\\\\", "\\"))
+            self.assertNotRegex(result.stdout, "[\x00-\x09\x0b-\x1f\x7f-\x9f]")
+
+    def test_a_pipe_is_named(self):
+        os.mkfifo(self.folder / "pipe.icd")
+        self.assertIn("not a file", self.problems()[0])
+
     def test_working_drivers_are_not_named(self):
         answer = json.loads(self.run_cli("devices", "--json").stdout)
         self.assertEqual(answer["problems"], [])
@@ -207,6 +219,12 @@ class KernelCache(CliTest):
         self.assertRegex(result.stderr, f"{folder.parent}/mirrorball.tmp[^ ]*/[^ ]*\\.so")
         self.assertEqual([*shared.iterdir(), *folder.iterdir()], [])
         self.assertEqual(list(folder.parent.iterdir()), [folder])
+
+    def test_is_temporary_where_the_home_cannot_be_written(self):
+        result = self.run_cli("render", scene_path("single-sphere"), "--size", "8", "--device",
+                              "pocl", "--no-fallback", "-q",
+                              env={"POCL_CACHE_DIR": "", "XDG_CACHE_HOME": "", "HOME": "/proc/no"})
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_what_builds_leave_is_removed_after_an_hour(self):
         own = self.render_on_pocl(POCL_CACHE_DIR="")

@@ -194,6 +194,12 @@ class Lost(CliTest):
                     line = f"$MIRRORBALL {command} {end}; exit ${{PIPESTATUS[0]}}"
                     self.assertIn(self.run_shell(line).returncode, [0, 4])
 
+    def test_closed_stdout_is_an_error(self):
+        for command in [*self.RESULTS, "render $SCENE --size 8 -o -"]:
+            with self.subTest(command=command):
+                result = self.run_shell(f"$MIRRORBALL {command} >&-")
+                self.assertEqual(result.returncode, 4, result.stderr)
+
     def test_full_stdout_is_an_error(self):
         for command in self.RESULTS:
             with self.subTest(command=command):

@@ -56,6 +56,21 @@ class Watch(CliTest):
                 process.send_signal(signal.SIGINT)
                 self.assertIn(process.wait(HANG_LIMIT), [130, -signal.SIGINT])
 
+    def test_what_no_change_of_the_scene_mends_ends_it(self):
+        self.write(0.5)
+        for code, arguments in [(2, ["-o", "out.xyz"]), (4, ["-o", "nowhere/out.png"]),
+                                (5, ["-o", "out.png", "--device", "name:nobody"])]:
+            result = self.run_cli("render", "scene.json", "--watch", *arguments)
+            self.assertEqual(result.returncode, code, result.stderr)
+
+    def test_ctrl_c_while_nothing_renders_is_no_news(self):
+        self.write(0.5)
+        process = self.watch("threads")
+        self.wait_for("waiting for", 1)
+        process.send_signal(signal.SIGINT)
+        process.wait(HANG_LIMIT)
+        self.assertFalse(any("stopping" in line for line in self.lines), self.lines)
+
     def write_model(self, last_corner="0 1 0"):
         if not (self.folder / "scene.json").exists():
             self.write_scene(meshes=[{"file": "model.obj"}], ambient_light=1)
