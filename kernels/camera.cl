@@ -39,6 +39,8 @@ Ray camera_ray(const LaunchParams* params, Indices x, Indices y, Indices k) {
     ray.t_max = (Reals)INFINITY;
     ray.self_hit = (Reals)0;
     ray.from = (Indices)(params->eye_on_surface != 0 ? RT_EYE : RT_NONE);
+    ray.zone = (Reals)0;
+    ray.left = ray.left_side = (Indices)0;
     return ray;
 }
 

@@ -7,7 +7,30 @@
 
 #include "kernels/bvh.cl"
 #include "kernels/cone.cl"
+#include "kernels/hit_surface.cl"
 #include "kernels/search.cl"
+
+// A surface's material and the side that the ray meets: one number.
+Indices side_of(const Surface* surface, real3 dir) {
+    Mask inside = dot3(surface->geometric, dir) > (Reals)0;
+    return surface->material * 2 + (inside & 1);
+}
+
+// offer_hit, but for surfaces in the rays' zones that they have crossed.
+void offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
+                     Reals u, Reals v, Index prim) {
+    if (RT_HAS_GLASS && search->has_zones) {
+        Mask near = met & (t > (Reals)0) & (t <= ray->zone);
+        if (any_lane(near)) {
+            Hit hit = {t, u, v, (Indices)prim, RT_NO_LANES};
+            Surface surface = primitive_surface(scene, ray, &hit, prim);
+            Mask crossed = (Indices)scene_number(scene, prim) < ray->left;
+            crossed |= side_of(&surface, ray->dir) == ray->left_side;
+            met &= !(near & crossed);
+        }
+    }
+    offer_hit(scene, search, met, t, u, v, prim);
+}
 
 void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal, Search* search) {
     Index first, end;
@@ -18,7 +41,9 @@ void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal
             __global const Sphere* sphere = &scene->spheres[prim];
             Reals t;
             Mask met = intersect_sphere(ray, sphere, prim, &t);
-            if (any_lane(met)) offer_hit(scene, search, met, t, (Reals)0, (Reals)0, prim);
+            if (any_lane(met)) {
+                offer_uncrossed(scene, ray, search, met, t, (Reals)0, (Reals)0, prim);
+            }
         }
     }
 }
@@ -33,7 +58,9 @@ void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, 
             Reals t;
             Mask leaving = leaves_cone(ray, &scene->cones[i], prim);
             Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t);
-            if (any_lane(met)) offer_hit(scene, search, met, t, (Reals)0, (Reals)0, prim);
+            if (any_lane(met)) {
+                offer_uncrossed(scene, ray, search, met, t, (Reals)0, (Reals)0, prim);
+            }
         }
     }
 }
@@ -53,7 +80,7 @@ void search_triangles(const SceneView* scene, const Ray* ray, const RayShear* sh
             if (RT_HAS_EYE_ON_SURFACE && scene->triangles[i].plane == (Real)0) {
                 met &= ray->from != RT_EYE;
             }
-            offer_hit(scene, search, met, t, u, v, prim);
+            offer_uncrossed(scene, ray, search, met, t, u, v, prim);
         }
     }
 }
@@ -76,6 +103,7 @@ Hit closest_hit(const SceneView* scene, const Ray* ray, Mask live) {
     search.number = (Indices)RT_MAX_INDEX;
     search.limit = search.hit.t;
     search.finds_first = false;
+    search.has_zones = RT_HAS_GLASS && any_lane(live & (ray->zone > (Reals)0));
     Mask tied = RT_NO_LANES;
     for (;;) {
         search_all(scene, ray, &shear, &search);
@@ -98,7 +126,7 @@ bool block(Reals* t_max, Mask blocked) {
 // The functions blocked_by_* switch off the lanes whose rays meet a primitive of the kind in
 // (0, *t_max]. True when no lane is left on.
 
-bool blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal,
+bool blocked_by_spheres(const SceneView* scene, const Ray* ray, Index light, Traversal* traversal,
                         Reals* t_max) {
     Index first, end;
     enter_kind(traversal, scene->params.sphere_root, scene->params.sphere_count, scene->spheres,
@@ -111,23 +139,23 @@ bool blocked_by_spheres(const SceneView* scene, const Ray* ray, Traversal* trave
             if (!any_lane(met)) continue;
             met &= (t > (Reals)0) & (t <= *t_max);
             if (!any_lane(met)) continue;
-            if (block(t_max, met & !ends_on_sphere(ray, sphere, t, *t_max))) return true;
+            if ((sphere->touches & light) != 0) met &= !ends_on_sphere(ray, sphere, t, *t_max);
+            if (block(t_max, met)) return true;
         }
     }
     return false;
 }
 
-bool blocked_by_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, Reals* t_max) {
+bool blocked_by_cones(const SceneView* scene, const Ray* ray, Index light, Traversal* traversal,
+                      Reals* t_max) {
     Index first, end;
     enter_kind(traversal, scene->params.cone_root, scene->params.cone_count, scene->cones,
                sizeof(Cone));
     while (next_range(traversal, scene->nodes, *t_max, &first, &end)) {
         for (Index i = first; i < end; ++i) {
-            Reals t;
             Mask leaving = ray->from == scene->params.sphere_count + i;
-            Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t);
-            if (!any_lane(met)) continue;
-            if (block(t_max, met & (t > (Reals)0) & (t <= *t_max))) return true;
+            Mask met = meets_cone_before(ray, &scene->cones[i], leaving, *t_max, light);
+            if (any_lane(met) && block(t_max, met)) return true;
         }
     }
     return false;
@@ -158,13 +186,15 @@ bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
     return false;
 }
 
-// Whether anything lies on the rays in (0, t_max]. Without a hierarchy, tests caster_count
+// Whether anything lies on the rays in (0, t_max], towards a light whose bit is `light`
+// (Sphere::touches; 0: none). Without a hierarchy, tests caster_count
 // triangles of the caster list from first_caster on, or all triangles if that is their number.
-Mask any_hit(const SceneView* scene, const Ray* ray, Index first_caster, Index caster_count) {
+Mask any_hit(const SceneView* scene, const Ray* ray, Index light, Index first_caster,
+             Index caster_count) {
     Reals t_max = ray->t_max;
     Traversal traversal = begin_traversal(ray, t_max > (Reals)0);
-    bool is_done = RT_HAS_SPHERES && blocked_by_spheres(scene, ray, &traversal, &t_max);
-    is_done = is_done || (RT_HAS_CONES && blocked_by_cones(scene, ray, &traversal, &t_max));
+    bool is_done = RT_HAS_SPHERES && blocked_by_spheres(scene, ray, light, &traversal, &t_max);
+    is_done = is_done || (RT_HAS_CONES && blocked_by_cones(scene, ray, light, &traversal, &t_max));
     if (RT_HAS_TRIANGLES && !is_done) {
         blocked_by_triangles(scene, ray, &traversal, &t_max, first_caster, caster_count);
     }

@@ -7,8 +7,9 @@
 // = |R + m t|, R being the radius at the origin's height and m = slope (dir.axis). The cross
 // products use differences of products, hence keep their digits when the ray runs along the axis.
 //
-// The origin is first moved to the ray's closest approach to the axis, or as near to it as the
-// frustum reaches, so that nothing much larger than the frustum is ever subtracted. The
+// The origin is first moved to the ray's closest approach to the axis (on a flat cone, to half the
+// height), or as near to it as the frustum reaches, so that nothing much larger than the frustum is
+// ever subtracted. The
 // discriminant is |R c - m g|^2 - |g x c|^2: its only subtraction is the one that decides hit or
 // miss (for a cylinder it is P (R^2 - l^2) with l the ray's distance from the axis). The equation
 // is solved without cancellation, and a root counts if its height is on the frustum and the radius
@@ -27,42 +28,79 @@ real3 cross3(real3 a, real3 b) {
                  difference_of_products(a.x, b.y, a.y, b.x));
 }
 
-// How far along the rays to move before solving.
-Reals cone_shift(const Ray* ray, real3 w, real3 g, real3 c, __global const Cone* cone) {
-    Reals length = (Reals)cone->length;
-    Reals reach = fma(fabs((Reals)cone->slope), length, (Reals)cone->base_radius) + length;
-    Reals middle = -dot3(add_scaled(w, (Reals)-0.5 * length, load3(cone->axis)), ray->dir);
-    Reals nearest = -(dot3(g, c) / dot3(c, c));
-    return max_of(middle - reach, min_of(nearest, middle + reach));
+// A cone this flat has no height to speak of: roots count if their radius is between the rims', and
+// the rays are moved to half the height, wherever rounding puts that. Rays that are still above or
+// below both rims where they come nearest to it miss the cone.
+bool is_flat(__global const Cone* cone) { return fabs((Real)cone->slope) > (Real)16; }
+
+// The most that rays are moved from the closest approach to the middle of the cone.
+Reals cone_reach(__global const Cone* cone) {
+    return fma(fabs((Reals)cone->slope), (Reals)cone->length, (Reals)cone->base_radius) +
+           (Reals)cone->length;
+}
+
+// `goal` is where along the rays to solve; as near to it as the cone reaches.
+Reals cone_shift(const Ray* ray, real3 w, Reals goal, __global const Cone* cone) {
+    Reals reach = cone_reach(cone);
+    real3 axis = load3(cone->axis);
+    Reals middle = -dot3(add_scaled(w, (Reals)-0.5 * (Reals)cone->length, axis), ray->dir);
+    return max_of(middle - reach, min_of(goal, middle + reach));
 }
 
 // The lanes whose rays start on cone number prim.
 Mask leaves_cone(const Ray* ray, __global const Cone* cone, Index prim) {
     Mask leaving = ray->from == prim;
-    if (RT_HAS_EYE_ON_SURFACE && cone->touches_eye != 0) leaving |= ray->from == (Index)RT_EYE;
+    if (RT_HAS_EYE_ON_SURFACE && (cone->touches & RT_TOUCHES_EYE) != 0) {
+        leaving |= ray->from == (Index)RT_EYE;
+    }
     return leaving;
 }
 
-// Whether the rays' lines meet the frustum in front of the origin, and at which distance t.
-// `leaving`: the origin lies on this very cone.
-Mask intersect_cone(const Ray* ray, __global const Cone* cone, Mask leaving, Reals* t) {
+// Where the rays' lines meet a cone, and whether that counts: on the frustum and in front.
+typedef struct {
+    Reals near, far;
+    Mask near_counts, far_counts;
+} ConeRoots;
+
+// `leaving`: the origin lies on this very cone. No root counts in lanes that are not met.
+ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving) {
+    ConeRoots roots;
+    roots.near = roots.far = (Reals)0;
+    roots.near_counts = roots.far_counts = RT_NO_LANES;
     real3 axis = load3(cone->axis);
     Reals slope = (Reals)cone->slope;
     real3 w = sub3(ray->origin, load3(cone->base));
     real3 c = cross3(ray->dir, axis);
     real3 g = cross3(w, axis);
-    Reals shift = leaving ? (Reals)0 : cone_shift(ray, w, g, c, cone);
-    g = add_scaled(g, shift, c);
-    real3 x = cross3(g, c);
+    bool flat = is_flat(cone);
     Reals rise = dot3(ray->dir, axis);
-    Reals height = fma(shift, rise, dot3(w, axis));
+    Reals start = dot3(w, axis);
+    Reals middle = (Reals)0.5 * (Reals)cone->length;
+    Reals goal = flat ? (middle - start) / rise : -(dot3(g, c) / dot3(c, c));
+    Reals shift = leaving ? (Reals)0 : cone_shift(ray, w, goal, cone);
+    g = add_scaled(g, shift, c);
+    Reals height = fma(shift, rise, start);
     Reals radius = fma(slope, height, (Reals)cone->base_radius);
     Reals m = slope * rise;
+    Reals unit = (Reals)1;  // of distances from here on: a flat cone's m may be huge
+    Mask misses = RT_NO_LANES;
+    if (flat) {
+        Real mean = (Real)0.5 * (cone->base_radius + cone->apex_radius);
+        Real width = fabs(cone->base_radius - cone->apex_radius);
+        Mask is_there = shift == goal;
+        misses = !(leaving | is_there | (fabs(radius - (Reals)mean) <= (Reals)width));
+        radius = leaving ? length3(g) : (is_there ? (Reals)mean : radius);
+        unit = (Reals)1 / max_of(fabs(m), length3(c));
+        m = unit * m;
+        c = scale3(unit, c);
+    }
+    real3 x = cross3(g, c);
     real3 v = add_scaled(scale3(radius, c), -m, g);
     Reals discriminant = dot3(v, v) - dot3(x, x);
     Mask met = discriminant >= (Reals)0;
     met |= leaving;
-    if (!any_lane(met)) return met;
+    met &= !misses;
+    if (!any_lane(met)) return roots;
     // a t^2 + 2 b t + k = 0
     Reals size = length3(c);
     Reals a = (size - m) * (size + m);
@@ -70,7 +108,7 @@ Mask intersect_cone(const Ray* ray, __global const Cone* cone, Mask leaving, Rea
     Reals distance = length3(g);
     Reals k = (distance - radius) * (distance + radius);
     Reals root = sqrt(discriminant);
-    Reals self_hit = ray->self_hit;
+    Reals self_hit = ray->self_hit * unit;
     if (RT_HAS_EYE_ON_SURFACE) self_hit = ray->from == (Index)RT_EYE ? (Reals)-2 * b : self_hit;
     Reals q = leaving ? self_hit : -(b + (b < (Reals)0 ? -root : root));
     Reals one = q / a;
@@ -78,17 +116,48 @@ Mask intersect_cone(const Ray* ray, __global const Cone* cone, Mask leaving, Rea
     Reals other = is_single ? one : k / q;
     Reals near = min_of(one, other);
     Reals far = max_of(one, other);
-    Reals length = (Reals)cone->length;
-    Reals near_height = fma(near, rise, height);
-    Reals far_height = fma(far, rise, height);
-    Reals near_t = shift + near;
-    Reals far_t = shift + far;
-    Mask near_counts = (near_t > (Reals)0) & (near_height >= (Reals)0) & (near_height <= length) &
-                       (fma(near, m, radius) >= (Reals)0);
-    Mask far_counts = (far_t > (Reals)0) & (far_height >= (Reals)0) & (far_height <= length) &
-                      (fma(far, m, radius) >= (Reals)0);
-    *t = near_counts ? near_t : far_t;
-    return met & (near_counts | far_counts);
+    Reals near_radius = fma(near, m, radius);
+    Reals far_radius = fma(far, m, radius);
+    roots.near = fma(unit, near, shift);
+    roots.far = fma(unit, far, shift);
+    roots.near_counts = met & (roots.near > (Reals)0) & (near_radius >= (Reals)0);
+    roots.far_counts = met & (roots.far > (Reals)0) & (far_radius >= (Reals)0);
+    if (flat) {
+        Real rim = cone->base_radius, other_rim = cone->apex_radius;
+        Reals least = (Reals)(rim < other_rim ? rim : other_rim);
+        Reals most = (Reals)(rim < other_rim ? other_rim : rim);
+        roots.near_counts &= (near_radius >= least) & (near_radius <= most);
+        roots.far_counts &= (far_radius >= least) & (far_radius <= most);
+    } else {
+        Reals length = (Reals)cone->length;
+        Reals near_height = fma(near, rise, height);
+        Reals far_height = fma(far, rise, height);
+        roots.near_counts &= (near_height >= (Reals)0) & (near_height <= length);
+        roots.far_counts &= (far_height >= (Reals)0) & (far_height <= length);
+    }
+    return roots;
+}
+
+// Whether the rays' lines meet the frustum in front of the origin, and at which distance t.
+Mask intersect_cone(const Ray* ray, __global const Cone* cone, Mask leaving, Reals* t) {
+    ConeRoots roots = cone_roots(ray, cone, leaving);
+    *t = roots.near_counts ? roots.near : roots.far;
+    return roots.near_counts | roots.far_counts;
+}
+
+// Whether shadow rays meet the frustum in (0, t_max]. If their light lies on it, the root nearer to
+// the light does not count.
+Mask meets_cone_before(const Ray* ray, __global const Cone* cone, Mask leaving, Reals t_max,
+                       Index light) {
+    ConeRoots roots = cone_roots(ray, cone, leaving);
+    if ((cone->touches & light) != 0) {
+        Real size = cone->base_radius + cone->apex_radius + cone->length;
+        Mask near_is_nearer = fabs(roots.near - t_max) <= fabs(roots.far - t_max);
+        roots.near_counts &= !(near_is_nearer & is_at_light(roots.near, t_max, size));
+        Mask far_is_nearer = leaving | !near_is_nearer;
+        roots.far_counts &= !(far_is_nearer & is_at_light(roots.far, t_max, size));
+    }
+    return (roots.near_counts & (roots.near <= t_max)) | (roots.far_counts & (roots.far <= t_max));
 }
 
 #endif

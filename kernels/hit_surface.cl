@@ -7,7 +7,8 @@
 // met several surfaces at once, or a triangle within rounding error of its edge, that offset clears
 // only one of them, and rounding would decide whether the neighbor is in the way. There the point
 // moves back along the ray, by eight offsets plus the tie distance, to the viewer's side of all of
-// them.
+// them; shadow rays to lights on the other side start as far beyond them. A refracted ray crosses
+// them in the scene's order, each once, and of neighbors that share an edge only one (Ray::zone).
 #ifndef RT_HIT_SURFACE_CL
 #define RT_HIT_SURFACE_CL
 
@@ -34,6 +35,7 @@ Surface select_surface(Mask mask, Surface yes, Surface no) {
     chosen.geometric = select3(mask, yes.geometric, no.geometric);
     chosen.offset = mask ? yes.offset : no.offset;
     chosen.signed_diameter = mask ? yes.signed_diameter : no.signed_diameter;
+    chosen.back = (Reals)0;
     chosen.material = mask ? yes.material : no.material;
     return chosen;
 }
@@ -41,6 +43,7 @@ Surface select_surface(Mask mask, Surface yes, Surface no) {
 // Every live lane's surface: one primitive after the other, for all the lanes that hit it.
 Surface hit_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
     Surface surface;
+    surface.back = (Reals)0;
     surface.material = (Indices)0;
     for (Mask left = live; any_lane(left);) {
         Index prim = least_lane(left, hit->prim);
@@ -62,11 +65,13 @@ Mask is_on_edge(const SceneView* scene, const Hit* hit) {
 Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
     Surface surface = hit_surface(scene, ray, hit, live);
     Mask touching = live & (hit->tied | is_on_edge(scene, hit));
+    if (RT_HAS_GLASS) touching |= live & (hit->t <= ray->zone);
     if (any_lane(touching)) {
         Reals tie = hit->tied ? (Reals)((Real)32 * (Real)RT_ROUNDOFF) * hit->t : (Reals)0;
-        Reals back = (Reals)-8 * surface.offset - tie;
-        real3 moved = add_scaled(surface.point, back, ray->dir);
+        Reals back = (Reals)8 * surface.offset + tie;
+        real3 moved = add_scaled(surface.point, -back, ray->dir);
         surface.point = select3(touching, moved, surface.point);
+        surface.back = touching ? back : (Reals)0;
     }
     return surface;
 }
@@ -90,6 +95,8 @@ Ray spawn_ray(const Surface* surface, real3 origin, real3 dir, Indices prim) {
     ray.t_max = (Reals)INFINITY;
     ray.self_hit = -surface->signed_diameter * dot3(surface->geometric, dir);
     ray.from = prim;
+    ray.zone = (Reals)0;
+    ray.left = ray.left_side = (Indices)0;
     return ray;
 }
 

@@ -43,7 +43,7 @@ Mask intersect_huge_sphere(const Ray* ray, __global const Sphere* sphere, Reals*
 Mask leaves_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Reals* chord) {
     Mask leaving = ray->from == prim;
     *chord = ray->self_hit;
-    if (RT_HAS_EYE_ON_SURFACE && sphere->touches_eye != 0) {
+    if (RT_HAS_EYE_ON_SURFACE && (sphere->touches & RT_TOUCHES_EYE) != 0) {
         Mask from_eye = ray->from == RT_EYE;
         Reals inward = (Reals)2 * dot3(load3(sphere->center), ray->dir);
         *chord = from_eye ? inward : *chord;
@@ -76,12 +76,21 @@ Mask intersect_sphere(const Ray* ray, __global const Sphere* sphere, Index prim,
     return met;
 }
 
-// Whether a shadow ray ends on the sphere rather than being blocked by it: the light lies on the
-// sphere, within the rounding error of its nearer root.
+// Whether a shadow ray meets a surface at t, near the light at t_max on it. `size` is the
+// surface's: the rounding error of a root grows as the square root of roundoff where the ray grazes
+// it.
+Mask is_at_light(Reals t, Reals t_max, Real size) {
+    Reals away = t - t_max;
+    Reals reach = t_max + size;
+    return away * away <= (Reals)((Real)64 * (Real)RT_ROUNDOFF) * reach * reach;
+}
+
+// Whether a shadow ray to a light on the sphere meets it only there, by the root t in front of the
+// light: the other root is farther from the light, and beyond it.
 Mask ends_on_sphere(const Ray* ray, __global const Sphere* sphere, Reals t, Reals t_max) {
     Reals b = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
-    Reals slack = (Reals)((Real)8 * (Real)RT_ROUNDOFF * sphere->radius * sphere->radius);
-    return (t < b) & ((t_max - t) * (b - t) <= slack);
+    Mask is_far_root = t >= b;
+    return (is_far_root | (t_max < b)) & is_at_light(t, t_max, sphere->radius);
 }
 
 // The rays' frames: z is the direction's largest component, x and y the next two in order.
@@ -191,7 +200,8 @@ Mask intersect_triangle(const RayShear* shear, __global const Triangle* triangle
     *t = fma(wa, a.z, fma(wb, b.z, wc * c.z)) * shear->sz * inverse;
     inside &= determinant != (Reals)0;
     Reals reach = max_of(max_of(fabs(a.z), fabs(b.z)), fabs(c.z)) * fabs(shear->sz);
-    Mask is_far = inside & (reach > (Reals)8 * fabs(*t));
+    // *t overflows where the vertices are beyond the cube root of the largest number.
+    Mask is_far = inside & ((reach > (Reals)8 * fabs(*t)) | !(fabs(*t) < (Reals)INFINITY));
     if (any_lane(is_far)) *t = is_far ? plane_distance(shear, triangle) : *t;
     return inside;
 }

@@ -33,6 +33,8 @@ Ray query_ray(const IndexLanes* fields) {
     ray.self_hit = RT_AS_REALS(fields[11].all);
     ray.dir_low = make3((Reals)0, (Reals)0, (Reals)0);
     ray.origin_low = ray.dir_low;
+    ray.zone = (Reals)0;
+    ray.left = ray.left_side = (Indices)0;
     return ray;
 }
 
@@ -65,7 +67,7 @@ void rays_item(__global RayAnswer* answers, __global const RayQuery* queries,
     Mask asks = live & (ray.t_max < (Reals)INFINITY);
     ray.t_max = asks ? ray.t_max : (Reals)-1;
     if (any_lane(ray.t_max > (Reals)0)) {
-        Mask blocked = any_hit(scene, &ray, 0, scene->params.triangle_count);
+        Mask blocked = any_hit(scene, &ray, 0, 0, scene->params.triangle_count);
         out[7].all = blocked ? (Indices)1 : (Indices)0;
     }
     Mask met = live & (hit.prim != RT_NONE);

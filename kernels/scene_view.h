@@ -31,6 +31,10 @@ typedef struct {
     // cone -2 b, where the ray solves a t^2 + 2 b t = 0.
     Reals self_hit;
     Indices from;  // the primitive the origin lies on, or RT_NONE
+    // A refracted ray that left several surfaces at once: up to `zone`, surfaces that come before
+    // number `left` in the scene, or have that side and material, are behind it. Else zone is 0.
+    Reals zone;
+    Indices left, left_side;
 } Ray;
 
 typedef struct {

@@ -22,6 +22,7 @@ typedef struct {
     Indices number;    // second pass: the hit primitive's number in the scene
     Reals limit;       // farther hits do not count; negative: the lane is off
     bool finds_first;  // second pass: find the first in the scene, not the nearest
+    bool has_zones;    // of some ray (Ray::zone)
 } Search;
 
 // A primitive's number in the scene: hierarchies reorder them.
@@ -30,6 +31,18 @@ Index scene_number(const SceneView* scene, Index prim) {
     bool reordered =
         (scene->params.sphere_root | scene->params.cone_root | scene->params.triangle_root) != 0;
     return reordered ? scene->order[prim] : prim;
+}
+
+// The numbers of the primitives in the live lanes.
+Indices scene_numbers(const SceneView* scene, Indices prims, Mask live) {
+    Indices numbers = prims;
+    for (Mask left = live; any_lane(left);) {
+        Index prim = least_lane(left, prims);
+        Mask lanes = left & (prims == prim);
+        left &= !lanes;
+        numbers = lanes ? (Indices)scene_number(scene, prim) : numbers;
+    }
+    return numbers;
 }
 
 // Records primitive prim, which the lines of some lanes meet at t (possibly behind the origin, or

@@ -24,10 +24,11 @@ Reals specular_lobe(real3 normal, real3 to_light, real3 to_eye, Reals shininess)
     return blinn_lobe(along, dot3(across, across), dot3(sum, sum), shininess);
 }
 
-// One light's contribution in the live lanes; `origin` is where shadow rays start.
+// The contribution of light `number` in the live lanes; `origin` is where shadow rays start.
 real3 light_contribution(const SceneView* scene, const Surface* surface, const Materials* material,
-                         __global const Light* light, real3 origin, real3 to_eye, Indices prim,
-                         Mask live, PacketCounts* counts) {
+                         Index number, real3 origin, real3 to_eye, Indices prim, Mask live,
+                         PacketCounts* counts) {
+    __global const Light* light = &scene->lights[number];
     const real3 none = make3((Reals)0, (Reals)0, (Reals)0);
     real3 to_light = sub3(load3(light->position), origin);
     Mask lit = live & (dot3(surface->geometric, to_light) > (Reals)0);
@@ -41,8 +42,10 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const M
     Reals end = distance * (Reals)((Real)1 - (Real)16 * (Real)RT_ROUNDOFF);
     shadow.t_max = lit ? end : (Reals)-1;
     counts->shadow += lit & 1;
-    RT_EXPLAIN(lit, RT_EVENT_SHADOW, light - scene->lights, 0, distance, none, origin, dir, none);
-    lit &= !any_hit(scene, &shadow, light->first_caster, light->caster_count);
+    RT_EXPLAIN(lit, RT_EVENT_SHADOW, number, 0, distance, none, origin, dir, none);
+    Index last = RT_TOUCHES_LIGHTS - 1;
+    Index bit = RT_TOUCHES_FIRST_LIGHT << (number < last ? number : last);
+    lit &= !any_hit(scene, &shadow, bit, light->first_caster, light->caster_count);
     if (!any_lane(lit)) return none;
     real3 reflected = scale3(cosine, material->diffuse);
     if (any_lane(lit & !is_black(material->specular))) {  // elsewhere it adds 0
@@ -50,7 +53,7 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const M
         reflected = add_scaled(reflected, lobe, material->specular);
     }
     real3 added = select3(lit, mul3(load3(light->intensity), reflected), none);
-    RT_EXPLAIN(lit, RT_EVENT_LIT, light - scene->lights, 0, distance, none, origin, dir, added);
+    RT_EXPLAIN(lit, RT_EVENT_LIT, number, 0, distance, none, origin, dir, added);
     return added;
 }
 
@@ -60,8 +63,8 @@ real3 shade(const SceneView* scene, const Surface* surface, const Materials* mat
     if (RT_HAS_LIGHTS) {
         real3 origin = offset_origin(surface, surface->geometric);
         for (Index i = 0; i < scene->params.light_count; ++i) {
-            color = add3(color, light_contribution(scene, surface, material, &scene->lights[i],
-                                                   origin, to_eye, prim, live, counts));
+            color = add3(color, light_contribution(scene, surface, material, i, origin, to_eye,
+                                                   prim, live, counts));
         }
     }
     return color;

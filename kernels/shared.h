@@ -23,7 +23,7 @@ typedef struct {
     Index material;
     Index is_huge;       // far larger than its distance: kernels/intersect.cl
     Real power;          // of the eye's position: |center|^2 - radius^2, computed in double
-    Index touches_eye;   // the eye lies on it
+    Index touches;       // RT_TOUCHES_...
     Packed3 center_low;  // part of center lost to rounding
     Index pad;
 } Sphere;
@@ -36,8 +36,8 @@ typedef struct {
     Real length;
     Real slope;  // change in radius per unit length along the axis
     Index material;
-    Index touches_eye;  // the eye lies on it
-    Index pad;
+    Index touches;  // RT_TOUCHES_...
+    Real apex_radius;
 } Cone;
 
 typedef struct {
@@ -172,6 +172,10 @@ typedef struct {
     X(Index, casters, "the shadow casters")
 
 enum { RT_NONE = -1 };
+
+// What lies on a sphere or cone, as far as double can tell: the eye, light i for i below the last
+// bit's, some of the other lights.
+enum { RT_TOUCHES_EYE = 1, RT_TOUCHES_FIRST_LIGHT = 2, RT_TOUCHES_LIGHTS = 30 };
 
 // Ray::from of rays that start at an eye on some surface (LaunchParams::eye_on_surface).
 enum { RT_EYE = -2 };

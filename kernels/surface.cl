@@ -21,6 +21,7 @@ typedef struct {
     // A sphere's diameter, and its analog on a cone: the length of the gradient of the implicit
     // function. Positive where the geometric normal points outwards; 0 on triangles.
     Reals signed_diameter;
+    Reals back;  // how far surface_at has moved the point back along the ray; else 0
     Indices material;
 } Surface;
 
@@ -63,8 +64,8 @@ Surface sphere_surface(const Ray* ray, Reals t, __global const Sphere* sphere) {
     return surface;
 }
 
-// The point is moved onto the cone at its height; on the axis, where the radius is 0, the normal
-// faces the viewer.
+// The point is moved onto the cone at its height, on a flat cone at its radius; on the axis, where
+// the radius is 0, the normal faces the viewer.
 Surface cone_surface(const Ray* ray, Reals t, __global const Cone* cone) {
     real3 base = load3(cone->base);
     real3 axis = load3(cone->axis);
@@ -72,9 +73,16 @@ Surface cone_surface(const Ray* ray, Reals t, __global const Cone* cone) {
     Reals height = min_of(max_of(dot3(along, axis), (Reals)0), (Reals)cone->length);
     real3 outwards = add_scaled(along, -height, axis);
     Reals squared = dot3(outwards, outwards);
+    Reals radius = max_of(fma((Reals)cone->slope, height, (Reals)cone->base_radius), (Reals)0);
+    if (is_flat(cone)) {
+        Real rim = cone->base_radius, other_rim = cone->apex_radius;
+        Reals least = (Reals)(rim < other_rim ? rim : other_rim);
+        Reals most = (Reals)(rim < other_rim ? other_rim : rim);
+        radius = min_of(max_of(sqrt(squared), least), most);
+        height = (radius - (Reals)rim) / (Reals)cone->slope;
+    }
     outwards = scale3((Reals)1 / sqrt(squared), outwards);
     Mask is_on_axis = !(squared > (Reals)0);
-    Reals radius = max_of(fma((Reals)cone->slope, height, (Reals)cone->base_radius), (Reals)0);
     Surface surface;
     surface.normal = normalize3(add_scaled(outwards, -(Reals)cone->slope, axis));
     surface.normal = select3(is_on_axis, negate3(ray->dir), surface.normal);

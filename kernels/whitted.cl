@@ -34,6 +34,18 @@ Ray mirror_ray(const Surface* surface, real3 dir, Indices prim) {
     return spawn_ray(surface, offset_origin(surface, mirrored), mirrored, prim);
 }
 
+// Notes on a refracted ray which of the surfaces around its origin it has crossed (Ray::zone):
+// those up to four times as far as this one. `inside` where it came from behind the surface.
+void note_crossed(const SceneView* scene, const Surface* surface, real3 dir, Mask inside,
+                  Indices prim, Ray* ray) {
+    Mask touching = surface->back > (Reals)0;
+    Reals depth = fma(surface->back, fabs(dot3(dir, surface->geometric)), surface->offset);
+    Reals reach = (Reals)4 * depth / fabs(dot3(ray->dir, surface->geometric));
+    ray->zone = touching ? min_of(reach, (Reals)1024 * surface->back) : (Reals)0;
+    ray->left = scene_numbers(scene, prim, touching);
+    ray->left_side = surface->material * 2 + (inside & 1);
+}
+
 // The refracted ray at a surface. `eta` is the ratio of the indices of refraction, incident over
 // transmitted side: it scales the part of dir along the surface. *total: total internal reflection.
 // Where an interpolated normal would leave the ray on the side it came from, it is refracted about
@@ -45,7 +57,8 @@ Ray refracted_ray(const Surface* surface, real3 dir, Reals eta, Indices prim, Ma
     for (int attempt = 0;; ++attempt) {
         Reals cosine = dot3(dir, normal);
         real3 along = add_scaled(dir, -cosine, normal);
-        Reals squared = (Reals)1 - eta * eta * dot3(along, along);
+        Reals sine = dot3(along, along);  // squared; 0 times an infinite eta^2 is 0
+        Reals squared = (Reals)1 - (sine > (Reals)0 ? eta * eta * sine : (Reals)0);
         Reals depth = sqrt(squared);
         real3 bent = add_scaled(scale3(eta, along), cosine < (Reals)0 ? -depth : depth, normal);
         *total = !(squared >= (Reals)0);
@@ -81,6 +94,9 @@ Ray select_ray(Mask mask, Ray yes, Ray no) {
     ray.t_max = mask ? yes.t_max : no.t_max;
     ray.self_hit = mask ? yes.self_hit : no.self_hit;
     ray.from = mask ? yes.from : no.from;
+    ray.zone = mask ? yes.zone : no.zone;
+    ray.left = mask ? yes.left : no.left;
+    ray.left_side = mask ? yes.left_side : no.left_side;
     return ray;
 }
 
@@ -92,8 +108,8 @@ Mask is_faint(real3 weight) {
 
 // Continues the path from a surface whose normal and geometric normal are already flipped for
 // two_sided; `inside` where the ray came from behind it. Lanes whose paths end are switched off.
-void scatter(const Surface* surface, const Materials* material, Indices prim, Mask inside,
-             Path* path, Pending* pending, PacketCounts* counts) {
+void scatter(const SceneView* scene, const Surface* surface, const Materials* material,
+             Indices prim, Mask inside, Path* path, Pending* pending, PacketCounts* counts) {
     real3 throughput = path->throughput;
     real3 reflected = limit3(mul3(throughput, material->mirror));
     Mask glassy = RT_NO_LANES;
@@ -113,6 +129,9 @@ void scatter(const Surface* surface, const Materials* material, Indices prim, Ma
     Mask total;
     Reals eta = inside ? material->ior : (Reals)1 / material->ior;
     Ray refracted = refracted_ray(surface, path->ray.dir, eta, prim, &total);
+    if (any_lane(glassy & (surface->back > (Reals)0))) {
+        note_crossed(scene, surface, path->ray.dir, inside, prim, &refracted);
+    }
     total &= glassy;
     reflected = select3(total, limit3(add3(reflected, transmitted)), reflected);
     Mask transmits = glassy & !total & !is_faint(transmitted);
@@ -143,7 +162,14 @@ real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* pa
     surface.geometric = select3(turned, negate3(surface.geometric), surface.geometric);
     surface.signed_diameter = turned ? -surface.signed_diameter : surface.signed_diameter;
     real3 to_eye = negate3(path->ray.dir);
-    real3 local_light = shade(scene, &surface, &material, to_eye, hit->prim, path->live, counts);
+    Surface lit = surface;
+    Mask beyond = inside & !turned & (surface.back > (Reals)0);  // lit from the far side
+    if (any_lane(beyond)) {
+        real3 moved = add_scaled(surface.point, (Reals)2 * surface.back, path->ray.dir);
+        lit.point = select3(beyond, moved, surface.point);
+    }
+    real3 local_light =
+        limit3(shade(scene, &lit, &material, to_eye, hit->prim, path->live, counts));
     color = select3(path->live, add3(color, mul3(path->throughput, local_light)), color);
     RT_EXPLAIN(path->live, RT_EVENT_HIT, hit->prim, path->bounce, hit->t, path->throughput,
                surface.point, surface.normal, local_light);
@@ -151,7 +177,7 @@ real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* pa
     if (ends) {
         path->live = RT_NO_LANES;
     } else {
-        scatter(&surface, &material, hit->prim, inside, path, pending, counts);
+        scatter(scene, &surface, &material, hit->prim, inside, path, pending, counts);
     }
     return color;
 }

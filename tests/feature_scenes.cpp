@@ -54,7 +54,7 @@ Scene scene_needing(const Features& features) {
     }
     if (features.huge_spheres) scene.spheres.push_back({{0, -1e5 - 2, 0}, 1e5, 0});
     if (features.eye_on_surface && features.spheres) {
-        scene.spheres.push_back({{0, 0.5, 3.25}, 0.25, 0});
+        scene.spheres.push_back({{0, 0.5, 3.015625}, 0.015625, 0});  // too small to be huge
     } else if (features.eye_on_surface && features.cones) {
         scene.cones.push_back({{-0.2, 0.5, 3.25}, {0.2, 0.5, 3.25}, 0.25, 0.25, 0});
     } else if (features.eye_on_surface) {

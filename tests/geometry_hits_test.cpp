@@ -196,6 +196,7 @@ TYPED_TEST(Hits, AreTheTextbooks) {
     using T = TypeParam;
     std::size_t hits = 0, blocked = 0;
     for (const HitScene& made_of : hit_scenes()) {
+        if (!made_of.is_textbook) continue;
         SCOPED_TRACE(made_of.name);
         const Numbered<T> bvh(flatten<T>(make_scene(made_of)));
         const auto queries = random_queries<T>(ray_count() / 10);

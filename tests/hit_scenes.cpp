@@ -95,6 +95,17 @@ const std::vector<HitScene>& hit_scenes() {
              }
              for (int i = 0; i < 20; ++i) s.cones.push_back(s.cones[std::size_t(i)]);
          }},
+        {"rings without height",
+         [](Scene& s, Random& r) {
+             for (int i = 0; i < 60; ++i) {
+                 const glm::dvec3 base = r.in_cube(1);
+                 const double radius = r.uniform(0.1, 1),
+                              height = radius * r.log_uniform(1e-9, 0.1);
+                 s.cones.push_back({base, base + height * r.unit_vector(), radius,
+                                    radius * r.uniform(0, 0.9), 0});
+             }
+         },
+         false},
         {"cones, spheres and soup",
          [](Scene& s, Random& r) {
              for (int i = 0; i < 60; ++i) {

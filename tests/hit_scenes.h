@@ -14,6 +14,7 @@ namespace rt {
 struct HitScene {
     const char* name;
     std::function<void(Scene&, Random&)> fill;
+    bool is_textbook = true;  ///< false: textbook formulas are useless in long double, too
 };
 
 const std::vector<HitScene>& hit_scenes();

@@ -15,19 +15,6 @@ constexpr std::size_t count = 40000;
 template <typename T>
 using Cone = typename Flat<T>::Cone;
 
-template <typename T>
-Cone<T> make_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& apex,
-                  double apex_radius) {
-    const double length = glm::length(apex - base);
-    Cone<T> cone{};
-    cone.base = round_to<T>(base);
-    cone.base_radius = static_cast<T>(base_radius);
-    cone.axis = round_to<T>((apex - base) / length);
-    cone.length = static_cast<T>(length);
-    cone.slope = static_cast<T>((apex_radius - base_radius) / length);
-    return cone;
-}
-
 /// The double cone |w x axis| = radius + slope (w.axis) along a ray, in quad: textbook formulas.
 template <typename T>
 struct ExactCone {

@@ -296,24 +296,65 @@ TYPED_TEST(AnyHit, FindsWhateverLiesWithinReach) {
             << i;
     }
 }
-TYPED_TEST(AnyHit, IsNotBlockedByTheBallItsLightLiesOn) {
-    // Lights all over a ball, seen from points outside, on their side of it.
+/// From a point to a light, as shadow rays go.
+template <typename T>
+ProbeRay<T> ray_to_light(const glm::dvec3& from, const glm::dvec3& light) {
+    auto ray = make_ray<T>(from, light - from);
+    ray.t_max = static_cast<T>(glm::length(light - from)) * (1 - 16 * Flat<T>::roundoff);
+    return ray;
+}
+
+/// How many of the rays towards light 0 are blocked by a primitive on which it lies.
+template <typename T>
+std::ptrdiff_t blocked(FlatScene<T>& scene, const std::vector<ProbeRay<T>>& rays) {
+    for (auto& sphere : scene.spheres) sphere.touches = f32::RT_TOUCHES_FIRST_LIGHT;
+    for (auto& cone : scene.cones) cone.touches = f32::RT_TOUCHES_FIRST_LIGHT;
+    count_primitives(scene);
+    const auto found = run<T, Index<T>>("any_hit", rays.size(), scene, rays);
+    return std::count(found.begin(), found.end(), Index<T>(1));
+}
+
+TYPED_TEST(AnyHit, OfTheBallALightLiesOnIsWhatLiesBetween) {
+    // Lights all over a ball, seen from points outside on their side of it, from points inside, and
+    // from the other side.
     Random random(11);
     FlatScene<TypeParam> scene{};
     scene.spheres = {make_sphere<TypeParam>({0, 0, 0}, 1)};
-    count_primitives(scene);
-    const auto rays = many(20000, [&] {
-        const glm::dvec3 light = random.unit_vector();
-        const glm::dvec3 aside = glm::cross(light, random.unit_vector());
-        const glm::dvec3 from = (1 + random.log_uniform(1e-3, 10)) * light + 0.01 * aside;
-        auto ray = make_ray<TypeParam>(from, light - from);
-        ray.t_max = static_cast<TypeParam>(glm::length(light - from)) *
-                    (1 - 16 * Flat<TypeParam>::roundoff);
-        return ray;
-    });
-    const auto found = run<TypeParam, Index<TypeParam>>("any_hit", rays.size(), scene, rays);
-    EXPECT_EQ(std::count(found.begin(), found.end(), Index<TypeParam>(1)), 0);
+    const auto rays = [&](double least, double most) {
+        return many(20000, [&] {
+            const glm::dvec3 light = random.unit_vector();
+            const glm::dvec3 aside = glm::cross(light, random.unit_vector());
+            const double height = least + random.log_uniform(1e-3, 1) * (most - least);
+            return ray_to_light<TypeParam>(height * light + 0.01 * aside, light);
+        });
+    };
+    EXPECT_EQ(blocked(scene, rays(1, 10)), 0);
+    EXPECT_EQ(blocked(scene, rays(0.9, -0.9)), 0);
+    EXPECT_EQ(blocked(scene, rays(-1.1, -10)), 20000);
 }
+
+TYPED_TEST(AnyHit, OfTheConeALightLiesOnIsWhatLiesBetween) {
+    // Lights on a cylinder and on a funnel, straight out from them, inside, and on the other side.
+    Random random(12);
+    for (const double apex_radius : {1.0, 0.25}) {
+        FlatScene<TypeParam> scene{};
+        scene.cones = {make_cone<TypeParam>({0, 0, -1}, 1, {0, 0, 1}, apex_radius)};
+        const auto rays = [&](double least, double most) {
+            return many(20000, [&] {
+                const double angle = random.uniform(0, 6.28), z = random.uniform(-0.9, 0.9);
+                const double radius = 1 + (apex_radius - 1) * (z + 1) / 2;
+                const glm::dvec3 out{std::cos(angle), std::sin(angle), 0};
+                const double scale = least + random.log_uniform(1e-2, 1) * (most - least);
+                return ray_to_light<TypeParam>(glm::dvec3(0, 0, z) + scale * radius * out,
+                                               glm::dvec3(0, 0, z) + radius * out);
+            });
+        };
+        EXPECT_EQ(blocked(scene, rays(1, 10)), 0);
+        EXPECT_EQ(blocked(scene, rays(0.9, -0.9)), 0);
+        EXPECT_EQ(blocked(scene, rays(-1.1, -10)), 20000);
+    }
+}
+
 TYPED_TEST(AnyHit, FindsNothingInAnEmptyScene) {
     const FlatScene<TypeParam> scene{};
     const std::vector<ProbeRay<TypeParam>> rays{make_ray<TypeParam>({0, 0, 0}, {0, 0, 1})};

@@ -58,6 +58,8 @@ Ray get_ray(__global const ProbeRay* rays, uint at, uint count) {
     ray.t_max = REALS_OF(rays, t_max);
     ray.from = INDICES_OF(rays, from);
     ray.self_hit = REALS_OF(rays, self_hit);
+    ray.zone = (Reals)0;
+    ray.left = ray.left_side = (Indices)0;
     return ray;
 }
 
@@ -98,6 +100,7 @@ Surface get_surface(__global const ProbeSurface* surfaces, uint at, uint count) 
     surface.offset = REALS_OF(surfaces, offset);
     surface.material = INDICES_OF(surfaces, material);
     surface.signed_diameter = REALS_OF(surfaces, diameter);
+    surface.back = (Reals)0;
     return surface;
 }
 
@@ -120,7 +123,7 @@ Hit no_hit() {
 
 Surface no_surface() {
     const real3 zero = make3((Reals)0, (Reals)0, (Reals)0);
-    Surface surface = {zero, zero, zero, zero, (Reals)0, (Reals)0, (Indices)0};
+    Surface surface = {zero, zero, zero, zero, (Reals)0, (Reals)0, (Reals)0, (Indices)0};
     return surface;
 }
 

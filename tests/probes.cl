@@ -298,12 +298,13 @@ __kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRa
     PUT_HIT(out, closest_hit(&scene, &ray, RT_ALL_LANES));
 }
 
+// Towards light 0.
 __kernel void probe_any_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                             __global Index* out) {
     PROBE_PACKET;
     SceneView scene = PROBE_SCENE_VIEW;
     Ray ray = RAYS(rays);
-    PUT_MASK(out, any_hit(&scene, &ray, 0, params->triangle_count));
+    PUT_MASK(out, any_hit(&scene, &ray, RT_TOUCHES_FIRST_LIGHT, 0, params->triangle_count));
 }
 
 // surface.cl, hit_surface.cl
@@ -432,8 +433,8 @@ __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
     Surface surface = SURFACES(surfaces);
     Materials material = probe_materials(&scene, &surface);
     PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
-    PUT_REAL3(out, light_contribution(&scene, &surface, &material, &lights[0], REAL3(origins),
-                                      REAL3(to_eye), INDICES(prims), RT_ALL_LANES, &used));
+    PUT_REAL3(out, light_contribution(&scene, &surface, &material, 0, REAL3(origins), REAL3(to_eye),
+                                      INDICES(prims), RT_ALL_LANES, &used));
     PUT_COUNTS(counts, used);
 }
 

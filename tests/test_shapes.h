@@ -19,6 +19,20 @@ typename Flat<T>::Sphere make_sphere(const glm::dvec3& center, double radius, in
     return sphere;
 }
 
+template <typename T>
+typename Flat<T>::Cone make_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& apex,
+                                 double apex_radius) {
+    const double length = glm::length(apex - base);
+    typename Flat<T>::Cone cone{};
+    cone.base = round_to<T>(base);
+    cone.base_radius = static_cast<T>(base_radius);
+    cone.axis = round_to<T>((apex - base) / length);
+    cone.length = static_cast<T>(length);
+    cone.slope = static_cast<T>((apex_radius - base_radius) / length);
+    cone.apex_radius = static_cast<T>(apex_radius);
+    return cone;
+}
+
 template <typename P>
 glm::dvec3 in_double(const P& p) {
     return {double(p.x), double(p.y), double(p.z)};

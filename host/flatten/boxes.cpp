@@ -40,7 +40,7 @@ template <typename T>
 BvhBox<T> box_of(const typename Flat<T>::Cone& cone) {
     const Vec3<T> base = unpacked<T>(cone.base), axis = unpacked<T>(cone.axis);
     const Vec3<T> end = base + cone.length * axis;
-    const T end_radius = std::fabs(cone.base_radius + cone.slope * cone.length);
+    const T end_radius = cone.apex_radius;
     Vec3<T> low, high;
     for (int i = 0; i < 3; ++i) {
         // A disc's half-width along an axis, slightly more than sqrt(1 - a^2) rounds to.

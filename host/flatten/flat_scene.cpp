@@ -52,12 +52,13 @@ class Flattener {
         for (const auto& material : scene_.materials) {
             flat_.materials.push_back(flatten_material<T>(material));
         }
+        flat_.params.eye_on_surface = eye_is_on_surface() ? 1 : 0;  // before lights are noted
         flatten_lights();
+        note_touched_lights();
         flat_.params.sphere_count = static_cast<Index>(flat_.spheres.size());
         flat_.params.cone_count = static_cast<Index>(flat_.cones.size());
         flat_.params.triangle_count = static_cast<Index>(flat_.triangles.size());
         flat_.params.light_count = static_cast<Index>(flat_.lights.size());
-        flat_.params.eye_on_surface = eye_is_on_surface() ? 1 : 0;
         number_primitives();
         set_features();
         return std::move(flat_);
@@ -172,9 +173,9 @@ class Flattener {
         if (!view_.is_perspective) return false;
         return eye_is_in_plane_ ||
                std::any_of(flat_.spheres.begin(), flat_.spheres.end(),
-                           [](const auto& sphere) { return sphere.touches_eye != 0; }) ||
+                           [](const auto& sphere) { return sphere.touches != 0; }) ||
                std::any_of(flat_.cones.begin(), flat_.cones.end(),
-                           [](const auto& cone) { return cone.touches_eye != 0; });
+                           [](const auto& cone) { return cone.touches != 0; });
     }
 
     /// Flattens one kind of primitive, then puts it into the order of its hierarchy's leaves.
@@ -250,9 +251,35 @@ class Flattener {
                 list_casters(light.position, flat);
             }
             flat_.lights.push_back(flat);
+            light_positions_.push_back(light.position);
             flat_.stats.casters += static_cast<std::uint64_t>(flat.caster_count);
             flat_.stats.lit_triangles += flat_.triangles.size();
         }
+    }
+
+    /// Of very many lights only the first: this takes time for each light and primitive.
+    void note_touched_lights() {
+        constexpr std::size_t own_bits = f32::RT_TOUCHES_LIGHTS - 1, most_pairs = 1 << 27;
+        const std::size_t primitives = flat_.spheres.size() + flat_.cones.size();
+        if (primitives == 0) return;
+        const std::size_t most = std::max(own_bits, most_pairs / primitives);
+        if (light_positions_.size() > most) light_positions_.resize(most);
+        const auto note = [&](auto& flat, const auto& listing, const Order& order,
+                              const auto& touches) {
+            for_each(flat.size(), [&](std::size_t i) {
+                const auto& primitive =
+                    listing[order.empty() ? i : static_cast<std::size_t>(order[i])];
+                for (std::size_t light = 0; light < light_positions_.size(); ++light) {
+                    if (!touches(view_, primitive, light_positions_[light])) continue;
+                    flat[i].touches |= Index{f32::RT_TOUCHES_FIRST_LIGHT}
+                                       << std::min(light, own_bits);
+                }
+            });
+        };
+        note(flat_.spheres, scene_.spheres, spheres_order_,
+             [](const auto&... given) { return touches_light<T>(given...); });
+        note(flat_.cones, scene_.cones, cones_order_,
+             [](const auto&... given) { return touches_light(given...); });
     }
 
     void list_casters(const glm::dvec3& position, typename Flat<T>::Light& light) {
@@ -305,6 +332,7 @@ class Flattener {
     ViewFrame view_;
     MaterialUse material_use_;
     Order spheres_order_, cones_order_, triangles_order_;
+    std::vector<glm::dvec3> light_positions_;    ///< of flat_.lights, by the author
     std::atomic<bool> eye_is_in_plane_ = false;  ///< of a triangle
     FlatScene<T> flat_{};
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "host/error.h"
 
@@ -17,13 +18,38 @@ namespace {
 template <typename T>
 constexpr double farthest = sizeof(T) == sizeof(float) ? 0x1p60 : 0x1p500;
 
-/// A sphere is huge above this radius in the renderer's frame, where distances are about 1, if the
-/// eye is within a radius of its surface: intersect_huge_sphere of kernels/intersect.cl.
-constexpr double huge_radius = 32;
+/// Whether to use intersect_huge_sphere of kernels/intersect.cl: the eye is within a radius of the
+/// surface, and the radius is large in the renderer's frame, where distances are about 1, or the
+/// eye much nearer than a radius.
+bool is_huge(double radius, double distance) {
+    const double gap = std::abs(distance - radius);
+    return gap < radius && (radius > 32 || (radius > 0.03125 && gap < 0.03125 * radius));
+}
 
-/// The error of a point from moving it to the eye's frame.
-double recentring_error(const ViewFrame& view, const glm::dvec3& scene_point) {
-    return 0x1p-52 * view.scale * (glm::length(scene_point) + glm::length(view.eye));
+/// The error of the difference between two points of the scene, in the renderer's frame.
+double difference_error(const ViewFrame& view, const glm::dvec3& a, const glm::dvec3& b) {
+    return 0x1p-52 * view.scale * (glm::length(a) + glm::length(b));
+}
+
+/// What a distance of 0 from a surface this large may round to.
+double contact(double size) { return 1e-14 * size; }
+
+double gap_between(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& point) {
+    return (glm::length(sphere.center - point) - sphere.radius) * view.scale;
+}
+
+/// Whether the point lies on the lateral surface of the cone, as far as double can tell.
+bool lies_on(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& point) {
+    const glm::dvec3 base = (cone.base - point) * view.scale;
+    const glm::dvec3 along = (cone.apex - point) * view.scale - base;
+    const double height = -glm::dot(base, along) / glm::dot(along, along);
+    const double base_radius = cone.base_radius * view.scale;
+    const double radius = base_radius + height * (cone.apex_radius * view.scale - base_radius);
+    const double distance = glm::length(base + height * along);
+    const double slack = contact(glm::length(base) + glm::length(along) + base_radius) +
+                         difference_error(view, cone.base, point) +
+                         difference_error(view, cone.apex, point);
+    return height >= 0 && height <= 1 && std::abs(distance - radius) <= slack;
 }
 
 /// How far a barycentric point may lie off the plane: 4 u extent + 6 u |vertex| per axis, seen
@@ -72,44 +98,66 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
     const double distance = glm::length(center);
     flat.center_low = pack_low<T>(center);
     flat.radius = static_cast<T>(radius);
-    flat.is_huge = radius > huge_radius && std::abs(distance - radius) < radius ? 1 : 0;
+    flat.is_huge = is_huge(radius, distance) ? 1 : 0;
     flat.power = static_cast<T>((distance - radius) * (distance + radius));
-    flat.touches_eye =
-        view.is_perspective && std::abs(distance - radius) <=
-                                   1e-14 * radius + recentring_error(view, sphere.center)
-            ? 1
-            : 0;
+    const double slack = contact(radius) + difference_error(view, sphere.center, view.eye);
+    const bool touches_eye = view.is_perspective && std::abs(distance - radius) <= slack;
+    flat.touches = touches_eye ? f32::RT_TOUCHES_EYE : 0;
     flat.material = sphere.material;
     return flat;
 }
 
-/// Whether the eye lies on the lateral surface of the cone, as far as double can tell.
-bool eye_is_on(const ViewFrame& view, const Scene::Cone& cone) {
-    const glm::dvec3 base = view.to_view(cone.base);
-    const glm::dvec3 along = view.to_view(cone.apex) - base;
-    const double height = -glm::dot(base, along) / glm::dot(along, along);
-    const double base_radius = cone.base_radius * view.scale;
-    const double radius = base_radius + height * (cone.apex_radius * view.scale - base_radius);
-    const double distance = glm::length(base + height * along);
-    const double slack = 1e-14 * (glm::length(base) + glm::length(along) + base_radius) +
-                         recentring_error(view, cone.base) + recentring_error(view, cone.apex);
-    return height >= 0 && height <= 1 && std::abs(distance - radius) <= slack;
+template <typename T>
+bool touches_light(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& light) {
+    const double gap = gap_between(view, sphere, light);
+    const double slack =
+        contact(sphere.radius * view.scale) + difference_error(view, sphere.center, light);
+    const double rounding = 64 * static_cast<double>(Flat<T>::roundoff) * view.scale *
+                            (sphere.radius + glm::length(sphere.center - view.eye));
+    return gap >= -slack && gap <= slack + rounding;
 }
 
+bool touches_light(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& light) {
+    return lies_on(view, cone, light);
+}
+
+/// Numbers are rounded relative to the coordinates of the end that is called base: that is the
+/// nearer one where the other is far away.
 template <typename T>
-typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& cone) {
+typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& given) {
+    Scene::Cone cone = given;
+    if (glm::length(cone.base - view.eye) > 64 * glm::length(cone.apex - view.eye)) {
+        std::swap(cone.base, cone.apex);
+        std::swap(cone.base_radius, cone.apex_radius);
+    }
+    constexpr double steepest = 0x1p60;  // its square stays finite in float
     const glm::dvec3 along = (cone.apex - cone.base) * view.scale;
     const double length = glm::length(along);
+    const double slope = (cone.apex_radius - cone.base_radius) * view.scale / length;
     pack_position<T>(view, cone.apex);
     typename Flat<T>::Cone flat{};
     flat.base = pack_position<T>(view, cone.base);
     flat.base_radius = static_cast<T>(cone.base_radius * view.scale);
     flat.axis = pack<T>(along / length);
     flat.length = static_cast<T>(length);
-    flat.slope = static_cast<T>((cone.apex_radius - cone.base_radius) * view.scale / length);
-    flat.touches_eye = view.is_perspective && eye_is_on(view, cone) ? 1 : 0;
+    flat.slope = static_cast<T>(std::clamp(slope, -steepest, steepest));
+    flat.touches = view.is_perspective && lies_on(view, cone, view.eye) ? f32::RT_TOUCHES_EYE : 0;
     flat.material = cone.material;
+    flat.apex_radius = static_cast<T>(cone.apex_radius * view.scale);
     return flat;
+}
+
+/// Whether the eye lies in the triangle's plane, as far as double can tell: `plane` away from it.
+bool eye_is_in_plane(const ViewFrame& view, const TriangleList::Corners& corners,
+                     const glm::dvec3& normal, double plane) {
+    glm::dvec3 offsets(0), coordinates(0);
+    for (const glm::dvec3& corner : corners) {
+        offsets = glm::max(offsets, glm::abs(view.to_view(corner)));
+        coordinates = glm::max(coordinates, glm::abs(corner));
+    }
+    const glm::dvec3 slopes = glm::abs(normal);
+    const double error = 0x1p-52 * view.scale * glm::dot(slopes, coordinates + glm::abs(view.eye));
+    return std::abs(plane) <= contact(glm::dot(slopes, offsets)) + error;
 }
 
 template <typename T>
@@ -128,9 +176,7 @@ typename Flat<T>::Triangle flatten_triangle(const ViewFrame& view,
     flat.offset = static_cast<T>(barycentric_offset<T>(a, b, c, normal));
     flat.normal = pack<T>(normal);
     const double plane = glm::dot(normal, a);
-    const double size = std::max({glm::length(a), glm::length(b), glm::length(c)});
-    const bool touches_eye =
-        view.is_perspective && std::abs(plane) <= 1e-14 * size + recentring_error(view, corners[0]);
+    const bool touches_eye = view.is_perspective && eye_is_in_plane(view, corners, normal, plane);
     flat.plane = touches_eye ? T(0) : static_cast<T>(plane);
     return flat;
 }
@@ -142,6 +188,8 @@ typename Flat<T>::VertexNormals flatten_normals(const TriangleList::Corners& nor
 
 template Flat<float>::Packed3 pack_position<float>(const ViewFrame&, const glm::dvec3&);
 template Flat<float>::Sphere flatten_sphere<float>(const ViewFrame&, const Scene::Sphere&);
+template bool touches_light<float>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&);
+template bool touches_light<double>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&);
 template Flat<float>::Cone flatten_cone<float>(const ViewFrame&, const Scene::Cone&);
 template Flat<float>::Triangle flatten_triangle<float>(const ViewFrame&,
                                                        const TriangleList::Corners&, int);

@@ -34,6 +34,14 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
 template <typename T>
 typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& cone);
 
+/// Whether the light lies on the sphere as far as double can tell, or outside and nearer to it than
+/// T can tell.
+template <typename T>
+bool touches_light(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& light);
+
+/// Whether the light lies on the cone, as far as double can tell.
+bool touches_light(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& light);
+
 /// A flat triangle.
 template <typename T>
 typename Flat<T>::Triangle flatten_triangle(const ViewFrame& view,

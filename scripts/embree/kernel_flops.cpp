@@ -105,8 +105,8 @@ uint convert_uint(int v) { return static_cast<uint>(v); }
 }  // namespace kernels
 
 /// A buffer of the flat scene as the kernels see it.
-template <typename Theirs, typename Ours>
-const Theirs* buffer(const std::vector<Ours>& values) {
+template <typename Theirs, typename Ours, typename Allocator>
+const Theirs* buffer(const std::vector<Ours, Allocator>& values) {
     static_assert(sizeof(Theirs) == sizeof(Ours));
     return reinterpret_cast<const Theirs*>(values.data());
 }

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures of surfaces that touch, against closed forms, with samples that fall exactly on edges:
+// triangles that share an edge act as one sheet, and a refracted ray crosses surfaces that lie in
+// one place in the scene's order, each once.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "host/render/picture_loop.h"
+#include "host/render/threads_renderer.h"
+#include "tests/hit_scenes.h"
+
+namespace rt {
+namespace {
+
+constexpr int size = 16;
+
+/// The middle of a pixel in the view of front_view.
+glm::dvec3 place_of(int x, int y) {
+    return {2.0 * (x + 0.5) / size - 1, 1 - 2.0 * (y + 0.5) / size, 0};
+}
+
+/// Looks along -z at the square from -1 to 1.
+Scene front_view() {
+    Scene scene;
+    scene.camera.projection = Scene::Projection::orthographic;
+    scene.camera.from = {0, 0, 5};
+    scene.camera.field_of_view = {Scene::FieldOfView::Fixed::view_height, 2};
+    scene.aa = grid_aa(1);
+    set_image_size(scene, size, size);
+    return scene;
+}
+
+/// Two triangles, counterclockwise, that share the diagonal from a to c.
+void add_quad(Scene& scene, const std::array<glm::dvec3, 4>& corners, int material) {
+    const auto& [a, b, c, d] = corners;
+    scene.triangles.push_back({{a, b, c}, {}, material});
+    scene.triangles.push_back({{a, c, d}, {}, material});
+}
+
+/// The faces of a box across the z axis that an orthographic ray along it meets.
+void add_slab(Scene& scene, double half, double back, double front, int material) {
+    const double h = half;
+    add_quad(scene, {{{-h, -h, front}, {h, -h, front}, {h, h, front}, {-h, h, front}}}, material);
+    add_quad(scene, {{{-h, -h, back}, {-h, h, back}, {h, h, back}, {h, -h, back}}}, material);
+}
+
+Scene::Material glass(double transmission, double ior) {
+    Scene::Material material;
+    material.transmission = glm::dvec3(transmission);
+    material.ior = ior;
+    return material;
+}
+
+Scene::Material matte(double ambient, double diffuse) {
+    Scene::Material material;
+    material.ambient = glm::dvec3(ambient);
+    material.diffuse = glm::dvec3(diffuse);
+    return material;
+}
+
+template <typename T>
+Film<T> picture(const Scene& scene, int lanes) {
+    static const StopFlag never_stop = 0;
+    const FlatScene<T> flat = flatten<T>(scene);
+    ThreadsOptions options;
+    options.lanes = lanes;
+    const auto renderer = make_threads_renderer(flat, options);
+    const Rect region{0, 0, scene.width, scene.height};
+    TileQueue queue(make_tiles(region, scene.width, scene.height), never_stop);
+    Film<T> film(scene.width, scene.height);
+    render_all(*renderer, scene.aa, queue, region, film);
+    return film;
+}
+
+/// Expects the red of each pixel that shows the square of half the size `half` around the origin,
+/// one ray at a time and in packets.
+template <typename T>
+void expect_square(const Scene& scene, double half,
+                   const std::function<double(const glm::dvec3&)>& red) {
+    for (const int lanes : {1, 0}) {
+        const Film<T> film = picture<T>(scene, lanes);
+        for (int y = 0; y < size; ++y) {
+            for (int x = 0; x < size; ++x) {
+                const glm::dvec3 place = place_of(x, y);
+                if (std::abs(place.x) > half || std::abs(place.y) > half) continue;
+                ASSERT_NEAR(double(film.rgb[std::size_t(3 * (y * size + x))]), red(place), 1e-5)
+                    << x << "," << y << ", lanes " << lanes;
+            }
+        }
+    }
+}
+
+template <typename T>
+class Touching : public testing::Test {};
+using Precisions = testing::Types<float, double>;
+TYPED_TEST_SUITE(Touching, Precisions);
+
+TYPED_TEST(Touching, APaneOfTwoTrianglesIsOne) {
+    Scene scene = front_view();
+    scene.background = glm::dvec3(1);
+    scene.materials = {glass(0.5, 1)};
+    add_quad(scene, {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}, 0);
+    expect_square<TypeParam>(scene, 1, [](const auto&) { return 0.5; });
+    scene.materials = {glass(0.9, 1.5)};
+    expect_square<TypeParam>(scene, 1, [](const auto&) { return 0.9; });
+}
+
+TYPED_TEST(Touching, TheFarSideOfAOneSidedSheetIsLitOnItsEdgesToo) {
+    Scene scene = front_view();
+    scene.materials = {matte(0, 1)};
+    scene.lights.push_back({{1, 2, -5}, glm::dvec3(1), true});
+    add_quad(scene, {{{1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}}}, 0);
+    expect_square<TypeParam>(scene, 0.9, [](const glm::dvec3& place) {
+        const glm::dvec3 to_light = glm::normalize(glm::dvec3(1, 2, -5) - place);
+        return -to_light.z;
+    });
+}
+
+TYPED_TEST(Touching, BlocksOfGlassAreCrossedOneAfterTheOther) {
+    for (const double other_ior : {1.5, 1.33}) {
+        Scene scene = front_view();
+        scene.background = glm::dvec3(1);
+        scene.materials = {glass(0.9, 1.5), glass(0.8, other_ior)};
+        add_slab(scene, 1, 0, 0.5, 0);
+        add_slab(scene, 1, -0.5, 0, 1);
+        expect_square<TypeParam>(scene, 0.9, [](const auto&) { return 0.9 * 0.9 * 0.8 * 0.8; });
+    }
+}
+
+TYPED_TEST(Touching, GlassStandsOnAFloor) {
+    for (const bool is_floor_first : {false, true}) {
+        Scene scene = front_view();
+        scene.ambient_light = glm::dvec3(1);
+        scene.materials = {glass(0.9, 1.5), matte(0.5, 0)};
+        const auto add_floor = [&] {
+            add_quad(scene, {{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}}, 1);
+        };
+        if (is_floor_first) add_floor();
+        add_slab(scene, 1, 0, 0.5, 0);
+        if (!is_floor_first) add_floor();
+        const double exits = is_floor_first ? 1 : 0.9;  // the first of two in one place is met
+        expect_square<TypeParam>(scene, 0.9, [&](const auto&) { return 0.9 * exits * 0.5; });
+    }
+}
+
+TYPED_TEST(Touching, ARingWithoutHeightIsARing) {
+    for (const double height : {1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-30}) {
+        for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)}) {
+            Scene scene = front_view();
+            scene.ambient_light = glm::dvec3(1);
+            scene.materials = {matte(0.5, 0)};
+            scene.cones.push_back({glm::dvec3(0), height * axis, 0.8, 0.3, 0});
+            expect_square<TypeParam>(scene, 1, [](const glm::dvec3& place) {
+                const double radius = glm::length(place);
+                return radius > 0.3 && radius < 0.8 ? 0.5 : 0;
+            });
+        }
+    }
+}
+
+TYPED_TEST(Touching, HeadOnRaysPassGlassOfAnyIndex) {
+    for (const double ior : {1e-20, 1.0, 1e20}) {
+        Scene scene = front_view();
+        scene.background = glm::dvec3(1);
+        scene.materials = {glass(0.9, ior)};
+        add_slab(scene, 1, -0.5, 0.5, 0);
+        expect_square<TypeParam>(scene, 0.9, [](const auto&) { return 0.9 * 0.9; });
+    }
+}
+
+}  // namespace
+}  // namespace rt
