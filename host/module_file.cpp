@@ -52,34 +52,34 @@ class SignalsBlocked {
     sigset_t before_;
 };
 
-LoadedModule load_file(const fs::path& file, const ModuleFile& wanted) {
+const void* load_file(const fs::path& file, const ModuleFile& wanted, ExitCode failure) {
     // Never closed: destructors of the libraries run when the program ends.
     void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) {
         const char* reason = ::dlerror();
-        return {nullptr, (reason == nullptr ? file.string() : reason) +
-                             (": cannot load " + wanted.what) + "; " + wanted.advice};
+        throw Error(failure, (reason == nullptr ? file.string() : reason) +
+                                 (": cannot load " + wanted.what) + "; " + wanted.advice);
     }
-    const auto entry = reinterpret_cast<ModuleEntryPoint>(::dlsym(handle, wanted.entry_point));
+    const auto entry = reinterpret_cast<const void* (*)()>(::dlsym(handle, "mirrorball_module"));
     const void* interface = entry == nullptr ? nullptr : entry();
-    if (interface == nullptr || *static_cast<const std::uint32_t*>(interface) != wanted.version) {
-        return {nullptr,
-                file.string() + ": belongs to a different version of mirrorball; " + wanted.advice};
+    if (interface != nullptr && *static_cast<const std::uint32_t*>(interface) == wanted.version) {
+        return interface;
     }
-    return {interface, {}};
+    throw Error(failure,
+                file.string() + ": belongs to a different version of mirrorball; " + wanted.advice);
 }
 
 }  // namespace
 
-LoadedModule load_module(const ModuleFile& module) {
+const void* load_module(const ModuleFile& module, ExitCode failure) {
     const SignalsBlocked blocked;
     std::string tried;
     for (const fs::path& file : candidates(module.name)) {
         std::error_code error;
-        if (fs::exists(file, error)) return load_file(file, module);
+        if (fs::exists(file, error)) return load_file(file, module, failure);
         tried += (tried.empty() ? "" : ", ") + file.string();
     }
-    return {nullptr, tried + ": no such file; " + module.advice};
+    throw Error(failure, tried + ": no such file; " + module.advice);
 }
 
 }  // namespace rt

@@ -4,30 +4,23 @@
 #include <cstdint>
 #include <string>
 
-namespace rt {
+#include "host/error.h"
 
-/// The type of the one symbol that a module exports. It returns the module's interface.
-using ModuleEntryPoint = const void* (*)();
+namespace rt {
 
 /// One of the program's own modules: a shared library loaded on demand.
 struct ModuleFile {
-    const char* name;         ///< "libmirrorball_exr.so"
-    const char* entry_point;  ///< its ModuleEntryPoint
-    std::uint32_t version;    ///< required of its interface, whose first member is its version
-    std::string what;         ///< for messages: "the image library"
-    std::string advice;       ///< what to do when it is missing
+    const char* name;       ///< "libmirrorball_exr.so"
+    std::uint32_t version;  ///< required of its interface, whose first member is its version
+    std::string what;       ///< for messages: "the image library"
+    std::string advice;     ///< what to do when it is missing
 };
 
-/// A module's interface, or why it could not be loaded.
-struct LoadedModule {
-    const void* interface = nullptr;
-    std::string error;
-};
-
-/// Loads a module and never unloads it. It is looked for
+/// Loads a module, never unloads it, and returns its interface: what the one symbol that it
+/// exports, mirrorball_module, returns. Throws Error(failure). It is looked for
 /// 1. in the directory of the executable,
 /// 2. in the directories of MIRRORBALL_MODULE_DIR, a list separated by colons fixed when the
 ///    program was built; a relative one starts at the directory of the executable.
-LoadedModule load_module(const ModuleFile& module);
+const void* load_module(const ModuleFile& module, ExitCode failure);
 
 }  // namespace rt

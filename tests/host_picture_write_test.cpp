@@ -300,7 +300,7 @@ TEST(PictureModule, MayBeLoadedFromManyThreads) {
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(picture_module(PictureFormat::exr, ExitCode::output).version,
-              module::interface_version);
+              PictureModule::current_version);
 }
 
 }  // namespace

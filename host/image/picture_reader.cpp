@@ -18,56 +18,6 @@
 namespace rt {
 namespace {
 
-/// What the module fills, and what went wrong on our side of the border.
-struct Target {
-    const std::string& path;
-    PictureFormat format;
-    std::uintmax_t size;  ///< of the file, in bytes
-    PictureFile file = {};
-    std::exception_ptr failure = nullptr;
-};
-
-/// Runs a callback of the module: saves an exception for later and returns 0 to stop the module.
-template <typename Call>
-int keep_exception(void* context, Call call) {
-    auto& target = *static_cast<Target*>(context);
-    try {
-        call(target);
-        return 1;
-    } catch (...) {
-        target.failure = std::current_exception();
-        return 0;
-    }
-}
-
-int take_header(void* context, int width, int height, int channels) {
-    return keep_exception(context, [=](Target& target) {
-        check_picture_size(target.path, width, height, channels);
-        check_stored_values(target.path, target.format, std::uintmax_t(width) * height * channels,
-                            target.size);
-        check_picture_memory(target.path, width, height, channels);
-        target.file.picture = {width, height, channels, {}};
-    });
-}
-
-int take_attribute(void* context, const char* name, const char* text) {
-    return keep_exception(context,
-                          [=](Target& target) { target.file.metadata.emplace_back(name, text); });
-}
-
-std::size_t count_values(const Picture& picture) {
-    return std::size_t{1} * picture.width * picture.height * picture.channels;
-}
-
-int take_rows(void* context, const float* values, std::size_t count) {
-    return keep_exception(context, [=](Target& target) {
-        Picture& picture = target.file.picture;
-        // Address space only: pages are touched as rows arrive.
-        picture.pixels.reserve(count_values(picture));
-        picture.pixels.insert(picture.pixels.end(), values, values + count);
-    });
-}
-
 [[noreturn]] void refuse_picture(const std::string& path, const std::string& reason,
                                  const std::string& advice) {
     throw Error(ExitCode::input, path + ": " + reason + "; " + advice);
@@ -104,19 +54,22 @@ std::string one_line(std::string text) {
 
 PictureFile read_with_module(const std::string& path, PictureFormat format, InputFile file) {
     if (format == PictureFormat::jpeg) check_jpeg_end(path, file);
-    Target target{path, format, file.size};
-    const module::PictureSink sink{&target, take_header, take_attribute, take_rows};
-    char error[1024] = "";
-    const module::Module& library = picture_module(format, ExitCode::input);
-    const int ok = library.decode(path.c_str(), module_name(format), &sink, {error, sizeof error});
-    if (target.failure) std::rethrow_exception(target.failure);
-    if (ok != 0) {
-        const Picture& picture = target.file.picture;
-        if (picture.pixels.size() == count_values(picture)) return std::move(target.file);
-        refuse_picture(path, "has fewer or more pixels than its header says", "write it again");
+    const PictureModule& library = picture_module(format, ExitCode::input);
+    const auto check = [&](int width, int height, int channels) {
+        check_picture_size(path, width, height, channels);
+        check_stored_values(path, format, std::uintmax_t(width) * height * channels, file.size);
+        check_picture_memory(path, width, height, channels);
+    };
+    try {
+        return library.decode(path, module_name(format), check);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        refuse_picture(path, "cannot read the picture: " + one_line(error.what()),
+                       "the file may be damaged: write it again");
     }
-    refuse_picture(path, "cannot read the picture: " + one_line(error),
-                   "the file may be damaged: write it again");
 }
 
 }  // namespace

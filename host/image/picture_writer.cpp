@@ -3,7 +3,8 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <exception>
+#include <new>
 #include <string_view>
 #include <vector>
 
@@ -22,9 +23,11 @@ namespace {
 using Metadata = std::span<const std::pair<std::string, std::string>>;
 
 void check_picture(const std::string& path, const Picture& picture) {
-    const bool has_size = picture.width > 0 && picture.height > 0 && picture.channels >= 1 &&
-                          (picture.channels <= 4 || picture.channel_names.size() ==
-                                                        static_cast<std::size_t>(picture.channels));
+    const bool has_size =
+        picture.width > 0 && picture.height > 0 && picture.channels >= 1 &&
+        (picture.channel_names.empty()
+             ? picture.channels <= 4
+             : picture.channel_names.size() == static_cast<std::size_t>(picture.channels));
     if (has_size && picture.pixels.size() == static_cast<std::size_t>(picture.width) *
                                                  picture.height * picture.channels) {
         return;
@@ -52,67 +55,27 @@ void check_metadata(const std::string& path, Metadata metadata) {
     }
 }
 
-/// Never throws: called from inside the module.
-int put_bytes(void* context, std::uint64_t place, const unsigned char* bytes, std::size_t count) {
-    try {
-        auto& target = *static_cast<std::vector<std::byte>*>(context);
-        if (target.size() < place + count) target.resize(place + count);
-        std::memcpy(target.data() + place, bytes, count);
-        return 1;
-    } catch (...) {
-        return 0;
-    }
-}
-
-std::vector<std::byte> encode(const std::string& path, PictureFormat format,
-                              module::EncodeRequest request, Metadata metadata) {
-    std::vector<const char*> names;
-    std::vector<const char*> texts;
-    for (const auto& [name, text] : metadata) {
-        if (text.empty()) continue;
-        names.push_back(name.c_str());
-        texts.push_back(text.c_str());
-    }
-    request.attribute_count = names.size();
-    request.attribute_names = names.data();
-    request.attribute_texts = texts.data();
-    std::vector<std::byte> bytes;
-    // Reserves address space only, so that growing never copies: most files are smaller than this.
-    bytes.reserve(sizeof(float) * static_cast<std::size_t>(request.width) * request.height *
-                  request.channels);
-    const module::ByteSink sink{&bytes, put_bytes};
-    char error[1024] = "";
-    const module::Module& library = picture_module(format, ExitCode::output);
-    if (library.encode(&request, &sink, {error, sizeof error}) == 0) {
-        const std::string reason = error[0] == '\0' ? "out of memory" : error;
-        throw Error(ExitCode::output, path + ": cannot encode the picture: " + reason +
-                                          "; try .pfm, which needs no library");
-    }
-    return bytes;
-}
-
 std::vector<std::byte> encode_with_module(const std::string& path, PictureFormat format,
                                           const Picture& picture, Encoding encoding,
                                           Metadata metadata) {
-    module::EncodeRequest request{};
-    request.format = module_name(format);
-    request.width = picture.width;
-    request.height = picture.height;
-    request.channels = picture.channels;
-    std::vector<const char*> names;
-    for (const std::string& name : picture.channel_names) names.push_back(name.c_str());
-    if (!names.empty()) request.channel_names = names.data();
-    request.is_float = stores_floats(format) ? 1 : 0;
-    if (stores_floats(format)) {
-        request.pixels = picture.pixels.data();
-        return encode(path, format, request, metadata);
+    EncodeRequest request{module_name(format), picture, {}, nullptr, metadata};
+    std::vector<std::uint8_t> bytes;
+    if (!stores_floats(format)) {
+        bytes = encode_8bit(picture, encoding);
+        request.bytes = bytes;
+        request.color_space = encoding == Encoding::srgb     ? "sRGB"
+                              : encoding == Encoding::linear ? "Linear"
+                                                             : nullptr;
     }
-    const std::vector<std::uint8_t> pixels = encode_8bit(picture, encoding);
-    request.pixels = pixels.data();
-    request.color_space = encoding == Encoding::srgb     ? "sRGB"
-                          : encoding == Encoding::linear ? "Linear"
-                                                         : nullptr;
-    return encode(path, format, request, metadata);
+    const PictureModule& library = picture_module(format, ExitCode::output);
+    try {
+        return library.encode(request);
+    } catch (const std::exception& error) {
+        const bool is_full = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+        throw Error(ExitCode::output, path + ": cannot encode the picture: " +
+                                          (is_full ? "out of memory" : error.what()) +
+                                          "; try .pfm, which needs no library");
+    }
 }
 
 void write_checked(const std::string& path, PictureFormat format, const Picture& picture,

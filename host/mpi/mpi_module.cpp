@@ -8,14 +8,15 @@
 
 namespace {
 
-int start(int* rank, int* ranks) {
+bool start(int& rank, int& ranks) {
     int provided = 0;
     // Other threads render meanwhile; only the calling thread uses MPI.
-    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS) return 0;
+    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS)
+        return false;
     // Losing a rank must not end the others.
     MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
-    return MPI_Comm_rank(MPI_COMM_WORLD, rank) == MPI_SUCCESS &&
-           MPI_Comm_size(MPI_COMM_WORLD, ranks) == MPI_SUCCESS;
+    return MPI_Comm_rank(MPI_COMM_WORLD, &rank) == MPI_SUCCESS &&
+           MPI_Comm_size(MPI_COMM_WORLD, &ranks) == MPI_SUCCESS;
 }
 
 /// A message in transit; it stays so if its rank is lost.
@@ -31,7 +32,7 @@ bool has_left(Outgoing& message) {
     return MPI_Test(&message.request, &is_done, MPI_STATUS_IGNORE) != MPI_SUCCESS || is_done != 0;
 }
 
-int send(int to, const void* bytes, std::size_t count) {
+bool send(int to, const void* bytes, std::size_t count) {
     outgoing.remove_if(has_left);
     const auto* first = static_cast<const char*>(bytes);
     Outgoing& message = outgoing.emplace_back(Outgoing{{first, first + count}});
@@ -39,12 +40,13 @@ int send(int to, const void* bytes, std::size_t count) {
                      &message.request) == MPI_SUCCESS;
 }
 
-int receive(int* from, void* bytes, std::size_t count) {
+bool receive(int& from, void* bytes, std::size_t count) {
     int is_there = 0;
     MPI_Status status;
-    if (MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &is_there, &status) != MPI_SUCCESS) return 0;
-    if (is_there == 0) return 0;
-    *from = status.MPI_SOURCE;
+    if (MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &is_there, &status) != MPI_SUCCESS)
+        return false;
+    if (is_there == 0) return false;
+    from = status.MPI_SOURCE;
     return MPI_Recv(bytes, static_cast<int>(count), MPI_BYTE, status.MPI_SOURCE, 0, MPI_COMM_WORLD,
                     MPI_STATUS_IGNORE) == MPI_SUCCESS;
 }
@@ -53,11 +55,10 @@ void finish() { MPI_Finalize(); }
 
 void abort_all(int status) { MPI_Abort(MPI_COMM_WORLD, status); }
 
-constexpr rt::mpi_module::Module mpi{
-    rt::mpi_module::interface_version, start, send, receive, finish, abort_all};
-
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const void* mirrorball_mpi_module() {
-    return &mpi;
+extern "C" [[gnu::visibility("default")]] const void* mirrorball_module() {
+    static constexpr rt::MpiModule module{
+        rt::MpiModule::current_version, start, send, receive, finish, abort_all};
+    return &module;
 }

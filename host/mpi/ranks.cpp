@@ -17,12 +17,11 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<RankMessage>);  // sent as raw bytes
 
-const mpi_module::Module& load_mpi() {
-    const LoadedModule loaded = load_module(
-        {"libmirrorball_mpi.so", mpi_module::entry_point_name, mpi_module::interface_version, "MPI",
-         "--mpi needs libopenmpi3, and mirrorball built where libopenmpi-dev is installed"});
-    if (loaded.interface == nullptr) throw Error(ExitCode::usage, loaded.error);
-    return *static_cast<const mpi_module::Module*>(loaded.interface);
+const MpiModule& load_mpi() {
+    return *static_cast<const MpiModule*>(load_module(
+        {"libmirrorball_mpi.so", MpiModule::current_version, "MPI",
+         "--mpi needs libopenmpi3, and mirrorball built where libopenmpi-dev is installed"},
+        ExitCode::usage));
 }
 
 }  // namespace
@@ -30,7 +29,7 @@ const mpi_module::Module& load_mpi() {
 void check_mpi() { load_mpi(); }
 
 Ranks::Ranks() : mpi_(load_mpi()) {
-    if (mpi_.start(&rank_, &size_) == 0) {
+    if (!mpi_.start(rank_, size_)) {
         throw Error(ExitCode::usage, "--mpi: MPI does not start; run it by mpirun");
     }
 }
@@ -46,7 +45,7 @@ void Ranks::send_all(RankMessage::Kind kind) {
 
 std::optional<Ranks::Received> Ranks::receive() {
     Received received{};
-    if (mpi_.receive(&received.from, &received.message, sizeof received.message) == 0) {
+    if (!mpi_.receive(received.from, &received.message, sizeof received.message)) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         return std::nullopt;
     }

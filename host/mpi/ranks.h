@@ -69,7 +69,7 @@ class Ranks {
     [[noreturn]] void abort(int status);
 
    private:
-    const mpi_module::Module& mpi_;
+    const MpiModule& mpi_;
     int rank_ = 0, size_ = 1;
 };
 

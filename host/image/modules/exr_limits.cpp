@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace rt::module {
+namespace rt {
 namespace {
 
 [[noreturn]] void refuse(const char* reason) { throw std::runtime_error(reason); }
@@ -200,4 +200,4 @@ ExrSize check_exr_headers(std::istream& stream, std::uint64_t file_size) {
             static_cast<int>(first.channels.size())};
 }
 
-}  // namespace rt::module
+}  // namespace rt

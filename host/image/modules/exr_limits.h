@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <istream>
 
-namespace rt::module {
+namespace rt {
 
 struct ExrSize {
     int width = 0, height = 0, channels = 0;
@@ -15,4 +15,4 @@ struct ExrSize {
 /// or tiles much larger than the picture. Returns the size of the first part.
 ExrSize check_exr_headers(std::istream& stream, std::uint64_t file_size);
 
-}  // namespace rt::module
+}  // namespace rt

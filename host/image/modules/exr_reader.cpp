@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/image/modules/exr_reader.h"
-
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -9,17 +7,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <string>
+#include <stdexcept>
 #include <tuple>
-#include <vector>
 
+#include "host/image/modules/exr_file.h"
 #include "host/image/modules/exr_limits.h"
 #include "host/image/modules/exr_threads.h"
 
-namespace rt::module {
+namespace rt {
 namespace {
 
 /// Red before green before blue, then the rest; layers ("diffuse.R") after the picture itself.
@@ -43,53 +40,58 @@ std::vector<std::string> channel_names(const Imf::Header& header) {
     return names;
 }
 
-bool send_attributes(const Imf::Header& header, const PictureSink& sink) {
+PictureMetadata texts_in(const Imf::Header& header) {
+    PictureMetadata metadata;
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
         const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
-        if (text == nullptr) continue;
-        if (sink.attribute(sink.context, attribute.name(), text->value().c_str()) == 0) {
-            return false;
-        }
+        if (text != nullptr) metadata.emplace_back(attribute.name(), text->value().c_str());
     }
-    return true;
+    return metadata;
 }
 
 /// Reads the picture in bands of rows, so that a truncated file costs no more memory than it fills.
-bool send_rows(Imf::InputFile& file, const PictureSink& sink) {
+void read_rows(Imf::InputFile& file, Picture& picture) {
     const Imath::Box2i window = file.header().dataWindow();
     const std::vector<std::string> names = channel_names(file.header());
-    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+    const auto width = static_cast<std::size_t>(picture.width);
     const std::size_t row = width * names.size();
+    if (window.max.x - window.min.x + 1 != picture.width ||
+        window.max.y - window.min.y + 1 != picture.height ||
+        names.size() != static_cast<std::size_t>(picture.channels)) {
+        throw std::runtime_error("its header gives two sizes");
+    }
     constexpr std::size_t band_values = std::size_t{1} << 24;
     const int most_rows = static_cast<int>(std::clamp<std::size_t>(band_values / row, 16, 256));
-    std::vector<float> band;
     for (int first = window.min.y; first <= window.max.y; first += most_rows) {
         const int rows = std::min(most_rows, window.max.y - first + 1);
-        band.assign(row * static_cast<std::size_t>(rows), 0.0f);
+        const std::size_t start = picture.pixels.size();
+        picture.pixels.resize(start + row * static_cast<std::size_t>(rows));
+        float* const band = picture.pixels.data() + start;
         Imf::FrameBuffer buffer;
         for (std::size_t c = 0; c < names.size(); ++c) {
-            buffer.insert(
-                names[c],
-                Imf::Slice::Make(Imf::FLOAT, band.data() + c, Imath::V2i(window.min.x, first),
-                                 static_cast<std::int64_t>(width), rows,
-                                 sizeof(float) * names.size(), sizeof(float) * row));
+            buffer.insert(names[c],
+                          Imf::Slice::Make(Imf::FLOAT, band + c, Imath::V2i(window.min.x, first),
+                                           static_cast<std::int64_t>(width), rows,
+                                           sizeof(float) * names.size(), sizeof(float) * row));
         }
         file.setFrameBuffer(buffer);
         file.readPixels(first, first + rows - 1);
-        if (sink.rows(sink.context, band.data(), band.size()) == 0) return false;
+        picture.pixels.reserve(row *
+                               static_cast<std::size_t>(picture.height));  // address space only
     }
-    return true;
 }
 
 }  // namespace
 
-int decode_exr(const char* path, const PictureSink& sink) {
+PictureFile decode_exr(const std::string& path, const char* /*format*/, const CheckSize& check) {
     std::ifstream stream(path, std::ios::binary);
     const ExrSize size = check_exr_headers(stream, std::filesystem::file_size(path));
-    if (sink.header(sink.context, size.width, size.height, size.channels) == 0) return 0;
+    check(size.width, size.height, size.channels);
     const ExrThreads threads(size.height);
-    Imf::InputFile file(path, threads.count());
-    return send_attributes(file.header(), sink) && send_rows(file, sink) ? 1 : 0;
+    Imf::InputFile file(path.c_str(), threads.count());
+    PictureFile result{{size.width, size.height, size.channels, {}}, texts_in(file.header())};
+    read_rows(file, result.picture);
+    return result;
 }
 
-}  // namespace rt::module
+}  // namespace rt

@@ -7,7 +7,7 @@
 #include <exception>
 #include <thread>
 
-namespace rt::module {
+namespace rt {
 namespace {
 
 bool start(int count) {
@@ -32,4 +32,4 @@ ExrThreads::~ExrThreads() {
     if (count_ > 0) start(0);
 }
 
-}  // namespace rt::module
+}  // namespace rt

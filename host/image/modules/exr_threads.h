@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace rt::module {
+namespace rt {
 
 /// Runs OpenEXR with one thread per core while a picture is compressed or decompressed; with no
 /// extra threads if it has few rows or the system can start no more.
@@ -18,4 +18,4 @@ class ExrThreads {
     int count_ = 0;
 };
 
-}  // namespace rt::module
+}  // namespace rt
