@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
 
 #include "host/error.h"
+#include "host/lower.h"
 
 namespace rt {
 namespace {
@@ -37,13 +36,6 @@ const FormatNames& names_of(PictureFormat format) {
                          [format](const FormatNames& names) { return names.format == format; });
 }
 
-std::string ending_of(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
-
 }  // namespace
 
 std::string_view to_string(PictureFormat format) { return names_of(format).name; }
@@ -60,7 +52,7 @@ bool needs_module(PictureFormat format) {
 }
 
 std::optional<PictureFormat> known_picture_format(const std::string& path) {
-    const std::string ending = ending_of(path);
+    const std::string ending = lower_ending(path);
     if (ending.empty()) return std::nullopt;
     for (const FormatNames& names : formats) {
         const auto& endings = names.endings;
@@ -72,7 +64,7 @@ std::optional<PictureFormat> known_picture_format(const std::string& path) {
 }
 
 PictureFormat picture_format_of_name(const std::string& path) {
-    const std::string ending = ending_of(path);
+    const std::string ending = lower_ending(path);
     if (ending == ".pgm") {
         throw Error(ExitCode::usage, path + ": PGM pictures have no color; name the picture .ppm");
     }

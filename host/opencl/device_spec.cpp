@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 #include <optional>
 #include <system_error>
 
 #include "host/error.h"
+#include "host/lower.h"
 #include "host/number.h"
 #include "host/opencl/gpu_nodes.h"
 #include "host/pocl/pocl_environment.h"
@@ -19,11 +19,6 @@ namespace rt {
 namespace {
 
 constexpr int most_threads_asked = 4096;
-
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 bool contains(const std::string& text, const std::string& part) {
     return lower(text).find(lower(part)) != std::string::npos;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "host/lower.h"
 #include "host/options/parse.h"
 #include "host/options/verb_options.h"
 
@@ -52,11 +52,9 @@ bool is_tev_address(const std::string& text) {
         return false;
     }
     if (text.find(':') != std::string::npos) return true;
-    std::string ending = std::filesystem::path(text).extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     constexpr std::string_view endings[] = {".json", ".nff", ".obj", ".ply"};
     return text.find('/') == std::string::npos &&
-           std::ranges::find(endings, ending) == std::end(endings);
+           std::ranges::find(endings, lower_ending(text)) == std::end(endings);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "host/error.h"
+#include "host/lower.h"
 #include "host/printable.h"
 #include "host/scene/mesh_finish.h"
 #include "host/scene/obj_file.h"
@@ -14,15 +15,6 @@
 
 namespace rt {
 namespace {
-
-bool has_ending(const std::string& path, std::string_view ending) {
-    if (path.size() < ending.size()) return false;
-    const std::string_view tail = std::string_view(path).substr(path.size() - ending.size());
-    for (std::size_t i = 0; i < ending.size(); ++i) {
-        if ((tail[i] | 0x20) != (ending[i] | 0x20)) return false;
-    }
-    return true;
-}
 
 /// Opens libraries in the model's folder or beneath it.
 OpenLibrary library_opener(const std::string& model_path, const std::filesystem::path& root) {
@@ -50,8 +42,8 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
 
 }  // namespace
 
-bool is_obj_name(const std::string& path) { return has_ending(path, ".obj"); }
-bool is_ply_name(const std::string& path) { return has_ending(path, ".ply"); }
+bool is_obj_name(const std::string& path) { return lower_ending(path) == ".obj"; }
+bool is_ply_name(const std::string& path) { return lower_ending(path) == ".ply"; }
 
 Model finish_model(Model model, const std::string& path, const Affine& transform) {
     const MeshLosses losses = finish_mesh(model.mesh, transform);

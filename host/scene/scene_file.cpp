@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene_file.h"
 
-#include <algorithm>
-#include <filesystem>
-
+#include "host/lower.h"
 #include "host/scene/json_file.h"
 #include "host/scene/model_file.h"
 #include "host/scene/nff_file.h"
@@ -12,18 +10,9 @@
 namespace rt {
 namespace {
 
-char lower_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-/// ".nff" of "a/b.NFF".
-std::string ending_of(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::ranges::transform(ending, ending.begin(), lower_letter);
-    return ending;
-}
-
 Scene load(const std::string& path) {
     if (path == stdin_scene) return parse_json_scene(read_stdin().view(), "stdin");
-    const std::string ending = ending_of(path);
+    const std::string ending = lower_ending(path);
     if (ending == ".nff") return load_nff_scene(path);
     if (ending == ".obj" || ending == ".ply") return load_model_scene(path);
     return load_json_scene(path);
