@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/image/input_file.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -10,28 +11,27 @@
 #include "host/memory_limit.h"
 
 namespace rt {
-namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& reason,
-                         const std::string& advice) {
+void refuse_picture(const std::string& path, const std::string& reason, const std::string& advice) {
     throw Error(ExitCode::input, path + ": " + reason + "; " + advice);
 }
-
-}  // namespace
 
 InputFile open_input_file(const std::string& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) {
-        refuse(path, "cannot read: " + std::generic_category().message(errno), "check the path");
+        refuse_picture(path, "cannot read: " + std::generic_category().message(errno),
+                       "check the path");
     }
-    if (S_ISDIR(status.st_mode)) refuse(path, "is a directory", "give the name of a picture");
-    if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file", "copy it to one first");
+    if (S_ISDIR(status.st_mode))
+        refuse_picture(path, "is a directory", "give the name of a picture");
+    if (!S_ISREG(status.st_mode))
+        refuse_picture(path, "is not a regular file", "copy it to one first");
     errno = 0;
     InputFile file{std::ifstream(path, std::ios::binary),
                    static_cast<std::uintmax_t>(status.st_size)};
     if (!file.stream) {
-        refuse(path, "cannot read: " + std::generic_category().message(errno),
-               "check its permissions");
+        refuse_picture(path, "cannot read: " + std::generic_category().message(errno),
+                       "check its permissions");
     }
     return file;
 }
@@ -40,24 +40,27 @@ void check_picture_size(const std::string& path, int width, int height, int chan
     constexpr int largest_side = 65536;
     constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
     constexpr std::int64_t most_values = std::int64_t{1} << 30;
-    const std::string size = std::to_string(width) + " x " + std::to_string(height) +
-                             " pixels of " + std::to_string(channels) + " channels";
-    if (width < 1 || height < 1 || channels < 1) refuse(path, "holds " + size, "write it again");
+    const std::string size = fmt::format("{} x {} pixels of {} channels", width, height, channels);
+    if (width < 1 || height < 1 || channels < 1)
+        refuse_picture(path, "holds " + size, "write it again");
     const std::int64_t pixels = std::int64_t{width} * height;
     if (width > largest_side || height > largest_side || pixels > most_pixels || channels > 64 ||
         pixels * channels > most_values) {
-        refuse(path, "holds " + size + ", too many",
-               "the limit is 65536 a side, 2^28 pixels and 2^30 values: scale it down first");
+        refuse_picture(
+            path, "holds " + size + ", too many",
+            "the limit is 65536 a side, 2^28 pixels and 2^30 values: scale it down first");
     }
 }
 
 void check_stored_size(const std::string& path, std::uintmax_t pixel_bytes,
                        std::uintmax_t best_ratio, std::uintmax_t file_size) {
     if (pixel_bytes / best_ratio <= file_size) return;
-    refuse(path,
-           "a file of " + std::to_string(file_size) + " bytes cannot hold the " +
-               std::to_string(pixel_bytes) + " bytes of pixels that its header promises",
-           "it may be truncated: write it again");
+    refuse_picture(
+        path,
+        fmt::format(
+            "a file of {} bytes cannot hold the {} bytes of pixels that its header promises",
+            file_size, pixel_bytes),
+        "it may be truncated: write it again");
 }
 
 void check_picture_memory(const std::string& path, int width, int height, int channels) {

@@ -12,6 +12,10 @@ struct InputFile {
     std::uintmax_t size = 0;  // in bytes
 };
 
+/// Throws Error(ExitCode::input) "path: reason; advice".
+[[noreturn]] void refuse_picture(const std::string& path, const std::string& reason,
+                                 const std::string& advice);
+
 /// Opens a regular file only (a pipe could block forever, a device never end).
 /// Throws Error(ExitCode::input) "path: cannot read: reason; what to do".
 InputFile open_input_file(const std::string& path);

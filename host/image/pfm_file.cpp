@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/image/pfm_file.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
 
@@ -16,7 +16,7 @@
 namespace rt {
 namespace {
 
-constexpr bool host_is_little = std::endian::native == std::endian::little;
+static_assert(std::endian::native == std::endian::little, "pixels are written as they are");
 
 struct Header {
     int channels = 0;
@@ -24,13 +24,6 @@ struct Header {
     int height = 0;
     double scale = 0;
 };
-
-void swap_bytes(std::span<float> values) {
-    for (float& value : values) {
-        const auto bits = std::bit_cast<std::uint32_t>(value);
-        value = std::bit_cast<float>(__builtin_bswap32(bits));
-    }
-}
 
 /// The next word of the header with the one white space behind it; empty when there is none.
 std::string next_word(std::istream& stream) {
@@ -51,10 +44,9 @@ Header read_header(const std::string& path, std::istream& stream) {
     const auto scale = parse_number<double>(next_word(stream));
     if ((kind != "PF" && kind != "Pf") || !width || !height || !scale || *scale == 0 ||
         !std::isfinite(*scale)) {
-        throw Error(ExitCode::input,
-                    path +
-                        ": damaged PFM header; expected 'PF', width, height and a scale that "
-                        "is not 0: write the file again");
+        refuse_picture(
+            path, "damaged PFM header",
+            "expected 'PF', width, height and a scale that is not 0: write the file again");
     }
     return {kind == "PF" ? 3 : 1, *width, *height, *scale};
 }
@@ -63,24 +55,17 @@ Header read_header(const std::string& path, std::istream& stream) {
 
 void write_pfm(const std::string& path, const Picture& picture) {
     if (picture.channels != 1 && picture.channels != 3) {
-        throw Error(ExitCode::output, path + ": a PFM file holds 1 or 3 channels, not " +
-                                          std::to_string(picture.channels) + "; write .exr");
+        throw Error(ExitCode::output,
+                    fmt::format("{}: a PFM file holds 1 or 3 channels, not {}; write .exr", path,
+                                picture.channels));
     }
-    const std::string header = std::string(picture.channels == 3 ? "PF\n" : "Pf\n") +
-                               std::to_string(picture.width) + " " +
-                               std::to_string(picture.height) + "\n-1.0\n";
+    const std::string header = fmt::format("{}\n{} {}\n-1.0\n", picture.channels == 3 ? "PF" : "Pf",
+                                           picture.width, picture.height);
     const auto row = static_cast<std::size_t>(picture.width) * picture.channels;
     AtomicFile file(path);
     file.write(std::as_bytes(std::span(header)));
-    std::vector<float> swapped;
     for (int y = picture.height - 1; y >= 0; --y) {
-        std::span<const float> values(picture.pixels.data() + row * y, row);
-        if (!host_is_little) {
-            swapped.assign(values.begin(), values.end());
-            swap_bytes(swapped);
-            values = swapped;
-        }
-        file.write(std::as_bytes(values));
+        file.write(std::as_bytes(std::span(picture.pixels).subspan(row * y, row)));
     }
     file.commit();
 }
@@ -94,9 +79,10 @@ Picture read_pfm(const std::string& path, InputFile file) {
     const std::uintmax_t expected = row * header.height * sizeof(float);
     const auto start = static_cast<std::uintmax_t>(file.stream.tellg());
     if (file.size - start != expected) {
-        throw Error(ExitCode::input, path + ": " + std::to_string(file.size - start) +
-                                         " bytes of pixels where the header asks for " +
-                                         std::to_string(expected) + "; write the file again");
+        refuse_picture(path,
+                       fmt::format("{} bytes of pixels where the header asks for {}",
+                                   file.size - start, expected),
+                       "write the file again");
     }
     check_picture_memory(path, header.width, header.height, header.channels);
     picture.pixels.resize(row * header.height);
@@ -104,8 +90,11 @@ Picture read_pfm(const std::string& path, InputFile file) {
         auto* target = reinterpret_cast<char*>(picture.pixels.data() + row * y);
         file.stream.read(target, static_cast<std::streamsize>(row * sizeof(float)));
     }
-    if (!file.stream) throw Error(ExitCode::input, path + ": cannot read; check the disk");
-    if ((header.scale < 0) != host_is_little) swap_bytes(picture.pixels);
+    if (!file.stream) refuse_picture(path, "cannot read", "check the disk");
+    if (header.scale < 0) return picture;
+    for (float& value : picture.pixels) {
+        value = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
+    }
     return picture;
 }
 

@@ -18,11 +18,6 @@
 namespace rt {
 namespace {
 
-[[noreturn]] void refuse_picture(const std::string& path, const std::string& reason,
-                                 const std::string& advice) {
-    throw Error(ExitCode::input, path + ": " + reason + "; " + advice);
-}
-
 /// The format by first bytes, unless the extension contradicts it; TGA has no magic number.
 PictureFormat find_format(const std::string& path, InputFile& file) {
     char first_bytes[16] = {};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
@@ -32,11 +34,10 @@ void check_picture(const std::string& path, const Picture& picture) {
                                                  picture.height * picture.channels) {
         return;
     }
-    throw Error(ExitCode::bug, path + ": a picture of " + std::to_string(picture.width) + " x " +
-                                   std::to_string(picture.height) + " x " +
-                                   std::to_string(picture.channels) + " with " +
-                                   std::to_string(picture.pixels.size()) +
-                                   " values; please report this");
+    throw Error(
+        ExitCode::bug,
+        fmt::format("{}: a picture of {} x {} x {} with {} values; please report this", path,
+                    picture.width, picture.height, picture.channels, picture.pixels.size()));
 }
 
 void check_metadata(const std::string& path, Metadata metadata) {
@@ -78,28 +79,19 @@ std::vector<std::byte> encode_with_module(const std::string& path, PictureFormat
     }
 }
 
-void write_checked(const std::string& path, PictureFormat format, const Picture& picture,
-                   Encoding encoding, Metadata metadata) {
-    switch (format) {
-        case PictureFormat::png:
-            return write_file_atomically(path, encode_png_file(path, picture, encoding, metadata));
-        case PictureFormat::pfm:
-            return write_pfm(path, picture);
-        default:
-            return write_file_atomically(
-                path, encode_with_module(path, format, picture, encoding, metadata));
-    }
-}
-
 }  // namespace
 
 void write_picture(const std::string& path, const Picture& picture, Encoding encoding,
                    Metadata metadata, std::optional<PictureFormat> format) {
+    if (!format) format = picture_format_of_name(path);
     check_picture_path(path, format);
     check_picture(path, picture);
     check_metadata(path, metadata);
-    write_checked(path, format ? *format : picture_format_of_name(path), picture, encoding,
-                  metadata);
+    if (format == PictureFormat::pfm) return write_pfm(path, picture);
+    write_file_atomically(path,
+                          format == PictureFormat::png
+                              ? encode_png_file(path, picture, encoding, metadata)
+                              : encode_with_module(path, *format, picture, encoding, metadata));
 }
 
 std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding) {

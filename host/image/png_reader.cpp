@@ -2,12 +2,10 @@
 #include <png.h>
 
 #include <array>
-#include <bit>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
 
-#include "host/error.h"
 #include "host/image/input_file.h"
 #include "host/image/png_file.h"
 
@@ -69,8 +67,8 @@ class PngReader {
     }
 
     [[noreturn]] void fail(const char* reason) const {
-        throw Error(ExitCode::input, path_ + ": cannot read the picture: " + reason +
-                                         "; the file may be damaged: write it again");
+        refuse_picture(path_, std::string("cannot read the picture: ") + reason,
+                       "the file may be damaged: write it again");
     }
 
     void check(bool done) const {
@@ -91,7 +89,7 @@ class PngReader {
     bool expand() {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
         png_set_expand(png_);
-        if (std::endian::native == std::endian::little) png_set_swap(png_);
+        png_set_swap(png_);  // to this machine's byte order
         png_set_interlace_handling(png_);
         png_read_update_info(png_, info_);
         return true;
