@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/image/encoding.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <ranges>
 #include <string>
 
 #include "host/error.h"
@@ -44,42 +46,32 @@ std::uint8_t round_8bit(double stored) { return static_cast<std::uint8_t>(stored
 class SrgbTable {
    public:
     SrgbTable() {
-        for (std::uint32_t first = 0; first < first_bits; ++first) {
-            const std::uint32_t begin = first << 16;
-            const std::uint32_t end = begin + 0xffff;
-            entries_[first] = {byte_of(begin), boundary(begin, end)};
+        for (std::size_t first = 0; first < first_bits; ++first) {
+            bytes_[first] = byte_of(static_cast<std::uint32_t>(first << 16));
+        }
+        const std::ranges::iota_view floats(std::uint32_t{0}, std::uint32_t{first_bits << 16});
+        for (std::size_t byte = 0; byte < ends_.size(); ++byte) {
+            const auto end = std::ranges::partition_point(
+                floats, [byte](std::uint32_t bits) { return byte_of(bits) <= byte; });
+            ends_[byte] = static_cast<std::uint32_t>(end - floats.begin());
         }
     }
 
     std::uint8_t operator()(float value) const {
         const auto bits = std::bit_cast<std::uint32_t>(value);
-        const Entry& entry = entries_[bits >> 16];
-        return static_cast<std::uint8_t>(entry.byte + (bits >= entry.boundary ? 1 : 0));
+        const std::uint8_t byte = bytes_[bits >> 16];
+        return static_cast<std::uint8_t>(byte + (bits >= ends_[byte] ? 1 : 0));
     }
 
    private:
-    static constexpr std::uint32_t first_bits = 0x3f80;  // of 1.0f
-
-    struct Entry {
-        std::uint8_t byte;
-        std::uint32_t boundary;  ///< from this value on, byte + 1
-    };
+    static constexpr std::size_t first_bits = 0x3f80;  // of 1.0f
 
     static std::uint8_t byte_of(std::uint32_t bits) {
         return round_8bit(srgb_from_linear(std::bit_cast<float>(bits)));
     }
 
-    static std::uint32_t boundary(std::uint32_t begin, std::uint32_t end) {
-        const std::uint8_t byte = byte_of(begin);
-        if (byte_of(end) == byte) return end + 1;
-        while (begin + 1 < end) {
-            const std::uint32_t middle = begin + (end - begin) / 2;
-            (byte_of(middle) == byte ? begin : end) = middle;
-        }
-        return end;
-    }
-
-    std::array<Entry, first_bits> entries_;
+    std::array<std::uint8_t, first_bits> bytes_;  ///< of the least value with the first 16 bits
+    std::array<std::uint32_t, 256> ends_;         ///< the value that each byte ends before
 };
 
 const SrgbTable& srgb_table() {
