@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/image/image_error.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,14 +12,6 @@
 namespace rt {
 
 namespace {
-
-void check_same_shape(const Picture& a, const Picture& b) {
-    if (a.width == b.width && a.height == b.height && a.channels == b.channels) return;
-    throw Error(ExitCode::input,
-                fmt::format("the pictures differ in shape: {}x{} with {} channels, {}x{} with {}; "
-                            "compare pictures of one size",
-                            a.width, a.height, a.channels, b.width, b.height, b.channels));
-}
 
 bool is_finite_pixel(const Picture& picture, std::size_t pixel) {
     const auto channels = static_cast<std::size_t>(picture.channels);
@@ -75,7 +65,9 @@ double pixel_difference(const float* a, const float* b, int channels) {
 }
 
 ImageError image_error(const Picture& picture, const Picture& reference) {
-    check_same_shape(picture, reference);
+    if (!have_same_shape(picture, reference)) {
+        throw Error(ExitCode::bug, "the pictures differ in shape; please report this");
+    }
     ImageError error;
     const auto channels = static_cast<std::size_t>(picture.channels);
     const std::size_t pixels = pixel_count(picture);

@@ -32,7 +32,7 @@ std::pair<int, int> first_non_finite(const Picture& picture);
 /// The largest absolute channel difference of two pixels; NaN when either is not finite.
 double pixel_difference(const float* a, const float* b, int channels);
 
-/// Throws Error (ExitCode::input) when sizes or channels differ.
+/// Throws Error (ExitCode::bug) when sizes or channels differ.
 ImageError image_error(const Picture& picture, const Picture& reference);
 
 }  // namespace rt

@@ -17,6 +17,10 @@ struct Picture {
     std::vector<std::string> channel_names = {};  ///< for .exr, any number; empty: Y, YA, RGB, RGBA
 };
 
+inline bool have_same_shape(const Picture& a, const Picture& b) {
+    return a.width == b.width && a.height == b.height && a.channels == b.channels;
+}
+
 /// What a picture file says about itself: (name, text) pairs.
 using PictureMetadata = std::vector<std::pair<std::string, std::string>>;
 

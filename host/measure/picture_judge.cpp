@@ -16,10 +16,7 @@ constexpr double most_off_anyway = 2;  // pixels, even in a small picture
 constexpr double largest_rounding_rmse = 2e-4;
 
 std::string shape_mistake(const Picture& picture, const Picture& reference) {
-    if (picture.width == reference.width && picture.height == reference.height &&
-        picture.channels == reference.channels) {
-        return "";
-    }
+    if (have_same_shape(picture, reference)) return "";
     return fmt::format("{}x{} pixels instead of {}x{}", picture.width, picture.height,
                        reference.width, reference.height);
 }

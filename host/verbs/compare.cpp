@@ -47,7 +47,7 @@ void clamp_finite(Picture& picture) {
 }
 
 void check_same_shape(const Picture& a, const Picture& b, const CompareOptions& options) {
-    if (a.width == b.width && a.height == b.height && a.channels == b.channels) return;
+    if (have_same_shape(a, b)) return;
     throw Error(ExitCode::input,
                 fmt::format("{} is {}x{} pixels of {} channels, {} is {}x{} of {}; give pictures "
                             "with the same size and number of channels",
