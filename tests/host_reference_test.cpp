@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/stress/judge.h"
-#include "host/stress/naive_tracer.h"
 #include "host/stress/reference_tracer.h"
 #include "host/stress/stress_scenes.h"
 #include "host/stress/wide_shapes.h"
@@ -242,15 +240,7 @@ TEST(ReferenceTracer, IndexOneIsTheBackground) {
     }
 }
 
-// The naive tracer
-
-TEST(NaiveTracer, IsRightWithConesAndGlass) {
-    Scene scene = glass_still_life();
-    set_image_size(scene, 40, 30);
-    ReferencePicture reference(scene, ReferenceKind::quad);
-    const NaivePicture naive = naive_picture<double>(scene, NaiveStart::along_normal);
-    EXPECT_LE(judge_stress_picture(naive.picture, reference).wrong, 2U);
-}
+// Balls around shapes
 
 /// Rays to points of the surface, rims and corners included, from near and from far.
 template <typename Shape, typename PointOf, typename Hit>

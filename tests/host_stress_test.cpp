@@ -11,7 +11,6 @@
 #include "host/report/sections.h"
 #include "host/stress/judge.h"
 #include "host/stress/meshes.h"
-#include "host/stress/naive_tracer.h"
 #include "host/stress/ray_trials.h"
 #include "host/stress/stress_result.h"
 #include "host/stress/stress_scenes.h"
@@ -176,11 +175,9 @@ TEST(StressVerdict, NothingMeasuredIsNoPass) {
     EXPECT_FALSE(result.passed());
     result.families[0].cases[0].rows.resize(1);
     EXPECT_TRUE(result.passed());
-    result.families[0].cases[0].rows[0].naive = true;
-    EXPECT_FALSE(result.passed());
 }
 
-/// Two cases on threads, the second wrong, and a naive tracer's row next to each.
+/// Two cases on threads, the second wrong, and a row in double that is not judged next to each.
 StressResult small_result() {
     StressResult result;
     StressFamily family{"scale-2", "scale", "absolute epsilons", {}};
@@ -194,9 +191,7 @@ StressResult small_result() {
         row.figures.max_error = value * 1e-5;
         row.why = value > 1 ? "off by 0.00016" : "";
         one.rows.push_back(row);
-        row.renderer = "naive, t > 1e-3";
-        row.device = "";
-        row.naive = true;
+        row.double_precision = true;
         row.judged = false;
         row.figures.wrong = 123;
         one.rows.push_back(row);
@@ -211,7 +206,7 @@ TEST(StressTable, NamesWhatIsBroken) {
               std::string::npos);
     EXPECT_EQ(text.find("scale-2/1,"), std::string::npos);
     EXPECT_NE(text.find("FAIL: 0 of 1 families"), std::string::npos);
-    EXPECT_NE(stress_text(small_result(), true).find("naive, t > 1e-3 float"), std::string::npos);
+    EXPECT_NE(stress_text(small_result(), true).find("threads double"), std::string::npos);
 }
 
 TEST(StressJson, SaysTheSame) {
@@ -246,32 +241,6 @@ TEST(StressSection, SaysHowLongItTook) {
     StressResult result = small_result();
     for (StressCaseResult& one : result.families[0].cases) one.rows[0].seconds = 1.5;
     EXPECT_NE(stress_section(result).find("<td class=\"number\">3000</td>"), std::string::npos);
-}
-
-// The naive tracer
-
-PictureFigures naive_figures(const Scene& scene, NaiveStart start) {
-    ReferencePicture reference(scene, ReferenceKind::quad);
-    return judge_stress_picture(naive_picture<float>(scene, start).picture, reference);
-}
-
-TEST(NaiveTracer, IsRightWhereNothingIsStiff) {
-    for (const NaiveStart start : {NaiveStart::least_distance, NaiveStart::along_normal}) {
-        EXPECT_LE(naive_figures(small_still_life(), start).wrong, 2U);
-    }
-}
-
-TEST(NaiveTracer, BreaksWhereTheSceneIsSmall) {
-    Scene scene = small_still_life();
-    scale_scene(scene, 0x1p-20);
-    EXPECT_GT(naive_figures(scene, NaiveStart::least_distance).wrong, 300U);
-}
-
-TEST(NaiveTracer, GivesTheSameOnAnyNumberOfThreads) {
-    const Scene scene = small_still_life();
-    const auto one = naive_picture<double>(scene, NaiveStart::along_normal, 1);
-    const auto three = naive_picture<double>(scene, NaiveStart::along_normal, 3);
-    EXPECT_EQ(one.picture.pixels, three.picture.pixels);
 }
 
 // Rays

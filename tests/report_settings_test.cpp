@@ -17,7 +17,7 @@ TEST(ReportCommands, NameTheStressSuiteWhereItWasRun) {
     const auto commands = rt::report_commands(options);
     EXPECT_EQ(commands.front(),
               "mirrorball report a.json -o page.html --devices all --repeats 5 --quick --stress");
-    EXPECT_EQ(commands.back(), "mirrorball stress --naive --device all --quick --json -");
+    EXPECT_EQ(commands.back(), "mirrorball stress --device all --quick --json -");
     EXPECT_EQ(commands.size(), plain.size() + 1);
 }
 

@@ -223,7 +223,7 @@ class Report(unittest.TestCase):
     def test_a_color_is_a_device(self):
         devices = {}
         for color, source in PAGE.colored:
-            if source.startswith("stress#"):  # colors are renderers there
+            if source.startswith("stress#"):  # one device stands for all there
                 continue
             found = re.match(r"((?:bench|converge)-0#/(?:rows|points)/\d+)", source)
             devices.setdefault(color, set()).add(self.source(found[1])["device_name"])

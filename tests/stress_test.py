@@ -38,22 +38,19 @@ class Output(unittest.TestCase):
     SMALL = ["--case", "scale-2/2^0,scale-2/2^20,no-geometry,leaving-sphere/1", "--quick", "-q"]
 
     def test_json(self):
-        result = json.loads(stress(*self.SMALL, "--naive", "--json").stdout)
+        result = json.loads(stress(*self.SMALL, "--json").stdout)
         validate(result)
         self.assertTrue(result["passed"])
         rows = [row for family in result["families"] for case in family["cases"]
                 for row in case["rows"]]
         self.assertEqual({row["precision"] for row in rows}, {"float", "double"})
         hashes = {row["picture"]["hash"] for case in result["families"][0]["cases"]
-                  for row in case["rows"] if not row["naive"] and row["precision"] == "float"}
+                  for row in case["rows"] if row["precision"] == "float"}
         self.assertEqual(len(hashes), 1)
         rays = {(row["renderer"], row["precision"]): row["rays"]["traced"] for row in rows
                 if "rays" in row}
         self.assertEqual(len(rays), 4)  # threads and PoCL in float and double
         self.assertGreater(min(rays.values()), 10_000)
-        naive = [row for case in result["families"][0]["cases"] for row in case["rows"]
-                 if row["naive"]]
-        self.assertEqual(len(naive), 8)
 
     def test_one_build_for_all_changes_no_bit(self):
         one = ["--case", "scale-2/2^0", "-q", "--json"]

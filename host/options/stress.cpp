@@ -36,7 +36,6 @@ void add_stress(const CommandLine& program, Options& options) {
     verb.flag("--quick", stress.quick, "run only the cases that take under a minute in total");
     verb.flag("--all-features", stress.all_features,
               "compile all features into the kernels: one build for all cases");
-    verb.flag("--naive", stress.naive, "also run textbook formulas, for comparison");
     verb.flag("--list", stress.list, "list the cases without running them");
     add_result_file(verb, "--json", stress.json,
                     "write JSON: to FILE, or to stdout instead of the table");

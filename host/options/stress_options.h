@@ -14,7 +14,6 @@ struct StressOptions {
     bool quick = false;          ///< the cases and ray counts that take under a minute
     bool all_features = false;   ///< one build of the kernels for all cases; quick implies it
     bool keep_pictures = false;  ///< in the result, for the report
-    bool naive = false;          ///< textbook formulas alongside ours
     bool list = false;           ///< name the cases, run none
     std::string json;            ///< empty: none; "-": stdout
     std::string output;          ///< folder for pictures; empty: none

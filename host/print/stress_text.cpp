@@ -37,7 +37,7 @@ std::string worst_text(const PictureFigures& worst) {
 }
 
 std::string family_worst(const StressFamilyResult& family) {
-    const PictureFigures worst = worst_figures(family, false);
+    const PictureFigures worst = worst_figures(family);
     if (has_texts(family)) return fmt::format("{} NaN, {} inf", worst.nans, worst.infinities);
     if (has_rays(family)) return fmt::format("{} fail, {:.1e}", worst.wrong, worst.max_error);
     return worst_text(worst);
@@ -65,7 +65,6 @@ std::string row_figures(const StressRow& row) {
 }
 
 std::string row_verdict(const StressRow& row) {
-    if (row.naive) return "";
     if (!row.judged) return "not judged";
     return row.why.empty() ? "pass" : "FAIL: " + row.why;
 }
@@ -96,15 +95,10 @@ std::string broken_lines(const StressFamilyResult& family) {
     return text;
 }
 
-std::string family_lines(const StressFamilyResult& family, bool naive, bool verbose) {
-    std::string naive_text;
-    if (naive) {
-        const PictureFigures worst = worst_figures(family, true);
-        naive_text = fmt::format(" {:>8} {:>8}", worst.wrong, worst.nans);
-    }
-    std::string text = fmt::format("{:<20} {:>3}  {:<36} {:<20}{} {:<4}  {}\n", family.name,
+std::string family_lines(const StressFamilyResult& family, bool verbose) {
+    std::string text = fmt::format("{:<20} {:>3}  {:<36} {:<20} {:<4}  {}\n", family.name,
                                    family.cases.size(), family_worst(family), family_bar(family),
-                                   naive_text, family.passed() ? "pass" : "FAIL", family.why);
+                                   family.passed() ? "pass" : "FAIL", family.why);
     if (verbose) {
         for (const StressCaseResult& one : family.cases) text += case_lines(one);
         return text;
@@ -135,16 +129,10 @@ StressTolerance loosest_tolerance(const StressFamilyResult& family) {
 }
 
 std::string stress_text(const StressResult& result, bool verbose) {
-    const bool naive = std::any_of(result.families.begin(), result.families.end(),
-                                   [](const StressFamilyResult& family) {
-                                       const auto& rows = family.cases.front().rows;
-                                       return !rows.empty() && rows.back().naive;
-                                   });
-    std::string text = fmt::format(
-        "{:<20} {:>3}  {:<36} {:<20}{} {:<4}  {}\n", "family", "n", "worst", "tolerance",
-        naive ? fmt::format(" {:>8} {:>8}", "naive", "its NaN") : "", "", "why");
+    std::string text = fmt::format("{:<20} {:>3}  {:<36} {:<20} {:<4}  {}\n", "family", "n",
+                                   "worst", "tolerance", "", "why");
     for (const StressFamilyResult& family : result.families) {
-        text += family_lines(family, naive, verbose);
+        text += family_lines(family, verbose);
     }
     const auto passed =
         std::count_if(result.families.begin(), result.families.end(),

@@ -11,7 +11,7 @@ std::optional<double> used_tolerance(const StressFamilyResult& family) {
     std::optional<double> most;
     for (const StressCaseResult& one : family.cases) {
         for (const StressRow& row : one.rows) {
-            if (row.naive || !row.judged || row.refused + row.rendered > 0) continue;
+            if (!row.judged || row.refused + row.rendered > 0) continue;
             const double error = row.rays ? row.rays->max_error : row.figures.max_error;
             if (one.tolerance.max_error > 0)
                 most = std::max(most.value_or(0), error / one.tolerance.max_error);

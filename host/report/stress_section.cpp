@@ -34,13 +34,12 @@ std::string figures_text(const PictureFigures& figures) {
     return text;
 }
 
-/// Milliseconds spent tracing all cases in float, on threads or by textbook formulas; "" if none.
-std::string time_text(const StressFamilyResult& family, bool naive) {
+/// Milliseconds spent tracing all cases in float, on threads; "" if none.
+std::string time_text(const StressFamilyResult& family) {
     double seconds = 0;
     for (const StressCaseResult& one : family.cases) {
         for (const StressRow& row : one.rows) {
-            const bool counts = naive ? row.renderer == "naive, + 1e-4 n" : row.device == "threads";
-            if (counts && !row.double_precision) seconds += row.seconds;
+            if (row.device == "threads" && !row.double_precision) seconds += row.seconds;
         }
     }
     return seconds == 0 ? "" : milliseconds(seconds);
@@ -53,12 +52,6 @@ std::string allowed_text(const StressTolerance& tolerance) {
     return usual ? scientific_text(tolerance.max_error, 1) : tolerance_text(tolerance);
 }
 
-bool has_naive_rows(const StressFamilyResult& family) {
-    return std::any_of(family.cases.begin(), family.cases.end(), [](const StressCaseResult& one) {
-        return !one.rows.empty() && one.rows.back().naive;
-    });
-}
-
 /// Used tolerance as a share of a bar's length, which spans six decades.
 double drawn_length(double used) { return used > 0 ? 1 + std::log10(used) / 6 : 0; }
 
@@ -69,28 +62,23 @@ HtmlCell margin_cell(const StressFamilyResult& family) {
 }
 
 std::vector<HtmlCell> verdict_row(const StressFamilyResult& family, std::size_t index) {
-    const PictureFigures worst = worst_figures(family, false), naive = worst_figures(family, true);
-    const bool has_naive = has_naive_rows(family);
+    const PictureFigures worst = worst_figures(family);
     return {{family.name, family_source(index)},
             {family.passed() ? "pass" : "fail", "", !family.passed()},
             margin_cell(family),
             {scientific_text(worst.max_error), ""},
             {allowed_text(loosest_tolerance(family)), ""},
             {std::to_string(worst.wrong), ""},
-            {has_naive ? std::to_string(naive.wrong) : "", ""},
-            {has_naive ? scientific_text(naive.max_error) : "", ""},
-            {time_text(family, false), ""},
-            {time_text(family, true), ""},
+            {time_text(family), ""},
             {family.why, ""}};
 }
 
 std::string verdicts_table(const StressResult& result) {
     HtmlTable table{
         "Families by how much of their tolerance they use (bars: six decades, full at 100 %). "
-        "Worst of every family's cases and renderers, float and double; times on threads, in float "
-        "(textbook: without caster lists)",
-        {"family", "verdict", "tolerance used", "error", "tolerance", "wrong", "textbook wrong",
-         "textbook error", "ms", "textbook ms", "typical failure"},
+        "Worst of every family's cases and renderers, float and double; times on threads, in float",
+        {"family", "verdict", "tolerance used", "error", "tolerance", "wrong", "ms",
+         "typical failure"},
         {}};
     for (const std::size_t i : by_margin(result)) {
         table.rows.push_back(verdict_row(result.families[i], i));
@@ -135,11 +123,7 @@ PlotCurve error_curve(const StressFamilyResult& family, std::size_t index, std::
     return curve;
 }
 
-/// Threads stand for all devices: in strict arithmetic their pictures are the same.
-bool is_drawn(const StressRow& row) {
-    return row.device == "threads" || row.renderer == "naive, t > 1e-3";
-}
-
+/// One device stands for all: in strict arithmetic their pictures are the same.
 Plot family_plot(const StressFamilyResult& family, std::size_t index) {
     Plot plot;
     plot.id = "stress-" + family.name;
@@ -149,11 +133,10 @@ Plot family_plot(const StressFamilyResult& family, std::size_t index) {
     std::vector<double> values, errors{least_error, 1.0};
     const std::vector<StressRow>& rows = family.cases.front().rows;
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        if (!is_drawn(rows[row])) continue;
+        if (rows[row].device != rows.front().device) continue;
         PlotCurve curve = error_curve(family, index, row);
-        curve.label = fmt::format("{}, {}", rows[row].naive ? "textbook" : "mirrorball",
-                                  rows[row].double_precision ? "double" : "float");
-        curve.color = rows[row].naive ? DeviceColors::no_device : DeviceColors::threads;
+        curve.label = rows[row].double_precision ? "double" : "float";
+        curve.color = DeviceColors::no_device;
         curve.dash = curve.marker = rows[row].double_precision ? 1 : 0;
         for (const PlotPoint& point : curve.points) values.push_back(point.x);
         plot.curves.push_back(std::move(curve));

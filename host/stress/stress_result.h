@@ -14,10 +14,9 @@ namespace rt {
 
 /// One case on one renderer.
 struct StressRow {
-    std::string renderer;  ///< "threads", an OpenCL device's name, or "naive, ..."
-    std::string device;    ///< for --device; empty for naive
+    std::string renderer;  ///< "threads" or an OpenCL device's name
+    std::string device;    ///< for --device
     bool double_precision = false;
-    bool naive = false;      ///< reported, never judged
     bool judged = true;      ///< whether the tolerance applies to it
     PictureFigures figures;  ///< of the picture, or summed over all scene texts
     std::optional<RayFigures> rays;
@@ -64,7 +63,7 @@ struct StressResult {
     bool passed() const;
 };
 
-/// The worst figures over a family's rows, either judged or naive ones.
-PictureFigures worst_figures(const StressFamilyResult& family, bool naive);
+/// The worst figures over a family's judged rows.
+PictureFigures worst_figures(const StressFamilyResult& family);
 
 }  // namespace rt

@@ -138,12 +138,11 @@ class SceneStudy {
     Scene scene_;
 };
 
-/// The stress suite with textbook formulas alongside, on the report's devices.
+/// The stress suite on the report's devices.
 StressResult stress_result(const ReportOptions& options) {
     StressOptions stress;
     stress.devices = options.devices;
     stress.quick = options.quick;
-    stress.naive = true;
     stress.keep_pictures = true;
     stress.quiet = options.quiet;
     StressResult result = measure_stress(stress);

@@ -105,7 +105,7 @@ std::vector<std::string> report_commands(const ReportOptions& options) {
                         options.quick ? quick_reference : full_reference, rest));
     }
     if (options.stress) {
-        commands.push_back(fmt::format("mirrorball stress --naive --device {}{} --json -",
+        commands.push_back(fmt::format("mirrorball stress --device {}{} --json -",
                                        shell_word(joined(options.devices, ",")), quick));
     }
     return commands;

@@ -16,7 +16,6 @@
 #include "host/render/stopwatch.h"
 #include "host/scene/json_file.h"
 #include "host/stop_signal.h"
-#include "host/stress/naive_tracer.h"
 #include "host/stress/ray_trials.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/stress_pictures.h"
@@ -134,7 +133,6 @@ class Runner {
         }
         pictures.write();
         if (options_.keep_pictures) keep_worst(pictures.shot(one.label));
-        if (options_.naive) add_naive_rows(scene, against, result);
     }
 
     /// For the family being run.
@@ -150,28 +148,6 @@ class Runner {
         const auto [first, is_new] = first_hashes_.try_emplace(key, row.hash);
         if (!is_new && first->second != row.hash) {
             row.why = "bits differ from " + trial.same_bits;
-        }
-    }
-
-    template <typename T>
-    void add_naive_row(const Scene& scene, ReferencePicture* reference, NaiveStart start,
-                       StressCaseResult& result) const {
-        StressRow row;
-        row.renderer = start == NaiveStart::least_distance ? "naive, t > 1e-3" : "naive, + 1e-4 n";
-        row.naive = true;
-        row.judged = false;
-        row.double_precision = sizeof(T) == sizeof(double);
-        const NaivePicture naive = naive_picture<T>(scene, start);
-        row.seconds = naive.seconds;
-        judge(naive.picture, reference, result.tolerance, row);
-        result.rows.push_back(std::move(row));
-    }
-
-    void add_naive_rows(const Scene& scene, ReferencePicture* reference,
-                        StressCaseResult& result) const {
-        for (const NaiveStart start : {NaiveStart::least_distance, NaiveStart::along_normal}) {
-            add_naive_row<float>(scene, reference, start, result);
-            add_naive_row<double>(scene, reference, start, result);
         }
     }
 
@@ -251,7 +227,7 @@ class Runner {
         for (const bool double_precision : {false, true}) {
             std::set<std::uint64_t> hashes;
             for (const StressRow& row : result.rows) {
-                if (row.naive || row.rays || row.double_precision != double_precision) continue;
+                if (row.rays || row.double_precision != double_precision) continue;
                 hashes.insert(row.hash);
             }
             if (hashes.size() < 2) continue;
