@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/ray_trials.h"
+#include "host/stress/scale_cases.h"
 #include "host/stress/shape_families.h"
 #include "host/stress/stress_scenes.h"
 
@@ -38,14 +36,9 @@ Scene long_cones(double length) {
 }
 
 StressFamily long_cone_family() {
-    StressFamily family{
-        "long-cone", "length over radius", "the far end's numbers drown those of the near one", {}};
-    for (const double length : {1e1, 1e2, 1e4, 1e6, 1e8}) {
-        family.cases.push_back(picture_case(fmt::format("{:g}", 4 * length), 4 * length,
-                                            quick_if(length == 1e2 || length == 1e6),
-                                            [length] { return long_cones(length); }));
-    }
-    return family;
+    return sweep(
+        {"long-cone", "length over radius", "the far end's numbers drown those of the near one"},
+        {4e1, 4e2, 4e4, 4e6, 4e8}, {4e2, 4e6}, [](double ratio) { return long_cones(ratio / 4); });
 }
 
 /// A needle of length 2 across a narrow view, taking up about a fifth of its height.
@@ -56,14 +49,12 @@ Scene cone_needle(double radius) {
 }
 
 StressFamily cone_needles() {
-    StressFamily family{
-        "cone-needle", "length over radius", "thin cones lose their outline and their normals", {}};
-    for (const double radius : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-        family.cases.push_back(picture_case(
-            fmt::format("{:g}", 2 / radius), 2 / radius, quick_if(radius == 1e-1 || radius == 1e-3),
-            [radius] { return cone_needle(radius); }, small_tolerance(radius)));
-    }
-    return family;
+    return sweep(
+        {"cone-needle", "length over radius", "thin cones lose their outline and their normals"},
+        {2e1, 2e2, 2e3, 2e4, 2e6}, {2e1, 2e3}, [](double ratio) {
+            const double radius = 2 / ratio;
+            return picture_case([=] { return cone_needle(radius); }, small_tolerance(radius));
+        });
 }
 
 /// A ring of almost no height. In float the rims are distinguished by height above the base, which
@@ -76,16 +67,12 @@ Scene flat_cone(double height) {
 }
 
 StressFamily flat_cones() {
-    StressFamily family{
-        "flat-cone", "height over radius", "all hits lie within rounding of both rims", {}};
-    for (const double height : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8}) {
-        StressTolerance tolerance;
-        tolerance.in_float = height >= 1e-3;
-        family.cases.push_back(picture_case(
-            fmt::format("{:g}", 2 * height), 2 * height, quick_if(height == 1e-2 || height == 1e-4),
-            [height] { return flat_cone(height); }, tolerance));
-    }
-    return family;
+    return sweep({"flat-cone", "height over radius", "all hits lie within rounding of both rims"},
+                 {2e-1, 2e-2, 2e-3, 2e-4, 2e-6, 2e-8}, {2e-2, 2e-4}, [](double ratio) {
+                     StressTolerance tolerance;
+                     tolerance.in_float = ratio >= 2e-3;
+                     return picture_case([=] { return flat_cone(ratio / 2); }, tolerance);
+                 });
 }
 
 /// Intersecting tubes, two of them mirrors, one seen end-on, over a floor.
@@ -101,44 +88,21 @@ Scene tubes() {
     return scene;
 }
 
-/// The scene scaled and moved; powers of two and whole numbers must not change a bit.
+/// A small picture of the scene as it is, scaled and moved.
 StressFamily scaled_and_moved(const char* name, const char* why, Scene (*scene)()) {
-    StressFamily family{name, "scale, or distance from the origin", why, {}};
     const auto small = [scene] {
         Scene result = scene();
         set_image_size(result, 80, 60);
         return result;
     };
-    const auto add = [&](std::string label, double value, InQuick quick, bool same_bits,
-                         std::function<Scene()> make) {
-        family.cases.push_back(picture_case(std::move(label), value, quick, std::move(make)));
-        if (!same_bits) return;
-        std::get<PictureTrial>(family.cases.back().trial).same_bits = "the scene as it is";
-    };
-    const auto scaled = [small](double factor) {
-        return [=] {
-            Scene result = small();
-            scale_scene(result, factor);
-            return result;
-        };
-    };
-    add("as-it-is", 1, InQuick::yes, true, small);
-    for (const int k : {-40, -20, 20, 40}) {
-        const double factor = std::ldexp(1.0, k);
-        add(fmt::format("2^{}", k), factor, quick_if(k == -40), true, scaled(factor));
-    }
-    for (const int k : {-30, -15, -6, -3, 3, 6, 15, 30}) {
-        const double factor = std::pow(10.0, k);
-        add(fmt::format("10^{}", k), factor, InQuick::no, false, scaled(factor));
-    }
-    for (const double by : {1e3, 1e6, 1e9}) {
-        add(fmt::format("moved-{:g}", by), by, quick_if(by == 1e6), true, [=] {
-            Scene result = small();
-            shift_scene(result, {by, -by, by < 5e8 ? 2 * by : by});
-            return result;
-        });
-    }
-    return family;
+    StressFamily family =
+        sweep({name, "scale, or distance from the origin", why}, {0, -40, -20, 20, 40}, {0, -40},
+              [=](int k) { return scaled_by_two(small, k); });
+    family.cases.front().label = "as-it-is";
+    family = sweep(family, {-30, -15, -6, -3, 3, 6, 15, 30}, {},
+                   [=](int k) { return scaled_by_ten(small, k); });
+    return sweep(family, {1e3, 1e6, 1e9}, {1e6},
+                 [=](double by) { return moved(small, fmt::format("moved-{:g}", by), by); });
 }
 
 /// A frustum this far from the eye.
@@ -173,22 +137,20 @@ StressFamily cone_rays() {
 
 }  // namespace
 
-void add_cone_families(StressFamilies& families) {
-    families.push_back(size_family("cone-size",
-                                   "the quadratic's terms cancel for small and for large cones",
-                                   0.5, sized_cone));
-    for (const auto make : {long_cone_family, cone_needles, flat_cones}) {
-        families.push_back(make());
-    }
-    families.push_back(scaled_and_moved(
-        "cylinder-scale", "absolute epsilons fill small tubes and prick large ones", tubes));
-    families.push_back(scaled_and_moved(
-        "glass-scale", "absolute epsilons skip the far side of small glass", glass_still_life));
-    families.push_back(leaving_cones(
-        "leaving-cone", 3, "an absolute epsilon is acne on large cones and a hole in small ones"));
-    families.push_back(
-        leaving_cones("leaving-far-cone", 1000, "the same with the cone a thousand radii away"));
-    families.push_back(cone_rays());
+StressFamilies cone_families() {
+    return {size_family("cone-size", "the quadratic's terms cancel for small and for large cones",
+                        0.5, sized_cone),
+            long_cone_family(),
+            cone_needles(),
+            flat_cones(),
+            scaled_and_moved("cylinder-scale",
+                             "absolute epsilons fill small tubes and prick large ones", tubes),
+            scaled_and_moved("glass-scale", "absolute epsilons skip the far side of small glass",
+                             glass_still_life),
+            leaving_cones("leaving-cone", 3,
+                          "an absolute epsilon is acne on large cones and a hole in small ones"),
+            leaving_cones("leaving-far-cone", 1000, "the same with the cone a thousand radii away"),
+            cone_rays()};
 }
 
 }  // namespace rt

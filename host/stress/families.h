@@ -8,19 +8,19 @@ namespace rt {
 using StressFamilies = std::vector<StressFamily>;
 
 // One file of families each.
-void add_ordinary_families(StressFamilies& families);
-void add_scale_families(StressFamilies& families);
-void add_sphere_families(StressFamilies& families);
-void add_cone_families(StressFamilies& families);
-void add_mirror_families(StressFamilies& families);
-void add_glass_families(StressFamilies& families);
-void add_light_families(StressFamilies& families);
-void add_eye_families(StressFamilies& families);
-void add_view_families(StressFamilies& families);
-void add_triangle_families(StressFamilies& families);
-void add_normal_families(StressFamilies& families);
-void add_leak_families(StressFamilies& families);
-void add_ray_families(StressFamilies& families);
-void add_input_families(StressFamilies& families);
+StressFamilies ordinary_families();
+StressFamilies scale_families();
+StressFamilies sphere_families();
+StressFamilies cone_families();
+StressFamilies mirror_families();
+StressFamilies glass_families();
+StressFamilies light_families();
+StressFamilies eye_families();
+StressFamilies view_families();
+StressFamilies triangle_families();
+StressFamilies normal_families();
+StressFamilies leak_families();
+StressFamilies ray_families();
+StressFamilies input_families();
 
 }  // namespace rt

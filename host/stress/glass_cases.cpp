@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "host/stress/case_helpers.h"
@@ -43,19 +41,15 @@ Scene of_index(double ior) {
 
 /// A ray leaving glass of index n has n times the sine of the angle inside: rounding grows n-fold.
 StressFamily indices() {
-    StressFamily family{"index",
-                        "index of refraction",
-                        "eta (cos i) - cos t cancels near 1, and large indices magnify rounding",
-                        {}};
-    for (const double ior : {1.0, 1 - 1e-7, 1 + 1e-7, 1 + 1e-3, 1.5, 2.4, 1e3, 0.5, 1e-3}) {
-        StressCase one = picture_case(fmt::format("{:.8g}", ior), ior,
-                                      quick_if(ior == 1 || ior == 1 + 1e-7 || ior == 1.5),
-                                      [ior] { return of_index(ior); });
-        if (ior == 1) std::get<PictureTrial>(one.trial).reference_scene = glass_scene;
-        if (ior == 1e3) one.tolerance.max_error = 1e-3;
-        family.cases.push_back(std::move(one));
-    }
-    return family;
+    return sweep({"index", "index of refraction",
+                  "eta (cos i) - cos t cancels near 1, and large indices magnify rounding"},
+                 {1.0, 1 - 1e-7, 1 + 1e-7, 1 + 1e-3, 1.5, 2.4, 1e3, 0.5, 1e-3}, {1, 1 + 1e-7, 1.5},
+                 [](double ior) {
+                     StressCase one = picture_case([=] { return of_index(ior); });
+                     if (ior == 1) one = seen_as(glass_scene, one);
+                     if (ior == 1e3) one.tolerance.max_error = 1e-3;
+                     return labeled(fmt::format("{:.8g}", ior), ior, one);
+                 });
 }
 
 /// The eye inside a glass object, where beyond the critical angle everything is reflected.
@@ -74,20 +68,19 @@ Scene inside_glass(double ior, bool ball) {
 }
 
 StressFamily inside_of_glass() {
-    StressFamily family{"inside-glass",
-                        "body and index",
-                        "1 - eta^2 sin^2 is negative by rounding, or not where it should be",
-                        {}};
-    const auto add = [&](const char* label, InQuick quick, double ior, bool ball) {
-        family.cases.push_back(picture_case(label, static_cast<double>(family.cases.size()), quick,
-                                            [=] { return inside_glass(ior, ball); }));
+    const auto ball = [](double ior) {
+        return picture_case([=] { return inside_glass(ior, true); });
     };
-    add("ball-1.5", InQuick::yes, 1.5, true);
-    add("ball-2.4", InQuick::no, 2.4, true);
-    add("box-1.5", InQuick::yes, 1.5, false);
-    add("box-2.4", InQuick::no, 2.4, false);
-    add("ball-1.0001", InQuick::no, 1.0001, true);
-    return family;
+    const auto box = [](double ior) {
+        return picture_case([=] { return inside_glass(ior, false); });
+    };
+    return listed({"inside-glass", "body and index",
+                   "1 - eta^2 sin^2 is negative by rounding, or not where it should be"},
+                  {{"ball-1.5", InQuick::yes, ball(1.5)},
+                   {"ball-2.4", InQuick::no, ball(2.4)},
+                   {"box-1.5", InQuick::yes, box(1.5)},
+                   {"box-2.4", InQuick::no, box(2.4)},
+                   {"ball-1.0001", InQuick::no, ball(1.0001)}});
 }
 
 /// A prism whose slope every ray of the picture hits from inside at the critical angle of index 1.5
@@ -111,18 +104,15 @@ Scene prism(double beyond) {
 /// At the critical angle to within rounding, both answers are right; only NaN and differences
 /// between devices are wrong.
 StressFamily critical_angles() {
-    StressFamily family{
-        "critical-angle", "radians beyond it", "the root of what should be 0 is NaN", {}};
-    for (const double beyond : {-0.1, -1e-3, -1e-5, -1e-7, 0.0, 1e-7, 1e-5, 1e-3, 0.1}) {
-        StressTolerance tolerance;
-        tolerance.in_float = std::fabs(beyond) >= 1e-5;
-        tolerance.max_error = std::fabs(beyond) < 1e-3 ? 1e-2 : 1e-4;
-        family.cases.push_back(picture_case(
-            fmt::format("{:g}", beyond), beyond, quick_if(beyond == 0 || beyond == 1e-5),
-            [beyond] { return prism(beyond); }, tolerance,
-            beyond == 0 ? ReferenceKind::none : ReferenceKind::quad));
-    }
-    return family;
+    return sweep({"critical-angle", "radians beyond it", "the root of what should be 0 is NaN"},
+                 {-0.1, -1e-3, -1e-5, -1e-7, 0.0, 1e-7, 1e-5, 1e-3, 0.1}, {0, 1e-5},
+                 [](double beyond) {
+                     StressTolerance tolerance;
+                     tolerance.in_float = std::fabs(beyond) >= 1e-5;
+                     if (std::fabs(beyond) < 1e-3) tolerance.max_error = 1e-2;
+                     return picture_case([=] { return prism(beyond); }, tolerance,
+                                         beyond == 0 ? ReferenceKind::none : ReferenceKind::quad);
+                 });
 }
 
 /// Nested glass balls; each surface refracts as if air were outside.
@@ -139,33 +129,24 @@ Scene nested_glass(int bounces, double mirror) {
 
 /// Every ball magnifies the rounding errors of the ones before it.
 StressFamily glass_depths() {
-    StressFamily family{
-        "glass-depth", "bounces", "every surface magnifies the rounding of those before it", {}};
-    for (const int bounces : {2, 4, 8, 16, 64}) {
-        StressTolerance tolerance;
-        if (bounces > 8) tolerance.max_error = 1e-3;
-        family.cases.push_back(picture_case(
-            fmt::format("{}", bounces), bounces, quick_if(bounces == 8),
-            [=] { return nested_glass(bounces, 0); }, tolerance));
-    }
-    return family;
+    return sweep(
+        {"glass-depth", "bounces", "every surface magnifies the rounding of those before it"},
+        {2, 4, 8, 16, 64}, {8}, [](int bounces) {
+            StressTolerance tolerance;
+            if (bounces > 8) tolerance.max_error = 1e-3;
+            return picture_case([=] { return nested_glass(bounces, 0); }, tolerance);
+        });
 }
 
 /// The ray tree: every surface reflects and transmits. In the deepest tree, few branches matter.
 StressFamily glass_trees() {
-    StressFamily family{"glass-tree",
-                        "bounces",
-                        "trees of rays outgrow their stack, or lose the branches that wait on it",
-                        {}};
-    for (const int bounces : {4, 8, 16}) {
-        family.cases.push_back(
-            picture_case(fmt::format("{}", bounces), bounces, quick_if(bounces == 4), [=] {
-                Scene scene = nested_glass(bounces, bounces > 8 ? 1e-5 : 0.125);
-                set_image_size(scene, 32, 24);
-                return scene;
-            }));
-    }
-    return family;
+    return sweep({"glass-tree", "bounces",
+                  "trees of rays outgrow their stack, or lose the branches that wait on it"},
+                 {4, 8, 16}, {4}, [](int bounces) {
+                     Scene scene = nested_glass(bounces, bounces > 8 ? 1e-5 : 0.125);
+                     set_image_size(scene, 32, 24);
+                     return scene;
+                 });
 }
 
 /// A bar of glass that carries the view along by total reflection.
@@ -181,17 +162,13 @@ Scene light_pipe(int bounces) {
 }
 
 StressFamily light_pipes() {
-    StressFamily family{"light-pipe",
-                        "bounces",
-                        "total reflection that loses a little light at each bounce, or leaks",
-                        {}};
-    for (const int bounces : {8, 64, 1000}) {
-        family.cases.push_back(picture_case(
-            fmt::format("{}", bounces), bounces, quick_if(bounces == 8),
-            [=] { return light_pipe(bounces); }, {},
-            bounces == 8 ? ReferenceKind::quad : ReferenceKind::extended));
-    }
-    return family;
+    return sweep({"light-pipe", "bounces",
+                  "total reflection that loses a little light at each bounce, or leaks"},
+                 {8, 64, 1000}, {8}, [](int bounces) {
+                     return picture_case(
+                         [=] { return light_pipe(bounces); }, {},
+                         bounces == 8 ? ReferenceKind::quad : ReferenceKind::extended);
+                 });
 }
 
 /// All light comes from the background, and glass whose weights add up to 1 must not add to it.
@@ -211,25 +188,16 @@ Scene lit_by_background(double mirror) {
 }
 
 StressFamily glass_energy() {
-    StressFamily family{"glass-energy",
-                        "share that is mirrored",
-                        "light that is counted twice where it splits, or where all of it turns",
-                        {}};
-    for (const double mirror : {0.0, 0.01, 0.25, 0.5, 0.99}) {
-        family.cases.push_back(picture_case(fmt::format("{:g}", mirror), mirror,
-                                            quick_if(mirror == 0.25),
-                                            [mirror] { return lit_by_background(mirror); }));
-    }
-    return family;
+    return sweep({"glass-energy", "share that is mirrored",
+                  "light that is counted twice where it splits, or where all of it turns"},
+                 {0.0, 0.01, 0.25, 0.5, 0.99}, {0.25}, lit_by_background);
 }
 
 }  // namespace
 
-void add_glass_families(StressFamilies& families) {
-    for (const auto make : {indices, inside_of_glass, critical_angles, glass_depths, glass_trees,
-                            light_pipes, glass_energy}) {
-        families.push_back(make());
-    }
+StressFamilies glass_families() {
+    return {indices(),     inside_of_glass(), critical_angles(), glass_depths(),
+            glass_trees(), light_pipes(),     glass_energy()};
 }
 
 }  // namespace rt

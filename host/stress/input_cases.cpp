@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <bit>
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 
 #include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
@@ -75,11 +74,8 @@ constexpr const char* odd_numbers[] = {
     "1e-320", "5e-324",   "1e-999",    "0",     "-0",     "-1e-30"};
 
 StressFamily odd_fields() {
-    StressFamily family{"odd-numbers",
-                        "field",
-                        "NaN, infinities, subnormal and huge numbers: "
-                        "refused, or rendered without a NaN",
-                        {}};
+    const std::set<std::string> quick{"mirror", "radius", "vertex", "ior", "cone-apex-radius"};
+    std::vector<LabeledCase> cases;
     for (const auto& [name, usual] : ordinary_fields()) {
         std::vector<std::string> texts;
         for (const char* number : odd_numbers) {
@@ -87,12 +83,13 @@ StressFamily odd_fields() {
             fields[name] = number;
             texts.push_back(scene_text(fields, name == "window"));
         }
-        const bool quick = name == "mirror" || name == "radius" || name == "vertex" ||
-                           name == "ior" || name == "cone-apex-radius";
-        family.cases.push_back(text_case(name, static_cast<double>(family.cases.size()),
-                                         quick_if(quick), std::move(texts)));
+        cases.push_back(
+            {name, quick.contains(name) ? InQuick::yes : InQuick::no, text_case(texts)});
     }
-    return family;
+    return listed(
+        {"odd-numbers", "field",
+         "NaN, infinities, subnormal and huge numbers: refused, or rendered without a NaN"},
+        cases);
 }
 
 /// A number from random bits of a double or a float, or of moderate size.
@@ -110,88 +107,90 @@ std::string random_number(std::mt19937_64& engine) {
 }
 
 /// Ordinary scenes with up to three fields (never "bounces") replaced by random numbers.
-StressFamily random_bits() {
-    StressFamily family{"random-bits", "seed", "several implausible numbers at once", {}};
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-        std::mt19937_64 engine(seed);
-        std::vector<std::string> texts;
-        for (int i = 0; i < 40; ++i) {
-            Fields fields = ordinary_fields();
-            const std::uint64_t changes = 1 + engine() % 3;
-            for (std::uint64_t k = 0; k < changes; ++k) {
-                auto field = fields.begin();
-                std::advance(field, static_cast<std::ptrdiff_t>(engine() % fields.size()));
-                if (field->first != "bounces") field->second = random_number(engine);
-            }
-            texts.push_back(scene_text(fields, i % 4 == 0));
+std::vector<std::string> random_texts(unsigned seed) {
+    std::mt19937_64 engine(seed);
+    std::vector<std::string> texts;
+    for (int i = 0; i < 40; ++i) {
+        Fields fields = ordinary_fields();
+        const std::uint64_t changes = 1 + engine() % 3;
+        for (std::uint64_t k = 0; k < changes; ++k) {
+            auto field = fields.begin();
+            std::advance(field, static_cast<std::ptrdiff_t>(engine() % fields.size()));
+            if (field->first != "bounces") field->second = random_number(engine);
         }
-        family.cases.push_back(text_case(fmt::format("{}", seed), static_cast<double>(seed),
-                                         quick_if(seed == 1), std::move(texts)));
+        texts.push_back(scene_text(fields, i % 4 == 0));
     }
-    return family;
+    return texts;
+}
+
+StressFamily random_bits() {
+    return sweep({"random-bits", "seed", "several implausible numbers at once"},
+                 {1, 2, 3, 4, 5, 6, 7, 8}, {1},
+                 [](int seed) { return text_case(random_texts(seed)); });
+}
+
+/// A ball seen by this camera.
+std::string camera_text(const char* camera) {
+    return fmt::format(R"({{"camera": {{{}}}, "image": {{"width": 12, "height": 9}},
+"materials": {{"m": {{"ambient": 1}}}}, "ambient_light": 1,
+"spheres": [{{"center": [0, 0, 0], "radius": 1, "material": "m"}}]}})",
+                       camera);
+}
+
+std::string shape_text(const std::string& shapes) {
+    return fmt::format(R"({{"camera": {{"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40}},
+"image": {{"width": 12, "height": 9}}, "materials": {{"m": {{"ambient": 1}}}},
+"ambient_light": 1, {}}})",
+                       shapes);
+}
+
+std::string triangle_text(const char* vertices) {
+    return shape_text(
+        fmt::format(R"("triangles": [{{"vertices": [{}], "material": "m"}}])", vertices));
+}
+
+std::string sphere_text(const char* radius) {
+    return shape_text(fmt::format(
+        R"("spheres": [{{"center": [0,0,0], "radius": {}, "material": "m"}}])", radius));
+}
+
+std::string cone_text(const char* base_radius, const char* apex, const char* apex_radius) {
+    return shape_text(fmt::format(R"("cones": [{{"base": [0,0,0], "base_radius": {}, "apex": {},
+"apex_radius": {}, "material": "m"}}])",
+                                  base_radius, apex, apex_radius));
 }
 
 /// Cameras without axes and triangles without area.
 StressFamily no_geometry() {
-    StressFamily family{"no-geometry",
-                        "what is missing",
-                        "views without axes, triangles without "
-                        "area, spheres without size",
-                        {}};
-    const auto with_camera = [](const char* camera) {
-        return fmt::format(R"({{"camera": {{{}}}, "image": {{"width": 12, "height": 9}},
-"materials": {{"m": {{"ambient": 1}}}}, "ambient_light": 1,
-"spheres": [{{"center": [0, 0, 0], "radius": 1, "material": "m"}}]}})",
-                           camera);
-    };
-    const auto with_shape = [](const char* shape) {
-        return fmt::format(R"({{"camera": {{"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40}},
-"image": {{"width": 12, "height": 9}}, "materials": {{"m": {{"ambient": 1}}}},
-"ambient_light": 1, {}}})",
-                           shape);
-    };
-    family.cases.push_back(text_case(
-        "cameras", 0, InQuick::yes,
-        {with_camera(R"("from": [1, 2, 3], "at": [1, 2, 3], "fov_degrees": 40)"),
-         with_camera(R"("from": [0, 5, 0], "at": [0, 0, 0], "fov_degrees": 40)"),
-         with_camera(R"("from": [0, 5, 0], "at": [0, 0, 0], "up": [0, 0, 0], "fov_degrees": 40)"),
-         with_camera(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 0)"),
-         with_camera(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 180)"),
-         with_camera(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 179.999999999999)"),
-         with_camera(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 1e-300)"),
-         with_camera(R"("from": [1e30, 0, 1e30], "at": [1e30, 0, 0], "fov_degrees": 40)")}));
-    family.cases.push_back(text_case(
-        "shapes", 1, InQuick::yes,
-        {with_shape(R"("triangles": [{"vertices": [[0,0,0],[0,0,0],[0,0,0]], "material": "m"}])"),
-         with_shape(R"("triangles": [{"vertices": [[0,0,0],[1,1,1],[2,2,2]], "material": "m"}])"),
-         with_shape(
-             R"("triangles": [{"vertices": [[0,0,0],[1,1,1],[3,3,3.0000000000000004]], "material": "m"}])"),
-         with_shape(
-             R"("triangles": [{"vertices": [[0,0,0],[1e-30,0,0],[0,1e-30,0]], "material": "m"}])"),
-         with_shape(
-             R"("triangles": [{"vertices": [[-1e30,-1e30,0],[1e30,-1e30,0],[0,1e30,0]], "material": "m"}])"),
-         with_shape(
-             R"("triangles": [{"vertices": [[-1,-1,0],[1,-1,0],[0,1e-300,0]], "material": "m"}])"),
-         with_shape(R"("spheres": [{"center": [0,0,0], "radius": 1e-30, "material": "m"}])"),
-         with_shape(R"("spheres": [{"center": [0,0,0], "radius": 1e30, "material": "m"}])"),
-         with_shape(R"("cones": [{"base": [0,0,0], "base_radius": 1, "apex": [0,0,0],
-"apex_radius": 1, "material": "m"}])"),
-         with_shape(R"("cones": [{"base": [0,0,0], "base_radius": 0, "apex": [0,1,0],
-"apex_radius": 0, "material": "m"}])"),
-         with_shape(R"("cones": [{"base": [0,0,0], "base_radius": 1, "apex": [0,1e-30,0],
-"apex_radius": 0.5, "material": "m"}])"),
-         with_shape(R"("cones": [{"base": [0,0,0], "base_radius": 1e-30, "apex": [0,1,0],
-"apex_radius": 1e30, "material": "m"}])"),
-         with_shape(R"("spheres": [])")}));
-    return family;
+    return listed(
+        {"no-geometry", "what is missing",
+         "views without axes, triangles without area, spheres without size"},
+        {{"cameras", InQuick::yes,
+          text_case(
+              {camera_text(R"("from": [1, 2, 3], "at": [1, 2, 3], "fov_degrees": 40)"),
+               camera_text(R"("from": [0, 5, 0], "at": [0, 0, 0], "fov_degrees": 40)"),
+               camera_text(
+                   R"("from": [0, 5, 0], "at": [0, 0, 0], "up": [0, 0, 0], "fov_degrees": 40)"),
+               camera_text(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 0)"),
+               camera_text(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 180)"),
+               camera_text(
+                   R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 179.999999999999)"),
+               camera_text(R"("from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 1e-300)"),
+               camera_text(R"("from": [1e30, 0, 1e30], "at": [1e30, 0, 0], "fov_degrees": 40)")})},
+         {"shapes", InQuick::yes,
+          text_case({triangle_text("[0,0,0],[0,0,0],[0,0,0]"),
+                     triangle_text("[0,0,0],[1,1,1],[2,2,2]"),
+                     triangle_text("[0,0,0],[1,1,1],[3,3,3.0000000000000004]"),
+                     triangle_text("[0,0,0],[1e-30,0,0],[0,1e-30,0]"),
+                     triangle_text("[-1e30,-1e30,0],[1e30,-1e30,0],[0,1e30,0]"),
+                     triangle_text("[-1,-1,0],[1,-1,0],[0,1e-300,0]"), sphere_text("1e-30"),
+                     sphere_text("1e30"), cone_text("1", "[0,0,0]", "1"),
+                     cone_text("0", "[0,1,0]", "0"), cone_text("1", "[0,1e-30,0]", "0.5"),
+                     cone_text("1e-30", "[0,1,0]", "1e30"), shape_text(R"("spheres": [])")})}});
 }
 
 }  // namespace
 
-void add_input_families(StressFamilies& families) {
-    families.push_back(odd_fields());
-    families.push_back(random_bits());
-    families.push_back(no_geometry());
-}
+StressFamilies input_families() { return {odd_fields(), random_bits(), no_geometry()}; }
 
 }  // namespace rt

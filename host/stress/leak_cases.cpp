@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -32,48 +30,38 @@ Scene all_gray(int width, int height, int grid) {
     return scene;
 }
 
-Scene inside_mesh(const StressMesh& mesh, glm::dvec3 eye, glm::dvec3 at, int grid) {
-    Scene scene = gray_scene(160, 120, grid);
-    add_mesh(scene, mesh, 0);
-    set_view(scene, eye, at, 100);
-    return scene;
-}
-
-void add_leak_case(StressFamily& family, const char* label, InQuick quick,
-                   std::function<Scene()> scene) {
-    StressCase one = picture_case(label, static_cast<double>(family.cases.size()), quick, scene);
-    std::get<PictureTrial>(one.trial).reference_scene = [scene] {
+StressCase leak_case(const MakeScene& scene) {
+    StressTolerance tolerance;
+    tolerance.most_wrong_at_edges = 0;
+    const auto filled = [=] {
         const Scene of = scene();
         return all_gray(of.width, of.height, 1);
     };
-    one.tolerance.most_wrong_at_edges = 0;
-    family.cases.push_back(std::move(one));
+    return seen_as(filled, picture_case(scene, tolerance));
+}
+
+StressCase inside_mesh(const StressMesh& mesh, glm::dvec3 eye, glm::dvec3 at) {
+    return leak_case([=] {
+        Scene scene = gray_scene(160, 120, 2);
+        add_mesh(scene, mesh, 0);
+        set_view(scene, eye, at, 100);
+        return scene;
+    });
 }
 
 StressFamily inside_meshes() {
-    StressFamily family{"mesh-from-inside",
-                        "mesh",
-                        "rays slip through between two triangles that "
-                        "share an edge",
-                        {}};
-    add_leak_case(family, "bumpy-ball", InQuick::yes, [] {
-        return inside_mesh(bumpy_mesh(2), {0.125, 0.0625, 0.25}, {0, 0, -1}, 2);
-    });
-    add_leak_case(family, "fan", InQuick::no, [] {
-        return inside_mesh(fan_mesh(250), {0.0625, 0.125, 0.0625}, {0, 1, 0.001}, 2);
-    });
-    add_leak_case(family, "needles", InQuick::yes, [] {
-        return inside_mesh(needle_mesh(12, 4, 1e-6), {0.0625, 0.125, 0.0625}, {0.25, 0.25, -1}, 2);
-    });
-    add_leak_case(family, "tiny-ball", InQuick::no, [] {
-        return inside_mesh(placed(bumpy_mesh(2), 1e-6, {3, 2, 1}), {3, 2, 1},
-                           {3 + 1e-6, 2 + 2e-7, 1}, 2);
-    });
-    add_leak_case(family, "far-ball", InQuick::no, [] {
-        return inside_mesh(placed(bumpy_mesh(2), 1, {148376, 1234, -223423}),
-                           {148376, 1234, -223423}, {148377, 1234.25, -223423}, 2);
-    });
-    return family;
+    const glm::dvec3 far(148376, 1234, -223423);
+    return listed(
+        {"mesh-from-inside", "mesh", "rays slip through between two triangles that share an edge"},
+        {{"bumpy-ball", InQuick::yes,
+          inside_mesh(bumpy_mesh(2), {0.125, 0.0625, 0.25}, {0, 0, -1})},
+         {"fan", InQuick::no, inside_mesh(fan_mesh(250), {0.0625, 0.125, 0.0625}, {0, 1, 0.001})},
+         {"needles", InQuick::yes,
+          inside_mesh(needle_mesh(12, 4, 1e-6), {0.0625, 0.125, 0.0625}, {0.25, 0.25, -1})},
+         {"tiny-ball", InQuick::no,
+          inside_mesh(placed(bumpy_mesh(2), 1e-6, {3, 2, 1}), {3, 2, 1}, {3 + 1e-6, 2 + 2e-7, 1})},
+         {"far-ball", InQuick::no,
+          inside_mesh(placed(bumpy_mesh(2), 1, far), far, far + glm::dvec3(1, 0.25, 0))}});
 }
 
 /// A bumpy sheet over a lattice whose vertices and diagonals lie exactly on pixel rays.
@@ -110,22 +98,16 @@ Scene lattice_scene(int cells, bool perspective, double height, unsigned seed) {
 }
 
 StressFamily lattices() {
-    StressFamily family{"on-pixel-rays",
-                        "lattice",
-                        "edge functions are 0 on vertices that lie on "
-                        "the rays themselves",
-                        {}};
-    add_leak_case(family, "parallel-flat", InQuick::yes,
-                  [] { return lattice_scene(16, false, 0, 1); });
-    add_leak_case(family, "parallel-bumpy", InQuick::no,
-                  [] { return lattice_scene(16, false, 2, 2); });
-    add_leak_case(family, "perspective-flat", InQuick::no,
-                  [] { return lattice_scene(16, true, 0, 3); });
-    add_leak_case(family, "perspective-bumpy", InQuick::yes,
-                  [] { return lattice_scene(16, true, 2, 4); });
-    add_leak_case(family, "perspective-128x128", InQuick::no,
-                  [] { return lattice_scene(64, true, 2, 5); });
-    return family;
+    const auto lattice = [](int cells, bool perspective, double height, unsigned seed) {
+        return leak_case([=] { return lattice_scene(cells, perspective, height, seed); });
+    };
+    return listed({"on-pixel-rays", "lattice",
+                   "edge functions are 0 on vertices that lie on the rays themselves"},
+                  {{"parallel-flat", InQuick::yes, lattice(16, false, 0, 1)},
+                   {"parallel-bumpy", InQuick::no, lattice(16, false, 2, 2)},
+                   {"perspective-flat", InQuick::no, lattice(16, true, 0, 3)},
+                   {"perspective-bumpy", InQuick::yes, lattice(16, true, 2, 4)},
+                   {"perspective-128x128", InQuick::no, lattice(64, true, 2, 5)}});
 }
 
 /// A wall of squares at several depths seen along an axis; rays run along the sides of BVH boxes.
@@ -154,24 +136,19 @@ Scene box_wall(int axis, bool rounded) {
 
 /// Pixel centers lie at multiples of a quarter of a square: every fourth exactly on a side.
 StressFamily axis_parallel() {
-    StressFamily family{"axis-parallel",
-                        "axis",
-                        "0 times infinity in the test of a box whose "
-                        "side the ray runs in",
-                        {}};
-    add_leak_case(family, "z", InQuick::yes, [] { return box_wall(2, false); });
-    add_leak_case(family, "x", InQuick::no, [] { return box_wall(0, false); });
-    add_leak_case(family, "y", InQuick::no, [] { return box_wall(1, false); });
-    add_leak_case(family, "z-thirds", InQuick::no, [] { return box_wall(2, true); });
-    return family;
+    const auto along = [](int axis, bool rounded) {
+        return leak_case([=] { return box_wall(axis, rounded); });
+    };
+    return listed({"axis-parallel", "axis",
+                   "0 times infinity in the test of a box whose side the ray runs in"},
+                  {{"z", InQuick::yes, along(2, false)},
+                   {"x", InQuick::no, along(0, false)},
+                   {"y", InQuick::no, along(1, false)},
+                   {"z-thirds", InQuick::no, along(2, true)}});
 }
 
 }  // namespace
 
-void add_leak_families(StressFamilies& families) {
-    families.push_back(inside_meshes());
-    families.push_back(lattices());
-    families.push_back(axis_parallel());
-}
+StressFamilies leak_families() { return {inside_meshes(), lattices(), axis_parallel()}; }
 
 }  // namespace rt

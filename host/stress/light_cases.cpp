@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <cmath>
-#include <limits>
 
 #include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
@@ -12,40 +9,28 @@ namespace rt {
 
 namespace {
 
-Scene lit_from(glm::dvec3 position) {
-    Scene scene = still_life();
-    scene.lights = {{position, glm::dvec3(0.625)}};
-    return scene;
-}
-
 StressFamily light_places() {
-    StressFamily family{"light-place",
-                        "where the light is",
-                        "a light on a surface is shadowed by "
-                        "that surface, or shines through it",
-                        {}};
-    const auto add = [&](const char* label, glm::dvec3 position) {
-        family.cases.push_back(picture_case(label, static_cast<double>(family.cases.size()),
-                                            InQuick::no, [=] { return lit_from(position); }));
-    };
-    add("on-the-floor", {1, 0, 4});
-    add("2^-10-above-the-floor", {1, 0x1p-10, 4});
-    add("2^-20-above-the-floor", {1, 0x1p-20, 4});
-    add("on-a-ball", {-1.5, 2, 0});
-    add("in-a-ball", {-1.5, 1.25, 0});
-    add("at-the-eye", {0, 2, 8});
-    add("1e5-away", {-6e4, 8e4, 1e4});
-    add("1e7-away", {-6e6, 8e6, 1e6});
-    add("1e9-away", {-6e8, 8e8, 1e8});
-    add("below-the-floor", {0, -4, 0});
-    for (const std::size_t i : {0, 3, 5, 8}) family.cases[i].quick = true;
-    family.cases.push_back(
-        picture_case("none", static_cast<double>(family.cases.size()), InQuick::yes, [] {
+    const auto lit_by = [](std::vector<Scene::Light> lights) {
+        return picture_case([=] {
             Scene scene = still_life();
-            scene.lights.clear();
+            scene.lights = lights;
             return scene;
-        }));
-    return family;
+        });
+    };
+    const auto at = [=](glm::dvec3 position) { return lit_by({{position, glm::dvec3(0.625)}}); };
+    return listed({"light-place", "where the light is",
+                   "a light on a surface is shadowed by that surface, or shines through it"},
+                  {{"on-the-floor", InQuick::yes, at({1, 0, 4})},
+                   {"2^-10-above-the-floor", InQuick::no, at({1, 0x1p-10, 4})},
+                   {"2^-20-above-the-floor", InQuick::no, at({1, 0x1p-20, 4})},
+                   {"on-a-ball", InQuick::yes, at({-1.5, 2, 0})},
+                   {"in-a-ball", InQuick::no, at({-1.5, 1.25, 0})},
+                   {"at-the-eye", InQuick::yes, at({0, 2, 8})},
+                   {"1e5-away", InQuick::no, at({-6e4, 8e4, 1e4})},
+                   {"1e7-away", InQuick::no, at({-6e6, 8e6, 1e6})},
+                   {"1e9-away", InQuick::yes, at({-6e8, 8e8, 1e8})},
+                   {"below-the-floor", InQuick::no, at({0, -4, 0})},
+                   {"none", InQuick::yes, lit_by({})}});
 }
 
 /// Lights of 1e-30 to 1e30 shine on materials that scale them back to the visible range.
@@ -65,17 +50,13 @@ Scene stiff_light(double stiffness) {
 }
 
 StressFamily stiff_lights() {
-    StressFamily family{"stiff-light",
-                        "brightest over faintest",
-                        "sums and products of light "
-                        "leave the range of float",
-                        {}};
-    for (const double stiffness : {1e3, 1e6, 1e15, 1e30}) {
-        family.cases.push_back(picture_case(fmt::format("1e{:.0f}", 2 * std::log10(stiffness)),
-                                            stiffness * stiffness, quick_if(stiffness == 1e30),
-                                            [=] { return stiff_light(stiffness); }));
-    }
-    return family;
+    return sweep({"stiff-light", "brightest over faintest",
+                  "sums and products of light leave the range of float"},
+                 {1e3, 1e6, 1e15, 1e30}, {1e30}, [](double stiffness) {
+                     return labeled(fmt::format("1e{:.0f}", 2 * std::log10(stiffness)),
+                                    stiffness * stiffness,
+                                    picture_case([=] { return stiff_light(stiffness); }));
+                 });
 }
 
 Scene with_shininess(double shininess) {
@@ -85,17 +66,9 @@ Scene with_shininess(double shininess) {
 }
 
 StressFamily exponents() {
-    StressFamily family{"shininess",
-                        "exponent",
-                        "pow(0, 0), pow of what rounding made negative, "
-                        "and pow near 1",
-                        {}};
-    for (const double e : {0.0, 1e-30, 1e-3, 1.0, 1e2, 1e4, 1e6, 1e30}) {
-        family.cases.push_back(picture_case(fmt::format("{:g}", e), e,
-                                            quick_if(e == 0 || e == 1e-3 || e == 1e6),
-                                            [e] { return with_shininess(e); }));
-    }
-    return family;
+    return sweep(
+        {"shininess", "exponent", "pow(0, 0), pow of what rounding made negative, and pow near 1"},
+        {0.0, 1e-30, 1e-3, 1.0, 1e2, 1e4, 1e6, 1e30}, {0, 1e-3, 1e6}, with_shininess);
 }
 
 /// The center of a highlight, as wide as the picture.
@@ -110,19 +83,13 @@ Scene highlight(double shininess) {
 }
 
 StressFamily highlights() {
-    StressFamily family{"highlight",
-                        "exponent",
-                        "pow(dot(n, h), e) turns an ulp of n.h into e "
-                        "ulps of light",
-                        {}};
-    for (const double e : {1e2, 1e3, 1e4, 1e5, 1e6}) {
-        StressTolerance tolerance;
-        tolerance.max_error = e > 1e4 ? 1e-3 : 1e-4;
-        family.cases.push_back(picture_case(
-            fmt::format("{:g}", e), e, quick_if(e == 1e4 || e == 1e6), [e] { return highlight(e); },
-            tolerance));
-    }
-    return family;
+    return sweep(
+        {"highlight", "exponent", "pow(dot(n, h), e) turns an ulp of n.h into e ulps of light"},
+        {1e2, 1e3, 1e4, 1e5, 1e6}, {1e4, 1e6}, [](double e) {
+            StressTolerance tolerance;
+            if (e > 1e4) tolerance.max_error = 1e-3;
+            return picture_case([=] { return highlight(e); }, tolerance);
+        });
 }
 
 /// A light below, in or above the plane of a floor.
@@ -140,23 +107,19 @@ Scene grazed_plane(double height) {
 /// light is above it by less than rounding, both answers are right; only NaN and differences
 /// between devices are wrong.
 StressFamily grazing_lights() {
-    StressFamily family{"grazing-light", "height of the light", "n.h negative, 0 or subnormal", {}};
-    for (const double height : {-1.0, -1e-30, 0.0, 1e-300, 1e-40, 1e-20, 1e-10, 1e-3, 1e-2}) {
-        const bool clear = height <= 0 || height >= 1e-3;
-        family.cases.push_back(picture_case(
-            fmt::format("{:g}", height), height, quick_if(height == 0 || height == 1e-40),
-            [height] { return grazed_plane(height); }, {},
-            clear ? ReferenceKind::quad : ReferenceKind::none));
-    }
-    return family;
+    return sweep({"grazing-light", "height of the light", "n.h negative, 0 or subnormal"},
+                 {-1.0, -1e-30, 0.0, 1e-300, 1e-40, 1e-20, 1e-10, 1e-3, 1e-2}, {0, 1e-40},
+                 [](double height) {
+                     const bool clear = height <= 0 || height >= 1e-3;
+                     return picture_case([=] { return grazed_plane(height); }, {},
+                                         clear ? ReferenceKind::quad : ReferenceKind::none);
+                 });
 }
 
 }  // namespace
 
-void add_light_families(StressFamilies& families) {
-    for (const auto make : {light_places, stiff_lights, exponents, highlights, grazing_lights}) {
-        families.push_back(make());
-    }
+StressFamilies light_families() {
+    return {light_places(), stiff_lights(), exponents(), highlights(), grazing_lights()};
 }
 
 }  // namespace rt

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/stress_scenes.h"
@@ -27,20 +25,14 @@ Scene facing_mirrors(double mirror, double ambient, int bounces, int width, int 
 }
 
 StressFamily mirror_walls() {
-    StressFamily family{"facing-mirrors",
-                        "mirror rays",
-                        "every bounce adds its rounding to the "
-                        "next",
-                        {}};
-    for (const int bounces : {8, 64, 1000}) {
-        StressTolerance tolerance;
-        tolerance.max_error = bounces == 1000 ? 2e-4 : 1e-4;
-        family.cases.push_back(picture_case(
-            fmt::format("{}", bounces), bounces, quick_if(bounces == 64),
-            [bounces] { return facing_mirrors(1, 0, bounces, 80, 60); }, tolerance,
-            bounces == 8 ? ReferenceKind::quad : ReferenceKind::extended));
-    }
-    return family;
+    return sweep({"facing-mirrors", "mirror rays", "every bounce adds its rounding to the next"},
+                 {8, 64, 1000}, {64}, [](int bounces) {
+                     StressTolerance tolerance;
+                     if (bounces == 1000) tolerance.max_error = 2e-4;
+                     return picture_case(
+                         [=] { return facing_mirrors(1, 0, bounces, 80, 60); }, tolerance,
+                         bounces == 8 ? ReferenceKind::quad : ReferenceKind::extended);
+                 });
 }
 
 /// The eye inside a mirror ball, off its center, with a lit ball beside it.
@@ -59,47 +51,31 @@ Scene mirror_ball(int bounces) {
 
 /// A mirror ball spreads rays by a factor per bounce; where it does, the reference changes too.
 StressFamily mirror_balls() {
-    StressFamily family{"in-mirror-ball",
-                        "mirror rays",
-                        "the enclosing ball is missed, and repeated "
-                        "reflections jitter",
-                        {}};
-    for (const int bounces : {4, 16, 64}) {
-        family.cases.push_back(picture_case(fmt::format("{}", bounces), bounces,
-                                            quick_if(bounces == 4),
-                                            [bounces] { return mirror_ball(bounces); }));
-    }
-    return family;
+    return sweep({"in-mirror-ball", "mirror rays",
+                  "the enclosing ball is missed, and repeated reflections jitter"},
+                 {4, 16, 64}, {4}, mirror_ball);
+}
+
+Scene bright_walls(double mirror) {
+    Scene scene = facing_mirrors(mirror, 0x1p-10, 1000, 32, 24);
+    scene.background = {0, 0.5, 0};
+    return scene;
 }
 
 StressFamily bright_mirrors() {
-    StressFamily family{"bright-mirrors",
-                        "reflectance",
-                        "light that grows at each bounce "
-                        "overflows, and infinity times 0 is NaN",
-                        {}};
-    for (const double mirror : {1.0, 1.5, 1e3, 1e30}) {
-        StressTolerance tolerance;
-        tolerance.may_overflow = true;
-        tolerance.max_error = 1e-3;
-        family.cases.push_back(picture_case(
-            fmt::format("{:g}", mirror), mirror, quick_if(mirror != 1e3),
-            [mirror] {
-                Scene scene = facing_mirrors(mirror, 0x1p-10, 1000, 32, 24);
-                scene.background = {0, 0.5, 0};
-                return scene;
-            },
-            tolerance, ReferenceKind::extended));
-    }
-    return family;
+    return sweep({"bright-mirrors", "reflectance",
+                  "light that grows at each bounce overflows, and infinity times 0 is NaN"},
+                 {1.0, 1.5, 1e3, 1e30}, {1.0, 1.5, 1e30}, [](double mirror) {
+                     StressTolerance tolerance;
+                     tolerance.may_overflow = true;
+                     tolerance.max_error = 1e-3;
+                     return picture_case([=] { return bright_walls(mirror); }, tolerance,
+                                         ReferenceKind::extended);
+                 });
 }
 
 }  // namespace
 
-void add_mirror_families(StressFamilies& families) {
-    families.push_back(mirror_walls());
-    families.push_back(mirror_balls());
-    families.push_back(bright_mirrors());
-}
+StressFamilies mirror_families() { return {mirror_walls(), mirror_balls(), bright_mirrors()}; }
 
 }  // namespace rt

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <glm/geometric.hpp>
 
 #include "host/scene/json_file.h"
@@ -56,7 +54,7 @@ Scene leaning_mirror() {
 }
 
 /// One triangle with these normals, parsed like a scene file, which normalizes them.
-Scene triangle_with_normals(const std::string& normals) {
+Scene triangle_with_normals(const char* normals) {
     const std::string text = fmt::format(
         R"({{"camera": {{"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}},
 "image": {{"width": 80, "height": 60, "aa": "none"}}, "background": [0.25, 0.375, 0.5],
@@ -70,41 +68,34 @@ Scene triangle_with_normals(const std::string& normals) {
 }
 
 StressFamily vertex_normals() {
-    StressFamily family{"vertex-normals",
-                        "normals",
-                        "normals that cancel, oppose or lack length "
-                        "divide 0 by 0",
-                        {}};
-    const auto add = [&](const char* label, InQuick quick, const char* normals) {
-        const std::string text = normals;
-        family.cases.push_back(picture_case(label, static_cast<double>(family.cases.size()), quick,
-                                            [=] { return triangle_with_normals(text); }));
+    const auto with = [](const char* normals) {
+        return picture_case([=] { return triangle_with_normals(normals); });
     };
-    add("ordinary", InQuick::no, "[[-0.3, 0, 1], [0.3, 0, 1], [0, 0.3, 1]]");
-    add("sum-to-zero", InQuick::yes,
-        "[[1, 0, 0], [-0.5, 0.8660254037844386, 0], "
-        "[-0.5, -0.8660254037844386, 0]]");
-    add("opposing", InQuick::yes, "[[0, 0, 1], [0, 0, -1], [0, 0, 1]]");
-    add("scaled-1e-3", InQuick::no, "[[-3e-4, 0, 1e-3], [3e-4, 0, 1e-3], [0, 3e-4, 1e-3]]");
-    add("scaled-1e3", InQuick::no, "[[-300, 0, 1e3], [300, 0, 1e3], [0, 300, 1e3]]");
-    add("scaled-1e-30-and-1e30", InQuick::yes,
-        "[[-3e-31, 0, 1e-30], [3e29, 0, 1e30], [0, 0.3, 1]]");
-    add("in-the-plane", InQuick::no, "[[1, 0, 0], [1, 0, 0], [1, 0, 0]]");
-    add("behind", InQuick::no, "[[0.1, 0, -1], [0, 0.1, -1], [0, 0, -1]]");
-    return family;
+    return listed(
+        {"vertex-normals", "normals", "normals that cancel, oppose or lack length divide 0 by 0"},
+        {{"ordinary", InQuick::no, with("[[-0.3, 0, 1], [0.3, 0, 1], [0, 0.3, 1]]")},
+         {"sum-to-zero", InQuick::yes,
+          with("[[1, 0, 0], [-0.5, 0.8660254037844386, 0], [-0.5, -0.8660254037844386, 0]]")},
+         {"opposing", InQuick::yes, with("[[0, 0, 1], [0, 0, -1], [0, 0, 1]]")},
+         {"scaled-1e-3", InQuick::no, with("[[-3e-4, 0, 1e-3], [3e-4, 0, 1e-3], [0, 3e-4, 1e-3]]")},
+         {"scaled-1e3", InQuick::no, with("[[-300, 0, 1e3], [300, 0, 1e3], [0, 300, 1e3]]")},
+         {"scaled-1e-30-and-1e30", InQuick::yes,
+          with("[[-3e-31, 0, 1e-30], [3e29, 0, 1e30], [0, 0.3, 1]]")},
+         {"in-the-plane", InQuick::no, with("[[1, 0, 0], [1, 0, 0], [1, 0, 0]]")},
+         {"behind", InQuick::no, with("[[0.1, 0, -1], [0, 0.1, -1], [0, 0, -1]]")}});
+}
+
+StressFamily smooth_meshes() {
+    return listed(
+        {"smooth-mesh", "mesh", "mirror rays about blended normals dive under the face they leave"},
+        {{"ball", InQuick::no, picture_case([] { return smooth_ball(0); })},
+         {"mirror-ball", InQuick::yes, picture_case([] { return smooth_ball(0.5); })},
+         {"leaning-mirror", InQuick::yes, picture_case(leaning_mirror)}},
+        1);
 }
 
 }  // namespace
 
-void add_normal_families(StressFamilies& families) {
-    families.push_back(vertex_normals());
-    families.push_back(
-        {"smooth-mesh",
-         "mesh",
-         "mirror rays about blended normals dive under the face they leave",
-         {picture_case("ball", 1, InQuick::no, [] { return smooth_ball(0); }),
-          picture_case("mirror-ball", 2, InQuick::yes, [] { return smooth_ball(0.5); }),
-          picture_case("leaning-mirror", 3, InQuick::yes, leaning_mirror)}});
-}
+StressFamilies normal_families() { return {vertex_normals(), smooth_meshes()}; }
 
 }  // namespace rt

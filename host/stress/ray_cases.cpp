@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 
-#include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/meshes.h"
 #include "host/stress/ray_trials.h"
@@ -20,28 +19,25 @@ Scene mesh_scene(const StressMesh& mesh, glm::dvec3 eye) {
     return scene;
 }
 
-RayTrial leak_trial(const Scene& scene, RayAim aim) {
-    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-        return count_leaks<T>(scene, aim, rays, caster);
-    });
+StressCase aimed(const Scene& scene, RayAim aim, StressTolerance tolerance = {}) {
+    return ray_case(both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+                        return count_leaks<T>(scene, aim, rays, caster);
+                    }),
+                    tolerance);
 }
 
-StressFamily leak_rays(RayAim aim) {
-    StressFamily family;
-    family.name = aim == RayAim::edges ? "rays-at-edges" : "rays-at-vertices";
-    family.parameter = "closed mesh";
-    family.why = aim == RayAim::edges ? "edge functions of neighbors round apart"
-                                      : "three roundings meet at a vertex";
-    const auto add = [&](const char* label, const StressMesh& mesh, glm::dvec3 eye) {
-        family.cases.push_back(ray_case(label, static_cast<double>(family.cases.size()),
-                                        InQuick::yes, leak_trial(mesh_scene(mesh, eye), aim)));
+StressFamily leak_rays(const char* name, const char* why, RayAim aim) {
+    const auto at = [=](const StressMesh& mesh, glm::dvec3 eye) {
+        return aimed(mesh_scene(mesh, eye), aim);
     };
-    add("bumpy-ball", bumpy_mesh(2), glm::dvec3(0));
-    add("fan", fan_mesh(250), {0.125, 0.125, 0});
-    add("needles", needle_mesh(12, 4, 1e-6), {0.125, 0.125, 0});
-    add("tiny-ball", placed(bumpy_mesh(1), 1e-6, {3, 2, 1}), {3, 2, 1});
-    add("far-ball", placed(bumpy_mesh(1), 1, {148376, 1234, -223423}), glm::dvec3(0));
-    return family;
+    const StressMesh far = placed(bumpy_mesh(1), 1, {148376, 1234, -223423});
+    return listed(
+        {name, "closed mesh", why},
+        {{"bumpy-ball", InQuick::yes, at(bumpy_mesh(2), glm::dvec3(0))},
+         {"fan", InQuick::yes, at(fan_mesh(250), {0.125, 0.125, 0})},
+         {"needles", InQuick::yes, at(needle_mesh(12, 4, 1e-6), {0.125, 0.125, 0})},
+         {"tiny-ball", InQuick::yes, at(placed(bumpy_mesh(1), 1e-6, {3, 2, 1}), {3, 2, 1})},
+         {"far-ball", InQuick::yes, at(far, glm::dvec3(0))}});
 }
 
 /// An octahedron with a T-junction: a vertex on one side of an edge and none on the other. Such a
@@ -55,13 +51,11 @@ StressFamily t_junctions() {
     mesh.faces[0] = {a, b, middle};
     mesh.faces.push_back({a, middle, c});
     const Scene scene = mesh_scene(mesh, {0.125, 0.125, 0});
-    StressTolerance tolerance;
-    tolerance.most_wrong = std::numeric_limits<std::size_t>::max();
-    StressFamily family{"t-junctions", "aim", "never watertight; counted, not judged", {}};
-    family.cases = {
-        ray_case("edges", 0, InQuick::yes, leak_trial(scene, RayAim::edges), tolerance),
-        ray_case("vertices", 1, InQuick::no, leak_trial(scene, RayAim::vertices), tolerance)};
-    return family;
+    StressTolerance any;
+    any.most_wrong = std::numeric_limits<std::size_t>::max();
+    return listed({"t-junctions", "aim", "never watertight; counted, not judged"},
+                  {{"edges", InQuick::yes, aimed(scene, RayAim::edges, any)},
+                   {"vertices", InQuick::no, aimed(scene, RayAim::vertices, any)}});
 }
 
 /// A sphere this far from the eye.
@@ -93,16 +87,15 @@ StressFamily sphere_rays() {
 
 }  // namespace
 
-void add_ray_families(StressFamilies& families) {
-    families.push_back(leak_rays(RayAim::edges));
-    families.push_back(leak_rays(RayAim::vertices));
-    families.push_back(t_junctions());
-    families.push_back(
+StressFamilies ray_families() {
+    return {
+        leak_rays("rays-at-edges", "edge functions of neighbors round apart", RayAim::edges),
+        leak_rays("rays-at-vertices", "three roundings meet at a vertex", RayAim::vertices),
+        t_junctions(),
         leaving_spheres("leaving-sphere", 3,
-                        "an absolute epsilon is acne on large balls and a hole in small ones"));
-    families.push_back(leaving_spheres("leaving-far-sphere", 1000,
-                                       "the same with the ball a thousand radii away"));
-    families.push_back(sphere_rays());
+                        "an absolute epsilon is acne on large balls and a hole in small ones"),
+        leaving_spheres("leaving-far-sphere", 1000, "the same with the ball a thousand radii away"),
+        sphere_rays()};
 }
 
 }  // namespace rt

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/shape_families.h"
 #include "host/stress/stress_scenes.h"
@@ -35,27 +32,25 @@ Scene ball_floor(double radius) {
     return scene;
 }
 
-StressFamily floors(const char* name, const char* why, std::initializer_list<double> radii,
-                    double quick_radius) {
-    StressFamily family{name, "radius of the ground", why, {}};
-    for (const double radius : radii) {
-        family.cases.push_back(picture_case(fmt::format("{:g}", radius), radius,
-                                            quick_if(radius == quick_radius),
-                                            [radius] { return ball_floor(radius); }));
-    }
-    return family;
+StressFamily sphere_sizes() {
+    return size_family("sphere-size", "b^2 - 4 a c cancels for small and for large balls", 0.75,
+                       sized_ball);
+}
+
+StressFamily floors() {
+    return sweep(
+        {"ball-floor", "radius of the ground", "a ground ball somewhat larger than the scene"},
+        {4, 16, 64, 100}, {64}, ball_floor);
+}
+
+StressFamily huge_floors() {
+    return sweep({"huge-ball-floor", "radius of the ground",
+                  "r^2 - l^2 loses all digits where the ground ball is huge"},
+                 {1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, {1e5}, ball_floor);
 }
 
 }  // namespace
 
-void add_sphere_families(StressFamilies& families) {
-    families.push_back(size_family(
-        "sphere-size", "b^2 - 4 a c cancels for small and for large balls", 0.75, sized_ball));
-    families.push_back(
-        floors("ball-floor", "a ground ball somewhat larger than the scene", {4, 16, 64, 100}, 64));
-    families.push_back(floors("huge-ball-floor",
-                              "r^2 - l^2 loses all digits where the ground ball is huge",
-                              {1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, 1e5));
-}
+StressFamilies sphere_families() { return {sphere_sizes(), floors(), huge_floors()}; }
 
 }  // namespace rt

@@ -60,15 +60,14 @@ std::vector<StressFamily> chosen_families(std::vector<StressFamily> families,
 }
 
 std::vector<StressFamily> all_stress_families() {
-    std::vector<StressFamily> families;
-    for (const auto add :
-         {add_ordinary_families, add_scale_families, add_sphere_families, add_cone_families,
-          add_mirror_families, add_glass_families, add_light_families, add_eye_families,
-          add_view_families, add_triangle_families, add_normal_families, add_leak_families,
-          add_ray_families, add_input_families}) {
-        add(families);
+    std::vector<StressFamily> all;
+    for (const auto families :
+         {ordinary_families, scale_families, sphere_families, cone_families, mirror_families,
+          glass_families, light_families, eye_families, view_families, triangle_families,
+          normal_families, leak_families, ray_families, input_families}) {
+        for (StressFamily& family : families()) all.push_back(std::move(family));
     }
-    return families;
+    return all;
 }
 
 }  // namespace rt

@@ -73,7 +73,7 @@ struct StressFamily {
     std::string name;       ///< for --case: lowercase letters, digits, hyphens
     std::string parameter;  ///< what the cases differ in
     std::string why;        ///< one line: what goes wrong here in naive renderers
-    std::vector<StressCase> cases;
+    std::vector<StressCase> cases = {};
 };
 
 /// Every family, in the order of the tables.

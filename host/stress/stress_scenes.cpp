@@ -177,7 +177,7 @@ Scene glass_still_life() {
     return scene;
 }
 
-void scale_scene(Scene& scene, double factor) {
+Scene scaled(Scene scene, double factor) {
     for_each_point(scene, [&](glm::dvec3& point) { point *= factor; });
     for (auto& sphere : scene.spheres) sphere.radius *= factor;
     for (auto& cone : scene.cones) {
@@ -188,10 +188,12 @@ void scale_scene(Scene& scene, double factor) {
         scene.camera.field_of_view.amount *= factor;
         set_image_size(scene, scene.width, scene.height);
     }
+    return scene;
 }
 
-void shift_scene(Scene& scene, glm::dvec3 by) {
+Scene shifted(Scene scene, glm::dvec3 by) {
     for_each_point(scene, [&](glm::dvec3& point) { point += by; });
+    return scene;
 }
 
 }  // namespace rt

@@ -65,9 +65,9 @@ void add_floor(Scene& scene, glm::dvec3 center, double half_side, int material);
 /// An axis-aligned box, facing outwards.
 void add_box(Scene& scene, glm::dvec3 low, glm::dvec3 high, int material);
 
-/// Multiplies every length of the scene by the factor.
-void scale_scene(Scene& scene, double factor);
+/// The scene with every length multiplied by the factor.
+Scene scaled(Scene scene, double factor);
 
-void shift_scene(Scene& scene, glm::dvec3 by);
+Scene shifted(Scene scene, glm::dvec3 by);
 
 }  // namespace rt

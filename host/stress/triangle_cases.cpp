@@ -1,9 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/stress_scenes.h"
@@ -80,6 +75,12 @@ Scene duplicate_tube() {
     return scene;
 }
 
+Scene single_tube() {
+    Scene scene = duplicate_tube();
+    scene.cones.resize(1);
+    return scene;
+}
+
 Scene duplicate_ball(double moved) {
     Scene scene = bare_scene();
     const int first = add_matt(scene, {0.875, 0.25, 0.125});
@@ -102,75 +103,49 @@ Scene two_sheets() {
 }
 
 StressFamily ties() {
-    StressFamily family{"ties",
-                        "what lies twice",
-                        "where two surfaces are one, rounding or the "
-                        "order of tests picks a color",
-                        {}};
-    const auto add = [&](const char* label, InQuick quick, std::function<Scene()> scene,
-                         std::function<Scene()> seen) {
-        StressCase one =
-            picture_case(label, static_cast<double>(family.cases.size()), quick, std::move(scene));
-        std::get<PictureTrial>(one.trial).reference_scene = std::move(seen);
-        family.cases.push_back(std::move(one));
+    const auto square = [](Copy copy) {
+        return seen_as(single_square, picture_case([=] { return duplicate_square(copy); }));
     };
-    add(
-        "same", InQuick::no, [] { return duplicate_square(Copy::same); }, single_square);
-    add(
-        "other-diagonal", InQuick::yes, [] { return duplicate_square(Copy::other_diagonal); },
-        single_square);
-    add(
-        "turned", InQuick::no, [] { return duplicate_square(Copy::turned); }, single_square);
-    add(
-        "reversed", InQuick::no, [] { return duplicate_square(Copy::reversed_order); },
-        single_square);
-    add(
-        "overlapping", InQuick::yes, [] { return overlapping_squares(false); },
-        [] { return overlapping_squares(true); });
-    add("tube", InQuick::yes, duplicate_tube, [] {
-        Scene scene = duplicate_tube();
-        scene.cones.resize(1);
-        return scene;
-    });
-    add("ball", InQuick::no, [] { return duplicate_ball(0); }, {});
-    add("two-sheets", InQuick::yes, two_sheets, {});
-    StressCase moved = picture_case("ball-moved-1e-7", static_cast<double>(family.cases.size()),
-                                    InQuick::yes, [] { return duplicate_ball(1e-7); });
-    std::get<PictureTrial>(moved.trial).reference = ReferenceKind::none;
-    family.cases.push_back(std::move(moved));
-    return family;
+    const auto overlap = [](bool cut) { return [=] { return overlapping_squares(cut); }; };
+    const auto ball = [](double moved, ReferenceKind reference) {
+        return picture_case([=] { return duplicate_ball(moved); }, {}, reference);
+    };
+    return listed(
+        {"ties", "what lies twice",
+         "where two surfaces are one, rounding or the order of tests picks a color"},
+        {{"same", InQuick::no, square(Copy::same)},
+         {"other-diagonal", InQuick::yes, square(Copy::other_diagonal)},
+         {"turned", InQuick::no, square(Copy::turned)},
+         {"reversed", InQuick::no, square(Copy::reversed_order)},
+         {"overlapping", InQuick::yes, seen_as(overlap(true), picture_case(overlap(false)))},
+         {"tube", InQuick::yes, seen_as(single_tube, picture_case(duplicate_tube))},
+         {"ball", InQuick::no, ball(0, ReferenceKind::quad)},
+         {"two-sheets", InQuick::yes, picture_case(two_sheets)},
+         {"ball-moved-1e-7", InQuick::yes, ball(1e-7, ReferenceKind::none)}});
 }
 
 /// Many copies of one triangle and one ball: one of each is visible, and the others do no harm.
-StressFamily coincident() {
-    StressFamily family{"coincident",
-                        "primitives",
-                        "a million primitives in one place: ties "
-                        "everywhere, a hierarchy without a split",
-                        {}};
-    const auto pile = [](std::size_t count) {
-        Scene scene = bare_scene();
-        set_image_size(scene, 8, 6);
-        const int first = add_matt(scene, {0.875, 0.25, 0.125});
-        const int rest = add_matt(scene, {0.125, 0.25, 0.875});
-        scene.lights.resize(1);
-        const std::size_t half = std::max<std::size_t>(1, count / 2);
-        for (std::size_t i = 0; i < half; ++i) {
-            add_triangle(scene, {-2, 0, 0.5}, {2, 0.25, 0.25}, {0, 2.5, -0.5},
-                         i == 0 ? first : rest);
-        }
-        for (std::size_t i = 0; i < half; ++i) {
-            add_sphere(scene, {0, 1, -2}, 1.5, i == 0 ? first : rest);
-        }
-        return scene;
-    };
-    for (const std::size_t count : {std::size_t{1000}, std::size_t{1'000'000}}) {
-        StressCase one = picture_case(fmt::format("{}", count), static_cast<double>(count),
-                                      quick_if(count == 1000), [=] { return pile(count); });
-        std::get<PictureTrial>(one.trial).reference_scene = [=] { return pile(2); };
-        family.cases.push_back(std::move(one));
+Scene pile(int count) {
+    Scene scene = bare_scene();
+    set_image_size(scene, 8, 6);
+    const int first = add_matt(scene, {0.875, 0.25, 0.125});
+    const int rest = add_matt(scene, {0.125, 0.25, 0.875});
+    scene.lights.resize(1);
+    for (int i = 0; i < count / 2; ++i) {
+        const int material = i == 0 ? first : rest;
+        add_triangle(scene, {-2, 0, 0.5}, {2, 0.25, 0.25}, {0, 2.5, -0.5}, material);
+        add_sphere(scene, {0, 1, -2}, 1.5, material);
     }
-    return family;
+    return scene;
+}
+
+StressFamily coincident() {
+    return sweep(
+        {"coincident", "primitives",
+         "a million primitives in one place: ties everywhere, a hierarchy without a split"},
+        {1000, 1'000'000}, {1000}, [](int count) {
+            return seen_as([] { return pile(2); }, picture_case([=] { return pile(count); }));
+        });
 }
 
 /// Triangles that cross each other and balls, with edges in faces.
@@ -206,49 +181,33 @@ Scene needle_fan(double aspect) {
 }
 
 StressFamily needles() {
-    StressFamily family{"needles",
-                        "length over width",
-                        "thin triangles lose their distance, and "
-                        "their neighbors",
-                        {}};
-    for (const double aspect : {1e2, 1e3, 1e4, 1e6, 1e8}) {
-        family.cases.push_back(picture_case(fmt::format("{:g}", aspect), aspect,
-                                            quick_if(aspect == 1e4 || aspect == 1e6),
-                                            [aspect] { return needle_fan(aspect); }));
-    }
-    return family;
+    return sweep(
+        {"needles", "length over width", "thin triangles lose their distance, and their neighbors"},
+        {1e2, 1e3, 1e4, 1e6, 1e8}, {1e4, 1e6}, needle_fan);
 }
 
 /// A floor triangle so large that its barycentric weights barely determine a point.
 StressFamily huge_triangles() {
-    StressFamily family{"huge-triangle",
-                        "half side of the floor",
-                        "weights of far-away vertices "
-                        "lift points off the floor",
-                        {}};
-    for (const double side : {1e2, 1e4, 1e6, 1e8}) {
-        family.cases.push_back(
-            picture_case(fmt::format("{:g}", side), side, quick_if(side == 1e6), [side] {
-                Scene scene = still_life();
-                scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
-                add_floor(scene, {0, 0, 0}, side, 2);
-                return scene;
-            }));
-    }
-    return family;
+    return sweep({"huge-triangle", "half side of the floor",
+                  "weights of far-away vertices lift points off the floor"},
+                 {1e2, 1e4, 1e6, 1e8}, {1e6}, [](double side) {
+                     Scene scene = still_life();
+                     scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
+                     add_floor(scene, {0, 0, 0}, side, 2);
+                     return scene;
+                 });
+}
+
+StressFamily crossing() {
+    return listed({"crossing", "scene",
+                   "faces through faces and balls: points within rounding of a neighbor"},
+                  {{"crossing", InQuick::yes, picture_case(crossing_scene)}}, 1);
 }
 
 }  // namespace
 
-void add_triangle_families(StressFamilies& families) {
-    families.push_back(ties());
-    families.push_back(coincident());
-    families.push_back({"crossing",
-                        "scene",
-                        "faces through faces and balls: points within rounding of a neighbor",
-                        {picture_case("crossing", 1, InQuick::yes, crossing_scene)}});
-    families.push_back(needles());
-    families.push_back(huge_triangles());
+StressFamilies triangle_families() {
+    return {ties(), coincident(), crossing(), needles(), huge_triangles()};
 }
 
 }  // namespace rt
