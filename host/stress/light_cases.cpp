@@ -9,7 +9,20 @@ namespace rt {
 
 namespace {
 
+/// A tube, open at both ends, over a floor.
+Scene lit_tube(glm::dvec3 light) {
+    Scene scene = still_life();
+    scene.spheres.clear();
+    for (auto& material : scene.materials) material.two_sided = true;
+    add_cone(scene, {0, 0.25, -1}, 1.25, {0, 2.75, -1}, 1.25, 0);
+    scene.lights = {{light, glm::dvec3(0.625)}};
+    return scene;
+}
+
 StressFamily light_places() {
+    const auto tube = [](glm::dvec3 light) {
+        return picture_case([=] { return lit_tube(light); });
+    };
     const auto lit_by = [](std::vector<Scene::Light> lights) {
         return picture_case([=] {
             Scene scene = still_life();
@@ -25,6 +38,9 @@ StressFamily light_places() {
                    {"2^-20-above-the-floor", InQuick::no, at({1, 0x1p-20, 4})},
                    {"on-a-ball", InQuick::yes, at({-1.5, 2, 0})},
                    {"in-a-ball", InQuick::no, at({-1.5, 1.25, 0})},
+                   {"on-a-tube", InQuick::yes, tube({0.75, 1.5, 0})},
+                   {"on-a-tubes-rim", InQuick::no, tube({-0.75, 2.75, 0})},
+                   {"in-a-tube", InQuick::no, tube({0.25, 1.5, -1})},
                    {"at-the-eye", InQuick::yes, at({0, 2, 8})},
                    {"1e5-away", InQuick::no, at({-6e4, 8e4, 1e4})},
                    {"1e7-away", InQuick::no, at({-6e6, 8e6, 1e6})},

@@ -44,13 +44,37 @@ StressFamily floors() {
 }
 
 StressFamily huge_floors() {
-    return sweep({"huge-ball-floor", "radius of the ground",
-                  "r^2 - l^2 loses all digits where the ground ball is huge"},
-                 {1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, {1e5}, ball_floor);
+    const StressFamily floors = sweep({"huge-ball-floor", "radius of the ground",
+                                       "r^2 - l^2 loses all digits where the ground ball is huge"},
+                                      {1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, {1e5}, ball_floor);
+    return sweep(floors, {1e6}, {1e6}, [](double radius) {
+        return labeled("1e+06-among-far-balls", radius, picture_case([=] {
+                           Scene scene = ball_floor(radius);
+                           for (int i = 0; i < 8; ++i) {
+                               const glm::dvec3 way{i % 3 - 1, 0.25, i % 2 == 0 ? -1 : 1};
+                               add_sphere(scene, 0.125 * radius * way, 0.005 * radius, 1);
+                           }
+                           return scene;
+                       }));
+    });
+}
+
+/// A light this high above the top of the ground, 1e8 in radius.
+StressFamily ground_lights() {
+    return sweep({"ground-light", "height of the light",
+                  "rounding at the ground decides whether it hides a light behind it"},
+                 {-5.0, -0.5, -1e-3, 1e-3, 0.5, 5.0}, {-5.0, 0.5}, [](double height) {
+                     Scene scene = ball_floor(1e8);
+                     for (auto& material : scene.materials) material.two_sided = true;
+                     scene.lights = {{{0, height, 2}, glm::dvec3(0.75)}};
+                     return scene;
+                 });
 }
 
 }  // namespace
 
-StressFamilies sphere_families() { return {sphere_sizes(), floors(), huge_floors()}; }
+StressFamilies sphere_families() {
+    return {sphere_sizes(), floors(), huge_floors(), ground_lights()};
+}
 
 }  // namespace rt

@@ -190,12 +190,90 @@ StressFamily needles() {
 StressFamily huge_triangles() {
     return sweep({"huge-triangle", "half side of the floor",
                   "weights of far-away vertices lift points off the floor"},
-                 {1e2, 1e4, 1e6, 1e8}, {1e6}, [](double side) {
+                 {1e2, 1e4, 1e6, 1e8, 1e13, 1e17}, {1e6, 1e17}, [](double side) {
                      Scene scene = still_life();
                      scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
                      add_floor(scene, {0, 0, 0}, side, 2);
                      return scene;
                  });
+}
+
+/// A triangle whose size is half its distance.
+StressFamily far_triangles() {
+    return sweep({"far-triangle", "distance of a triangle",
+                  "products of three coordinates leave the range of float"},
+                 {1e6, 1e12, 1e14, 1e17}, {1e14}, [](double distance) {
+                     Scene scene = still_life();
+                     const double size = 0.25 * distance;
+                     add_triangle(scene, {-size, -size, -distance}, {size, -size, -distance},
+                                  {0, size, -distance}, 0);
+                     return scene;
+                 });
+}
+
+/// Sees the square from -1 to 1 so that samples fall on its diagonal.
+Scene square_view() {
+    Scene scene = bare_scene();
+    set_image_size(scene, 48, 48);
+    scene.background = {0.25, 0.5, 0.75};
+    set_orthographic(scene, {0, 0, 5}, {0, 0, 0}, 2.5);
+    return scene;
+}
+
+/// Two triangles of glass that share the diagonal.
+Scene pane() {
+    Scene scene = square_view();
+    add_quad(scene, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, add_glass(scene, 1.5, 0.5));
+    return scene;
+}
+
+/// The back of a one-sided sheet whose front, away from the eye, is lit.
+Scene sheet_from_behind() {
+    Scene scene = square_view();
+    const int red = add_matt(scene, {0.875, 0.25, 0.125});
+    add_quad(scene, {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}, red);
+    scene.lights = {{{1, 2, -5}, glm::dvec3(0.75)}};
+    return scene;
+}
+
+/// Two blocks of glass, one behind the other, this far apart.
+Scene blocks(double apart, double other_ior) {
+    Scene scene = square_view();
+    const int front = add_glass(scene, 1.5, 0.875, 0.0625, 0.03125);
+    const int rear = add_glass(scene, other_ior, 0.75, 0, 0.0625);
+    set_view(scene, {0.5, 0.75, 5}, {0, 0, 0}, 30);
+    add_box(scene, {-1, -1, 0}, {1, 1, 0.5}, front);
+    add_box(scene, {-1, -1, -0.5}, {1, 1, -apart}, rear);
+    return scene;
+}
+
+/// A box of glass this high above a checkered floor, which comes after it in the scene.
+Scene box_on_floor(double height) {
+    Scene scene = bare_scene();
+    add_box(scene, {-1, height, -1}, {1, height + 1, 1}, add_glass(scene, 1.5));
+    const int red = add_matt(scene, {0.875, 0.25, 0.125}), gray = add_matt(scene, glm::dvec3(0.5));
+    for (int i = 0; i < 64; ++i) {
+        const double x = i % 8 - 4, z = i / 8 - 4;
+        add_floor(scene, {x + 0.5, 0, z + 0.5}, 0.5, (i + i / 8) % 2 == 0 ? red : gray);
+    }
+    set_view(scene, {1, 3, 5}, {0, 0.25, 0}, 40);
+    return scene;
+}
+
+/// Glass that touches glass or something else looks as if it were a hair away.
+StressFamily touching() {
+    const auto near = [](auto scene) {
+        return seen_as([=] { return scene(1e-9); }, picture_case([=] { return scene(0); }));
+    };
+    const auto same = [](double apart) { return blocks(apart, 1.5); };
+    const auto other = [](double apart) { return blocks(apart, 1.25); };
+    return listed({"touching", "what touches",
+                   "refracted rays are caught between surfaces that share an edge or a place"},
+                  {{"halves-of-a-pane", InQuick::yes, picture_case(pane)},
+                   {"halves-lit-from-behind", InQuick::yes, picture_case(sheet_from_behind)},
+                   {"blocks", InQuick::yes, near(same)},
+                   {"blocks-of-two-kinds", InQuick::no, near(other)},
+                   {"box-on-a-floor", InQuick::yes, near(box_on_floor)}});
 }
 
 StressFamily crossing() {
@@ -207,7 +285,8 @@ StressFamily crossing() {
 }  // namespace
 
 StressFamilies triangle_families() {
-    return {ties(), coincident(), crossing(), needles(), huge_triangles()};
+    return {ties(),    coincident(),     touching(),     crossing(),
+            needles(), huge_triangles(), far_triangles()};
 }
 
 }  // namespace rt
