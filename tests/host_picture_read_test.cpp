@@ -292,6 +292,12 @@ TEST_F(ReadPicture, ExrWithTwoChannelsOfOneNameIsRefused) {
     expect_cheap_refusal(file, "two channels have the same name");
 }
 
+// Found by fuzzing: OpenEXR reads the one, and our limits looked at the other.
+TEST_F(ReadPicture, ExrWhoseHeaderGivesTwoSizesIsRefused) {
+    const std::string file = std::string(MIRRORBALL_PICTURES_DIR) + "/two-sizes.exr";
+    expect_cheap_refusal(file, "two sizes");
+}
+
 // OpenEXR takes the union of all lists of channels.
 TEST_F(ReadPicture, ExrWithAChannelInTwoListsIsRefused) {
     const std::string list("channels\0chlist\0\x13\0\0\0G\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0\0", 39);
