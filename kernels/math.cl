@@ -45,6 +45,13 @@ real3 add_scaled(real3 a, Reals s, real3 b) {
     return make3(fma(s, b.x, a.x), fma(s, b.y, a.y), fma(s, b.z, a.z));
 }
 
+// Light times a weight: 0 where the weight is 0, however bright the light.
+Reals weighed(Reals weight, Reals light) { return weight != (Reals)0 ? weight * light : (Reals)0; }
+real3 weigh3(real3 weight, real3 light) {
+    return make3(weighed(weight.x, light.x), weighed(weight.y, light.y),
+                 weighed(weight.z, light.z));
+}
+
 // Clamps infinite components to the largest number, so that times 0 they give 0.
 Reals limited(Reals x) { return x < (Reals)RT_LARGEST ? x : (Reals)RT_LARGEST; }
 real3 limit3(real3 v) { return make3(limited(v.x), limited(v.y), limited(v.z)); }

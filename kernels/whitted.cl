@@ -168,9 +168,8 @@ real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* pa
         real3 moved = add_scaled(surface.point, (Reals)2 * surface.back, path->ray.dir);
         lit.point = select3(beyond, moved, surface.point);
     }
-    real3 local_light =
-        limit3(shade(scene, &lit, &material, to_eye, hit->prim, path->live, counts));
-    color = select3(path->live, add3(color, mul3(path->throughput, local_light)), color);
+    real3 local_light = shade(scene, &lit, &material, to_eye, hit->prim, path->live, counts);
+    color = select3(path->live, add3(color, weigh3(path->throughput, local_light)), color);
     RT_EXPLAIN(path->live, RT_EVENT_HIT, hit->prim, path->bounce, hit->t, path->throughput,
                surface.point, surface.normal, local_light);
     bool ends = !(RT_HAS_MIRRORS || RT_HAS_GLASS) || path->bounce >= scene->params.max_bounces;

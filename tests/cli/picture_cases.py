@@ -182,5 +182,16 @@ class NotFinite(CliTest):
         self.assertEqual(result.returncode, 6, result.stderr)
         self.assertIn("4,4", result.stderr.splitlines()[-1])
 
+    def test_light_that_a_mirror_does_not_reflect_is_black(self):
+        scene = self.write_scene(
+            lights=4000 * [{"position": [0, 0, 9], "intensity": 1e30}],
+            materials={"hot": {"diffuse": [0, 1e6, 0]}, "red": {"diffuse": 0, "mirror": [1, 0, 0]}},
+            spheres=[{"center": [0, 0, 7], "radius": 0.5, "material": "hot"},
+                     {"center": [0, 0, 0], "radius": 0.5, "material": "red"}])
+        result = self.run_cli("render", scene, "--size", "9", "--aa", "none", "--crop", "4,4,5,5",
+                              "-o", "out.pfm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(tuple(read_pfm(self.folder / "out.pfm")[2]), (0, 0, 0))
+
     def test_double_whose_float_file_overflows(self):
         self.assert_reported("--device", "threads", "--precision", "double")
