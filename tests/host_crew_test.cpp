@@ -165,6 +165,21 @@ TEST(Crew, GoesOnWithoutAMemberThatFails) {
     }
 }
 
+TEST(Crew, TellsOfMembersThatAreKnownToFailHoweverQuickTheOthersAre) {
+    CrewMember<float> unlisted = member("a", 1);
+    unlisted.failure = "painter is not listed";
+    Painting painting({unlisted, member("b", 2)});
+    painting.render();
+    EXPECT_EQ(painting.said,
+              std::vector<std::string>{"painter is not listed; continuing without it"});
+    EXPECT_EQ(painting.crew.shares()[0].failure, "painter is not listed");
+    Painting spare({unlisted, unlisted}, member("spare", 2));
+    spare.render();
+    EXPECT_EQ(spare.count(2), picture.pixels());
+    EXPECT_TRUE(spare.crew.uses_spare());
+    EXPECT_THROW(Painting({unlisted, unlisted}), Error);
+}
+
 TEST(Crew, RefinesWhatAMemberLeft) {
     Painting painting({member("a", 1, 30), member("b", 1, -1, std::chrono::milliseconds(1))});
     painting.render();

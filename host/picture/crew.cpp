@@ -102,7 +102,10 @@ template <typename T>
 Crew<T>::Crew(std::vector<CrewMember<T>> members, std::optional<CrewMember<T>> spare, Say say)
     : team_(std::make_shared<Team>()), spare_(std::move(spare)), say_(std::move(say)) {
     for (CrewMember<T>& member : members) {
-        team_->places.emplace_back().member = std::move(member);
+        Place& place = team_->places.emplace_back();
+        place.member = std::move(member);
+        if (place.member.failure.empty()) continue;
+        place.failure = std::make_exception_ptr(Error(ExitCode::device, place.member.failure));
     }
 }
 
@@ -125,6 +128,7 @@ Crew<T>::~Crew() {
 
 template <typename T>
 void Crew<T>::make(Place& place) {
+    if (place.failure) std::rethrow_exception(place.failure);
     auto renderer = place.member.make();
     const Stopwatch watch;
     if (place.member.test) place.member.test(*renderer);
@@ -145,10 +149,15 @@ void Crew<T>::open() {
         }
         return;
     }
-    const std::scoped_lock lock(team_->mutex);
-    for (Place& place : team_->places) {
-        place.thread = std::thread([team = team_, &place] { serve(team, place); });
+    {
+        const std::scoped_lock lock(team_->mutex);
+        for (Place& place : team_->places) {
+            if (place.failure) continue;
+            place.thread = std::thread([team = team_, &place] { serve(team, place); });
+        }
+        if (team_->any([](const Place& place) { return place.failure == nullptr; })) return;
     }
+    replace(team_->places.back(), team_->places.back().failure);
 }
 
 /// A member's thread, which may outlive the crew if the member is still being created.

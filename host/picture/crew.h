@@ -21,6 +21,7 @@ struct CrewMember {
     std::int64_t most_tile_pixels;
     std::function<std::unique_ptr<Renderer<T>>()> make;  ///< opens and compiles; throws Error
     std::function<void(Renderer<T>&)> test;              ///< throws Error if results are wrong
+    std::string failure = {};                            ///< why it cannot be created, if known
 };
 
 /// The renderers of one picture. A single one renders on the caller's thread. Several take tiles

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/crew_members.h"
 
-#include "host/error.h"
 #include "host/opencl/cl_renderer.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/picture/tile_check.h"
@@ -77,9 +76,7 @@ CrewMember<T> unlisted_member(const SharedScene<T>& scene, const ThreadsOptions&
                               const DeviceChoice& choice) {
     CrewMember<T> member = threads_member<T>(scene, stand_in);
     member.name = choice.device.name;
-    member.make = [failure = choice.failure]() -> std::unique_ptr<Renderer<T>> {
-        throw Error(ExitCode::device, failure);
-    };
+    member.failure = choice.failure;
     return member;
 }
 
