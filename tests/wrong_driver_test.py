@@ -2,7 +2,9 @@
 """A driver that gives wrong pictures (tests/cl_shim.cpp) is noticed by bench and stress, and what
 --math asks for reaches the driver.
 
-usage: wrong_driver_test.py BUILD_DIR REPO_ROOT
+usage: wrong_driver_test.py BUILD_DIR REPO_ROOT [I/N] [TEST...]
+
+I/N: only every N-th test, from the I-th, counted from 0.
 """
 import json
 import os
@@ -16,6 +18,7 @@ from hang_limit import HANG_LIMIT
 
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+SHARE, SHARES = map(int, sys.argv.pop(1).split("/")) if "/" in "".join(sys.argv[1:2]) else (0, 1)
 SCENE = str(ROOT / "scenes" / "cornell-box.json")
 # What a light adds: a little brighter, within every tolerance but that of the bits; or much.
 LIGHT = "real3 added = select3(lit, mul3(load3(light->intensity), reflected), none);"
@@ -278,8 +281,8 @@ class Dies(WrongDriver):
 
     def test_busy_for_ever_costs_time_and_not_the_picture(self):
         picture = ["--aa", "grid:64", "--progress", "none", "--tile", "16"]
-        result = self.die("clEnqueueNDRangeKernel", "spin", *picture, CL_SHIM_DIE_AT="4",
-                          CL_SHIM_DIE_AFTER="0.5")
+        result = self.die("clEnqueueNDRangeKernel", "spin", *picture, "--deadline", "0.5",
+                          CL_SHIM_DIE_AT="4", CL_SHIM_DIE_AFTER="0.5")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("made no progress for", result.stderr)
         self.assertIn("rendering on threads instead", result.stderr)
@@ -537,6 +540,11 @@ class Math(WrongDriver):
         self.assertNotIn("FAST_MATH", strict)
         self.assertNotIn("-cl-mad-enable", strict)
         self.assertIn("-cl-fp32-correctly-rounded-divide-sqrt", strict)
+
+
+def load_tests(_loader, classes, _pattern):
+    tests = [test for tests in classes for test in tests]
+    return unittest.TestSuite(tests[SHARE::SHARES])
 
 
 if __name__ == "__main__":
