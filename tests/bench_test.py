@@ -237,10 +237,11 @@ class Converge(FiguresTest):
 
     def test_pareto_front(self):
         costs = self.costs()
-        front = {i for i, (s, e) in enumerate(costs)
-                 if not any(t <= s and f <= e and (t, f) != (s, e) for t, f in costs)}
+        shown = [tuple(float(f"{value:.2e}") for value in cost) for cost in costs]
+        front = {(s, e) for s, e in shown
+                 if not any(t <= s and f <= e and (t, f) != (s, e) for t, f in shown)}
         found = self.result["pareto_front"]
-        self.assertEqual({costs[i] for i in found}, {costs[i] for i in front})
+        self.assertEqual(sorted(shown[i] for i in found), sorted(front))
         self.assertEqual(found, sorted(found, key=lambda i: costs[i][0]))
 
     def test_seconds_to_rmse(self):

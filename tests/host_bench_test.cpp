@@ -48,6 +48,13 @@ TEST(Pareto, KeepsWhatNothingBeats) {
     EXPECT_TRUE(pareto_front({}).empty());
 }
 
+TEST(Pareto, DigitsThatNobodySeesDecideNothing) {
+    const std::vector<Cost> costs{{0.0367, 0.014112}, {0.0435, 0.014111}, {0.0435004, 0.00626}};
+    EXPECT_EQ(pareto_front(costs), (std::vector<std::size_t>{0, 2}));
+    const std::vector<Cost> as_fast{{1.0004, 0.5}, {1.0001, 0.6}, {1.01, 0.4996}};
+    EXPECT_EQ(pareto_front(as_fast), (std::vector<std::size_t>{0}));
+}
+
 TEST(Pareto, NaNIsOnNoFront) {
     const std::vector<Cost> costs{{1, std::nan("")}, {2, 0.5}};
     EXPECT_EQ(pareto_front(costs), (std::vector<std::size_t>{1}));

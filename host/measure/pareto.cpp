@@ -8,18 +8,29 @@
 
 namespace rt {
 
+namespace {
+
+/// The value rounded to the three digits that tables show: what nobody sees decides nothing.
+double shown(double value) {
+    if (!(value > 0) || !std::isfinite(value)) return value;
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+    return std::round(value / unit) * unit;
+}
+
+}  // namespace
+
 std::vector<std::size_t> pareto_front(std::span<const Cost> costs) {
     std::vector<std::size_t> order(costs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        if (costs[a].seconds != costs[b].seconds) return costs[a].seconds < costs[b].seconds;
-        return costs[a].rmse < costs[b].rmse;
+        const double seconds_a = shown(costs[a].seconds), seconds_b = shown(costs[b].seconds);
+        return seconds_a != seconds_b ? seconds_a < seconds_b : costs[a].rmse < costs[b].rmse;
     });
     std::vector<std::size_t> front;
     double best = std::numeric_limits<double>::infinity();
     for (const std::size_t i : order) {
-        if (!(costs[i].rmse < best)) continue;
-        best = costs[i].rmse;
+        if (!(shown(costs[i].rmse) < best)) continue;
+        best = shown(costs[i].rmse);
         front.push_back(i);
     }
     return front;

@@ -14,7 +14,8 @@ struct Cost {
 };
 
 /// The Pareto front: ways for which no other is at least as fast and as accurate, and better in
-/// one. Indices by increasing seconds, hence decreasing error; of equals, the first.
+/// one, to the three digits that tables show. Indices by increasing seconds, hence decreasing
+/// error; of equals, the first.
 std::vector<std::size_t> pareto_front(std::span<const Cost> costs);
 
 /// The slope of log RMSE over log seconds, by least squares: -0.5 for plain random sampling. Costs

@@ -129,8 +129,8 @@ MUTANTS = [
          "now.median > before.median"),
     ], [("host_bench_test", "Baseline.*")]),
     Mutant("Pareto front with points beaten in both", [
-        (M + "pareto.cpp", "if (!(costs[i].rmse < best)) continue;",
-         "if (!(costs[i].rmse < 2 * best)) continue;"),
+        (M + "pareto.cpp", "if (!(shown(costs[i].rmse) < best)) continue;",
+         "if (!(shown(costs[i].rmse) < 2 * best)) continue;"),
     ], [("host_bench_test", "Pareto.*")]),
     Mutant("RMSE over pixels instead of values", [
         ("host/image/image_error.cpp", "(pixels - error.non_finite) * channels);",
