@@ -61,7 +61,7 @@ TEST(SecondsSinceProcessStart, CountWhatWasComputedAndWaitedFor) {
 TEST(AxisTicks, OneDecadeHasTwoAndFive) {
     const Axis axis{"", 1e-3, 1e-2, true, AxisUnit::seconds};
     EXPECT_EQ(labels(rt::axis_ticks(axis, 8)),
-              (std::vector<std::string>{"1 ms", "2 ms", "5 ms", "10 ms"}));
+              (std::vector<std::string>{"1\u00a0ms", "2\u00a0ms", "5\u00a0ms", "10\u00a0ms"}));
 }
 
 TEST(AxisTicks, ManyDecadesHaveTheirPowersOnly) {
@@ -112,9 +112,9 @@ TEST(NumberText, KeepsItsDigits) {
     EXPECT_EQ(rt::significant(9.996, 3), "10.0");
     EXPECT_EQ(rt::significant(0.0499, 2), "0.050");
     EXPECT_EQ(rt::significant(0, 3), "0");
-    EXPECT_EQ(rt::duration_text(0.01234), "12.3 ms");
-    EXPECT_EQ(rt::duration_text(0.9996), "1.00 s");
-    EXPECT_EQ(rt::duration_text(42e-6, 2), "42 µs");
+    EXPECT_EQ(rt::duration_text(0.01234), "12.3\u00a0ms");
+    EXPECT_EQ(rt::duration_text(0.9996), "1.00\u00a0s");
+    EXPECT_EQ(rt::duration_text(42e-6, 2), "42\u00a0µs");
     EXPECT_EQ(rt::scientific_text(3.44e-5), "3.4·10⁻⁵");
     EXPECT_EQ(rt::scientific_text(0), "0");
 }
@@ -258,14 +258,26 @@ TEST(LabelPlacer, LeavesLinesFree) {
     EXPECT_TRUE(place->box.bottom <= 100 || place->box.top >= 100);
 }
 
+TEST(LabelPlacer, StandsOffWhereLinesCrowdAPoint) {
+    const auto crowded = [] {
+        rt::LabelPlacer placer({0, 0, 300, 200});
+        for (double x = 40; x <= 160; x += 5) placer.avoid_line(x, 75, x, 125);
+        return placer;
+    };
+    const auto near = crowded().place("a name", {{100, 100}});
+    EXPECT_TRUE(near->box.bottom > 75 && near->box.top < 125);
+    const auto off = crowded().place("a name", {{100, 100}}, 36);
+    EXPECT_TRUE(off->box.bottom <= 75 || off->box.top >= 125);
+}
+
 TEST(Bars, AreAsLongAsTheirSecondsAndNameTheirParts) {
     const std::string html = rt::bars_html(
-        "t", {{"PoCL", "", 1, {{"trace", 3, 5}, {"load", 0.99, 0}, {"upload", 0.01, 4}}}});
+        "t", {{"PoCL", "", 1, 4.01, {{"trace", 3, 5}, {"build", 0.99, 0}, {"upload", 0.01, 4}}}});
     EXPECT_TRUE(holds(html, "class=\"bar s1\""));
     EXPECT_TRUE(holds(html, "class=\"part p5\" x=\"0.00\" width=\"750.00\""));
-    EXPECT_TRUE(holds(html, "PoCL <strong>4.00 s</strong>"));
-    EXPECT_TRUE(holds(html, "trace 3.00 s</li>"));
-    EXPECT_TRUE(holds(html, "other 10.0 ms</li>"));
+    EXPECT_TRUE(holds(html, "PoCL <strong>4.01\u00a0s</strong>"));
+    EXPECT_TRUE(holds(html, "trace 3.00\u00a0s</li>"));
+    EXPECT_TRUE(holds(html, "other 10.0\u00a0ms</li>"));
     EXPECT_FALSE(holds(html, "upload"));
 }
 
@@ -323,14 +335,20 @@ TEST(Verdict, SaysWhoIsFastestAndByHowMuch) {
     EXPECT_EQ(rt::verdict_text(scene, 0), "");
     scene.bench.rows = {bench_row("threads", 1, 0.3), bench_row("threads", 2, 0.15),
                         bench_row("x", 0, 0.02)};
-    EXPECT_EQ(rt::verdict_text(scene, 0), "PoCL traces a box in 20.0 ms: 15.0 times one thread");
+    EXPECT_EQ(rt::verdict_text(scene, 0),
+              "PoCL traces a box in 20.0\u00a0ms: 15.0 times as fast as one thread");
     EXPECT_EQ(rt::fastest_row(scene, 4)->source, "bench-4#/rows/2");
     const std::string details = rt::verdict_details(scene, 0);
-    EXPECT_TRUE(holds(details, "With set-up it takes 120 ms, one thread 300 ms."));
-    EXPECT_TRUE(holds(details, "all 3 rows are right: float is within RMSE 2.0·10⁻⁷ of double"));
+    EXPECT_TRUE(holds(details, "2\u00a0x\u00a02 samples per pixel (grid:2), float."));
+    EXPECT_TRUE(holds(details, "With set-up it takes 120\u00a0ms, one thread 300\u00a0ms."));
+    EXPECT_TRUE(holds(details,
+                      "All 3 measured settings of device, size and sampling gave the right "
+                      "picture; float is within RMSE 2.0·10⁻⁷ of double."));
     scene.bench.rows[2].verdict = rt::Verdict::wrong;
-    EXPECT_EQ(rt::verdict_text(scene, 0), "2 threads trace a box in 150 ms: 2.00 times one thread");
-    EXPECT_TRUE(holds(rt::verdict_details(scene, 0), "Of 3 rows, 1 gave a wrong picture"));
+    EXPECT_EQ(rt::verdict_text(scene, 0),
+              "2 threads trace a box in 150\u00a0ms: 2.00 times as fast as one thread");
+    EXPECT_TRUE(
+        holds(rt::verdict_details(scene, 0), "Of 3 measured settings, 1 gave a wrong picture"));
 }
 
 rt::StressFamilyResult stress_family(const std::string& name, double error, double allowed,
@@ -430,9 +448,9 @@ TEST(ReportPage, SaysThatItIsIncomplete) {
 TEST(ReportPage, SaysThatTheMachineWasBusy) {
     rt::Report report = stopped_report();
     report.load_before = 1e3;
-    EXPECT_TRUE(holds(rt::report_page(report), "busy machine (load 1000.0"));
+    EXPECT_TRUE(holds(rt::report_page(report), "Busy machine (load 1000.0"));
     report.load_before = 0;
-    EXPECT_FALSE(holds(rt::report_page(report), "busy machine"));
+    EXPECT_FALSE(holds(rt::report_page(report), "Busy machine"));
 }
 
 TEST(ReportPage, EscapesTheScenesNames) {

@@ -118,7 +118,7 @@ UNITS = {"s": 1, "ms": 1e-3, "µs": 1e-6, "M": 1e6}
 
 def number(text):
     """What a reader takes from 1.9·10⁻⁷, 403 µs or RMSE 0.1."""
-    found = re.search(r"([0-9.]+)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?: (s|ms|µs|M)\b)?", text)
+    found = re.search(r"([0-9.]+)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?:\xa0(s|ms|µs|M)\b)?", text)
     power = 10.0 ** int(found[2].translate(SUPERSCRIPTS)) if found[2] else 1
     return float(found[1]) * power * UNITS.get(found[3], 1)
 
@@ -201,8 +201,8 @@ class Report(unittest.TestCase):
 
     def test_the_verdict_is_in_words_and_those_of_the_data(self):
         verdict = html.unescape(re.search(r"<h1>(.*?)</h1>", TEXT, re.S)[1])
-        found = re.fullmatch(r"(.*) traces? (.*) in ([\d.]+ \S+?)(?:: ([\d.]+) times one thread)?",
-                             verdict)
+        found = re.fullmatch(r"(.*) traces? (.*) in ([\d.]+\xa0\S+?)"
+                             r"(?:: ([\d.]+) times as fast as one thread)?", verdict)
         self.assertTrue(found, verdict)
         self.assertEqual(found[2], EVIL)
         rows = [row for row in self.source("bench-0#/rows")
@@ -211,7 +211,7 @@ class Report(unittest.TestCase):
         self.assert_shown(found[3], trace(fastest))
         self.assertEqual(found[1], "PoCL" if not fastest["threads"] else
                          f"{fastest['threads']} thread" + "s" * (fastest["threads"] > 1) +
-                         ", a buffer each" * (fastest["schedule"] == "buffers") +
+                         ", sample buffers" * (fastest["schedule"] == "buffers") +
                          ", one ray at a time" * (fastest["schedule"] == "scalar"))
         if found[4]:
             self.assert_shown(found[4], fastest["figures"]["trace_speed_up"])
@@ -238,7 +238,7 @@ class Report(unittest.TestCase):
         for name in ["git revision", "compiler", "processor", "memory", "operating system",
                      "kernel", "load before"]:
             self.assertTrue(shown[name], name)
-        self.assertRegex(shown["memory"], r"^[\d.]{1,5} GiB$")
+        self.assertRegex(shown["memory"], r"^[\d.]{1,5}\xa0GiB$")
         self.assertLessEqual(len(shown["load before"]), 4)
 
     def test_names_are_text(self):
@@ -290,7 +290,7 @@ class Report(unittest.TestCase):
         self.assertEqual(len(shown), len(self.source("bench-0#/rows")))
         for cells in shown:
             row = self.source(cells["pixels"][1])
-            self.assertEqual(cells["pixels"][0], f"{row['width']} x {row['height']}")
+            self.assertEqual(cells["pixels"][0], f"{row['width']}\xa0x\xa0{row['height']}")
             self.assert_shown(cells["trace, ms"][0], 1e3 * trace(row))
             self.assert_shown(cells["total, ms"][0], 1e3 * total(row))
             self.assert_shown(cells["Mrays/s"][0], 1e-6 * rate(row))
@@ -326,14 +326,22 @@ class Report(unittest.TestCase):
         self.assert_shown(rounding, rmse(row), digits=2)
         self.assert_shown(sampling, self.source(picture)["rmse"], digits=2)
 
+    def test_a_setting_has_one_total(self):
+        bars = re.findall(r'class="bar [^"]*" data-source="([^"]*/repeats)">\n<p>[^<]* <strong>(.*?)</strong>',
+                          TEXT)
+        self.assertGreaterEqual(len(bars), 2)
+        for source, shown in bars:
+            self.assert_shown(html.unescape(shown), total(self.source(source.removesuffix("/repeats"))))
+
     def test_a_picture_has_one_time(self):
         """The captions give the medians of the tables, and nothing gives another."""
         units = {"s": 1, "ms": 1e-3, "µs": 1e-6}
         rows = json.loads(PAGE.blocks["bench-0"][1])["rows"]
         pictures = json.loads(PAGE.blocks["pictures-0"][1])
-        captions = re.findall(r"(?:Plain|Anti-aliased): (\S+), traced in ([\d.]+) (\S+) on", TEXT)
-        self.assertEqual(len(captions), 2)
-        for (aa, shown, unit), picture in zip(captions, pictures.values()):
+        captions = re.findall(r"(?:Plain|Anti-aliased): (.+), traced in ([\d.]+)\xa0(\S+) on", TEXT)
+        self.assertEqual([samples for samples, *_ in captions],
+                         ["one sample per pixel", "2\xa0x\xa02 samples per pixel (grid:2)"])
+        for aa, (_, shown, unit), picture in zip(["none", "grid:2"], captions, pictures.values()):
             medians = [row["figures"]["trace"]["median"] for row in rows
                        if (row["width"], row["aa"], row["device_name"]) ==
                        (48, aa, picture["device"]["name"])]
@@ -419,7 +427,7 @@ class Stopped(unittest.TestCase):
                 self.assertIn(" (incomplete)</title>", text)
                 rows = json.loads(page.blocks["bench-0"][1])["rows"]
                 self.assertTrue(any(row["figures"] for row in rows))
-                self.assertIn("ray trace, milliseconds", text)
+                self.assertIn("<caption>Ray trace, ", text)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ constexpr double full_width = 1000, bar_height = 20;  ///< of the longest bar; s
 constexpr double least_share = 0.005;
 constexpr int other_shade = 0;
 
-double total_of(const Bar& bar) {
+double drawn_seconds(const Bar& bar) {
     double total = 0;
     for (const BarPart& part : bar.parts) total += part.seconds;
     return total;
@@ -25,7 +25,7 @@ double total_of(const Bar& bar) {
 std::vector<BarPart> named_parts(const Bar& bar) {
     std::vector<BarPart> parts;
     BarPart other{"other", 0, other_shade};
-    const double least = least_share * total_of(bar);
+    const double least = least_share * drawn_seconds(bar);
     for (const BarPart& part : bar.parts) {
         if (part.seconds >= least && part.seconds > 0) {
             parts.push_back(part);
@@ -57,14 +57,14 @@ std::string bar_html(const Bar& bar, double longest) {
         "<div class=\"bar s{}\"{}>\n<p>{} <strong>{}</strong></p>\n<svg viewBox=\"0 0 {:g} {:g}\" "
         "preserveAspectRatio=\"none\" aria-hidden=\"true\">\n{}</svg>\n<ul>\n{}</ul>\n</div>\n",
         bar.color, html_attribute("data-source", bar.source), html_text(bar.label),
-        duration_text(total_of(bar)), full_width, bar_height, drawing, list);
+        duration_text(bar.total), full_width, bar_height, drawing, list);
 }
 
 }  // namespace
 
 std::string bars_html(const std::string& title, const std::vector<Bar>& bars) {
     double longest = 0;
-    for (const Bar& bar : bars) longest = std::max(longest, total_of(bar));
+    for (const Bar& bar : bars) longest = std::max(longest, drawn_seconds(bar));
     std::string html =
         "<div class=\"bars\" role=\"group\"" + html_attribute("aria-label", title) + ">\n";
     for (const Bar& bar : bars) html += bar_html(bar, longest);

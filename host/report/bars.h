@@ -17,6 +17,7 @@ struct Bar {
     std::string label;
     std::string source;  ///< where its numbers come from, for data-source
     int color = 0;       ///< as DeviceColors says
+    double total = 0;    ///< seconds, shown beside the name
     std::vector<BarPart> parts;
 };
 

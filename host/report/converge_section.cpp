@@ -211,12 +211,12 @@ std::string error_time_section(const ReportScene& scene, std::size_t index) {
            plot_figure(
                error_time_plot(result, DeviceColors(scene.bench.rows), index),
                html_text(fmt::format(
-                   "{} x {} pixels, medians of {} repeats; bands: median absolute deviation. "
+                   "{} pixels, medians of {} repeats; bands: median absolute deviation. "
                    "Hollow markers: double precision. A dotted whisker at a curve's first point "
                    "leads to the time that includes opening the device and building its kernels, "
                    "which is paid once; it ends at the frame if that time is beyond it. Run time: "
                    "flatten, upload, trace, resolve, read back. Values clamped to 0 to 1.",
-                   result.width, result.height, result.repeats_asked))) +
+                   size_text(result.width, result.height), result.repeats_asked))) +
            front_table(result, index) + targets_table(result, index) + slopes_table(result);
 }
 

@@ -26,7 +26,7 @@ std::string value_text(const std::string& key, const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_null()) return "unknown";
     if (key == "memory_bytes") {
-        return significant(value.get<double>() / (1 << 30), 3) + " GiB";
+        return significant(value.get<double>() / (1 << 30), 3) + "\u00a0GiB";
     }
     return value.is_number_float() ? significant(value.get<double>(), 2) : value.dump();
 }
@@ -41,6 +41,9 @@ std::string device_text(const DeviceStats& device) {
 std::string environment_section(const Report& report) {
     HtmlTable table{"The machine and the program behind every number", {"what", "value"}, {}};
     for (const auto& [key, value] : report.environment.items()) {
+        if (key == "load" && report.load_before >= 0) {
+            table.rows.push_back({{"load before", ""}, {significant(report.load_before, 2), ""}});
+        }
         table.rows.push_back(
             {{key_text(key), ""}, {value_text(key, value), "environment#/" + key}});
     }
@@ -51,9 +54,6 @@ std::string environment_section(const Report& report) {
         if (std::find(devices.begin(), devices.end(), text) != devices.end()) continue;
         devices.push_back(text);
         table.rows.push_back({{"OpenCL device", ""}, {text, ""}});
-    }
-    if (report.load_before >= 0) {
-        table.rows.push_back({{"load before", ""}, {significant(report.load_before, 2), ""}});
     }
     table.rows.push_back({{"created", ""}, {report.date, ""}});
     return "<h2 id=\"machine\">Environment</h2>\n<div class=\"facts\">" + html_table(table) +

@@ -41,12 +41,12 @@ std::string trial_html(const FeatureTrial& trial, const std::string& source) {
     const Spread lean = spread_of(trial.lean, trace_seconds);
     const Spread full = spread_of(trial.full, trace_seconds);
     const bool same = trial.lean.front().image_hash == trial.full.front().image_hash;
-    HtmlTable table{
-        fmt::format("On {}, {} x {} pixels, {}: medians of {} interleaved repeats",
-                    device_label(trial.lean.front()), trial.lean.front().width,
-                    trial.lean.front().height, to_string(trial.lean.front().aa), trial.lean.size()),
-        {"kernels compiled with", "build, from cache", "build, cold"},
-        {}};
+    HtmlTable table{fmt::format("On {}, {} pixels, {}: medians of {} interleaved repeats",
+                                device_label(trial.lean.front()),
+                                size_text(trial.lean.front().width, trial.lean.front().height),
+                                to_string(trial.lean.front().aa), trial.lean.size()),
+                    {"kernels compiled with", "build, from cache", "build, cold"},
+                    {}};
     table.rows.push_back({{"what the scene needs", source + "/auto"},
                           {build_text(trial.lean), ""},
                           {cold_text(trial.lean_cold), ""}});

@@ -28,11 +28,11 @@ std::string glance_html(const ReportScene& scene, std::size_t index) {
     const std::string on = "on " + device_label(*fastest->row);
     std::string html = "<dl class=\"glance\">\n";
     html +=
-        tile("Fastest anti-aliased trace", duration_text(figures.trace.median),
-             fmt::format("± {} %, {}, {} x {}, {}", significant(figures.trace.noise_percent(), 2),
-                         on, asked.width, asked.height, to_string(asked.aa)),
+        tile("Fastest ray trace", duration_text(figures.trace.median),
+             fmt::format("± {}\u00a0%, {}, {}, {}", significant(figures.trace.noise_percent(), 2),
+                         on, size_text(asked.width, asked.height), to_string(asked.aa)),
              fastest->source);
-    html += tile("Rays per second", significant(figures.rays_per_second * 1e-6, 3) + " M",
+    html += tile("Rays per second", significant(figures.rays_per_second * 1e-6, 3) + "\u00a0M",
                  on + ", all kinds of ray", fastest->source);
     if (figures.speed_up && figures.trace_speed_up) {
         html += tile("Speed-up over one thread", significant(*figures.trace_speed_up, 3) + " times",

@@ -14,7 +14,9 @@ namespace {
 
 // Of the type on narrow screens.
 constexpr double ascent = 13, descent = 4;
-constexpr double ink_step = 5;  ///< between points sampled along a line
+constexpr double ink_step = 5;      ///< between points sampled along a line
+constexpr double ring_step = 12;    ///< between the distances at which a label may stand
+constexpr double away_cost = 0.25;  ///< per unit of distance; a point of ink costs 3
 
 struct Side {
     double dx, dy;
@@ -30,8 +32,12 @@ constexpr std::array<Side, 8> sides{{{9, 4, "start"},
                                      {0, -10, "middle"},
                                      {0, 20, "middle"}}};
 
-LabelPlace beside(double x, double y, const Side& side, double width) {
-    LabelPlace place{x + side.dx, y + side.dy, side.anchor, {}};
+/// Beside a spot, and `away` farther out than side by side.
+LabelPlace beside(double x, double y, const Side& side, double away, double width) {
+    const double dx = side.dx + std::copysign(side.dx == 0 ? 0 : away, side.dx);
+    const bool is_level = side.dy == 4;
+    const double dy = side.dy + std::copysign(is_level ? 0 : away, side.dy);
+    LabelPlace place{x + dx, y + dy, side.anchor, {}};
     const double start = side.anchor[0] == 's'   ? place.x
                          : side.anchor[0] == 'e' ? place.x - width
                                                  : place.x - width / 2;
@@ -68,18 +74,21 @@ double LabelPlacer::cost_of(const DrawnBox& box) const {
 }
 
 std::optional<LabelPlace> LabelPlacer::place(const std::string& text,
-                                             const std::vector<std::pair<double, double>>& spots) {
+                                             const std::vector<std::pair<double, double>>& spots,
+                                             double reach) {
     const double width = svg_text_width(text);
-    double least = std::numeric_limits<double>::infinity(), effort = 0;
+    double least = std::numeric_limits<double>::infinity(), detour = 0;
     std::optional<LabelPlace> best;
     for (const auto& [x, y] : spots) {
         for (const Side& side : sides) {
-            const LabelPlace place = beside(x, y, side, width);
-            const double cost = cost_of(place.box) + effort;
-            effort += 0.5;
-            if (!(cost < least)) continue;
-            least = cost;
-            best = place;
+            for (double away = 0; away <= reach; away += ring_step) {
+                const LabelPlace place = beside(x, y, side, away, width);
+                const double cost = cost_of(place.box) + detour + away_cost * away;
+                if (!(cost < least)) continue;
+                least = cost;
+                best = place;
+            }
+            detour += 0.5;
         }
     }
     if (best) taken_.push_back(best->box);

@@ -29,10 +29,11 @@ class LabelPlacer {
     void avoid_line(double x1, double y1, double x2, double y2);
     void avoid_box(const DrawnBox& box) { taken_.push_back(box); }
 
-    /// A place beside one of the spots, earlier ones preferred; empty if the label would overlap
-    /// another one or the bounds everywhere.
+    /// A place beside one of the spots or up to `reach` farther out, earlier and nearer ones
+    /// preferred; empty if the label would overlap another one or the bounds everywhere.
     std::optional<LabelPlace> place(const std::string& text,
-                                    const std::vector<std::pair<double, double>>& spots);
+                                    const std::vector<std::pair<double, double>>& spots,
+                                    double reach = 0);
 
    private:
     double cost_of(const DrawnBox& box) const;

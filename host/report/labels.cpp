@@ -19,7 +19,7 @@ std::string device_label(const BenchRow& row) {
     const BenchCase& asked = row.asked;
     if (asked.uses_threads) {
         return fmt::format("{} thread{}{}", asked.threads, asked.threads == 1 ? "" : "s",
-                           asked.schedule == "buffers"  ? ", a buffer each"
+                           asked.schedule == "buffers"  ? ", sample buffers"
                            : asked.schedule == "scalar" ? ", one ray at a time"
                                                         : "");
     }
@@ -31,13 +31,23 @@ std::string device_label(const RenderStats& run) {
                                        : run.device.name;
 }
 
-std::string aa_label(const AaMode& aa) {
-    const std::string text = to_string(aa);
-    return text == "none" ? "plain" : text;
+std::string size_text(int width, int height) {
+    return fmt::format("{}\u00a0x\u00a0{}", width, height);
+}
+
+std::string sampling_text(const AaMode& aa) {
+    if (aa.samples() == 1 && !aa.refines()) return "one sample per pixel";
+    const bool is_grid = aa.pattern == AaMode::Pattern::grid;
+    return fmt::format("{} ({})",
+                       aa.refines()
+                           ? "more samples where neighbors differ"
+                           : (is_grid ? size_text(aa.count, aa.count) : std::to_string(aa.count)) +
+                                 " samples per pixel",
+                       to_string(aa));
 }
 
 std::string spread_text(const Spread& spread) {
-    return fmt::format("{} ± {} %", duration_text(spread.median),
+    return fmt::format("{} ± {}\u00a0%", duration_text(spread.median),
                        significant(spread.noise_percent(), 2));
 }
 

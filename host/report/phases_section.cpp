@@ -19,8 +19,7 @@ struct Phase {
     double (*seconds)(const RenderStats& run);
 };
 
-constexpr std::array<Phase, 8> phases{{
-    {"load", [](const RenderStats& run) { return run.phases.load; }},
+constexpr std::array<Phase, 7> phases{{
     {"flatten", [](const RenderStats& run) { return run.phases.flatten; }},
     {"open", [](const RenderStats& run) { return run.phases.renderer.open; }},
     {"build", [](const RenderStats& run) { return run.phases.renderer.build; }},
@@ -32,10 +31,10 @@ constexpr std::array<Phase, 8> phases{{
 
 Bar phases_bar(const std::string& label, const std::string& source, int color,
                std::span<const RenderStats> runs) {
-    Bar bar{label, source, color, {}};
+    Bar bar{label, source, color, spread_of(runs, timed_total).median, {}};
     for (std::size_t i = 0; i < phases.size(); ++i) {
         const double seconds = spread_of(runs, phases[i].seconds).median;
-        bar.parts.push_back({phases[i].name, seconds, static_cast<int>(i)});
+        bar.parts.push_back({phases[i].name, seconds, static_cast<int>(i) + 1});
     }
     return bar;
 }
@@ -46,8 +45,8 @@ bool built_cold(const BenchRow& row) {
 }
 
 std::string cold_label(const BenchRow& row) {
-    return fmt::format("{}, {} x {} pixels, {}, {}", device_label(row), row.asked.width,
-                       row.asked.height, to_string(row.asked.aa),
+    return fmt::format("{}, {} pixels, {}, {}", device_label(row),
+                       size_text(row.asked.width, row.asked.height), to_string(row.asked.aa),
                        row.asked.double_precision ? "double" : "float");
 }
 
@@ -73,11 +72,13 @@ std::string phases_figure(const std::vector<PlacedRow>& rows, const DeviceColors
                                   colors.of(placed.row->asked), placed.row->warm_up));
     }
     const BenchCase& asked = largest.front().row->asked;
-    std::string html = "<h3>Where the time goes</h3>\n" +
-                       bars_figure("Time by phase and device", warm,
-                                   fmt::format("{} x {} pixels, {}, float: the median of "
-                                               "each phase, kernels from a cache.",
-                                               asked.width, asked.height, to_string(asked.aa)));
+    std::string html =
+        "<h3>Where the time goes</h3>\n" +
+        bars_figure("Time by phase and device", warm,
+                    fmt::format("{} pixels, {}, float; kernels from a cache. "
+                                "Medians of the total and of each phase, so the "
+                                "phases do not quite add up.",
+                                size_text(asked.width, asked.height), sampling_text(asked.aa)));
     if (!cold.empty()) {
         html += "<h4>The first picture</h4>\n" +
                 bars_figure("Time of a first picture by phase", cold,

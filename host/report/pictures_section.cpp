@@ -90,7 +90,7 @@ Rect telling_window(const Picture& plain, const Picture& smooth) {
 std::string error_text(const RenderStats& stats) {
     const ImageError& error = *stats.error;
     return fmt::format(
-        "RMSE {}, PSNR {} dB, {} of {} pixels off by more than 1/255, {} by more than 8/255",
+        "RMSE {}, PSNR {}\u00a0dB, {} of {} pixels off by more than 1/255, {} by more than 8/255",
         scientific_text(error.rmse), significant(error.psnr, 3), error.over_1,
         stats.region.pixels(), error.over_8);
 }
@@ -98,7 +98,7 @@ std::string error_text(const RenderStats& stats) {
 /// The picture's own run is one of many, so the time is the benchmark's median, if it has one.
 std::string made_text(const RenderStats& stats, const BenchResult& bench) {
     const auto seconds = trace_median(bench, stats);
-    return fmt::format("{}, {}{}, {}", to_string(stats.aa),
+    return fmt::format("{}, {}{}, {}", sampling_text(stats.aa),
                        seconds ? "traced in " + duration_text(*seconds) + " on " : "on ",
                        device_label(stats), stats.double_precision ? "double" : "float");
 }
@@ -111,8 +111,8 @@ std::string color_scale() {
     }
     return fmt::format(
         "<p class=\"scale\">0 <img src=\"{}\" alt=\"Color scale of the error maps: black for no "
-        "difference over purple and orange to pale yellow for {} and more\"> {} and more "
-        "(white is 1)</p>\n",
+        "difference over purple and orange to pale yellow for {} and more\"> {} or more, where "
+        "black to white is 1</p>\n",
         png_data_uri(encode_png(bar, Encoding::display)), error_map_scale, error_map_scale);
 }
 
@@ -130,8 +130,9 @@ std::string whole_pictures(const ReportScene& scene, const Rect& window,
 }
 
 std::string crops(const ReportScene& scene, const Rect& window) {
-    const std::string where = fmt::format("{} x {} pixels from {},{}, enlarged", window.width,
-                                          window.height, window.x, window.y);
+    const std::string where =
+        fmt::format("{} pixels from {},{}, enlarged", size_text(window.width, window.height),
+                    window.x, window.y);
     const auto figure = [&](const Picture& picture, const char* kind) {
         return image_figure(cropped(picture, window),
                             {fmt::format("{} crop of {}", kind, scene.plain.stats.scene.name),
@@ -149,12 +150,11 @@ std::string error_maps(const ReportScene& scene, const std::string& source) {
             heat_map(clamped(shot.picture), scene.reference, error_map_scale),
             {fmt::format("Error map of the {} picture: bright along edges where it is wrong. {}",
                          kind, error_text(shot.stats)),
-             fmt::format("{}, {}: {}.", kind, to_string(shot.stats.aa), error_text(shot.stats)),
-             source + key});
+             fmt::format("{}: {}.", kind, error_text(shot.stats)), source + key});
     };
     return fmt::format(
                "<h3>Error maps</h3>\n<p>The largest channel difference of each pixel from the "
-               "converged picture: the mean of {} and {} in double precision.</p>\n",
+               "converged picture: the mean of two pictures in double precision, {} and {}.</p>\n",
                html_text(scene.converge.reference.aa_a), html_text(scene.converge.reference.aa_b)) +
            "<div class=\"pictures\">\n" + figure(scene.plain, "Plain", "/plain/error") +
            figure(scene.smooth, "Anti-aliased", "/smooth/error") + "</div>\n" + color_scale();

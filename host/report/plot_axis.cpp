@@ -124,11 +124,11 @@ std::string significant(double value, int digits) {
 }
 
 std::string duration_text(double seconds, int digits) {
-    if (seconds == 0) return "0 s";
+    if (seconds == 0) return "0\u00a0s";
     const double rounded = std::stod(fmt::format("{:.{}e}", std::fabs(seconds), digits - 1));
-    if (rounded >= 1) return significant(seconds, digits) + " s";
-    if (rounded >= 1e-3) return significant(seconds * 1e3, digits) + " ms";
-    return significant(seconds * 1e6, digits) + " µs";
+    if (rounded >= 1) return significant(seconds, digits) + "\u00a0s";
+    if (rounded >= 1e-3) return significant(seconds * 1e3, digits) + "\u00a0ms";
+    return significant(seconds * 1e6, digits) + "\u00a0µs";
 }
 
 std::string scientific_text(double value, int digits) {

@@ -11,6 +11,7 @@
 #include "host/print/stats_text.h"
 #include "host/print/stress_json.h"
 #include "host/report/html.h"
+#include "host/report/labels.h"
 #include "host/report/sections.h"
 #include "host/report/style.h"
 #include "host/report/verdict.h"
@@ -29,7 +30,7 @@ std::string text_of(const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-/// "PoCL traces Cornell box in 22 ms: 14.7 times one thread", else the scenes' names.
+/// "PoCL traces Cornell box in 22 ms: 14.7 times as fast as one thread", else the scenes' names.
 std::string headline(const Report& report) {
     if (report.scenes.size() == 1) {
         const std::string verdict = verdict_text(report.scenes.front(), 0);
@@ -83,10 +84,11 @@ std::string scene_html(const Report& report, std::size_t index) {
     std::string html = fmt::format(
         "<section id=\"scene-{}\" aria-labelledby=\"scene-{}-head\">\n"
         "<h2 id=\"scene-{}-head\">{}</h2>\n"
-        "<p class=\"note\">{}: {}; {} x {} pixels, up to {} bounces; scene hash "
+        "<p class=\"note\">{}: {}; {} pixels, up to {} bounces; scene hash "
         "<code>{}</code></p>\n",
         index, index, index, html_text(scene_name(scene)), html_text(stats.path),
-        holdings_text(run), run.width, run.height, run.max_bounces, hash_text(stats.hash));
+        holdings_text(run), size_text(run.width, run.height), run.max_bounces,
+        hash_text(stats.hash));
     html += scene_verdict(report, index);
     if (!scene.complete) html += "<p class=\"warning\">Incomplete: stopped before the end.</p>\n";
     if (scene.has_pictures) html += glance_html(scene, index) + pictures_section(scene, index);
@@ -103,7 +105,8 @@ std::string warnings_html(const Report& report) {
         html += "<p class=\"warning\">Incomplete: " + html_text(report.stopped) +
                 " before everything was measured.</p>\n";
     }
-    const std::string busy = busy_text(load_of(report.load_before));
+    std::string busy = busy_text(load_of(report.load_before));
+    if (!busy.empty()) busy[0] = static_cast<char>(std::toupper(busy[0]));
     if (!busy.empty()) html += "<p class=\"warning\">" + html_text(busy) + "</p>\n";
     return html;
 }

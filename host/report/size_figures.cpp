@@ -12,7 +12,7 @@ namespace rt {
 
 namespace {
 
-// Dashes and markers of threads: most threads, one thread, a buffer each, scalar.
+// Dashes and markers of threads: most threads, one thread, sample buffers, scalar.
 constexpr int most_threads_style = 0, one_thread_style = 1, buffers_style = 2, scalar_style = 3;
 
 /// The side of a square with as many pixels.
@@ -36,10 +36,11 @@ PlotPoint time_point(const PlacedRow& placed) {
 
 PlotPoint ratio_point(const PlacedRow& placed) {
     const double ratio = *placed.figures->trace_speed_up;
-    return plain_point(side_of(placed.row->asked), ratio,
-                       fmt::format("{} on {}: {} times one thread", size_label(placed.row->asked),
-                                   device_label(*placed.row), significant(ratio, 3)),
-                       placed.source);
+    return plain_point(
+        side_of(placed.row->asked), ratio,
+        fmt::format("{} on {}: {} times as fast as one thread", size_label(placed.row->asked),
+                    device_label(*placed.row), significant(ratio, 3)),
+        placed.source);
 }
 
 int style_of(const BenchCase& asked) {
@@ -140,7 +141,7 @@ std::string ratio_figure(const std::vector<PlacedRow>& rows, std::size_t index,
     fit_axes(plot);
     plot.y.low = lowest_y(plot) / 1.1;  // ratios need no axis from 0
     name_sizes(plot, rows);
-    plot.description = "Sizes on a logarithmic axis. The numbers are in the table of every row.";
+    plot.description = "Sizes on a logarithmic axis. The numbers are in the table of all settings.";
     return plot_figure(plot, "Tracing time of one thread over tracing time of the device.");
 }
 
@@ -151,8 +152,9 @@ std::string size_figures(const std::vector<PlacedRow>& rows, std::size_t index,
     const std::string time = time_figure(rows, index, colors);
     if (time.empty()) return "";
     const std::vector<PlacedRow> largest = largest_rows(rows);
-    return fmt::format("<h3>Time against size</h3>\n<p>{}, float.</p>\n<div class=\"plots\">\n",
-                       html_text(to_string(largest.front().row->asked.aa))) +
+    const std::string sampling = sampling_text(largest.front().row->asked.aa);
+    return fmt::format("<h3>Time against size</h3>\n<p>In float, {}.</p>\n<div class=\"plots\">\n",
+                       html_text(sampling)) +
            time + ratio_figure(rows, index, colors) + "</div>\n";
 }
 

@@ -9,14 +9,14 @@ const char* const report_style = R"css(
 :root {
   color-scheme: light dark;
   --paper: #fff; --ink: #1b1f24; --soft: #57606a; --rule: #d5dae0; --tint: #f5f7f9;
-  --grid: #e3e7eb; --faint: #f0f2f4; --accent: #0b62a3; --floor: #8a939d33;
+  --grid: #e3e7eb; --faint: #f0f2f4; --accent: #0b62a3; --floor: #8a939d33; --shade: #0004;
   --s0: #0068a8; --s1: #c04f00; --s2: #00805d; --s3: #a8407f;
   --s4: #746400; --s5: #5b4bb5; --s6: #333; --s7: #86503f;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --paper: #14171b; --ink: #e7eaee; --soft: #a3adb8; --rule: #363d46; --tint: #1c2127;
-    --grid: #2b3139; --faint: #20252b; --accent: #79bdf2; --floor: #9aa5b133;
+    --grid: #2b3139; --faint: #20252b; --accent: #79bdf2; --floor: #9aa5b133; --shade: #fff5;
     --s0: #5fb8f5; --s1: #ff9a55; --s2: #3ecb9d; --s3: #f29ac7;
     --s4: #e4d150; --s5: #ab9eff; --s6: #e8e8e8; --s7: #d8a898;
   }
@@ -73,7 +73,13 @@ figcaption { margin-top: .45rem; max-width: 44rem; }
 .plot { max-width: 38rem; }
 .plot > svg { display: block; width: 100%; height: auto; }
 .plots { display: grid; gap: 0 2rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 25rem), 1fr)); align-items: start; }
-.scroll { overflow-x: auto; }
+/* Shadows at the edges that hide something; what scrolls along covers them at the ends. */
+.scroll {
+  overflow-x: auto; background-repeat: no-repeat; background-attachment: local, local, scroll, scroll;
+  background-image: linear-gradient(to right, var(--paper) 40%, transparent), linear-gradient(to left, var(--paper) 40%, transparent),
+    linear-gradient(to right, var(--shade), transparent), linear-gradient(to left, var(--shade), transparent);
+  background-position: left, right, left, right; background-size: 3rem calc(100% + 2px), 3rem calc(100% + 2px), 1.1rem 100%, 1.1rem 100%;
+}
 svg text { font: 12px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; fill: var(--ink); font-variant-numeric: tabular-nums; }
 svg .axes text { fill: var(--soft); }
 svg text.name { fill: var(--ink); font-weight: 600; }
@@ -149,13 +155,14 @@ footer { margin-top: 3.5rem; padding-top: 1rem; border-top: 1px solid var(--rule
   p { margin: .25rem 0 .5rem; }
   figcaption, .note, caption { font-size: 8pt; }
   figure { margin: .4rem 0 .5rem; }
-  figure, tr, .glance div, .bar, pre { break-inside: avoid; }
+  figure, table, tr, .glance div, .bar, pre { break-inside: avoid; }
+  .scale { margin: .2rem 0 .6rem; }
   .glance { grid-template-columns: repeat(5, 1fr); gap: 0 1rem; margin: .7rem 0; }
   .glance dd { font-size: 1.2rem; }
   .glance dd small, .bar ul, .scale { font-size: 8pt; }
   .lead { font-size: 10pt; }
   .pictures { break-inside: avoid; max-width: 116mm; }
-  .pictures.three { max-width: 116mm; grid-template-columns: repeat(3, minmax(0, 1fr)); }
+  .pictures.three { max-width: 96mm; grid-template-columns: repeat(3, minmax(0, 1fr)); }
   .plots { grid-template-columns: 1fr 1fr; }
   .plot { max-width: 105mm; }
   .bars { columns: 2; column-gap: 8mm; } .bar { margin: 0 0 .6rem; }
@@ -169,7 +176,7 @@ footer { margin-top: 3.5rem; padding-top: 1rem; border-top: 1px solid var(--rule
   td.drawn { padding-left: 2rem; } .share { width: 1.7rem; top: .4em; }
   .dense th, .dense td { padding-right: .4rem; }
   pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: 7pt; }
-  .scroll { overflow: visible; }
+  .scroll { overflow: visible; background: none; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 )css";

@@ -19,6 +19,7 @@ namespace {
 constexpr double plot_width = 480, plot_height = 330;
 constexpr PlotFrame frame{64, 34, 396, 278};
 constexpr double shared_label_distance = 60;  ///< nearer points of one label share it
+constexpr double curve_label_reach = 36;      ///< the curve's color ties a distant name to it
 
 /// Draws the parts of one plot, each as a piece of SVG.
 class Painter {
@@ -150,6 +151,16 @@ class Painter {
                 placer.avoid_line(x, y, next_x, next_y);
                 placer.avoid_line(x - 5, y, x + 5, y);
             }
+            if (curve.points.empty() || !curve.points.front().x_with_build) continue;
+            placer.avoid_line(spots[0].first, spots[0].second,
+                              x_.at(*curve.points.front().x_with_build), spots[0].second);
+        }
+        const Spots steps = spots_of(plot_.front);
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            const double to = i + 1 < steps.size() ? steps[i + 1].first : frame.right;
+            placer.avoid_line(steps[i].first, steps[i].second, to, steps[i].second);
+            if (i + 1 < steps.size())
+                placer.avoid_line(to, steps[i].second, to, steps[i + 1].second);
         }
     }
 
@@ -159,13 +170,14 @@ class Painter {
         if (spots.size() > 1) std::swap(spots.front(), spots.back());
         if (spots.size() > 2) std::swap(spots[1], spots.back());
         return placed_label(placer, curve.label, spots,
-                            fmt::format("small halo name-of-curve s{}", curve.color % plot_styles));
+                            fmt::format("small halo name-of-curve s{}", curve.color % plot_styles),
+                            curve_label_reach);
     }
 
     std::string placed_label(LabelPlacer& placer, const std::string& text, const Spots& spots,
-                             const std::string& css_class) const {
+                             const std::string& css_class, double reach = 0) const {
         if (text.empty()) return "";
-        const auto place = placer.place(text, spots);
+        const auto place = placer.place(text, spots, reach);
         return place ? svg_label(place->x, place->y, place->anchor, text, css_class) : "";
     }
 

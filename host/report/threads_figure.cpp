@@ -21,11 +21,11 @@ void add_threads_row(ThreadsCurves& curves, const PlacedRow& placed) {
     const BenchFigures& figures = *placed.figures;
     if (!figures.speed_up || !figures.amdahl) return;
     const double threads = figures.threads;
-    PlotPoint point =
-        plain_point(threads, *figures.speed_up,
-                    fmt::format("{}: {} times one thread; Amdahl: {}", device_label(*placed.row),
-                                significant(*figures.speed_up, 3), significant(*figures.amdahl, 3)),
-                    placed.source);
+    PlotPoint point = plain_point(
+        threads, *figures.speed_up,
+        fmt::format("{}: {} times as fast as one thread; Amdahl: {}", device_label(*placed.row),
+                    significant(*figures.speed_up, 3), significant(*figures.amdahl, 3)),
+        placed.source);
     const Spread& total = figures.total;
     const double base = *figures.speed_up * total.median;
     point.y_low = base / (total.median + total.mad);
@@ -57,7 +57,7 @@ std::string sentences(const CurvesBySchedule& curves) {
             "<p{}>{:g} threads {}are {} times as fast as one (Amdahl's law: {}), counting the "
             "total time.</p>\n",
             html_attribute("data-source", point.source), point.x,
-            schedule == "buffers" ? "with a buffer each " : "", significant(point.y, 3),
+            schedule == "buffers" ? "with sample buffers " : "", significant(point.y, 3),
             significant(pair.predicted.points.back().y, 3));
     }
     return html;
@@ -71,7 +71,7 @@ Plot threads_plot(CurvesBySchedule all, std::size_t index) {
     plot.y = {"total: times as fast as one thread", 0, 1, false, AxisUnit::plain};
     int style = 0;
     for (auto& [schedule, curves] : all) {
-        curves.measured.label = schedule == "buffers" ? "a buffer each" : "shared tiles";
+        curves.measured.label = schedule == "buffers" ? "sample buffers" : "shared tiles";
         curves.predicted.label = "Amdahl, " + schedule;
         curves.predicted.is_prediction = true;
         curves.measured.color = curves.predicted.color = DeviceColors::threads;

@@ -15,10 +15,6 @@ namespace rt {
 
 namespace {
 
-std::string size_text(const BenchCase& asked) {
-    return fmt::format("{} x {}", asked.width, asked.height);
-}
-
 std::string precision_text(const BenchCase& asked) {
     return asked.double_precision ? "double" : "float";
 }
@@ -30,9 +26,9 @@ std::string verdict_text(const BenchRow& row) { return to_string(row.verdict); }
 HtmlTable paper_table(const std::vector<PlacedRow>& rows) {
     HtmlTable table;
     const BenchCase& first = rows.front().row->asked;
-    table.caption = fmt::format("{}, {}: ray trace, milliseconds, medians; fastest in bold",
-                                aa_label(first.aa), precision_text(first));
-    table.caption[0] = static_cast<char>(std::toupper(table.caption[0]));
+    const std::string sampling = sampling_text(first.aa);
+    table.caption = fmt::format("Ray trace, {}, {}: milliseconds, medians; fastest in bold",
+                                sampling, precision_text(first));
     table.heads = {"pixels"};
     for (const PlacedRow& placed : rows) {
         const std::string label = device_label(*placed.row);
@@ -51,7 +47,7 @@ HtmlTable paper_table(const std::vector<PlacedRow>& rows) {
         const std::int64_t pixels = pixels_of(placed.row->asked);
         auto& cells = lines[pixels];
         cells.resize(table.heads.size());
-        cells[0].text = size_text(placed.row->asked);
+        cells[0].text = size_text(placed.row->asked.width, placed.row->asked.height);
         const auto column =
             std::find(table.heads.begin(), table.heads.end(), device_label(*placed.row)) -
             table.heads.begin();
@@ -65,11 +61,17 @@ HtmlTable paper_table(const std::vector<PlacedRow>& rows) {
     return table;
 }
 
+/// Single rays are in the plot and in the table of all settings; a buffer per sample is a schedule
+/// of its own only where there are several samples and threads.
+bool in_paper_tables(const BenchCase& asked) {
+    if (asked.schedule == "buffers") return asked.threads > 1 && asked.aa.samples() > 1;
+    return asked.schedule != "scalar";
+}
+
 std::string paper_tables(const std::vector<PlacedRow>& rows) {
     std::vector<std::vector<PlacedRow>> groups;
     for (const PlacedRow& placed : rows) {
-        if (placed.row->asked.schedule == "scalar")
-            continue;  // in the plot, and in the table of every row
+        if (!in_paper_tables(placed.row->asked)) continue;
         const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& others) {
             const BenchCase& other = others.front().row->asked;
             return other.aa == placed.row->asked.aa &&
@@ -88,8 +90,8 @@ std::string paper_tables(const std::vector<PlacedRow>& rows) {
 
 std::vector<HtmlCell> full_row(const PlacedRow& placed) {
     const BenchCase& asked = placed.row->asked;
-    std::vector<HtmlCell> cells{{size_text(asked), placed.source},
-                                {aa_label(asked.aa), ""},
+    std::vector<HtmlCell> cells{{size_text(asked.width, asked.height), placed.source},
+                                {to_string(asked.aa), ""},
                                 {precision_text(asked), ""},
                                 {device_label(*placed.row), ""}};
     if (!placed.figures) {
@@ -114,7 +116,7 @@ std::vector<HtmlCell> full_row(const PlacedRow& placed) {
 
 std::string full_table(const std::vector<PlacedRow>& rows) {
     HtmlTable table{
-        "Every row; total excludes starting the program, reading the scene and writing the "
+        "All settings; total excludes starting the program, reading the scene and writing the "
         "picture; speed-up is over one thread; RMSE is against double precision at the same "
         "samples",
         {"pixels", "sampling", "precision", "device", "trace, ms", "noise, %", "total, ms",
@@ -122,9 +124,9 @@ std::string full_table(const std::vector<PlacedRow>& rows) {
         {}};
     for (const PlacedRow& placed : rows) table.rows.push_back(full_row(placed));
     return fmt::format(
-               "<p class=\"on-paper\">The table of all {} rows, with noise, rays per second, "
-               "speed-up and error, is left out on paper.</p>\n<details><summary>All {} rows with "
-               "noise, rays per second, speed-up and error</summary>\n",
+               "<p class=\"on-paper\">The table of all {} settings, with noise, rays per second, "
+               "speed-up and error, is left out on paper.</p>\n<details><summary>All {} settings, "
+               "with noise, rays per second, speed-up and error</summary>\n",
                rows.size(), rows.size()) +
            html_table(table) + "</details>\n";
 }
@@ -138,8 +140,9 @@ std::string timing_section(const ReportScene& scene, std::size_t index) {
     return fmt::format(
                "<h3>Time</h3>\n"
                "<p>Medians of {} repeats, interleaved so that a slow moment of the machine affects "
-               "every row equally; the first round is not counted. A wrong picture gets no "
-               "time.</p>\n",
+               "every row equally; the first round is not counted. A wrong picture gets no time. "
+               "With sample buffers, the paper's schedule, each thread traces one sample of every "
+               "pixel at a time.</p>\n",
                scene.bench.repeats_asked) +
            paper_tables(rows) + full_table(rows) + phases_figure(rows, colors) +
            size_figures(rows, index, colors) + threads_html(rows, index);

@@ -14,7 +14,7 @@ namespace rt {
 
 namespace {
 
-/// "All 24 pictures are right: rounding is RMSE 1.8·10⁻⁷ at most."
+/// "All 24 measured settings of device, size and sampling gave the right picture; ..."
 std::string correctness_text(const BenchResult& bench) {
     std::size_t timed = 0, wrong = 0, failed = 0;
     double rounding = 0;
@@ -28,10 +28,12 @@ std::string correctness_text(const BenchResult& bench) {
     }
     if (wrong + failed > 0) {
         return fmt::format("Of {}, {} gave a wrong picture and {} failed.",
-                           counted(bench.rows.size(), "row"), wrong, failed);
+                           counted(bench.rows.size(), "measured setting"), wrong, failed);
     }
-    return fmt::format("The pictures of all {} rows are right: float is within RMSE {} of double.",
-                       timed, scientific_text(rounding));
+    return fmt::format(
+        "All {} measured settings of device, size and sampling gave the right picture; float is "
+        "within RMSE {} of double.",
+        timed, scientific_text(rounding));
 }
 
 /// "With set-up it takes 41 ms, one thread 330 ms."
@@ -70,7 +72,8 @@ std::string verdict_text(const ReportScene& scene, std::size_t index) {
                                    figures.threads > 1 ? "trace" : "traces", scene_name(scene),
                                    duration_text(figures.trace.median));
     if (figures.trace_speed_up && figures.threads != 1) {
-        text += fmt::format(": {} times one thread", significant(*figures.trace_speed_up, 3));
+        text += fmt::format(": {} times as fast as one thread",
+                            significant(*figures.trace_speed_up, 3));
     }
     return text;
 }
@@ -79,8 +82,8 @@ std::string verdict_details(const ReportScene& scene, std::size_t index) {
     const auto fastest = fastest_row(scene, index);
     if (!fastest) return "";
     const BenchCase& asked = fastest->row->asked;
-    return fmt::format("{} x {} pixels, {}, float. {} {}", asked.width, asked.height,
-                       to_string(asked.aa), total_text(*fastest->figures),
+    return fmt::format("{} pixels, {}, float. {} {}", size_text(asked.width, asked.height),
+                       sampling_text(asked.aa), total_text(*fastest->figures),
                        correctness_text(scene.bench));
 }
 

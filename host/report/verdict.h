@@ -19,10 +19,12 @@ std::string scene_name(const ReportScene& scene);
 /// The fastest row of the largest picture; empty where nothing was timed.
 std::optional<PlacedRow> fastest_row(const ReportScene& scene, std::size_t index);
 
-/// "PoCL traces Cornell box in 22 ms: 14.7 times one thread"; empty where nothing was timed.
+/// "PoCL traces Cornell box in 22 ms: 14.7 times as fast as one thread"; empty where nothing was
+/// timed.
 std::string verdict_text(const ReportScene& scene, std::size_t index);
 
-/// "500 x 500 pixels, grid:2, float. All 24 rows are right ...": the details behind the verdict.
+/// "500 x 500 pixels, 2 x 2 samples per pixel (grid:2), float. All 24 ...": the details behind the
+/// verdict.
 std::string verdict_details(const ReportScene& scene, std::size_t index);
 
 }  // namespace rt
