@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""mirrorball from Python: each call runs the program as a process of its own.
+"""mirrorball from Python: each call runs the program in a process of its own.
 
-A scene is a path, or a dict of the same shape as a JSON scene. Keyword arguments are the program's
-options with `_` for `-`. Mistakes raise Error, or the subclass of the program's exit code.
+A scene is a path, or a dict with the keys of a JSON scene. Keyword arguments are the program's options,
+with `_` for `-`. What fails raises Error, or its subclass for the program's exit code.
 """
 from .errors import (DeviceError, Error, InputError, InternalError, LimitError, MissingPartsError,
                      NonFiniteError, OutputError, UsageError)

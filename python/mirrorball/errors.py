@@ -12,11 +12,11 @@ class Error(Exception):
 
 
 class UsageError(Error):
-    """Exit code 2: an option that is not there, or a value that it does not take."""
+    """Exit code 2: an unknown option, or a value that an option does not take."""
 
 
 class InputError(Error):
-    """Exit code 3: a scene or picture was refused."""
+    """Exit code 3: a scene or picture was rejected."""
 
 
 class OutputError(Error):
@@ -24,7 +24,7 @@ class OutputError(Error):
 
 
 class DeviceError(Error):
-    """Exit code 5: no usable device, or it failed and nothing may stand in for it."""
+    """Exit code 5: no usable device, or it failed under no_fallback=True."""
 
 
 class NonFiniteError(Error):
@@ -32,15 +32,15 @@ class NonFiniteError(Error):
 
 
 class LimitError(Error):
-    """Exit code 7: over a limit of memory or size."""
+    """Exit code 7: over a memory or size limit."""
 
 
 class MissingPartsError(Error):
-    """Exit code 8: parts of the picture are missing (a timeout, shares that are not there)."""
+    """Exit code 8: parts of the picture are missing, for example after a timeout."""
 
 
 class InternalError(Error):
-    """Exit code 70: a defect of the program's own."""
+    """Exit code 70: a bug in mirrorball."""
 
 
 _BY_EXIT_CODE = {2: UsageError, 3: InputError, 4: OutputError, 5: DeviceError, 6: NonFiniteError,

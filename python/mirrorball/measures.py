@@ -5,15 +5,15 @@ from __future__ import annotations
 import contextlib
 import re
 import tempfile
-from typing import Any, Iterable
+from typing import Any, Dict, Iterable, List
 
 from .picture import as_file
 from .program import option_words, run, run_json
 from .scenes import Scene, scene_path
 
 
-class Rows(list):
-    """Flat dicts, one a row, as pandas.DataFrame takes them; report is all that was printed."""
+class Rows(List[Dict[str, Any]]):
+    """Flat dicts, one per row, as pandas.DataFrame takes them; `report` is the full JSON."""
 
     def __init__(self, rows: Iterable[dict[str, Any]], report: dict[str, Any]) -> None:
         super().__init__(rows)
@@ -35,8 +35,9 @@ def _flat(value: dict[str, Any], before: str = "") -> dict[str, Any]:
 def bench(*scenes: Scene, **options: Any) -> Rows:
     """`mirrorball bench`: a row for each device, size, mode and schedule.
 
-    options: sizes=[100, 200], devices=["pocl", "threads:2"], aa=["none", "grid:2"], repeats=5 ..
-    Without a scene, the paper's. Rows that are wrong say so in `verdict`. Raises Error.
+    Options are, for example, sizes=[100, 200], devices=["pocl", "threads:2"], aa=["none", "grid:2"],
+    repeats=5. Without a scene, it measures the paper's. `verdict` says which rows' pictures are wrong.
+    Raises Error.
     """
     with contextlib.ExitStack() as stack:
         paths = [stack.enter_context(scene_path(scene)) for scene in scenes]
@@ -59,8 +60,8 @@ def converge(scene: Scene, **options: Any) -> Rows:
 def compare(picture: Any, reference: Any, **options: Any) -> dict[str, Any]:
     """`mirrorball compare`: how far a picture is from a reference.
 
-    Both are paths, Pictures or arrays of height x width x 3. A broken threshold (max_abs=0, ..) does
-    not raise: `passed` says so. Raises Error.
+    Both are paths, Pictures or arrays of height x width x 3. An error beyond a threshold, such as
+    max_abs=0, does not raise; `passed` is then false. Raises Error.
     """
     with tempfile.TemporaryDirectory(prefix="mirrorball-") as folder:
         return run_json(["compare", as_file(picture, folder, "picture.pfm"),

@@ -14,7 +14,7 @@ import numpy
 def read_pfm(path: Union[str, "os.PathLike[str]"]) -> numpy.ndarray:
     """The pixels of a PFM file: height x width x 3 (or x 1), float32, row 0 at the top.
 
-    Raises ValueError for what is no PFM.
+    Raises ValueError if it is not a PFM file.
     """
     with open(path, "rb") as file:
         kind = file.readline().strip()
@@ -34,7 +34,7 @@ def write_pfm(path: Union[str, "os.PathLike[str]"], array: numpy.ndarray) -> Non
     """Writes height x width x 3 values, row 0 at the top, as a PFM file."""
     array = numpy.asarray(array)
     if array.ndim != 3 or array.shape[2] != 3:
-        raise ValueError(f"an array of height x width x 3 is needed, this one is {array.shape}")
+        raise ValueError(f"the array must be height x width x 3, but is {array.shape}")
     height, width, _ = array.shape
     with open(path, "wb") as file:
         file.write(f"PF\n{width} {height}\n-1.0\n".encode())
@@ -70,12 +70,12 @@ class Picture:
     @property
     def hash(self) -> str:
         """The hash over every bit of the picture, the same on every device."""
-        return self.stats["image"]["hash"]
+        return str(self.stats["image"]["hash"])
 
     @property
     def seconds(self) -> dict[str, Any]:
         """Wall-clock seconds by phase."""
-        return self.stats["seconds"]
+        return dict(self.stats["seconds"])
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the picture as .pfm (every bit) or .png (8 bits a channel)."""
@@ -97,11 +97,11 @@ class Picture:
 
 
 def as_file(picture: Any, folder: str, name: str) -> str:
-    """The path of a picture: of a Picture or an array, of a file written for it."""
+    """The path of a picture; a Picture or an array is first written to a file in the folder."""
     if isinstance(picture, Picture):
         picture = picture.array
     if isinstance(picture, numpy.ndarray):
         path = os.path.join(folder, name)
         write_pfm(path, picture)
         return path
-    return os.fspath(picture)
+    return str(os.fspath(picture))

@@ -21,15 +21,15 @@ _SECONDS_TO_STOP = 10
 
 
 def find_program() -> str:
-    """The path of the program: $MIRRORBALL, else the package's own, else that in PATH.
+    """The path of the program: $MIRRORBALL, else the package's own, else the one in PATH.
 
-    Raises FileNotFoundError where there is none.
+    Raises FileNotFoundError if there is none.
     """
     named = os.environ.get("MIRRORBALL")
     if named:
         found = shutil.which(named)
         if found is None:
-            raise FileNotFoundError(f"MIRRORBALL names {named}, which is no program")
+            raise FileNotFoundError(f"MIRRORBALL is {named}, which is not a program")
         return os.path.abspath(found)
     if _PACKAGED.exists():
         return str(_PACKAGED)
@@ -76,7 +76,7 @@ def option_words(options: dict[str, Any]) -> list[str]:
 
 
 def _stop(process: subprocess.Popen[str]) -> None:
-    """Asks the program to end, as Ctrl-C does; kills it when it does not."""
+    """Asks the program to end, as Ctrl-C does; kills it if it does not."""
     if process.poll() is not None:
         return
     process.send_signal(signal.SIGINT)
@@ -103,8 +103,8 @@ def run(words: Iterable[Any], progress: Optional[Progress] = None,
         accepted: Iterable[int] = (0,)) -> str:
     """What the program prints on stdout.
 
-    Raises Error where it ends with an exit code that is not accepted. An interrupt stops the
-    program before it is raised again.
+    Raises Error if its exit code is not among the accepted. An interrupt first stops the program and
+    is then raised again.
     """
     command = [find_program(), *(_word(word) for word in words)]
     said: list[str] = []
@@ -132,7 +132,7 @@ def run_json(words: Iterable[Any], progress: Optional[Progress] = None,
     """The JSON object that the program prints."""
     printed = run(words, progress, accepted)
     try:
-        return json.loads(printed)
+        return dict(json.loads(printed))
     except ValueError as error:
         raise UsageError("mirrorball printed no JSON: an option here may send it elsewhere",
                          0) from error

@@ -25,10 +25,10 @@ def render(scene: Scene, *, progress: Union[bool, Progress, None] = None,
            **options: Any) -> Picture:
     """Renders a scene.
 
-    scene: a path or a dict. progress: True for a line on stderr, or a function of the share done,
-    0 to 1. options: those of `mirrorball render`: device="pocl", aa="grid:2", size=500 or (640, 480),
-    precision="double" .. but for those that say where the picture and the figures go, or that are for
-    more than one picture. Raises Error.
+    scene: a path or a dict. progress: True for a line on stderr, or a function that is called with the
+    fraction done, 0 to 1. options: those of `mirrorball render`, such as device="pocl", aa="grid:2",
+    size=500 or (640, 480), precision="double", except for those that say where the picture and the
+    figures go or that make several pictures. Raises Error.
     """
     taken = [name for name in _NOT_HERE if options.get(name)]
     if taken:

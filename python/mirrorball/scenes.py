@@ -7,18 +7,18 @@ import json
 import os
 import pathlib
 import tempfile
-from typing import IO, Any, Iterator, Union
+from typing import IO, Any, Dict, Iterator, Union
 
 from .errors import OutputError
 from .program import find_program
 
-Scene = Union[str, "os.PathLike[str]", dict]
+Scene = Union[str, "os.PathLike[str]", Dict[str, Any]]
 
 
 def scene(name: str) -> str:
     """The path of a scene that comes with the program: scene("cornell-box"), scene("gallery/marbles").
 
-    Raises FileNotFoundError where the program brings no such scene.
+    Raises FileNotFoundError if the program has no such scene.
     """
     prefix = pathlib.Path(find_program()).resolve().parent
     for folder in (prefix.parent / "share" / "mirrorball" / "scenes",
@@ -33,7 +33,7 @@ def _plain(value: Any) -> Any:
     """numpy's numbers and arrays as Python's."""
     if hasattr(value, "tolist"):
         return value.tolist()
-    raise TypeError(f"a scene has no place for a {type(value).__name__}: {value}")
+    raise TypeError(f"a scene cannot hold a {type(value).__name__}: {value}")
 
 
 def _new_file(folder: str) -> IO[str]:
@@ -41,16 +41,16 @@ def _new_file(folder: str) -> IO[str]:
         return tempfile.NamedTemporaryFile("w", suffix=".json", prefix=".mirrorball-", dir=folder,
                                            encoding="utf-8")
     except OSError as error:
-        raise OutputError(f"{folder}: a scene with meshes is written to the working folder, which "
-                          "their names are relative to, and cannot be; change to another", 4) from error
+        raise OutputError(f"{folder}: cannot be written to; a scene with meshes needs a file in the "
+                          "working folder, which their names are relative to; change to another", 4) from error
 
 
 @contextlib.contextmanager
 def scene_path(scene: Scene) -> Iterator[str]:
     """A file that holds the scene while the block runs.
 
-    That of a dict with meshes lies in the working folder, which their names are relative to: the
-    program reads nothing from outside of a scene's folder.
+    For a dict with meshes it lies in the working folder, which their names are relative to: the
+    program reads nothing outside of a scene's folder.
     """
     if not isinstance(scene, dict):
         yield os.fspath(scene)
