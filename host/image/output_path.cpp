@@ -31,6 +31,8 @@ std::string advice(int error) {
             return "create the directory first";
         case EISDIR:
             return "give the name of a file, not of a directory";
+        case ENAMETOOLONG:
+            return "give a shorter name";
         default:
             return "write to another place";
     }
@@ -101,6 +103,24 @@ void check_output_path(const std::string& path) {
     if (::stat(directory.c_str(), &status) != 0) fail_to_write(path, errno);
     if (!S_ISDIR(status.st_mode)) fail_to_write(path, ENOTDIR);
     if (::access(directory.c_str(), W_OK | X_OK) != 0) fail_to_write(path, errno);
+}
+
+std::string canonical_output(const std::string& path) {
+    std::error_code error;
+    const fs::path target = find_output_destination(path).file;
+    const fs::path name = fs::weakly_canonical(fs::absolute(target), error);
+    return error ? path : name.string();
+}
+
+void check_outputs_differ(const std::vector<std::string>& outputs) {
+    std::map<std::string, std::string> names;
+    for (const std::string& output : outputs) {
+        if (output.empty() || find_output_destination(output).in_place) continue;
+        const auto [first, is_new] = names.try_emplace(canonical_output(output), output);
+        if (is_new) continue;
+        throw Error(ExitCode::usage, output + ": is the same file as " + first->second +
+                                         ", which is also written; name another");
+    }
 }
 
 std::string partial_path(const std::string& path) {

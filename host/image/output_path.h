@@ -44,6 +44,13 @@ struct DiskFull : Error {
 /// be called before a long computation.
 void check_output_path(const std::string& path);
 
+/// The path through all symbolic links: the same for any name of a file, which need not exist yet.
+std::string canonical_output(const std::string& path);
+
+/// Throws Error(ExitCode::usage) when two of these outputs are one file under any names or links.
+/// An empty name, "-", devices and pipes never match.
+void check_outputs_differ(const std::vector<std::string>& outputs);
+
 /// Where an unfinished picture goes: "dir/out.partial.png" for "dir/out.png".
 std::string partial_path(const std::string& path);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "host/error.h"
 #include "host/lower.h"
@@ -45,6 +46,19 @@ const char* module_name(PictureFormat format) { return names_of(format).module_n
 bool stores_floats(PictureFormat format) {
     return format == PictureFormat::exr || format == PictureFormat::pfm ||
            format == PictureFormat::tiff || format == PictureFormat::hdr;
+}
+
+int longest_side(PictureFormat format) {
+    switch (format) {
+        case PictureFormat::jpeg:
+            return 65500;  // libjpeg's; it ends the process beyond
+        case PictureFormat::webp:
+            return 16383;
+        case PictureFormat::tga:
+            return 65535;
+        default:
+            return std::numeric_limits<int>::max();
+    }
 }
 
 bool needs_module(PictureFormat format) {

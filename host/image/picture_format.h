@@ -20,6 +20,9 @@ const char* module_name(PictureFormat format);
 /// hold 8-bit integers.
 bool stores_floats(PictureFormat format);
 
+/// The most pixels that a side may have, as far as the format or its library limits it.
+int longest_side(PictureFormat format);
+
 /// Whether reading and writing it takes a module (module_loader.h).
 bool needs_module(PictureFormat format);
 

@@ -25,8 +25,9 @@ namespace rt {
 /// other formats drop it. Each name must be "mirrorball:" and then 1 to 20 of [A-Za-z0-9_]. Texts
 /// are UTF-8 without NUL; an empty one is left out.
 ///
-/// Throws Error: usage for the extension, output when it cannot be written, bug for a picture whose
-/// size does not match its pixels or an invalid metadata name.
+/// Throws Error: usage for the extension, output when it cannot be written, limit when the format
+/// cannot hold its size, bug for a picture whose size does not match its pixels or an invalid
+/// metadata name.
 void write_picture(const std::string& path, const Picture& picture, Encoding encoding,
                    std::span<const std::pair<std::string, std::string>> metadata = {},
                    std::optional<PictureFormat> format = {});
@@ -38,6 +39,10 @@ std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding);
 /// extension, Error(output) for a directory that is missing or not writable, or a missing image
 /// library: the format's is loaded here.
 void check_picture_path(const std::string& path, std::optional<PictureFormat> format = {});
+
+/// Throws Error(ExitCode::limit) for a picture larger than its format can hold.
+void check_picture_fits(const std::string& path, int width, int height,
+                        std::optional<PictureFormat> format = {});
 
 /// Reads a picture of any format in picture_format.h, recognized by its first bytes; refuses a name
 /// with another format's extension. Integers become exactly v / 255 or v / 65535, floats are

@@ -85,6 +85,7 @@ void write_picture(const std::string& path, const Picture& picture, Encoding enc
                    Metadata metadata, std::optional<PictureFormat> format) {
     if (!format) format = picture_format_of_name(path);
     check_picture_path(path, format);
+    check_picture_fits(path, picture.width, picture.height, format);
     check_picture(path, picture);
     check_metadata(path, metadata);
     if (format == PictureFormat::pfm) return write_pfm(path, picture);
@@ -98,6 +99,17 @@ std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding) {
     const std::string what = "a picture in memory";
     check_picture(what, picture);
     return encode_png_file(what, picture, encoding, {});
+}
+
+void check_picture_fits(const std::string& path, int width, int height,
+                        std::optional<PictureFormat> format) {
+    if (!format) format = picture_format_of_name(path);
+    const int most = longest_side(*format);
+    if (width <= most && height <= most) return;
+    throw Error(ExitCode::limit,
+                fmt::format("{}: {}x{} pixels, but a {} picture has at most {} on a side; write "
+                            ".png or .exr, or use --size or --crop",
+                            path, width, height, to_string(*format), most));
 }
 
 void check_picture_path(const std::string& path, std::optional<PictureFormat> format) {

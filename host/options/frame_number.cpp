@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/options/frame_number.h"
 
+#include <filesystem>
+
 namespace rt {
 
 namespace {
@@ -28,6 +30,17 @@ std::optional<FrameNumber> find_frame_number(const std::string& name) {
         if (number) found = number;
     }
     return found;
+}
+
+std::string batch_output(const std::string& pattern, const std::string& scene) {
+    const std::string name = std::filesystem::path(scene).stem().string();
+    std::string output;
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+        const bool is_name = pattern.compare(i, 2, "%s") == 0;
+        output += is_name ? name : std::string(1, pattern[i]);
+        if (is_name) ++i;
+    }
+    return output;
 }
 
 }  // namespace rt

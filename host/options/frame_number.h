@@ -16,4 +16,7 @@ struct FrameNumber {
 /// Empty if the name has none, or several.
 std::optional<FrameNumber> find_frame_number(const std::string& name);
 
+/// The pattern with each %s replaced by the scene's name, without folder and extension.
+std::string batch_output(const std::string& pattern, const std::string& scene);
+
 }  // namespace rt

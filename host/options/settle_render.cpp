@@ -100,7 +100,10 @@ void settle_frames(RenderOptions& render) {
     if (!render.reference.empty()) {
         throw Error(ExitCode::usage, "--reference is for one picture; leave out --frames");
     }
-    if (!render.output.empty() && !find_frame_number(render.output)) {
+    render.output = batch_output(render.output, render.scenes.front());
+    const bool is_pattern =
+        render.frames.size() > 1 || render.output.find('%') != std::string::npos;
+    if (!render.output.empty() && is_pattern && !find_frame_number(render.output)) {
         throw Error(ExitCode::usage, fmt::format("-o '{}' names one file for several frames; use "
                                                  "%04d for the frame number, as in out.%04d.png",
                                                  render.output));
@@ -128,6 +131,12 @@ void settle_scenes(RenderOptions& render) {
             throw Error(ExitCode::usage, "SCENE is required; see 'mirrorball render --help'");
         }
         render.scene = render.scenes.front();
+        if (find_frame_number(render.output)) {
+            throw Error(ExitCode::usage,
+                        fmt::format("-o '{}' has a frame number; give --frames, or another name",
+                                    render.output));
+        }
+        render.output = batch_output(render.output, render.scene);
         return;
     }
     if (!render.reference.empty()) {

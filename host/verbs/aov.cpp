@@ -115,10 +115,13 @@ class Aovs {
 
 void check_aov_files(const RenderOptions& options, const std::vector<std::string>& inputs) {
     if (options.aovs.empty()) return;
-    for (const std::string& file : aov_files(options)) {
+    std::vector<std::string> files = aov_files(options);
+    for (const std::string& file : files) {
         check_picture_path(file);
         check_output_is_no_input(file, inputs);
     }
+    files.push_back(options.output);
+    check_outputs_differ(files);
 }
 
 bool write_aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options) {

@@ -35,14 +35,6 @@ std::optional<std::string> next_name(std::istringstream& words) {
     return name;
 }
 
-/// Through all symbolic links; the same for any name of a file that may not exist yet.
-std::string canonical_name(const std::string& path) {
-    std::error_code error;
-    const auto target = find_output_destination(path).file;
-    const auto name = std::filesystem::weakly_canonical(std::filesystem::absolute(target), error);
-    return error ? path : name.string();
-}
-
 }  // namespace
 
 std::optional<BatchItem> parse_batch_line(const std::string& line) {
@@ -74,17 +66,6 @@ std::vector<std::string> scenes_of_list(const std::string& path) {
         }
     }
     return scenes;
-}
-
-std::string batch_output(const std::string& pattern, const std::string& scene) {
-    const std::string name = std::filesystem::path(scene).stem().string();
-    std::string output;
-    for (std::size_t i = 0; i < pattern.size(); ++i) {
-        const bool is_name = pattern.compare(i, 2, "%s") == 0;
-        output += is_name ? name : std::string(1, pattern[i]);
-        if (is_name) ++i;
-    }
-    return output;
 }
 
 std::string frame_output(const std::string& pattern, int frame) {
@@ -181,7 +162,7 @@ bool BatchList::next(BatchItem& item) {
     if (!take(item)) return false;
     if (item.output.empty()) item.output = batch_output(options_.output, item.scene);
     if (item.output.empty()) return true;
-    if (!outputs_.insert(canonical_name(item.output)).second) {
+    if (!outputs_.insert(canonical_output(item.output)).second) {
         throw Error(
             ExitCode::usage,
             item.output + " is already the output of another scene; give each scene its own file");

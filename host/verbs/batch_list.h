@@ -29,9 +29,6 @@ std::optional<BatchItem> parse_batch_line(const std::string& line);
 /// The scenes that a list names; none if it is no regular file, whose end nobody knows.
 std::vector<std::string> scenes_of_list(const std::string& path);
 
-/// The pattern with each %s replaced by the scene's name, without folder and extension.
-std::string batch_output(const std::string& pattern, const std::string& scene);
-
 /// The pattern with its %d or %04d replaced by the frame number.
 std::string frame_output(const std::string& pattern, int frame);
 

@@ -268,6 +268,7 @@ int run_bench(const BenchOptions& options) {
     check_result_path(options.results.json, json_start("mirrorball-bench"));
     check_output_is_no_input(options.results.json, {options.baseline});
     check_result_path(options.results.csv, run_csv_header());
+    check_outputs_differ({options.results.json, options.results.csv});
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
     const FreshKernelCache kernels;

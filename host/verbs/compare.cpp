@@ -179,6 +179,7 @@ int run_compare(const CompareOptions& options) {
     }
     if (!options.heatmap.empty()) check_picture_path(options.heatmap);
     check_result_path(options.json, json_start("mirrorball-compare"));
+    check_outputs_differ({options.heatmap, options.json});
     const Comparison result = compare_pictures(options);
     if (!options.heatmap.empty()) write_heatmap(result, options);
     print_comparison(result, options);

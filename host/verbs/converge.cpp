@@ -12,6 +12,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/image/output_path.h"
 #include "host/measure/bench.h"
 #include "host/print/converge_csv.h"
 #include "host/print/converge_json.h"
@@ -207,6 +208,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
 int run_converge(const ConvergeOptions& options) {
     check_result_path(options.results.json, json_start("mirrorball-converge"));
     check_result_path(options.results.csv, run_csv_header());
+    check_outputs_differ({options.results.json, options.results.csv});
     const FreshKernelCache kernels;
     const ConvergeResult result = measure_converge(options);
     if (!options.quiet) print_notes(result.notes);

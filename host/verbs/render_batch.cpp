@@ -17,6 +17,7 @@
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/opencl/device_spec.h"
+#include "host/options/frame_number.h"
 #include "host/picture/render_cache.h"
 #include "host/print/stats_json.h"
 #include "host/render/stopwatch.h"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <utility>
 
@@ -96,6 +97,11 @@ void check_output(const RenderOptions& options) {
     if (options.output.empty()) return;
     if (options.shares) return check_output_path(options.output);
     check_picture_path(options.output, options.format);
+    const std::string partial = partial_path(options.output);
+    struct stat ignored {};
+    if (::stat(partial.c_str(), &ignored) != 0 && errno == ENAMETOOLONG) {
+        fail_to_write(partial, ENAMETOOLONG);
+    }
 }
 
 void choose_journal(RenderOptions& options) {
@@ -116,6 +122,10 @@ Scene scene_to_render(const RenderOptions& options) {
     check_output_is_no_input(options.output, scene.model_files);
     if (!options.quiet) print_notes(scene.notes);
     apply_overrides(scene, options);
+    if (!options.output.empty() && !options.shares) {
+        const Rect region = options.crop.value_or(Rect{0, 0, scene.width, scene.height});
+        check_picture_fits(options.output, region.width, region.height, options.format);
+    }
     return scene;
 }
 

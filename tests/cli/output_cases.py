@@ -84,6 +84,22 @@ class WrongName(CliTest):
         result = self.run_cli("compare", "out.tif", "out.exr", "--max-abs", "0")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
+    def test_larger_than_the_format_can_hold(self):
+        for name, most in [("out.webp", 16383), ("out.jpg", 65500), ("out.tga", 65535)]:
+            with self.subTest(name=name):
+                result = self.run_cli("render", scene_path(SCENE), "--size", f"{most + 1}x1",
+                                      "--device", "threads", "-o", name)
+                self.assert_refused(result, 7, name, f"{most + 1}x1", str(most))
+        self.render(SCENE, "--size", "16384x1", "--crop", "0,0,16383,1", "--device", "threads",
+                    "-o", "out.webp")
+        self.assertEqual(self.files(), ["out.webp"])
+
+    def test_name_too_long_for_a_partial_picture(self):
+        """Otherwise an interrupted picture would be lost."""
+        self.assertEqual(self.render_to("a" * (255 - len(".partial.png")) + ".png").returncode, 0)
+        self.assert_refused(self.render_to("b" * (256 - len(".partial.png")) + ".png"), 4,
+                            "File name too long", "shorter")
+
     def test_unreadable_reference_is_refused_before_anything_is_written(self):
         result = self.render_to("out.png", "--reference", "nowhere.png")
         self.assertEqual(result.returncode, 3, result.stderr)
@@ -146,6 +162,42 @@ class OverInputs(CliTest):
         self.write_text("old.json", '{\n  "format": "mirrorball-bench"')
         self.refuse("bench", scene_path(SCENE), "--baseline", "old.json", "--json", "old.json",
                     files=["old.json"])
+
+
+class OneFileTwice(CliTest):
+    """Two results in one file, by whatever names, are refused before any work."""
+
+    def refuse(self, *arguments):
+        before = self.files()
+        self.assert_refused(self.run_cli(*arguments), 2, "is the same file as", "also written")
+        self.assertEqual(self.files(), before)
+
+    def test_results_of_bench_and_converge(self):
+        os.symlink("a.x", self.folder / "link")
+        for verb in ["bench", "converge"]:
+            for other in ["a.x", "./a.x", "link"]:
+                self.refuse(verb, scene_path(SCENE), "--devices", "threads:1", "--json=a.x",
+                            f"--csv={other}")
+
+    def test_heat_map_and_json(self):
+        self.render(SCENE, "--size", "8", "--device", "threads", "-o", "a.png")
+        self.refuse("compare", "a.png", "a.png", "--json=h.png", "--heatmap=h.png")
+
+    def test_picture_and_aovs(self):
+        os.symlink("out.png", self.folder / "out.depth.png")
+        os.symlink("out.id.png", self.folder / "out.normal.png")
+        for aovs in ["depth", "id,normal"]:
+            self.refuse("render", scene_path(SCENE), "-o", "out.png", "--aov", aovs)
+
+
+class Patterns(CliTest):
+    def test_of_one_scene(self):
+        self.render(SCENE, "--size", "8", "--device", "threads", "-o", "a-%s.png")
+        self.assertEqual(self.files(), [f"a-{SCENE}.png"])
+
+    def test_frame_number_without_frames(self):
+        self.assert_refused(self.run_cli("render", scene_path(SCENE), "-o", "a%04d.png"), 2,
+                            "a%04d.png", "--frames")
 
 
 class Libraries(CliTest):
