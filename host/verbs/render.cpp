@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/console.h"
+#include "host/counted.h"
 #include "host/error.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
@@ -34,6 +35,15 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
     const int width = options.crop ? options.crop->width : scene.width;
     const int height = options.crop ? options.crop->height : scene.height;
     if (reference.width == width && reference.height == height && reference.channels == 3) {
+        if (const std::size_t count = count_non_finite(reference); count > 0) {
+            const auto [x, y] = first_non_finite(reference);
+            throw Error(
+                ExitCode::input,
+                fmt::format("{}: {} not finite, the first at {},{}; give a reference "
+                            "without NaN and infinities",
+                            options.reference,
+                            count == 1 ? "1 pixel is" : counted(count, "pixel") + " are", x, y));
+        }
         return reference;
     }
     throw Error(ExitCode::input, fmt::format("{}: {}x{} pixels of {} channels, but the picture "

@@ -9,7 +9,7 @@ import subprocess
 import jsonschema
 
 from hang_limit import HANG_LIMIT
-from harness import SETTINGS, CliTest
+from harness import SETTINGS, CliTest, scene_path
 from pictures import png_texts, read_pfm, read_png
 
 CYAN = (0, 255, 255)
@@ -103,6 +103,15 @@ class Catches(CompareTest):
         answer = self.figures("a.pfm", "a.pfm", "--clamp", code=1)
         self.assertEqual(len(answer["breaches"]), 2)
         self.assertFalse(answer["identical"])
+
+    def test_reference_of_a_render(self):
+        values = [0.5] * (8 * 8 * 3)
+        values[3 * (8 * 7 + 5)] = math.inf
+        self.write_pfm("inf.pfm", 8, 8, values)
+        result = self.run_cli("render", scene_path("empty"), "--size", "8", "-o", "out.png",
+                              "--reference", "inf.pfm")
+        self.assert_refused(result, 3, "inf.pfm: 1 pixel is not finite, the first at 5,7")
+        self.assertEqual(self.files(), ["inf.pfm"])
 
     def test_all_nan(self):
         self.write_pfm("a.pfm", 2, 2, [math.nan] * 12)
