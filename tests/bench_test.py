@@ -226,6 +226,17 @@ class Converge(FiguresTest):
         self.assertEqual(self.result["reference"]["floor"],
                          self.result["reference"]["halves_rmse"] / 2)
 
+    def test_a_damaged_reference_is_rendered_again(self):
+        """A bit of one pixel: in range, and the file has its size."""
+        path = pathlib.Path(self.result["reference"]["cache_path"])
+        good = path.read_bytes()
+        path.write_bytes(good[:-4] + bytes([good[-4] ^ 1]) + good[-3:])
+        again = run("converge", SCENE, "--size", "16x12", "--reference-samples", "256", "-q",
+                    "--aa", "none", "--devices", "threads:1", "--json")
+        self.assertIn("damaged", again.stderr)
+        self.assertFalse(json.loads(again.stdout)["reference"]["from_cache"])
+        self.assertEqual(path.read_bytes(), good)
+
     def test_points(self):
         for point, (_, rmse) in zip(self.points, self.costs()):
             self.assertEqual(point["verdict"], "right", point["why"])

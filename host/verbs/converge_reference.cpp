@@ -56,18 +56,29 @@ std::string cache_path(const std::string& folder, const Scene& scene) {
                        hash_text(settings.value()));
 }
 
-/// Empty if the file is missing or does not fit.
+std::uint64_t hash_of(const Picture& picture) {
+    Hasher hasher;
+    hasher.add_bytes(std::as_bytes(std::span(picture.pixels)));
+    return hasher.value();
+}
+
+/// Beside a cached half: the hash of its pixels.
+std::string hash_path(const std::string& path) { return path + ".hash"; }
+
+/// Empty if the file is missing or damaged.
 std::optional<Picture> read_half(const std::string& path, const Scene& scene) {
     std::error_code ignored;
     if (path.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
     try {
         Picture half = read_pfm(path, open_input_file(path));
+        std::string hash;
+        open_input_file(hash_path(path)).stream >> hash;
         const bool fits =
             half.width == scene.width && half.height == scene.height && half.channels == 3;
-        if (fits && count_non_finite(half) == 0) return half;
+        if (fits && hash == hash_text(hash_of(half))) return half;
     } catch (const Error&) {
-        // A damaged cache file counts as missing.
     }
+    print_message(fmt::format("mirrorball: {}: a damaged reference; rendering it again\n", path));
     return std::nullopt;
 }
 
@@ -76,6 +87,8 @@ void keep_half(const std::string& path, const Picture& half) {
         std::error_code ignored;
         std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
         write_pfm(path, half);
+        const std::string hash = hash_text(hash_of(half));
+        write_file_atomically(hash_path(path), std::as_bytes(std::span(hash)));
     } catch (const Error& error) {
         print_message(fmt::format("mirrorball: the reference is not cached: {}\n", error.what()));
     }
@@ -111,12 +124,6 @@ Half make_half(Scene scene, int seed, const ConvergeOptions& options) {
         keep_half(half.path, half.picture);
     }
     return half;
-}
-
-std::uint64_t hash_of(const Picture& picture) {
-    Hasher hasher;
-    hasher.add_bytes(std::as_bytes(std::span(picture.pixels)));
-    return hasher.value();
 }
 
 Picture mean_of(const Picture& a, const Picture& b) {
