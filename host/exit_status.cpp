@@ -13,7 +13,9 @@ namespace rt {
 
 namespace {
 
+/// Also prints the results so far: main ends without closing the streams.
 int failed(ExitCode code, const char* message) {
+    std::fflush(stdout);
     print_error(message);
     return static_cast<int>(code);
 }
@@ -26,10 +28,7 @@ int exit_status_of(const std::function<int()>& run) {
     } catch (const Error& error) {
         return failed(error.exit_code(), error.what());
     } catch (const std::bad_alloc&) {
-        const int status =
-            failed(ExitCode::limit, "out of memory; render a smaller picture or scene");
-        std::fflush(stdout);
-        return status;
+        return failed(ExitCode::limit, "out of memory; render a smaller picture or scene");
     } catch (const std::system_error& error) {
         return failed(ExitCode::limit, error.what());
     } catch (const std::exception& error) {

@@ -174,6 +174,16 @@ class Bench(FiguresTest):
         self.assertIn("slower: ", self.bench_against(-1e6, 1).stderr)
         self.assertEqual(self.bench_against(1e6, 0).stderr, "")
 
+    def test_damaged_baseline(self):
+        """Refused before anything is measured."""
+        path = pathlib.Path(CACHE.name) / "damaged.json"
+        good = json.dumps(self.result)
+        for text in ["", "[]", "{}", good[:-9]]:
+            path.write_text(text, encoding="utf-8")
+            result = run("bench", SCENE, "--sizes", "16", "--baseline", str(path), code=3)
+            self.assertIn("damaged.json", result.stderr)
+            self.assertEqual((result.stdout, result.stderr.count("\n")), ("", 1))
+
     def test_a_scene_is_never_replaced_by_results(self):
         before = pathlib.Path(SCENE).read_bytes()
         self.assertIn("name another file", run("bench", "--json=" + SCENE, code=2).stderr)

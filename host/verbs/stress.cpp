@@ -5,6 +5,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/image/output_path.h"
 #include "host/print/result_file.h"
 #include "host/print/run_json.h"
 #include "host/print/stats_json.h"
@@ -30,6 +31,7 @@ void make_folder(const std::string& folder) {
         throw Error(ExitCode::output,
                     fmt::format("{}: cannot create the folder: {}", folder, error.message()));
     }
+    if (!folder.empty()) check_output_path(folder + "/reference.png");
 }
 
 }  // namespace

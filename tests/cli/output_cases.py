@@ -256,6 +256,13 @@ class NoRoom(CliTest):
                 self.assert_refused(result, 4, name, "ulimit")
                 self.assert_old_file_untouched(folder, name)
 
+    def test_results_are_printed_even_if_their_file_cannot_be_written(self):
+        result = self.run_cli("bench", scene_path(SCENE), "--sizes", "8", "--aa", "none",
+                              "--devices", "threads:1", "--repeats", "1", "-q", "--json=/dev/full")
+        self.assertEqual(result.returncode, 4)
+        self.assertIn("/dev/full: cannot write", result.stderr)
+        self.assertIn("Mray/s", result.stdout)
+
     def test_full_disk(self):
         place = self.small_disk("size=8k")
         for name in ["out.pfm", "out.png", "out.exr"]:
@@ -284,3 +291,6 @@ class NoRoom(CliTest):
                               "-o", locked / "out.png", user=65534, group=65534, extra_groups=[],
                               env={"POCL_CACHE_DIR": str(cache)})
         self.assert_refused(result, 4, "out.png", "Permission denied")
+        result = self.run_cli("stress", "--case", "shift", "--device", "threads", "-o", locked,
+                              user=65534, group=65534, extra_groups=[])
+        self.assert_refused(result, 4, "locked", "Permission denied")
