@@ -138,8 +138,9 @@ std::string stress_text(const StressResult& result, bool verbose) {
         std::count_if(result.families.begin(), result.families.end(),
                       [](const StressFamilyResult& family) { return family.passed(); });
     return text + fmt::format("{}: {} of {} families, {:.0f} s{}\n",
-                              result.passed() ? "PASS" : "FAIL", passed, result.families.size(),
-                              result.seconds, result.interrupted ? ", interrupted" : "");
+                              result.passed() ? "PASS" : "FAIL", passed,
+                              result.families.size() + result.unfinished, result.seconds,
+                              result.interrupted ? ", interrupted" : "");
 }
 
 std::string stress_list(const std::vector<StressFamily>& families) {

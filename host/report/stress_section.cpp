@@ -92,7 +92,7 @@ std::string stress_verdict(const StressResult& result) {
         std::count_if(result.families.begin(), result.families.end(),
                       [](const StressFamilyResult& family) { return family.passed(); }));
     std::string text = fmt::format("{}: {} of {} families", result.passed() ? "PASS" : "FAIL",
-                                   passed, result.families.size());
+                                   passed, result.families.size() + result.unfinished);
     const std::vector<std::size_t> order = by_margin(result);
     const StressFamilyResult& closest = result.families[order.front()];
     if (const auto used = used_tolerance(closest); used && closest.passed()) {

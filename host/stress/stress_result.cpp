@@ -16,7 +16,7 @@ bool StressFamilyResult::passed() const {
 }
 
 bool StressResult::passed() const {
-    return !families.empty() &&
+    return !families.empty() && !interrupted &&
            std::all_of(families.begin(), families.end(),
                        [](const StressFamilyResult& family) { return family.passed(); });
 }

@@ -58,6 +58,7 @@ struct StressResult {
     double load_before = 0;
     double seconds = 0;
     bool quick = false, interrupted = false;
+    std::size_t unfinished = 0;  ///< families that an interruption left without a verdict
     std::vector<StressFamilyResult> families;
 
     bool passed() const;

@@ -257,10 +257,12 @@ StressResult run_stress_cases(const std::vector<StressFamily>& families,
             print_message(fmt::format("mirrorball: {}, {} case{}\n", family.name,
                                       family.cases.size(), family.cases.size() == 1 ? "" : "s"));
         }
-        result.families.push_back(runner.run(family));
-        if (stop_flag() != 0) break;
+        StressFamilyResult done = runner.run(family);
+        if (stop_flag() != 0) break;  // it may be unfinished: no verdict
+        result.families.push_back(std::move(done));
     }
     result.interrupted = stop_flag() != 0;
+    result.unfinished = families.size() - result.families.size();
     result.seconds = watch.seconds();
     return result;
 }

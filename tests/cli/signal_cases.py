@@ -238,6 +238,21 @@ class Interrupted(CliTest):
         self.assertEqual(self.pictures(), [])
 
 
+class StressTest(CliTest):
+    def test_an_unfinished_family_has_no_verdict(self):
+        process = self.start("stress", "--device", "threads", "--json", "s.json")
+        for _ in range(2):
+            last = process.stderr.readline()
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=HANG_LIMIT)
+        self.assertEqual(process.returncode, 130)
+        result = json.loads((self.folder / "s.json").read_text())
+        names = [family["name"] for family in result["families"]]
+        self.assertNotIn(last.split()[1].rstrip(","), names)
+        self.assertEqual((result["interrupted"], result["passed"]), (True, False))
+        self.assertRegex(output, rf"FAIL: {len(names)} of \d\d families, .*interrupted")
+
+
 class LargeSceneTest(CliTest):
     def write_large_scene(self, spheres):
         """One that takes a while to read."""
