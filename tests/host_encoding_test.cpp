@@ -34,12 +34,5 @@ TEST(Encode8bit, ClampsAndSendsNanToZero) {
     }
 }
 
-TEST(ParseEncoding, IsTheInverseOfToString) {
-    for (const Encoding encoding : {Encoding::display, Encoding::srgb, Encoding::linear}) {
-        EXPECT_EQ(parse_encoding(to_string(encoding)), encoding);
-    }
-    EXPECT_EQ(refusal_of([] { parse_encoding("sRGB"); }).exit_code, ExitCode::usage);
-}
-
 }  // namespace
 }  // namespace rt

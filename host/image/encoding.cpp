@@ -24,14 +24,6 @@ std::string_view to_string(Encoding encoding) {
     throw Error(ExitCode::bug, "encoding: unknown value; please report this");
 }
 
-Encoding parse_encoding(std::string_view name) {
-    for (const Encoding encoding : {Encoding::display, Encoding::srgb, Encoding::linear}) {
-        if (name == to_string(encoding)) return encoding;
-    }
-    throw Error(ExitCode::usage, "--encoding: unknown encoding '" + std::string(name) +
-                                     "'; use display, srgb or linear");
-}
-
 double srgb_from_linear(double linear) {
     if (linear <= 0.0031308) return 12.92 * linear;
     return 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;

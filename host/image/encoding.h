@@ -21,9 +21,6 @@ enum class Encoding { display, srgb, linear };
 /// The name on the command line: "display", "srgb" or "linear".
 std::string_view to_string(Encoding encoding);
 
-/// The inverse of to_string; throws Error(ExitCode::usage) listing the names.
-Encoding parse_encoding(std::string_view name);
-
 /// The transfer curve of IEC 61966-2-1 from linear light to the stored value, both in [0, 1].
 double srgb_from_linear(double linear);
 

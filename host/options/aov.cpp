@@ -21,7 +21,9 @@ Aov parse_aov(const std::string& name) {
     for (const Aov aov : all_aovs) {
         if (name == to_string(aov)) return aov;
     }
-    refuse("--aov", name, "give a list of depth, normal, id, rays, samples");
+    std::vector<std::string> names;
+    for (const Aov aov : all_aovs) names.emplace_back(to_string(aov));
+    refuse_choice("--aov", name, names);
 }
 
 }  // namespace

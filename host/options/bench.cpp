@@ -26,15 +26,15 @@ void parse_schedules(const std::string& text, BenchOptions& bench) {
             continue;
         }
         if (part != "tiles" && part != "buffers") {
-            refuse("--schedules", part, "give some of tiles,buffers,scalar");
+            refuse_choice("--schedules", part, {"tiles", "buffers", "scalar"});
         }
         bench.schedules.push_back(part == "tiles" ? Schedule::tiles : Schedule::buffers);
     }
 }
 
 void add_baseline(const CommandLine& verb, BenchOptions& bench) {
-    verb.option("--baseline", "FILE", "an earlier --json file: exit 1 if a row has become slower",
-                [&](const std::string& text) { bench.baseline = text; });
+    add_name(verb, "--baseline", "FILE", bench.baseline,
+             "an earlier --json file: exit 1 if a row has become slower");
     verb.option("--max-regress", "P%",
                 "how much slower a row may become (default 5%); changes within noise also pass",
                 [&](const std::string& text) {

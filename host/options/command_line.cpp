@@ -16,16 +16,6 @@ namespace {
 
 CLI::App& app_of(void* app) { return *static_cast<CLI::App*>(app); }
 
-/// What a mistyped word may have meant: "; did you mean '--size'?", or "" if nothing is close.
-std::string guess_text(const std::string& word, const std::vector<std::string>& known) {
-    const std::vector<std::string_view> names(known.begin(), known.end());
-    std::string_view guess = nearest_word(word, names);
-    for (const std::string_view name : names) {
-        if (word.size() > 3 && name.starts_with(word)) guess = name;
-    }
-    return guess.empty() ? "" : fmt::format("; did you mean '{}'?", guess);
-}
-
 std::vector<CLI::App*> verbs_of(CLI::App& app) {
     return app.get_subcommands([](const CLI::App*) { return true; });
 }
@@ -163,7 +153,9 @@ struct CommandLineParser {
         } catch (const CLI::CallForVersion&) {
             return app.version() + "\n";
         } catch (const CLI::ParseError& error) {
-            refuse_line(error.what());
+            const std::string what = error.what();
+            const std::size_t twice = what.find(": At Most 1");
+            refuse_line(twice == what.npos ? what : what.substr(0, twice) + " is given twice");
         }
         return "";
     }

@@ -13,17 +13,14 @@ void add_merge(const CommandLine& program, Options& options) {
     add_picture_output(verb, merge.output, merge.format,
                        "picture file: .png, .exr, .pfm, .tif, .jpg, ... (default: only check the "
                        "parts), or - for standard output");
-    verb.option("--encoding", "display|srgb|linear",
-                "how 8-bit files store linear light (default display: value x 255)",
-                [&](const std::string& text) { merge.encoding = parse_encoding(text); });
+    add_encoding(verb, merge.encoding);
     verb.flag("--allow-missing", merge.allow_missing,
               "write the picture even if parts are missing; they are black");
     verb.option(
         "--verify", "P%", "render P% of the picture again, here and on threads, and compare",
         [&](const std::string& text) { merge.verify = parse_percent("--verify", text, 100); });
-    verb.option("--scene", "SCENE",
-                "where --verify finds the scene (default: the path recorded in the parts)",
-                [&](const std::string& text) { merge.scene = text; });
+    add_name(verb, "--scene", "SCENE", merge.scene,
+             "where --verify finds the scene (default: the path recorded in the parts)");
     verb.flag("-q,--quiet", merge.quiet, "print only errors");
     verb.when_chosen([&options] {
         settle_picture_output(options.merge.output, options.merge.format);

@@ -2,6 +2,7 @@
 #include "host/options/parse.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 
 #include "host/error.h"
 #include "host/printable.h"
+#include "host/scene/words.h"
 
 namespace rt {
 
@@ -21,6 +23,12 @@ constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 
 void refuse(const std::string& option, const std::string& value, const std::string& expected) {
     throw Error(ExitCode::usage, fmt::format("{} '{}': {}", option, printable(value), expected));
+}
+
+void refuse_choice(const std::string& option, const std::string& value,
+                   const std::vector<std::string>& choices) {
+    refuse(option, value,
+           fmt::format("give {}{}", fmt::join(choices, ", "), guess_text(value, choices)));
 }
 
 std::optional<std::vector<int>> parse_integers(std::string_view text, char separator) {
@@ -91,6 +99,14 @@ double parse_percent(const std::string& option, const std::string& text, double 
         refuse(option, text, fmt::format("give a percentage from 0% to {:g}%", most));
     }
     return percent / 100;
+}
+
+void add_name(const CommandLine& verb, const std::string& option, const std::string& type,
+              std::string& name, const std::string& help) {
+    verb.option(option, type, help, [&name, option](const std::string& text) {
+        if (text.empty()) refuse(option, text, "give a name");
+        name = text;
+    });
 }
 
 std::string environment(const char* name) {

@@ -14,6 +14,10 @@ namespace rt {
 [[noreturn]] void refuse(const std::string& option, const std::string& value,
                          const std::string& expected);
 
+/// The same for a name that is none of the choices: lists them, and says which may be meant.
+[[noreturn]] void refuse_choice(const std::string& option, const std::string& value,
+                                const std::vector<std::string>& choices);
+
 /// Integers with a separator between them; those too large for int become its largest value, for
 /// range checks to reject. Empty for any other text.
 std::optional<std::vector<int>> parse_integers(std::string_view text, char separator);
@@ -33,6 +37,11 @@ double parse_percent(const std::string& option, const std::string& text, double 
 /// The value of an environment variable, or "".
 std::string environment(const char* name);
 
+/// An option that names a file, folder or scene: any text but an empty one, which a script whose
+/// variable is unset gives.
+void add_name(const CommandLine& verb, const std::string& option, const std::string& type,
+              std::string& name, const std::string& help);
+
 template <typename E>
 struct Choice {
     const char* name;
@@ -43,9 +52,11 @@ struct Choice {
 template <typename E>
 void add_choice(const CommandLine& verb, const std::string& option, E& value,
                 const std::vector<Choice<E>>& choices, const std::string& help) {
-    std::string names;
+    std::string type;
+    std::vector<std::string> names;
     for (const Choice<E>& choice : choices) {
-        names += (names.empty() ? "" : "|") + std::string(choice.name);
+        type += (type.empty() ? "" : "|") + std::string(choice.name);
+        names.emplace_back(choice.name);
     }
     const auto read = [&value, choices, option, names](const std::string& text) {
         for (const Choice<E>& choice : choices) {
@@ -54,9 +65,9 @@ void add_choice(const CommandLine& verb, const std::string& option, E& value,
                 return;
             }
         }
-        refuse(option, text, "give one of " + names);
+        refuse_choice(option, text, names);
     };
-    verb.option(option, names, help, read);
+    verb.option(option, type, help, read);
 }
 
 }  // namespace rt

@@ -26,6 +26,13 @@ void add_picture_output(const CommandLine& verb, std::string& output,
                 });
 }
 
+void add_encoding(const CommandLine& verb, Encoding& encoding) {
+    add_choice<Encoding>(
+        verb, "--encoding", encoding,
+        {{"display", Encoding::display}, {"srgb", Encoding::srgb}, {"linear", Encoding::linear}},
+        "how 8-bit files store linear light (default display: value x 255)");
+}
+
 void settle_picture_output(const std::string& output, std::optional<PictureFormat>& format) {
     if (output != stdout_path) {
         if (!format) return;

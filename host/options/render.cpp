@@ -58,7 +58,7 @@ std::string parse_isa(const std::string& text) {
     const std::vector<std::string> isas = native_isas();
     if (text == "auto") return "";
     if (std::find(isas.begin(), isas.end(), text) == isas.end()) {
-        refuse("--isa", text, fmt::format("this processor runs {}", fmt::join(isas, ", ")));
+        refuse_choice("--isa", text, isas);
     }
     return text;
 }
@@ -80,15 +80,14 @@ void parse_features(const std::string& text, RenderOptions& render) {
     if (text == "all" || text == "auto") return;
     for (const std::string& part : split_list("--features", text)) {
         const FeatureName* found = nullptr;
-        std::string names;
+        std::vector<std::string> names{"auto", "all"};
         for (const FeatureName& feature : feature_names) {
             std::string name = feature.name;
             std::replace(name.begin(), name.end(), ' ', '-');
             if (name == part) found = &feature;
-            names += ", " + name;
+            names.push_back(std::move(name));
         }
-        if (found == nullptr)
-            refuse("--features", part, "give auto, all or some of " + names.substr(2));
+        if (found == nullptr) refuse_choice("--features", part, names);
         render.also_features.*found->flag = true;
     }
 }
@@ -140,11 +139,9 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
               "ignore what an interrupted render left in FILE.mbj next to the output");
     verb.flag("--resume", render.resume,
               "save finished tiles in FILE.mbj from the start, not only after 2 s");
-    verb.option("--encoding", "display|srgb|linear",
-                "how 8-bit files store linear light (default display: value x 255)",
-                [&](const std::string& text) { render.encoding = parse_encoding(text); });
-    verb.option("--reference", "FILE", "also print the error against this picture",
-                [&](const std::string& text) { render.reference = text; });
+    add_encoding(verb, render.encoding);
+    add_name(verb, "--reference", "FILE", render.reference,
+             "also print the error against this picture");
 }
 
 void add_device_options(const CommandLine& verb, RenderOptions& render) {
@@ -153,6 +150,7 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
         "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N] or all; several, separated "
         "by commas, share the picture (default: $MIRRORBALL_DEVICE, else the best available)",
         [&](const std::string& text) {
+            if (text.empty()) refuse("--device", text, "name a device, or auto");
             check_device_list(text);
             render.device = text;
         });
@@ -205,7 +203,7 @@ void add_report_options(const CommandLine& verb, RenderOptions& render) {
     verb.optional_value("--stats", "text|json",
                         "phases, rays, features used and left out, on stdout", "text", is_format,
                         [&render, is_format](const std::string& text) {
-                            if (!is_format(text)) refuse("--stats", text, "give text or json");
+                            if (!is_format(text)) refuse_choice("--stats", text, {"text", "json"});
                             render.stats = text == "json" ? StatsFormat::json : StatsFormat::text;
                         });
     add_choice<ProgressMode>(verb, "--progress", render.progress,
@@ -233,10 +231,9 @@ void add_render(const CommandLine& program, Options& options) {
                        "picture file: .png, .exr, .pfm, .tif, .jpg, ... (default: none), or - for "
                        "standard output; for several scenes, %s stands for the scene's name: "
                        "out/%s.png");
-    verb.option(
-        "--batch", "FILE|-",
-        "also render the scenes listed in a file or on stdin, one per line: SCENE or SCENE OUTPUT",
-        [&](const std::string& text) { options.render.batch = text; });
+    add_name(
+        verb, "--batch", "FILE|-", options.render.batch,
+        "also render the scenes listed in a file or on stdin, one per line: SCENE or SCENE OUTPUT");
     add_picture_options(verb, options.render);
     add_light_options(verb, options.render.light);
     add_device_options(verb, options.render);

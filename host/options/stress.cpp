@@ -39,9 +39,8 @@ void add_stress(const CommandLine& program, Options& options) {
     verb.flag("--list", stress.list, "list the cases without running them");
     add_result_file(verb, "--json", stress.json,
                     "write JSON: to FILE, or to stdout instead of the table");
-    verb.option("-o,--output", "DIR",
-                "folder for each case's reference, worst picture and error map",
-                [&](const std::string& text) { stress.output = text; });
+    add_name(verb, "-o,--output", "DIR", stress.output,
+             "folder for each case's reference, worst picture and error map");
     verb.flag("-v,--verbose", stress.verbose, "print a line per case and renderer");
     verb.flag("-q,--quiet", stress.quiet, "no progress on stderr");
     verb.when_chosen([&] { options.verb = Verb::stress; });

@@ -71,7 +71,9 @@ void add_view_options(const CommandLine& verb, ViewSettings& view) {
         "auto", [](const std::string& text) { return find_mode(text) != nullptr; },
         [&view](const std::string& text) {
             const Mode* const mode = find_mode(text);
-            if (mode == nullptr) refuse("--preview", text, "give auto, half, kitty or sixel");
+            if (mode == nullptr) {
+                refuse_choice("--preview", text, {"auto", "half", "kitty", "sixel"});
+            }
             view.preview = mode->mode;
         });
     verb.flag("--show", view.window,

@@ -14,7 +14,6 @@ namespace {
 
 // Of the type on narrow screens.
 constexpr double ascent = 13, descent = 4;
-constexpr double label_gap = 6;     ///< least space between labels on a line
 constexpr double ink_step = 5;      ///< between points sampled along a line
 constexpr double ring_step = 12;    ///< between the distances at which a label may stand
 constexpr double away_cost = 0.25;  ///< per unit of distance; a point of ink costs 3
@@ -47,8 +46,7 @@ LabelPlace beside(double x, double y, const Side& side, double away, double widt
 }
 
 bool overlap(const DrawnBox& a, const DrawnBox& b) {
-    return a.left < b.right + label_gap && b.left < a.right + label_gap && a.top < b.bottom &&
-           b.top < a.bottom;
+    return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
 
 }  // namespace

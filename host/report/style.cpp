@@ -162,7 +162,6 @@ footer { margin-top: 3.5rem; padding-top: 1rem; border-top: 1px solid var(--rule
   .glance dd small, .bar ul, .scale { font-size: 8pt; }
   .lead { font-size: 10pt; }
   .pictures { break-inside: avoid; max-width: 116mm; }
-  h3 + .pictures { max-width: none; }
   .pictures.three { max-width: 96mm; grid-template-columns: repeat(3, minmax(0, 1fr)); }
   .plots { grid-template-columns: 1fr 1fr; }
   .plot { max-width: 105mm; }

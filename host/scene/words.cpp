@@ -62,6 +62,15 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
     return best;
 }
 
+std::string guess_text(const std::string& word, const std::vector<std::string>& known) {
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    std::string_view guess = nearest_word(word, names);
+    for (const std::string_view name : names) {
+        if (word.size() > 3 && name.starts_with(word)) guess = name;
+    }
+    return guess.empty() ? "" : fmt::format("; did you mean '{}'?", guess);
+}
+
 std::string word_list(std::span<const std::string_view> words) {
     std::string result;
     const std::size_t shown = std::min(words.size(), max_words);

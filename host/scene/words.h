@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rt {
 
@@ -12,6 +13,9 @@ std::string in_quotes(std::string_view text);
 
 /// The known word closest to a misspelled one, or an empty view when none is close.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
+
+/// What a mistyped word may have meant: "; did you mean '--size'?", or "" if nothing is close.
+std::string guess_text(const std::string& word, const std::vector<std::string>& known);
 
 /// 'a', 'b' and 'c', cut after the first few.
 std::string word_list(std::span<const std::string_view> words);

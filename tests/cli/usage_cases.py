@@ -124,13 +124,22 @@ class WrongOption(CliTest):
     def test_stats_format(self):
         self.assert_option_refused("--stats=xml", says=["json"])
 
+    def test_an_empty_name_is_no_name(self):
+        """As from a script whose variable is unset."""
+        for option in ["--reference", "--batch", "--device"]:
+            with self.subTest(option=option):
+                self.assert_option_refused(option, "")
+        for verb, option in [("bench", "--baseline"), ("merge", "--scene"), ("stress", "-o")]:
+            self.assert_refused(self.run_cli(verb, *["x"] * (verb != "stress"), option, ""), 2,
+                                option, "give a name")
+
     def test_missing_value(self):
         for option in ["--size", "--device", "--crop"]:
             with self.subTest(option=option):
                 self.assert_option_refused(option)
 
     def test_repeated_option(self):
-        self.assert_option_refused("--size", "8", "--size", "9")
+        self.assert_option_refused("--size", "8", "--size", "9", says=["given twice"])
 
     def test_tile_garbage(self):
         self.assert_option_refused("--tile", "0", says=["1 pixel"])
@@ -148,6 +157,14 @@ class Guess(CliTest):
             for value in [[f"{option}=8"], [option, "8"]]:
                 result = self.run_cli("render", scene_path("empty"), *value)
                 self.assert_refused(result, 2, f"'{option}'", f"did you mean '{meant}'?")
+
+    def test_mistyped_choice(self):
+        for option, value, meant in [("--filter", "gausian", "gaussian"), ("--math", "strickt", "strict"),
+                                     ("--encoding", "sRGB", "srgb"), ("--aov", "dpeth", "depth"),
+                                     ("--features", "mirors", "mirrors"), ("--stats=jsno", "", "json")]:
+            with self.subTest(option=option):
+                result = self.run_cli("render", scene_path("empty"), option, *[value] * bool(value))
+                self.assert_refused(result, 2, option.split("=")[0], f"did you mean '{meant}'?")
 
     def test_nothing_near_gives_no_guess(self):
         for words in [["frobnicate"], ["render", scene_path("empty"), "--frobnicate"]]:
