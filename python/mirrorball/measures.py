@@ -9,6 +9,7 @@ from typing import Any, Dict, Iterable, List
 
 from .picture import as_file
 from .program import option_words, run, run_json
+from .rendering import NOT_HERE
 from .scenes import Scene, scene_path
 
 
@@ -87,6 +88,7 @@ def scene_info(scene: Scene) -> dict[str, Any]:
 
 
 def options(verb: str) -> list[str]:
-    """The options of a verb, as keyword arguments."""
+    """The keyword arguments that are options of a verb."""
     found = re.findall(r"--([a-z][a-z-]+)", run([verb, "--help"]))
-    return [name.replace("-", "_") for name in dict.fromkeys(found)]
+    not_here = {"help", *(NOT_HERE if verb == "render" else ())}
+    return [name.replace("-", "_") for name in dict.fromkeys(found) if name not in not_here]

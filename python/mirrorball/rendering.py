@@ -12,8 +12,9 @@ from .picture import Picture, read_pfm
 from .program import Progress, option_words, run_json
 from .scenes import Scene, scene_path
 
-_NOT_HERE = ("output", "o", "format", "stats", "q", "quiet", "batch", "frames", "shard", "mpi", "aov",
-             "watch", "show", "preview")
+#: Options of `mirrorball render` that render() does not take.
+NOT_HERE = ("output", "o", "format", "stats", "q", "quiet", "batch", "frames", "shard", "mpi", "aov",
+            "watch", "show", "preview")
 
 
 def _print_progress(fraction: float) -> None:
@@ -30,7 +31,7 @@ def render(scene: Scene, *, progress: Union[bool, Progress, None] = None,
     size=500 or (640, 480), precision="double", except for those that say where the picture and the
     figures go or that make several pictures. Raises Error.
     """
-    taken = [name for name in _NOT_HERE if options.get(name)]
+    taken = [name for name in NOT_HERE if options.get(name)]
     if taken:
         raise TypeError(f"render() has no option {taken[0]}: it returns one picture, to save()")
     show = _print_progress if progress is True else progress or None

@@ -188,7 +188,9 @@ def test_converge_gives_flat_rows(tmp_path, monkeypatch):
 
 def test_devices_and_options_are_lists():
     assert isinstance(mirrorball.devices(), list)
-    assert "max_bounces" in mirrorball.options("render")
+    options = mirrorball.options("render")
+    assert "max_bounces" in options
+    assert not {"help", "output", "batch"} & set(options)  # render() takes none of them
 
 
 def test_files_that_are_no_pfm_are_refused(tmp_path):
