@@ -7,6 +7,7 @@
 //   CL_SHIM_LOG                a file for the options of each build, one line each
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
 //   CL_SHIM_FAIL_READ          if not empty, reads and maps fail once a launch has failed
+//   CL_SHIM_INEXACT            if not empty, devices do not promise to round correctly
 //   CL_SHIM_DIE_IN             the function whose call fails
 //   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error; or delay: by two
 //   seconds CL_SHIM_DIE_AT             the first call that may fail, counted from 1
@@ -90,6 +91,17 @@ extern "C" cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type type, c
                                  cl_device_id* devices, cl_uint* count) {
     if (die_in("clGetDeviceIDs")) return CL_OUT_OF_HOST_MEMORY;
     return real<decltype(clGetDeviceIDs)>("clGetDeviceIDs")(platform, type, size, devices, count);
+}
+
+extern "C" cl_int clGetDeviceInfo(cl_device_id device, cl_device_info name, std::size_t size,
+                                  void* value, std::size_t* needed) {
+    const cl_int error =
+        real<decltype(clGetDeviceInfo)>("clGetDeviceInfo")(device, name, size, value, needed);
+    if (name == CL_DEVICE_SINGLE_FP_CONFIG && value != nullptr &&
+        !setting("CL_SHIM_INEXACT").empty()) {
+        *static_cast<cl_device_fp_config*>(value) &= ~CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
+    }
+    return error;
 }
 
 extern "C" cl_context clCreateContext(const cl_context_properties* properties, cl_uint count,

@@ -253,6 +253,13 @@ class Dies(WrongDriver):
         stats = json.loads(self.die("clFinish", "segfault", "--stats=json").stdout)
         self.assertEqual(stats["device"]["name"], "threads")
         self.assertEqual(stats["device"]["fallback_from"], "--device pocl")
+        device, threads = stats["devices"]
+        self.assertEqual((device["name"], device["failure"]),
+                         ("--device pocl", "the driver process was killed by SIGSEGV"))
+        self.assertEqual((threads["name"], threads["pixels"]), ("threads", 120 * 120))
+        picture = (self.folder / "out.png").read_bytes()
+        self.assertIn(b"the driver process was killed by SIGSEGV", picture)
+        self.assertIn("was killed by SIGSEGV", self.die("clFinish", "segfault", "--stats").stdout)
 
     def test_late_is_gone_on_with(self):
         """What it had finished is in the journal."""
@@ -510,6 +517,36 @@ class Wrong(WrongDriver):
             self.assertIn("the journal: ", said)
             self.assertEqual(found, right)
             self.assertFalse(os.path.exists(journal))
+
+    TILES = ["--size", "100", "--tile", "100x5", "--aa", "grid:16"]  # several launches
+
+    def test_leaves_no_tiles_among_those_of_threads(self):
+        """Threads finish only what has their bits."""
+        right, _ = self.hash_of(0, "render", SCENE, *self.TILES, "--device", "threads")
+        for shim, launch, arguments in [(dict(self.CORNERS, CL_SHIM_INEXACT="1"), "8", []),
+                                        (brighter("1.000001"), "4", ["--math", "fast"])]:
+            render = ["render", SCENE, *self.TILES, *arguments, "--device"]
+            shim = dict(shim, CL_SHIM_FAIL_LAUNCH=launch)
+            for device in ["pocl", "pocl,0"]:
+                found, said = self.hash_of(0, *render, device, shim=shim)
+                self.assertIn("rendering all of it on threads", said)
+                self.assertEqual(found, right)
+            figures = json.loads(self.run_with(shim, *render, "pocl", "--stats=json").stdout)
+            self.assertGreater(figures["devices"][0]["pixels"], 0)
+            self.assertEqual(figures["devices"][1]["pixels"], 100 * 100)
+            self.hash_of(5, *render, "pocl", "--no-fallback", shim=shim)
+            _, said = self.hash_of(0, *render, "pocl,threads", shim=dict(shim, CL_SHIM_FAIL_LAUNCH=""))
+            self.assertIn("may round differently, and share this picture", said)
+
+    def test_of_other_bits_leaves_a_share_to_threads(self):
+        part = str(self.folder / "part.mbj")
+        right, _ = self.hash_of(0, "render", SCENE, *self.TILES, "--device", "threads")
+        _, said = self.hash_of(0, "render", SCENE, *self.TILES, "--device", "pocl", "--shard", "0/1",
+                               "-o", part, shim={"CL_SHIM_INEXACT": "1", "CL_SHIM_DIE_AT": "7",
+                                                 "CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel",
+                                                 "CL_SHIM_DIE_BY": "abort"})
+        self.assertIn("may round differently; starting over", said)
+        self.assertEqual(self.hash_of(0, "merge", part)[0], right)
 
     def test_by_rays_that_cannot_be(self):
         shim = {"CL_SHIM_OLD": "counts->shadow += lit & 1;", "CL_SHIM_NEW": "counts->shadow += 9;"}

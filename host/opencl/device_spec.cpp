@@ -105,7 +105,10 @@ class DeviceFinder {
             const DeviceChoice choice = find_one(spec);
             add(found, choice);
             // Threads trace while the automatically chosen device still compiles.
-            if (is_auto(spec) && !choice.use_threads) add(found, threads_choice());
+            if (!is_auto(spec) || choice.use_threads) continue;
+            DeviceChoice helper = threads_choice();
+            helper.is_helper = true;
+            add(found, helper);
         }
         return found;
     }

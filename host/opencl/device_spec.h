@@ -17,7 +17,8 @@ struct DeviceChoice {
     int threads = 0;      ///< from threads:N; 0 when not given
     ClDevice device;      ///< meaningless for threads
     std::string failure;  ///< why its driver could not list it; then only device.name has a meaning
-    std::string note;     ///< why it may be unexpected, for stderr; often empty
+    bool is_helper = false;  ///< threads that were not asked for, beside a device chosen by itself
+    std::string note;        ///< why it may be unexpected, for stderr; often empty
 };
 
 /// Whether the text names the pthreads baseline ("threads" or "threads:N"), which needs no OpenCL.

@@ -38,6 +38,7 @@ struct RenderOptions : RenderSettings {
     bool isolate = true;               ///< OpenCL in a process of its own
     double deadline = 10;              ///< seconds without progress after which a driver is hung
     std::string failed_device;         ///< that threads replace
+    std::string device_failure;        ///< how it failed
     std::string drivers;               ///< where OpenCL finds its .icd files
     std::string batch_log;             ///< descriptor of memory shared by workers; see BatchLog
     std::vector<std::string> command;  ///< the program's own, to start workers

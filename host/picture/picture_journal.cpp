@@ -21,6 +21,14 @@ std::string host_name() {
     return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
 }
 
+/// The device that wrote the first records; "" if there is none.
+std::string first_writer(JournalReader& reader) {
+    while (const auto record = reader.next()) {
+        if (record->kind == RecordKind::writer) return record->writer.device;
+    }
+    return "";
+}
+
 }  // namespace
 
 template <typename T>
@@ -63,11 +71,11 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
 /// Hashes all that the film's bits depend on: the scene, how it is sampled and refined, and the
 /// program. Not on hierarchies, which also order the flat scene's arrays.
 template <typename T>
-std::uint64_t PictureJournal<T>::key() const {
+std::uint64_t PictureJournal<T>::key(std::string_view inexact_devices) const {
     Hasher hasher;
     hasher.add(std::string_view(version));
     hasher.add(std::string_view(render_kernels));
-    hasher.add(std::string_view(inexact_devices_));
+    hasher.add(inexact_devices);
     hasher.add(sizeof(T));
     hasher.add(std::string_view(header_.scene_hash));
     auto params = scene_.params;
@@ -96,8 +104,8 @@ void PictureJournal<T>::open() {
         file_.reset();
         return;
     }
-    if (file_->found() == Found::journal && !settings_.fresh) read();
-    const bool is_foreign = !settings_.fresh && !known_ && file_->found() != Found::nothing;
+    if (file_->found() == Found::journal) read();
+    const bool is_foreign = !settings_.fresh && !is_ours_ && file_->found() != Found::nothing;
     if (is_foreign && settings_.shares) {
         throw Error(ExitCode::output, path +
                                           ": belongs to a different picture, share or version; "
@@ -109,24 +117,36 @@ void PictureJournal<T>::open() {
              "over");
     }
     if (!known_) start_again();
-    if (settings_.fresh) file_->empty();
+    if (settings_.fresh && is_ours_) file_->empty();
 }
 
 template <typename T>
 void PictureJournal<T>::read() {
     std::uint64_t damaged_bytes = 0;
     const auto read_if_ours = [&](JournalReader& reader) {
-        if (reader.header().key != key() || reader.header().shares != header_.shares ||
-            reader.header().film != header_.film) {
+        if (reader.header().shares != header_.shares || reader.header().film != header_.film) {
             return;
         }
+        if (reader.header().key != key(inexact_devices_)) {
+            const std::string writer = first_writer(reader);
+            is_ours_ = reader.header().key == key(writer + "\n");
+            if (is_ours_ && !settings_.fresh) {
+                say_(file_->path() + " is by " + writer +
+                     ", which may round differently; starting over");
+            }
+            return;
+        }
+        is_ours_ = true;
+        if (settings_.fresh) return;
         known_ = read_known_pixels<T>(reader);
         damaged_bytes = reader.bytes() - reader.good_bytes();
     };
     try {
         file_->read(read_if_ours);
+    } catch (const DamagedJournal&) {
+        is_ours_ = settings_.fresh;  // or anybody's: nobody can resume it
     } catch (const Error& error) {
-        if (error.exit_code() != ExitCode::input) throw;  // otherwise its header is damaged
+        if (error.exit_code() != ExitCode::input) throw;  // otherwise it is of another version
     }
     if (!known_) return;
     const std::string damage =
@@ -148,7 +168,7 @@ void PictureJournal<T>::start_again() {
         const auto magic = std::as_bytes(std::span(journal_magic));
         start.insert(start.end(), magic.begin(), magic.end());
         JournalHeader header = header_;
-        header.key = key();
+        header.key = key(inexact_devices_);
         append_header(start, header);
         return start;
     });
@@ -261,8 +281,9 @@ void PictureJournal<T>::hold() {
 
 template <typename T>
 void PictureJournal<T>::discard() {
+    const bool is_ours = file_ && file_->exists();
     start_again();
-    if (file_) file_->empty();
+    if (is_ours) file_->empty();
 }
 
 template <typename T>

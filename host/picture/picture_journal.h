@@ -70,7 +70,7 @@ class PictureJournal {
     void read();
     void start_again();
     void tell_failure();
-    std::uint64_t key() const;
+    std::uint64_t key(std::string_view inexact_devices) const;
     void plan_pass(int pass, std::vector<Refinement>& plan, Film<T>& film);
 
     const RenderSettings& settings_;
@@ -82,6 +82,7 @@ class PictureJournal {
     JournalHeader header_;
     std::vector<std::uint8_t> needs_;  ///< share_needs; empty: everything
     std::shared_ptr<JournalFile> file_;
+    bool is_ours_ = false;  ///< what the file had: this picture, though perhaps with other bits
     std::optional<KnownPixels<T>> known_;
     bool failure_is_told_ = false;
     std::unique_ptr<JournalKeeper<T>> keeper_;

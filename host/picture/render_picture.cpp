@@ -108,10 +108,15 @@ class Job {
         stats_.caster_lists = settings.caster_lists;
     }
 
-    RenderedPicture run(const Devices& devices, double wait_seconds) {
+    RenderedPicture run(Devices devices, double wait_seconds) {
+        is_exact_ = !settings_.fast_math && inexact_names(devices).empty();
+        if (!is_exact_) std::erase_if(devices, [](const auto& choice) { return choice.is_helper; });
         for (const DeviceChoice& choice : devices) {
             say_ignored_settings(choice, settings_, events_);
             if (!choice.note.empty()) say(choice.note);
+        }
+        if (!is_exact_ && devices.size() > 1) {
+            say(joined_names(devices) + " may round differently, and share this picture");
         }
         journal_.emplace(settings_, stats_, *scene_, rendered_, inexact_names(devices),
                          [this](const std::string& line) { say(line); });
@@ -121,10 +126,7 @@ class Job {
             tile_ = final_tile;
             note_devices(devices);
         } else {
-            Crew<T> crew = make_crew(devices);
-            open(crew, devices);
-            render_with(crew, joined_names(devices));
-            note_devices(crew, devices);
+            render_by(devices);
         }
         if (stats_.complete()) check_again(devices);
         journal_->end(stats_.complete());
@@ -133,6 +135,37 @@ class Job {
     }
 
    private:
+    void render_by(const Devices& devices) {
+        Crew<T> crew = make_crew(devices);
+        try {
+            open(crew, devices);
+            render_with(crew, joined_names(devices));
+        } catch (const Error& error) {
+            const bool can_start_over = !is_exact_ && !settings_.no_fallback && has_opencl(devices);
+            if (!can_start_over || error.exit_code() != ExitCode::device) throw;
+            say(error.what());
+            say("rendering all of it on threads instead, which may round differently");
+            render_again(joined_names(devices), crew.shares());
+            return;
+        }
+        note_devices(crew, devices);
+    }
+
+    /// Renders the whole picture on threads, in place of devices that did these shares of it.
+    void render_again(const std::string& devices, std::vector<DeviceShare> shares) {
+        journal_->discard();
+        journal_.emplace(settings_, stats_, *scene_, rendered_, "",
+                         [this](const std::string& line) { say(line); });
+        Crew<T> threads({threads_member<T>(scene_, spare_threads())}, {}, {});
+        threads.open();
+        stats_.resumed = 0;
+        render_with(threads, "threads");
+        shares.push_back(threads.shares().front());
+        stats_.shares = std::move(shares);
+        stats_.device = threads_stats<T>(*scene_, stats_.aa, spare_threads());
+        stats_.device.fallback_from = devices;
+    }
+
     void open(Crew<T>& crew, const Devices& devices) const {
         std::optional<LateMessage> late;
         if (events_.compiling && has_opencl(devices)) {
@@ -193,7 +226,7 @@ class Job {
             members.push_back(threads_member<T>(scene_, options));
         }
         std::optional<CrewMember<T>> spare;
-        if (!settings_.no_fallback && has_opencl(devices)) {
+        if (is_exact_ && !settings_.no_fallback && has_opencl(devices)) {
             spare = threads_member<T>(scene_, spare_threads());
         }
         return Crew<T>(std::move(members), std::move(spare),
@@ -279,11 +312,10 @@ class Job {
     }
 
     void note_devices(const Crew<T>& crew, const Devices& devices) {
-        const std::vector<DeviceShare> shares = crew.shares();
-        if (shares.size() > 1) stats_.shares = shares;
+        stats_.shares = crew.shares();
         if (crew.uses_spare()) {
             stats_.device = threads_stats<T>(*scene_, stats_.aa, spare_threads());
-            stats_.device.fallback_from = shares.front().name;
+            stats_.device.fallback_from = stats_.shares.front().name;
         } else {
             note_devices(devices);
         }
@@ -324,20 +356,18 @@ class Job {
         if (!has_opencl(devices) && stats_.resumed == 0) return;
         const std::string wrong = what_is_wrong();
         if (wrong.empty()) return;
-        journal_->discard();
         const std::string by = stats_.resumed == 0   ? stats_.device.name
                                : has_opencl(devices) ? stats_.device.name + " or the journal"
                                                      : "the journal";
         const std::string what = by + ": " + wrong;
-        if (settings_.no_fallback) throw Error(ExitCode::device, what);
+        if (settings_.no_fallback) {
+            journal_->discard();
+            throw Error(ExitCode::device, what);
+        }
         say(what + "; rendering on threads instead");
-        const std::string failed = stats_.device.name;
-        Crew<T> threads({threads_member<T>(scene_, spare_threads())}, {}, {});
-        threads.open();
-        stats_.resumed = 0;
-        render_with(threads, "threads");
-        stats_.device = threads_stats<T>(*scene_, stats_.aa, spare_threads());
-        stats_.device.fallback_from = failed;
+        std::vector<DeviceShare> shares = stats_.shares;
+        if (shares.size() == 1) shares.front().failure = wrong;
+        render_again(stats_.device.name, std::move(shares));
     }
 
     RenderedPicture finished_picture() {
@@ -362,6 +392,7 @@ class Job {
     RenderCache* const cache_;  ///< may be null
     const Rect region_;         ///< requested
     const Rect rendered_;       ///< that, plus what refining it needs
+    bool is_exact_ = true;      ///< threads would give the same bits as the devices
     SharedScene<T> scene_;
     std::optional<PictureJournal<T>> journal_;
     Film<T> film_{0, 0};

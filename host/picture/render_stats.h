@@ -68,7 +68,7 @@ struct PhaseStats {
 struct RenderStats {
     SceneStats scene;
     DeviceStats device;
-    std::vector<DeviceShare> shares;  ///< of several devices, or when one failed; else empty
+    std::vector<DeviceShare> shares;  ///< of each device, those that failed included
     PhaseStats phases;
     int width = 0, height = 0;  ///< of the whole picture
     Rect region;                ///< the part that was rendered

@@ -113,7 +113,7 @@ Json stats_json(const RenderStats& stats) {
               {"rays_per_second", stats.rays_per_second()},
               {"image", {{"hash", hash_text(stats.image_hash)}, {"non_finite", stats.non_finite}}},
               {"complete", stats.complete()}};
-    if (!stats.shares.empty()) json["devices"] = shares_json(stats.shares);
+    if (stats.shares.size() > 1) json["devices"] = shares_json(stats.shares);
     if (stats.resumed > 0) json["resumed"] = stats.resumed;
     if (stats.tiles_checked > 0) json["tiles_checked"] = stats.tiles_checked;
     if (stats.error) json["error"] = error_json(*stats.error);

@@ -23,7 +23,9 @@ std::string device_text(const DeviceStats& device) {
 
 std::string share_text(const DeviceShare& share) {
     const std::string pixels = counted(static_cast<std::size_t>(share.pixels), "pixel");
-    if (!share.failure.empty()) return share.name + ": " + pixels + " before it failed";
+    if (!share.failure.empty()) {
+        return fmt::format("{}: {} before it failed: {}", share.name, pixels, share.failure);
+    }
     if (share.ready == 0) return share.name + ": was not ready in time";
     return fmt::format("{}: {}, ready after {:.3f} s", share.name, pixels, share.ready);
 }
@@ -127,7 +129,9 @@ std::string stats_text(const RenderStats& stats) {
     if (!stats.device.fallback_from.empty()) {
         text += fmt::format("        instead of {}, which failed\n", stats.device.fallback_from);
     }
-    for (const DeviceShare& share : stats.shares) text += "        " + share_text(share) + "\n";
+    if (stats.shares.size() > 1) {
+        for (const DeviceShare& share : stats.shares) text += "        " + share_text(share) + "\n";
+    }
     if (stats.resumed > 0) {
         text +=
             fmt::format("        {:.0f} % of the first pass from a journal\n", 100 * stats.resumed);

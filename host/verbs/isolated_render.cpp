@@ -4,14 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "host/console.h"
 #include "host/error.h"
-#include "host/journal/journal_file.h"
 #include "host/opencl/icd_files.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
@@ -39,7 +41,7 @@ class IsolatedRender {
     /// resume here from the journal. A batch gets a new worker as long as pictures are finished.
     int run() {
         if (options_.scene == stdin_scene) keep_stdin();  // each worker reads it
-        if (options_.fresh && !options_.is_batch()) remove_journal();
+        const JournalState journal = state_of_journal();
         if (batch_log_) options_.batch_log = std::to_string(batch_log_.number());
         WorkerEnd end = work({});
         for (std::size_t before = 0, now = 0; has_failed(end); before = now) {
@@ -48,17 +50,20 @@ class IsolatedRender {
             say(end, "starting it again");
             end = work({});
         }
+        keep_journal(journal);
         if (!end.is_regular && !end.is_hung && end.stop_signal == 0) end = try_again(end);
         if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
         if (end.is_regular) return end.status;
         if (options_.no_fallback) {
             throw Error(ExitCode::device, name_ + ": the driver process " + end.how);
         }
+        keep_journal(journal);
         say(end, "rendering on threads instead");
         if (options_.timeout > 0) {
             options_.timeout = std::max(options_.timeout - watch_.seconds(), 0.001);
         }
         options_.failed_device = name_;
+        options_.device_failure = "the driver process " + end.how;
         options_.device = "threads";
         return render_here_(options_, seconds_before_ + watch_.seconds());
     }
@@ -66,14 +71,20 @@ class IsolatedRender {
    private:
     static bool has_failed(const WorkerEnd& end) { return !end.is_regular && end.stop_signal == 0; }
 
-    /// Called once, before a worker leaves a journal there to be resumed.
-    void remove_journal() {
+    using JournalState = std::pair<std::filesystem::file_time_type, std::uintmax_t>;
+
+    JournalState state_of_journal() const {
+        if (!options_.fresh || options_.is_batch()) return {};
         RenderOptions chosen = options_;
         choose_journal(chosen);
-        if (!chosen.journal.empty()) {
-            JournalFile file(chosen.journal);
-            if (file.found() != JournalFile::Found::something_else) file.remove();
-        }
+        std::error_code ignored;
+        return {std::filesystem::last_write_time(chosen.journal, ignored),
+                std::filesystem::file_size(chosen.journal, ignored)};
+    }
+
+    /// What a worker with --fresh has written is resumed by those after it.
+    void keep_journal(const JournalState& before) {
+        if (state_of_journal() == before) return;
         options_.fresh = false;
         std::erase(options_.command, "--fresh");
     }

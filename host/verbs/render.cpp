@@ -77,7 +77,7 @@ int render_scene(RenderOptions options, double seconds_before_main, LivePicture*
         render_picture(scene, options, std::move(devices), console.events(), stop_flag());
     watch_worker(false);
     RenderStats& stats = rendered.stats;
-    if (!options.failed_device.empty()) stats.device.fallback_from = options.failed_device;
+    note_failed_device(stats, options);
     stats.scene.path = options.scene;
     stats.phases.start = seconds_before_main;
     stats.phases.load = load_seconds;

@@ -166,9 +166,7 @@ class Batch {
             render_picture(scene, options, devices_, console.events(), stop_flag(), &cache_);
         prepare_for_next(devices_, rendered.stats);
         if (live) live->finish(rendered.picture);
-        if (!options.failed_device.empty()) {
-            rendered.stats.device.fallback_from = options.failed_device;
-        }
+        note_failed_device(rendered.stats, options);
         rendered.stats.scene.path = options.scene;
         rendered.stats.phases.load = load_seconds;
         settle();

@@ -136,6 +136,11 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
                                                 settings_text(stats), hash_text(stats.image_hash));
     if (!stats.device.fallback_from.empty()) {
         metadata.push_back({"mirrorball:FallbackFrom", stats.device.fallback_from});
+        for (const DeviceShare& share : stats.shares) {
+            if (share.failure.empty()) continue;
+            metadata.push_back({"mirrorball:FallbackReason", share.failure});
+            break;
+        }
     }
     std::string path = options.output;
     if (!stats.complete()) {
@@ -207,6 +212,13 @@ RenderConsole::RenderConsole(const RenderOptions& options, LivePicture* live) {
 void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats) {
     if (!stats.device.fallback_from.empty()) devices = {threads_choice()};
     for (DeviceChoice& device : devices) device.note.clear();
+}
+
+void note_failed_device(RenderStats& stats, const RenderOptions& options) {
+    if (options.failed_device.empty()) return;
+    stats.device.fallback_from = options.failed_device;
+    stats.shares.insert(stats.shares.begin(),
+                        {options.failed_device, 0, 0, options.device_failure});
 }
 
 void print_results(const RenderStats& stats, const RenderOptions& options) {

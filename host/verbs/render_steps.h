@@ -79,6 +79,9 @@ void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& sta
 /// written.
 std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options);
 
+/// Notes the device whose driver process failed, and how, when threads finished its picture.
+void note_failed_device(RenderStats& stats, const RenderOptions& options);
+
 /// Prints what options.stats requests: the summary line on stderr, or figures on stdout.
 void print_results(const RenderStats& stats, const RenderOptions& options);
 

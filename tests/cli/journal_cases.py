@@ -349,6 +349,15 @@ class Resume(JournalTest):
         self.assertNotIn("resuming from", result.stderr)
         self.assertEqual(self.files(), ["out.png"])
 
+    def test_fresh_leaves_that_of_another_picture(self):
+        self.share("0/1", "out.png.mbj", *SMALL)
+        before = self.bytes_of("out.png.mbj")
+        for device in ["threads", "pocl"]:
+            self.render("single-sphere", "--size", "8", "--device", device, "--fresh", "-o", "out.png")
+            self.assertEqual(self.bytes_of("out.png.mbj"), before)
+        self.render("cornell-box", *SMALL[:2], "--device", "pocl", "--fresh", "-o", "out.png")
+        self.assertEqual(self.files(), ["out.png"])
+
     def test_stats_tell(self):
         self.share("0/1", "out.png.mbj", *SMALL)
         stats = self.stats_of("cornell-box", "-o", "out.png", *SMALL)
