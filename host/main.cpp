@@ -8,24 +8,40 @@
 #include "host/console.h"
 #include "host/error.h"
 #include "host/exit_status.h"
+#include "host/opencl/icd_files.h"
 #include "host/options/options.h"
 #include "host/picture/render_stats.h"
 #include "host/pocl/pocl_environment.h"
 #include "host/stop_signal.h"
+#include "host/verbs/device_list.h"
 #include "host/verbs/verbs.h"
 #include "host/worker.h"
 
 namespace {
 
-/// Measures in a worker process, which the OpenCL drivers it loads may crash.
-int isolated(const std::vector<std::string>& command, double seconds_before_main,
+/// Measures in a worker process, which the OpenCL drivers it loads may crash; once more without
+/// those that crash or hang while their devices are listed, if there are others.
+int isolated(const rt::RenderOptions& options, double seconds_before_main,
              const std::function<int()>& measure) {
     if (rt::is_worker()) return measure();
-    const rt::WorkerEnd end = rt::run_worker(command, {}, 0, seconds_before_main);
+    rt::WorkerEnd end = rt::run_worker(options.command, {}, options.deadline, seconds_before_main);
+    const auto has_failed = [&] { return end.stop_signal == 0 && !end.is_regular; };
+    if (has_failed() && end.task == rt::listing_devices) {
+        const rt::IcdFiles files = rt::try_icd_files(options.drivers);
+        const rt::UsableIcdFiles usable(files);
+        for (const std::string& problem : files.problems) {
+            rt::print_message("mirrorball: " + problem + "\n");
+        }
+        if (files.any_dangerous && !files.usable.empty() && !usable.place().empty()) {
+            end = rt::run_worker(options.command, {"OCL_ICD_VENDORS=" + usable.place()},
+                                 options.deadline, seconds_before_main);
+        }
+    }
     if (end.stop_signal != 0) rt::end_by_stop_signal(end.stop_signal);
     if (end.is_regular) return end.status;
-    throw rt::Error(rt::ExitCode::device, "the process that measures " + end.how +
-                                              "; `mirrorball doctor` finds a driver that crashes");
+    throw rt::Error(rt::ExitCode::device, (end.task.empty() ? "" : end.task + ": ") +
+                                              "the process that measures " + end.how +
+                                              "; `mirrorball doctor` tests each driver");
 }
 
 int run(int argc, char** argv, double seconds_before_main) {
@@ -33,7 +49,7 @@ int run(int argc, char** argv, double seconds_before_main) {
     if (rt::become_worker(options.worker_link)) seconds_before_main += rt::seconds_before_worker();
     if (options.quiet()) rt::stop_quietly();
     const auto in_worker = [&](const std::function<int()>& measure) {
-        return isolated(options.render.command, seconds_before_main, measure);
+        return isolated(options.render, seconds_before_main, measure);
     };
     switch (options.verb) {
         case rt::Verb::render:

@@ -123,12 +123,13 @@ void stop_working(int number, siginfo_t* info, void*) {
     errno = saved;
 }
 
-void pass_on(int number, siginfo_t*, void*) {
+void pass_on(int number, siginfo_t* info, void* context) {
     const int saved = errno;
     passed_on = number;
     sigval value{};
     value.sival_int = number;
     if (const pid_t to = worker; to > 0) ::sigqueue(to, forwarding_signal(), value);
+    if (is_working) stop_working(number, info, context);  // this process has work of its own
     errno = saved;
 }
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -30,8 +31,9 @@ namespace rt {
 
 namespace {
 
-// The worker's messages: one byte each, except that the exit code follows `ended`.
-constexpr char watched = 'w', unwatched = 'u', progressed = 'p', ended = 'e';
+// The worker's messages: one byte each, except that the exit code follows `ended`, and a text that
+// ends with a zero `began`.
+constexpr char watched = 'w', unwatched = 'u', progressed = 'p', ended = 'e', began = 'b';
 
 constexpr double poll_seconds = 0.2;
 
@@ -95,8 +97,8 @@ ProcessState state_of(pid_t process) {
 /// Detects that a watched process has been idle, or busy without progress, for too long.
 class Watchdog {
    public:
-    Watchdog(pid_t process, double deadline, double longest)
-        : process_(process), deadline_(deadline), longest_(longest) {}
+    Watchdog(pid_t process, double deadline, double longest, const StopFlag* enough)
+        : process_(process), deadline_(deadline), longest_(longest), enough_(enough) {}
 
     void hear(char byte) {
         if (byte == progressed) {
@@ -115,7 +117,7 @@ class Watchdog {
     /// Call at least every poll_seconds. Time in which this process did not run does not count.
     bool is_late() {
         const double passed = std::min(watch_.lap(), 2 * poll_seconds);
-        if (is_overdue()) return true;
+        if (is_overdue() || (enough_ != nullptr && *enough_ != 0)) return true;
         if (!is_watched_) return false;
         gap_ += passed;
         const ProcessState now = state_of(process_);
@@ -138,6 +140,7 @@ class Watchdog {
    private:
     const pid_t process_;
     const double deadline_, longest_;
+    const StopFlag* const enough_;  ///< may be null
     const Stopwatch total_;
     Stopwatch watch_;
     bool is_watched_ = false;
@@ -190,8 +193,8 @@ bool has_ended(pid_t process) {
 
 /// Listens to the worker until it reports its end, is gone, or is late. Returns the exit code it
 /// reported, if any.
-std::optional<int> listen(int pipe, pid_t process, Watchdog& watchdog, bool& is_late) {
-    bool is_end_next = false;
+std::optional<int> listen(int pipe, pid_t process, Watchdog& watchdog, WorkerEnd& end) {
+    bool is_end_next = false, is_in_text = false;
     for (;;) {
         const bool is_gone = has_ended(process);  // its last message is in the pipe by then
         pollfd waited{pipe, POLLIN, 0};
@@ -202,14 +205,21 @@ std::optional<int> listen(int pipe, pid_t process, Watchdog& watchdog, bool& is_
             if (got == 0) return std::nullopt;
             for (ssize_t i = 0; i < got; ++i) {
                 if (is_end_next) return static_cast<unsigned char>(bytes[i]);
+                if (is_in_text) {
+                    is_in_text = bytes[i] != '\0';
+                    if (is_in_text) end.task += bytes[i];
+                    continue;
+                }
                 is_end_next = bytes[i] == ended;
-                if (!is_end_next) watchdog.hear(bytes[i]);
+                is_in_text = bytes[i] == began;
+                if (is_in_text) end.task.clear();
+                if (!is_end_next && !is_in_text) watchdog.hear(bytes[i]);
             }
             continue;
         }
         if (is_gone) return std::nullopt;
         if (watchdog.is_late()) {
-            is_late = true;
+            end.is_hung = true;
             return std::nullopt;
         }
     }
@@ -224,7 +234,7 @@ std::string name_of_signal(int number) {
 
 WorkerEnd run_worker(const std::vector<std::string>& command,
                      const std::vector<std::string>& changes, double deadline,
-                     double seconds_before, double longest) {
+                     double seconds_before, double longest, const StopFlag* enough) {
     int ends[2];
     WorkerEnd end;
     end.how = "could not be started";
@@ -239,8 +249,8 @@ WorkerEnd run_worker(const std::vector<std::string>& command,
     pass_stop_signals_to([&] { return process = start(command, all); });
     theirs = FileDescriptor();
     if (process == 0) return end;
-    Watchdog watchdog(process, deadline, longest);
-    const std::optional<int> status = listen(ours.number(), process, watchdog, end.is_hung);
+    Watchdog watchdog(process, deadline, longest, enough);
+    const std::optional<int> status = listen(ours.number(), process, watchdog, end);
     if (end.is_hung) ::kill(process, SIGKILL);
     int wait_status = 0;
     while (::waitpid(process, &wait_status, 0) < 0 && errno == EINTR) {
@@ -284,6 +294,10 @@ bool is_worker() { return link_pipe >= 0; }
 double seconds_before_worker() { return link_pipe < 0 ? 0 : link_seconds; }
 
 void watch_worker(bool is_watched) { tell({is_watched ? &watched : &unwatched, 1}); }
+
+void note_worker_task(const std::string& task) {
+    tell(began + task.substr(0, PIPE_BUF - 2) + '\0');  // at once, or not among other messages
+}
 
 /// Sends at most ten messages a second, so that the pipe never fills up.
 void note_worker_progress() {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "host/stop_signal.h"
+
 // OpenCL drivers crash and hang, taking the process that loaded them with them. So the program
 // starts itself again as a worker process that loads them, and watches it through a pipe.
 namespace rt {
@@ -16,6 +18,7 @@ struct WorkerEnd {
     bool is_hung = false;     ///< killed because it made no progress or took too long
     int stop_signal = 0;      ///< signal that ended it, and should end this process
     std::string how;          ///< otherwise: "was killed by SIGABRT", "made no progress for 10 s"
+    std::string task;         ///< what it was doing, if it said so
 };
 
 /// Runs the program again with the same arguments and these environment changes ("NAME=value"), and
@@ -23,11 +26,12 @@ struct WorkerEnd {
 /// after `deadline` seconds without progress or processor time; when it is busy but its first
 /// progress takes 60 times `deadline`, or a later one 6 times `deadline` and ten times as long as
 /// any before; or when `longest` seconds have passed. If no process can be started, `how` says so.
-/// `seconds_before`: time since this process began.
+/// `seconds_before`: time since this process began. It is also killed when `enough` is set.
 WorkerEnd run_worker(const std::vector<std::string>& command,
                      const std::vector<std::string>& changes, double deadline,
                      double seconds_before,
-                     double longest = std::numeric_limits<double>::infinity());
+                     double longest = std::numeric_limits<double>::infinity(),
+                     const StopFlag* enough = nullptr);
 
 /// Makes this process a worker if `link` (environment variable MIRRORBALL_WORKER) is valid, and
 /// returns whether it is. It then dies with its parent. Call it before any thread has started.
@@ -40,6 +44,7 @@ double seconds_before_worker();
 
 // Called by a worker, no-ops in other processes; the last two may be called by any thread.
 void watch_worker(bool is_watched);  ///< whether it should be busy all the time
+void note_worker_task(const std::string& task);
 void note_worker_progress();
 void note_worker_end(int status);  ///< just before it exits
 

@@ -12,6 +12,7 @@
 //   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error; or delay: by two
 //   seconds CL_SHIM_DIE_AT             the first call that may fail, counted from 1
 //   CL_SHIM_DIE_AFTER          seconds since that call before which none fails
+//   CL_SHIM_DIE_WITH           .icd files, separated by blanks, all of which must be in use
 //   CL_SHIM_DIE_ONCE           a file made on failure; if it exists, nothing fails
 // Nothing in mirrorball knows about it.
 #include <dlfcn.h>
@@ -24,7 +25,10 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
 #include <string>
 
 namespace {
@@ -55,9 +59,29 @@ void replace(std::string& text) {
     text.replace(at, old.size(), setting("CL_SHIM_NEW"));
 }
 
+/// Whether the loader uses all these .icd files.
+bool uses_drivers(const std::string& names) {
+    namespace fs = std::filesystem;
+    const std::string place = setting("OCL_ICD_VENDORS");
+    std::set<std::string> used;
+    const auto use = [&](const fs::path& file) { used.insert(fs::canonical(file).filename()); };
+    if (fs::is_directory(place)) {
+        for (const auto& entry : fs::directory_iterator(place)) use(entry.path());
+    } else {
+        use(place);
+    }
+    std::istringstream list(names);
+    for (std::string name; list >> name;) {
+        if (used.count(name) == 0) return false;
+    }
+    return true;
+}
+
 /// Called at the start of each function below; whether it returns an error.
 bool die_in(const char* function) {
     if (setting("CL_SHIM_DIE_IN") != function) return false;
+    const std::string with = setting("CL_SHIM_DIE_WITH");
+    if (!with.empty() && !uses_drivers(with)) return false;
     static std::atomic<int> calls = 0;
     const std::string at = setting("CL_SHIM_DIE_AT"), once = setting("CL_SHIM_DIE_ONCE");
     if (++calls < (at.empty() ? 1 : std::stoi(at))) return false;

@@ -9,6 +9,7 @@ I/N: only every N-th test, from the I-th, counted from 0.
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -312,14 +313,86 @@ class Dies(WrongDriver):
         self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its process was killed by SIGSEGV")
         self.assertRegex(result.stdout, r"ok +threads: ")
 
-    def test_measuring_ends_with_one_line(self):
+    def drivers(self, *names):
+        """A folder of .icd files, each of PoCL."""
+        folder = self.folder / "drivers"
+        folder.mkdir()
+        for name in names:
+            shutil.copy("/etc/OpenCL/vendors/pocl.icd", folder / name)
+        return {"OCL_ICD_VENDORS": str(folder)}
+
+    def test_beside_another_one_is_listed_alone(self):
+        shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
+                "CL_SHIM_DIE_WITH": "a.icd b.icd", **self.drivers("a.icd", "b.icd")}
+        result = self.run_with(shim, "devices", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        answer = json.loads(result.stdout)
+        self.assertEqual([pathlib.Path(device["icd_file"]).name for device in answer["devices"]],
+                         ["a.icd", "b.icd"])
+        self.assertRegex(answer["problems"][0], r"a process that loads the drivers of .*a\.icd and "
+                         r".*b\.icd crashes while listing their devices \(Aborted\)")
+        self.assertRegex(self.run_with(shim, "devices").stdout,
+                         r"only with OCL_ICD_VENDORS=.*b\.icd, as --device 0")
+        result = self.run_with(shim, "doctor")
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertEqual(result.stdout.count("renders the right picture"), 3, result.stdout)
+        self.assertRegex(result.stdout, r"BROKEN +OpenCL: a process that loads the drivers of")
+
+    def test_is_left_out_of_what_is_measured(self):
+        shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
+                "CL_SHIM_DIE_WITH": "bad.icd", **self.drivers("bad.icd", "good.icd")}
+        result = self.run_with(shim, *Bench.ARGUMENTS)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"bad\.icd: its driver crashes while listing its devices")
+        self.assertEqual({row["verdict"] for row in json.loads(result.stdout)["rows"]
+                          if row["device_name"] != "threads"}, {"right"})
+
+    def test_by_computing_for_ever_does_not_hold_up_devices_and_doctor(self):
+        shim = {"CL_SHIM_DIE_IN": "clGetDeviceIDs", "CL_SHIM_DIE_BY": "spin"}
+        result = self.run_with(shim, "devices", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("hangs: still listing its devices after 10 s",
+                      json.loads(result.stdout)["problems"][0])
+        shim["CL_SHIM_DIE_IN"] = "clBuildProgram"
+        result = self.run_with(shim, "doctor", "--deadline", "0.5")
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its process did not end in time")
+
+    def test_by_hanging_ends_what_is_measured(self):
+        result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "hang"},
+                               *Bench.ARGUMENTS)
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertRegex(result.stderr, r"pthread.*: the process that measures made no progress for")
+
+    @unittest.skipUnless(shutil.which("mpirun"), "needs openmpi-bin")
+    def test_does_not_take_an_mpi_job_along(self):
+        out, right = self.folder / "out.png", self.folder / "right.png"
+        self.run_with({}, *self.ARGUMENTS[:4], "--device", "threads", "-o", str(right))
+        for place in ["", "clGetPlatformIDs", "clBuildProgram"]:
+            result = subprocess.run(
+                ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", "2", "-x",
+                 "LD_PRELOAD=" + str(BUILD / "libcl_shim.so"),
+                 str(BUILD / "mirrorball"), *self.ARGUMENTS, "--mpi", "-o", str(out)],
+                env=dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                         CL_SHIM_DIE_IN=place, CL_SHIM_DIE_BY="abort",
+                         POCL_CACHE_DIR=str(BUILD / "wrong-driver-cache")),
+                text=True, capture_output=True, timeout=HANG_LIMIT, check=False)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(place != "", "the driver process was killed by SIGABRT; rendering on "
+                             "threads instead" in result.stderr, result.stderr)
+            self.assertEqual(out.read_bytes(), right.read_bytes())
+            out.unlink()
+
+    def test_measuring_names_it(self):
         for verb in [["bench", SCENE], ["converge", SCENE], ["stress", "--quick"],
                      ["report", SCENE, "-o", str(self.folder / "report.html")]]:
             result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs",
                                     "CL_SHIM_DIE_BY": "abort"}, *verb, "-q")
             self.assertEqual(result.returncode, 5, result.stderr)
-            self.assertEqual(result.stderr, "mirrorball: the process that measures was killed by "
-                             "SIGABRT; `mirrorball doctor` finds a driver that crashes\n")
+            named, ended = result.stderr.splitlines()
+            self.assertIn("its driver crashes while listing its devices (Aborted)", named)
+            self.assertEqual(ended, "mirrorball: listing OpenCL devices: the process that measures was "
+                             "killed by SIGABRT; `mirrorball doctor` tests each driver")
 
     def test_devices_survives(self):
         result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort"},

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,7 +15,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "host/printable.h"
 
@@ -50,29 +53,24 @@ std::string library_of(const fs::path& file) {
 // What a child process reports at each step.
 constexpr char loaded = '\1', listed = '\2';
 
-[[noreturn]] void try_in_child(const fs::path& file, const std::string& library, int answer) {
-    const auto say = [&](const char* text, std::size_t length) {
-        [[maybe_unused]] const ssize_t ignored = write(answer, text, length);
-    };
-    std::signal(SIGALRM, SIG_DFL);
-    alarm(most_seconds);
-    const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-    void* const driver = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-    // Every driver exports this, and the loader skips what does not (cl_khr_icd).
-    if (driver == nullptr || dlsym(driver, "clGetExtensionFunctionAddress") == nullptr) {
-        const char* const why = dlerror();
-        say(why, std::strlen(why));
-        _exit(0);
+/// What a child process said, and how it ended.
+struct ChildEnd {
+    bool is_started = false;
+    std::string answer;
+    int status = 0;
+
+    /// "crashes while loading (Aborted)".
+    std::string how(const char* doing) const {
+        if (!WIFSIGNALED(status)) {
+            return fmt::format("ends the process while {} (exit code {})", doing,
+                               WEXITSTATUS(status));
+        }
+        if (WTERMSIG(status) == SIGALRM) {
+            return fmt::format("hangs: still {} after {} s", doing, most_seconds);
+        }
+        return fmt::format("crashes while {} ({})", doing, strsignal(WTERMSIG(status)));
     }
-    say(&loaded, 1);
-    setenv("OCL_ICD_VENDORS", fs::absolute(file).c_str(), 1);
-    std::vector<std::string> problems;
-    list_cl_devices(problems);
-    say(&listed, 1);
-    _exit(0);
-}
+};
 
 std::string answer_of(int pipe_end) {
     std::array<char, 512> text{};
@@ -81,6 +79,51 @@ std::string answer_of(int pipe_end) {
         answer.append(text.data(), static_cast<std::size_t>(count));
     }
     return answer;
+}
+
+void say(int answer, const std::string& text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const ssize_t written = write(answer, text.data() + at, text.size() - at);
+        if (written <= 0) return;
+        at += static_cast<std::size_t>(written);
+    }
+}
+
+/// Runs `work`, which gets a descriptor for its answer, in a child process, for at most
+/// `most_seconds`.
+template <typename Work>
+ChildEnd run_in_child(const Work& work) {
+    ChildEnd end;
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) return end;
+    const pid_t child = fork();
+    if (child == 0) {
+        std::signal(SIGALRM, SIG_DFL);
+        alarm(most_seconds);
+        const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+        dup2(nowhere, STDOUT_FILENO);
+        dup2(nowhere, STDERR_FILENO);
+        work(ends[1]);
+        _exit(0);
+    }
+    close(ends[1]);
+    end.answer = child > 0 ? answer_of(ends[0]) : "";
+    close(ends[0]);
+    end.is_started = child > 0 && waitpid(child, &end.status, 0) == child;
+    return end;
+}
+
+void load_and_list(const fs::path& file, const std::string& library, int answer) {
+    void* const driver = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+    // Every driver exports this, and the loader skips what does not (cl_khr_icd).
+    if (driver == nullptr || dlsym(driver, "clGetExtensionFunctionAddress") == nullptr) {
+        return say(answer, dlerror());
+    }
+    say(answer, {loaded});
+    setenv("OCL_ICD_VENDORS", fs::absolute(file).c_str(), 1);
+    std::vector<std::string> problems;
+    list_cl_devices(problems);
+    say(answer, {listed});
 }
 
 struct Attempt {
@@ -93,27 +136,69 @@ Attempt try_driver(const fs::path& file) {
     if (!fs::is_regular_file(file, error)) return {"cannot be loaded: it is not a file", true};
     const std::string library = library_of(file);
     if (library.empty()) return {"cannot be loaded: it names no library"};
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) return {};
-    const pid_t child = fork();
-    if (child == 0) try_in_child(file, library, ends[1]);
-    close(ends[1]);
-    const std::string answer = child > 0 ? answer_of(ends[0]) : "";
-    close(ends[0]);
-    int status = 0;
-    if (child < 0 || waitpid(child, &status, 0) != child) return {};
+    const ChildEnd end = run_in_child([&](int answer) { load_and_list(file, library, answer); });
+    if (!end.is_started) return {};
+    const std::string& answer = end.answer;
     const bool is_loaded = !answer.empty() && answer.front() == loaded;
-    const char* const doing = is_loaded ? "listing its devices" : "loading";
-    if (WIFSIGNALED(status)) {
-        if (WTERMSIG(status) == SIGALRM) {
-            return {fmt::format("hangs: still {} after {} s", doing, most_seconds), true};
-        }
-        return {fmt::format("crashes while {} ({})", doing, strsignal(WTERMSIG(status))), true};
+    if (WIFEXITED(end.status)) {
+        if (!answer.empty() && answer.back() == listed) return {};
+        if (!answer.empty() && !is_loaded) return {"cannot be loaded: " + answer};
     }
-    if (!answer.empty() && answer.back() == listed) return {};
-    if (!answer.empty() && !is_loaded) return {"cannot be loaded: " + answer};
-    return {fmt::format("ends the process while {} (exit code {})", doing, WEXITSTATUS(status)),
-            true};
+    return {end.how(is_loaded ? "listing its devices" : "loading"), true};
+}
+
+using Json = nlohmann::json;
+
+Json to_json(const ClDevice& device) {
+    return {device.index,        device.platform_index,   device.device_index,
+            device.name,         device.vendor,           device.driver,
+            device.version,      device.platform,         device.is_cpu,
+            device.is_gpu,       device.compute_units,    device.float_lanes,
+            device.double_lanes, device.memory_bytes,     device.max_buffer_bytes,
+            device.has_double,   device.rounds_correctly, device.keeps_subnormals,
+            device.unusable};
+}
+
+ClDevice device_of(const Json& json) {
+    ClDevice device;
+    std::size_t at = 0;
+    const auto take = [&](auto&... fields) { (json.at(at++).get_to(fields), ...); };
+    take(device.index, device.platform_index, device.device_index, device.name, device.vendor,
+         device.driver, device.version, device.platform, device.is_cpu, device.is_gpu,
+         device.compute_units, device.float_lanes, device.double_lanes, device.memory_bytes,
+         device.max_buffer_bytes, device.has_double, device.rounds_correctly,
+         device.keeps_subnormals, device.unusable);
+    return device;
+}
+
+/// What the loader lists in a child process.
+struct Listing {
+    std::vector<ClDevice> devices;
+    std::vector<std::string> problems;
+    std::string failure;  ///< of the process; empty: none
+};
+
+/// `file`: the only driver; empty: those that the environment says.
+Listing list_in_child(const std::string& file) {
+    const ChildEnd end = run_in_child([&](int answer) {
+        if (!file.empty()) setenv("OCL_ICD_VENDORS", file.c_str(), 1);
+        Json json{Json::array(), Json::array()};
+        std::vector<std::string> problems;
+        for (const ClDevice& device : list_cl_devices(problems)) {
+            json[0].push_back(to_json(device));
+        }
+        for (const std::string& problem : problems) json[1].push_back(problem);
+        say(answer, json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    });
+    Listing listing;
+    const Json json = Json::parse(end.answer, nullptr, false);
+    if (json.is_discarded()) {
+        listing.failure = end.how("listing their devices");
+        return listing;
+    }
+    for (const Json& device : json[0]) listing.devices.push_back(device_of(device));
+    listing.problems = json[1].get<std::vector<std::string>>();
+    return listing;
 }
 
 }  // namespace
@@ -145,7 +230,30 @@ UsableIcdFiles::UsableIcdFiles(const IcdFiles& files) {
 std::vector<ClDevice> list_devices_of(IcdFiles& files, const UsableIcdFiles& usable) {
     if (files.any_dangerous) setenv("OCL_ICD_VENDORS", usable.place().c_str(), 1);
     if (files.any_dangerous && (files.usable.empty() || usable.place().empty())) return {};
-    return list_cl_devices(files.problems);
+    Listing together = list_in_child("");
+    std::vector<std::string>& problems = files.problems;
+    if (together.failure.empty()) {
+        problems.insert(problems.end(), together.problems.begin(), together.problems.end());
+        return together.devices;
+    }
+    std::vector<ClDevice> devices;
+    for (const std::string& file : files.usable) {
+        const std::string place = fs::absolute(file).string();
+        Listing alone = list_in_child(place);
+        for (ClDevice& device : alone.devices) {
+            device.icd_file = place;
+            devices.push_back(std::move(device));
+        }
+        problems.insert(problems.end(), alone.problems.begin(), alone.problems.end());
+        if (!alone.failure.empty()) problems.push_back(printable(place + ": " + alone.failure));
+    }
+    if (files.usable.size() > 1) {
+        problems.push_back(printable(
+            fmt::format("a process that loads the drivers of {} {}; choose one of them with "
+                        "OCL_ICD_VENDORS",
+                        fmt::join(files.usable, " and "), together.failure)));
+    }
+    return devices;
 }
 
 }  // namespace rt

@@ -31,8 +31,9 @@ class UsableIcdFiles {
     TemporaryFolder folder_;
 };
 
-/// The devices of all drivers; if one is dangerous, only of the usable ones, in this process and
-/// those that it starts from then on. Adds problems of listing to the files'.
+/// The devices of all drivers, listed in a child process; if one is dangerous, only of the usable
+/// ones, also in the processes that this one starts from then on. Drivers that fail together are
+/// listed one by one. The devices have no handles. Adds problems of listing to the files'.
 std::vector<ClDevice> list_devices_of(IcdFiles& files, const UsableIcdFiles& usable);
 
 }  // namespace rt

@@ -25,6 +25,7 @@ struct DoctorOptions {
     std::string drivers;               ///< as in DevicesOptions
     std::string device;                ///< empty: everything, each device in its own process
     std::vector<std::string> command;  ///< the program's own, to start workers
+    double deadline = 30;              ///< seconds without progress before a device counts as hung
     bool json = false;
 };
 

@@ -41,6 +41,7 @@ struct RenderOptions : RenderSettings {
     std::string device_failure;        ///< how it failed
     std::string drivers;               ///< where OpenCL finds its .icd files
     std::string batch_log;             ///< descriptor of memory shared by workers; see BatchLog
+    std::string rank_share;            ///< "I/N:FILE", in a worker of an MPI rank: what to render
     std::vector<std::string> command;  ///< the program's own, to start workers
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar

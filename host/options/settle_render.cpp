@@ -58,6 +58,16 @@ void settle_watch(const RenderOptions& render) {
     }
 }
 
+/// A worker of an MPI rank has the rank's command, but renders one share.
+void settle_rank_share(RenderOptions& render) {
+    const std::size_t colon = render.rank_share.find(':');
+    if (colon == std::string::npos) return;
+    render.shares = parse_shares(render.rank_share.substr(0, colon));
+    render.output = render.rank_share.substr(colon + 1);
+    render.mpi = false;
+    render.quiet = true;
+}
+
 /// --mpi merges the picture from parts, which have no figures and cannot be viewed.
 void settle_mpi(const RenderOptions& render) {
     if (!render.mpi) return;
@@ -152,6 +162,7 @@ void settle_scenes(RenderOptions& render) {
 }  // namespace
 
 void settle_render(RenderOptions& render) {
+    settle_rank_share(render);
     settle_streams(render);
     settle_scenes(render);
     settle_journal(render);

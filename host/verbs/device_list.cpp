@@ -7,6 +7,7 @@
 #include "host/opencl/cl_tiles.h"
 #include "host/opencl/device_spec.h"
 #include "host/pocl/pocl_environment.h"
+#include "host/worker.h"
 
 namespace rt {
 
@@ -46,7 +47,10 @@ class ClDevices {
     const std::vector<ClDevice>& list() {
         if (!listed_) {
             prepare_pocl(0);
+            note_worker_task(listing_devices);
+            watch_worker(true);
             devices_ = list_cl_devices(problems_);
+            watch_worker(false);
         }
         listed_ = true;
         return devices_;

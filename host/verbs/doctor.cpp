@@ -30,7 +30,8 @@ namespace {
 constexpr PictureSize size{100, 100};
 constexpr std::uint64_t float_hash = 0x7263fc593b53fdc8, double_hash = 0x668173dac9fdc30f;
 
-constexpr double deadline = 30;  ///< seconds without progress before a device counts as hung
+/// How many deadlines testing a device, which may be busy for ever, may take.
+constexpr double longest_test = 10;
 
 enum class State { fine, missing, broken };
 
@@ -72,8 +73,8 @@ void render_known_picture(const DeviceChoice& device, Precision precision) {
 
 /// Tests a device in this process.
 int test_device(const std::string& spec) {
-    const DeviceChoice device = find_devices(spec, 0, {}).get().front();
     watch_worker(true);
+    const DeviceChoice device = find_devices(spec, 0, {}).get().front();
     render_known_picture(device, Precision::float32);
     if (device.use_threads || device.device.has_double) {
         render_known_picture(device, Precision::float64);
@@ -83,10 +84,10 @@ int test_device(const std::string& spec) {
 
 /// Tests a device in a worker process.
 Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
-                       const std::string& name) {
+                       const std::string& name, const std::vector<std::string>& changes) {
     const Stopwatch watch;
-    const WorkerEnd end =
-        run_worker({options.command.front(), "doctor", "--device", spec}, {}, deadline, 0);
+    const WorkerEnd end = run_worker({options.command.front(), "doctor", "--device", spec}, changes,
+                                     options.deadline, 0, longest_test * options.deadline);
     Finding finding{State::broken, name, ""};
     if (!end.is_regular) {
         finding.verdict = "its process " + end.how + "; update its driver";
@@ -151,9 +152,12 @@ void examine_devices(const DoctorOptions& options, IcdFiles& files,
     const UsableIcdFiles usable(files);
     for (const ClDevice& device : list_devices_of(files, usable)) {
         const std::string name = fmt::format("device {}, {}", device.index, device.name);
-        findings.push_back(device.unusable.empty()
-                               ? test_in_worker(options, std::to_string(device.index), name)
-                               : Finding{State::broken, name, device.unusable});
+        std::vector<std::string> changes;
+        if (!device.icd_file.empty()) changes.push_back("OCL_ICD_VENDORS=" + device.icd_file);
+        findings.push_back(
+            device.unusable.empty()
+                ? test_in_worker(options, std::to_string(device.index), name, changes)
+                : Finding{State::broken, name, device.unusable});
     }
     for (const std::string& problem : files.problems) {
         findings.push_back({State::broken, "OpenCL", problem});
@@ -182,7 +186,7 @@ std::vector<Finding> examine(const DoctorOptions& options) {
                                 "; install pocl-opencl-icd, or your GPU's driver"});
     }
     files.problems.clear();
-    findings.push_back(test_in_worker(options, "threads", "threads"));
+    findings.push_back(test_in_worker(options, "threads", "threads", {}));
     if (!files.usable.empty()) examine_devices(options, files, findings);
     findings.push_back(test_format("EXR pictures", ".exr"));
     findings.push_back(test_format("TIFF, JPEG and other pictures", ".tif"));

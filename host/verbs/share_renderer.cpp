@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <limits>
 #include <string_view>
 #include <system_error>
 
 #include "host/error.h"
 #include "host/stop_signal.h"
 #include "host/verbs/render_steps.h"
+#include "host/worker.h"
 
 namespace rt {
 
@@ -23,7 +25,9 @@ std::string parts_folder(const RenderOptions& options) { return options.output +
 
 ShareRenderer::ShareRenderer(const RenderOptions& options)
     : options_(options),
-      devices_(find_devices(options.device, options.threads, restore_stop_signals)),
+      is_isolated_(options.isolate && needs_opencl(options.device)),
+      devices_(find_devices(is_isolated_ ? "threads" : options.device, options.threads,
+                            restore_stop_signals)),
       scene_(scene_to_render(options)),
       chosen_(devices_.get()) {
     events_.message = message_printer(options);
@@ -33,10 +37,37 @@ bool ShareRenderer::render(const ShareQueue::Turn& turn, int shares, const StopF
     RenderSettings settings = options_;
     settings.shares = Shares{{turn.share}, shares};
     settings.journal = part_name(options_, turn, shares);
+    if (is_isolated_) {
+        const std::string share = to_string(*settings.shares) + ":" + settings.journal;
+        if (const auto is_finished = render_in_worker(share, stop)) return *is_finished;
+    }
     const RenderStats stats =
         render_picture(scene_, settings, chosen_, events_, stop, &cache_).stats;
     prepare_for_next(chosen_, stats);
     return stats.complete();
+}
+
+/// Empty if its driver failed. Throws Error.
+std::optional<bool> ShareRenderer::render_in_worker(const std::string& share,
+                                                    const StopFlag& stop) {
+    // Stop signals reach the worker, which then saves what it has.
+    const StopFlag* const enough = &stop == &stop_flag() ? nullptr : &stop;
+    const WorkerEnd end =
+        run_worker(options_.command, {"MIRRORBALL_SHARE=" + share}, options_.deadline,
+                   watch_.seconds(), std::numeric_limits<double>::infinity(), enough);
+    if (stop != 0 || end.stop_signal != 0) return false;
+    if (end.is_regular && end.status == static_cast<int>(ExitCode::done)) return true;
+    if (end.is_regular && end.status >= 128) return false;  // stopped
+    if (end.is_regular && end.status == static_cast<int>(ExitCode::incomplete)) return false;
+    if (end.is_regular) {
+        throw Error(static_cast<ExitCode>(end.status),
+                    fmt::format("its worker process ended with exit code {}", end.status));
+    }
+    const std::string failure = "the driver process " + end.how;
+    if (options_.no_fallback) throw Error(ExitCode::device, failure);
+    events_.message(failure + "; rendering on threads instead");
+    is_isolated_ = false;
+    return std::nullopt;
 }
 
 std::string part_name(const RenderOptions& options, const ShareQueue::Turn& turn, int shares) {

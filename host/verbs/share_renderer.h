@@ -2,6 +2,7 @@
 #pragma once
 
 #include <future>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,13 @@
 #include "host/options/render_options.h"
 #include "host/picture/render_cache.h"
 #include "host/picture/render_picture.h"
+#include "host/render/stopwatch.h"
 
 namespace rt {
 
 /// Renders shares of a scene, one after the other, each to a part file in OUTPUT.parts. Loads the
-/// scene and the devices once. The options must outlive it.
+/// scene once. OpenCL drivers are loaded by a worker process for each share: they may crash. Once
+/// one does, threads render the rest. The options must outlive it.
 class ShareRenderer {
    public:
     /// Throws Error.
@@ -26,7 +29,11 @@ class ShareRenderer {
     bool render(const ShareQueue::Turn& turn, int shares, const StopFlag& stop);
 
    private:
+    std::optional<bool> render_in_worker(const std::string& share, const StopFlag& stop);
+
     const RenderOptions& options_;
+    const Stopwatch watch_;
+    bool is_isolated_;
     std::future<std::vector<DeviceChoice>> devices_;
     const Scene scene_;
     std::vector<DeviceChoice> chosen_;

@@ -13,6 +13,7 @@
 #include "host/measure/statistics.h"
 #include "host/render/stopwatch.h"
 #include "host/stop_signal.h"
+#include "host/worker.h"
 
 namespace rt {
 
@@ -90,7 +91,13 @@ RenderedPicture render_quietly(const Scene& scene, const RenderSettings& setting
     RenderEvents events;
     events.started = [](const TileQueue&) { install_stop_signals(); };
     events.driver_loaded = restore_stop_signals;
-    return render_picture(scene, settings, std::vector{device}, events, stop_flag());
+    if (is_worker()) events.progressed = note_worker_progress;
+    note_worker_task(device.use_threads ? "threads" : device.device.name);
+    watch_worker(!device.use_threads);
+    RenderedPicture rendered =
+        render_picture(scene, settings, std::vector{device}, events, stop_flag());
+    watch_worker(false);
+    return rendered;
 }
 
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
