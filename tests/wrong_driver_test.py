@@ -289,8 +289,9 @@ class Dies(WrongDriver):
 
     def test_busy_for_ever_costs_time_and_not_the_picture(self):
         picture = ["--aa", "grid:64", "--progress", "none", "--tile", "16"]
-        result = self.die("clEnqueueNDRangeKernel", "spin", *picture, "--deadline", "0.5",
-                          CL_SHIM_DIE_AT="4", CL_SHIM_DIE_AFTER="0.5")
+        shim = {"CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "spin",
+                "CL_SHIM_DIE_AT": "4", "CL_SHIM_DIE_AFTER": "0.5"}
+        result = self.run_with(shim, *self.ARGUMENTS[:-1], "0.5", *picture)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("made no progress for", result.stderr)
         self.assertIn("rendering on threads instead", result.stderr)
