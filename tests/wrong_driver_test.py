@@ -250,6 +250,16 @@ class Dies(WrongDriver):
         self.assertIn("pthread", stats["device"]["name"])
         self.assertEqual(stats["image"]["hash"], self.right)
 
+    def test_leaves_the_picture_to_other_devices(self):
+        result = self.run_with({"CL_SHIM_DIE_IN": "clCreateContext", "CL_SHIM_DIE_BY": "abort",
+                                "CL_SHIM_DIE_AT": "2", "POCL_DEVICES": "pthread pthread"},
+                               *self.ARGUMENTS[:4], "--device", "0,1", "--stats=json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("trying again without --device 0", result.stderr)
+        stats = json.loads(result.stdout)
+        self.assertIn("pthread", stats["device"]["name"])
+        self.assertEqual(stats["image"]["hash"], self.right)
+
     def test_stats_say_whom_threads_stand_in_for(self):
         stats = json.loads(self.die("clFinish", "segfault", "--stats=json").stdout)
         self.assertEqual(stats["device"]["name"], "threads")

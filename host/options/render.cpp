@@ -240,6 +240,8 @@ void add_render(const CommandLine& program, Options& options) {
     add_report_options(verb, options.render);
     verb.when_chosen([&options, verb] {
         if (!verb.given("--device")) options.render.device = device_from_environment();
+        const std::string left = environment("MIRRORBALL_DEVICES");
+        if (!options.worker_link.empty() && !left.empty()) options.render.device = left;
         settle_render(options.render);
         options.verb = Verb::render;
     });

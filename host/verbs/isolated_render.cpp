@@ -2,6 +2,7 @@
 #include "host/verbs/isolated_render.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -14,6 +15,7 @@
 
 #include "host/console.h"
 #include "host/error.h"
+#include "host/opencl/device_spec.h"
 #include "host/opencl/icd_files.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
@@ -37,8 +39,9 @@ class IsolatedRender {
           render_here_(std::move(render_here)),
           name_(options_.device.empty() ? "OpenCL" : "--device " + options_.device) {}
 
-    /// If the first worker crashes, another one tries. If that crashes too, or one hangs, threads
-    /// resume here from the journal. A batch gets a new worker as long as pictures are finished.
+    /// If the first worker crashes, another one tries. If that crashes too, others try without each
+    /// of several devices. If they crash, or one hangs, threads resume here from the journal. A
+    /// batch gets a new worker as long as pictures are finished.
     int run() {
         if (options_.scene == stdin_scene) keep_stdin();  // each worker reads it
         const JournalState journal = state_of_journal();
@@ -51,7 +54,8 @@ class IsolatedRender {
             end = work({});
         }
         keep_journal(journal);
-        if (!end.is_regular && !end.is_hung && end.stop_signal == 0) end = try_again(end);
+        if (has_crashed(end)) end = try_again(end);
+        if (has_crashed(end)) end = try_fewer(end);
         if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
         if (end.is_regular) return end.status;
         if (options_.no_fallback) {
@@ -70,6 +74,7 @@ class IsolatedRender {
 
    private:
     static bool has_failed(const WorkerEnd& end) { return !end.is_regular && end.stop_signal == 0; }
+    static bool has_crashed(const WorkerEnd& end) { return has_failed(end) && !end.is_hung; }
 
     using JournalState = std::pair<std::filesystem::file_time_type, std::uintmax_t>;
 
@@ -119,7 +124,28 @@ class IsolatedRender {
         return lacks_device ? first : second;
     }
 
-    void say(const WorkerEnd& end, const char* then) const {
+    /// Without one OpenCL device of a list after the other.
+    WorkerEnd try_fewer(WorkerEnd end) const {
+        std::vector<std::string> specs(1);
+        for (const char letter : options_.device) {
+            if (letter == ',') {
+                specs.emplace_back();
+            } else {
+                specs.back() += letter;
+            }
+        }
+        if (std::count_if(specs.begin(), specs.end(), needs_opencl) < 2) return end;
+        for (const std::string& left_out : specs) {
+            if (!needs_opencl(left_out) || !has_crashed(end)) continue;
+            std::vector<std::string> others = specs;
+            std::erase(others, left_out);
+            say(end, "trying again without --device " + left_out);
+            end = work({fmt::format("MIRRORBALL_DEVICES={}", fmt::join(others, ","))});
+        }
+        return end;
+    }
+
+    void say(const WorkerEnd& end, const std::string& then) const {
         if (options_.quiet) return;
         print_message(
             fmt::format("mirrorball: {}: the driver process {}; {}\n", name_, end.how, then));
