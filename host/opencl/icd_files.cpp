@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -98,6 +99,7 @@ ChildEnd run_in_child(const Work& work) {
     if (pipe2(ends.data(), O_CLOEXEC) != 0) return end;
     const pid_t child = fork();
     if (child == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         std::signal(SIGALRM, SIG_DFL);
         alarm(most_seconds);
         const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);

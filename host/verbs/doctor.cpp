@@ -15,6 +15,7 @@
 #include "host/print/stats_json.h"
 #include "host/render/native_kernels.h"
 #include "host/render/stopwatch.h"
+#include "host/stop_signal.h"
 #include "host/temporary_folder.h"
 #include "host/verbs/default_scene.h"
 #include "host/verbs/verbs.h"
@@ -88,6 +89,8 @@ Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
     const Stopwatch watch;
     const WorkerEnd end = run_worker({options.command.front(), "doctor", "--device", spec}, changes,
                                      options.deadline, 0, longest_test * options.deadline);
+    const int stop = end.is_regular ? end.status - 128 : end.stop_signal;
+    if (stop > 0) end_by_stop_signal(stop);
     Finding finding{State::broken, name, ""};
     if (!end.is_regular) {
         finding.verdict = "its process " + end.how + "; update its driver";

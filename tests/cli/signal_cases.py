@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import select
 import signal
 import time
 
@@ -236,6 +237,48 @@ class Interrupted(CliTest):
                               "--device", "pocl", "--timeout", "0.002", "-o", "out.png")
         self.assertEqual(result.returncode, 8, result.stderr)
         self.assertEqual(self.pictures(), [])
+
+
+class HangingDriver(CliTest):
+    def test_ends_with_the_program_that_tries_it(self):
+        """A library that is a pipe: loading it takes as long as the pipe is open."""
+        os.mkfifo(self.folder / "driver.so")
+        drivers = self.folder / "drivers"
+        drivers.mkdir()
+        (drivers / "x.icd").write_text(str(self.folder / "driver.so"))
+        process = self.start("devices", env={"OCL_ICD_VENDORS": str(drivers)})
+        with open(self.folder / "driver.so", "wb") as pipe:  # waits until the driver is being loaded
+            process.terminate()
+            self.assertEqual(process.wait(HANG_LIMIT), -signal.SIGTERM)
+            readers = select.poll()
+            readers.register(pipe, 0)
+            self.assertTrue(readers.poll(5000), "on its own, it would end after 10 s")
+
+
+class DoctorTest(CliTest):
+    def test_a_stop_is_no_finding(self):
+        """The signal reaches doctor while a process of its own tries a device."""
+        for number in [signal.SIGTERM, signal.SIGUSR1]:
+            with self.subTest(number=number):
+                process = self.start("doctor")
+                children = f"/proc/{process.pid}/task/{process.pid}/children"
+                while process.poll() is None:
+                    with open(children, encoding="ascii") as file:
+                        lines = [self.command_of(child) for child in file.read().split()]
+                    if any(b"--device" in line for line in lines):
+                        break
+                process.send_signal(number)
+                output = process.communicate(timeout=HANG_LIMIT)[0]
+                ends = -number if number == signal.SIGTERM else 128 + number
+                self.assertEqual((process.returncode, output), (ends, ""))
+
+    @staticmethod
+    def command_of(process):
+        try:
+            with open(f"/proc/{process}/cmdline", "rb") as file:
+                return file.read()
+        except OSError:  # it has ended
+            return b""
 
 
 class StressTest(CliTest):
