@@ -93,11 +93,14 @@ struct CommandLineParser {
         if (!name.starts_with("--") || name == "--") return;
         std::vector<std::string> names;
         for (const CLI::Option* option : verb.get_options()) {
-            for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
-        }
-        if (std::find(names.begin(), names.end(), name) != names.end()) {
-            if (word == name + "=") refuse_line("'" + word + "' lacks its value");
-            return;
+            for (const std::string& known : option->get_lnames()) {
+                names.push_back("--" + known);
+                if (names.back() != name) continue;
+                if (word == name + "=") refuse_line("'" + word + "' lacks its value");
+                const bool is_flag = option->get_items_expected_max() == 0;
+                if (is_flag && word != name) refuse_line("'" + name + "' takes no value");
+                return;
+            }
         }
         refuse_line(fmt::format("unknown option '{}'{}", name, guess_text(name, names)));
     }

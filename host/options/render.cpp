@@ -80,7 +80,8 @@ void parse_features(const std::string& text, RenderOptions& render) {
     if (text == "all" || text == "auto") return;
     for (const std::string& part : split_list("--features", text)) {
         const FeatureName* found = nullptr;
-        std::vector<std::string> names{"auto", "all"};
+        std::vector<std::string> names;
+        if (part == text) names = {"auto", "all"};
         for (const FeatureName& feature : feature_names) {
             std::string name = feature.name;
             std::replace(name.begin(), name.end(), ' ', '-');

@@ -38,7 +38,8 @@ std::optional<std::string> next_name(std::istringstream& words) {
 }  // namespace
 
 std::optional<BatchItem> parse_batch_line(const std::string& line) {
-    std::istringstream words(line);
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // some editors begin files so
+    std::istringstream words(line.substr(line.starts_with(byte_order_mark) ? 3 : 0));
     BatchItem item;
     const std::optional<std::string> scene = next_name(words);
     if (!scene || scene->starts_with("#")) return std::nullopt;

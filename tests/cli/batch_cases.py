@@ -112,6 +112,12 @@ class List(BatchTest):
         self.assertEqual(self.files(), ["cones.png", "list", "with blank.png"])
         self.assertEqual(self.bytes_of("cones.png"), self.bytes_of("with blank.png"))
 
+    def test_list_of_a_windows_editor(self):
+        self.write_text("list", f"\ufeff{scene_path('cones')} 1.png\r\n{scene_path('cones')} 2.png\r\n")
+        result = self.run_cli("render", "--batch", "list", *SMALL)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.files(), ["1.png", "2.png", "list"])
+
     def test_lines_that_cannot_be_read_are_named(self):
         scene = scene_path("cones")
         text = f'{scene} 1.png\n"{scene} 2.png\n""\n{scene} "3.png\n{scene} ""\n'

@@ -138,6 +138,10 @@ class WrongOption(CliTest):
             with self.subTest(option=option):
                 self.assert_option_refused(option)
 
+    def test_value_of_a_flag(self):
+        self.assert_option_refused("--quiet=x", says=["takes no value"])
+        self.assert_refused(self.run_cli("devices", "--json=x"), 2, "'--json' takes no value")
+
     def test_repeated_option(self):
         self.assert_option_refused("--size", "8", "--size", "9", says=["given twice"])
 
