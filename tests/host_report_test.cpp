@@ -279,6 +279,9 @@ TEST(Bars, AreAsLongAsTheirSecondsAndNameTheirParts) {
     EXPECT_TRUE(holds(html, "trace 3.00\u00a0s</li>"));
     EXPECT_TRUE(holds(html, "other 10.0\u00a0ms</li>"));
     EXPECT_FALSE(holds(html, "upload"));
+    const std::string exact =
+        rt::bars_html("t", {{"threads", "", 0, 3.001, {{"trace", 3, 5}, {"upload", 0.001, 4}}}});
+    EXPECT_FALSE(holds(exact, "other"));
 }
 
 TEST(HtmlTable, AlignsNumbersAtTheirPoints) {

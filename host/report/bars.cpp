@@ -13,7 +13,7 @@ namespace rt {
 namespace {
 
 constexpr double full_width = 1000, bar_height = 20;  ///< of the longest bar; stretched by the page
-constexpr double least_share = 0.005;
+constexpr double least_share = 0.005, least_other = 0.001;
 constexpr int other_shade = 0;
 
 double drawn_seconds(const Bar& bar) {
@@ -33,7 +33,7 @@ std::vector<BarPart> named_parts(const Bar& bar) {
             other.seconds += part.seconds;
         }
     }
-    if (other.seconds > 0) parts.push_back(other);
+    if (other.seconds > least_other * drawn_seconds(bar)) parts.push_back(other);
     return parts;
 }
 

@@ -23,7 +23,7 @@ struct Bar {
 
 /// Stacked horizontal bars on a common axis of seconds, as HTML that fits any width: each with its
 /// name and total above, and its parts, with names and times, below. Parts under half a percent of
-/// their bar are merged into "other".
+/// their bar are merged into "other", which is left out where it is under a tenth of a percent.
 std::string bars_html(const std::string& title, const std::vector<Bar>& bars);
 
 }  // namespace rt
