@@ -146,6 +146,15 @@ TYPED_TEST(Touching, GlassStandsOnAFloor) {
     }
 }
 
+TYPED_TEST(Touching, ALightNearAHugeBallDoesNotShineThroughIt) {
+    Scene scene = front_view();
+    scene.materials = {matte(0, 1)};
+    scene.lights.push_back({{4, 0, 3}, glm::dvec3(1), true});
+    scene.spheres.push_back({{2 - 1e6, 0, 0}, 1e6, 0});
+    add_quad(scene, {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}, 0);
+    expect_square<TypeParam>(scene, 1, [](const auto&) { return 0; });
+}
+
 TYPED_TEST(Touching, ARingWithoutHeightIsARing) {
     for (const double height : {1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-30}) {
         for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)}) {

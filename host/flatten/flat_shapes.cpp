@@ -110,10 +110,13 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
 template <typename T>
 bool touches_light(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& light) {
     const double gap = gap_between(view, sphere, light);
-    const double slack =
-        contact(sphere.radius * view.scale) + difference_error(view, sphere.center, light);
-    const double rounding = 64 * static_cast<double>(Flat<T>::roundoff) * view.scale *
-                            (sphere.radius + glm::length(sphere.center - view.eye));
+    const double radius = sphere.radius * view.scale;
+    const double slack = contact(radius) + difference_error(view, sphere.center, light);
+    const double distance = glm::length(view.to_view(sphere.center));
+    // Where a huge sphere is near the eye, so are the numbers that are rounded.
+    const double size =
+        is_huge(radius, distance) ? glm::length(view.to_view(light)) : radius + distance;
+    const double rounding = 64 * static_cast<double>(Flat<T>::roundoff) * size;
     return gap >= -slack && gap <= slack + rounding;
 }
 
