@@ -16,9 +16,10 @@ Indices side_of(const Surface* surface, real3 dir) {
     return surface->material * 2 + (inside & 1);
 }
 
-// offer_hit, but for surfaces in the rays' zones that they have crossed.
-void offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
+// offer_hit, but for surfaces in the rays' zones that they have crossed: in the lanes returned.
+Mask offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
                      Reals u, Reals v, Index prim) {
+    Mask skipped = RT_NO_LANES;
     if (RT_HAS_GLASS && search->has_zones) {
         Mask near = met & (t > (Reals)0) & (t <= ray->zone);
         if (any_lane(near)) {
@@ -26,10 +27,23 @@ void offer_uncrossed(const SceneView* scene, const Ray* ray, Search* search, Mas
             Surface surface = primitive_surface(scene, ray, &hit, prim);
             Mask crossed = (Indices)scene_number(scene, prim) < ray->left;
             crossed |= side_of(&surface, ray->dir) == ray->left_side;
-            met &= !(near & crossed);
+            skipped = near & crossed;
+            met &= !skipped;
         }
     }
     offer_hit(scene, search, met, t, u, v, prim);
+    return skipped;
+}
+
+// offer_uncrossed for a sphere or cone that is met at t and, if that is farther, left at `far`.
+void offer_curved(const SceneView* scene, const Ray* ray, Search* search, Mask met, Reals t,
+                  Reals far, Index prim) {
+    const Reals none = (Reals)0;
+    Mask crossed = offer_uncrossed(scene, ray, search, met, t, none, none, prim);
+    crossed &= far > t;
+    if (RT_HAS_GLASS && any_lane(crossed)) {
+        offer_uncrossed(scene, ray, search, crossed, far, none, none, prim);
+    }
 }
 
 void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal, Search* search) {
@@ -42,7 +56,8 @@ void search_spheres(const SceneView* scene, const Ray* ray, Traversal* traversal
             Reals t;
             Mask met = intersect_sphere(ray, sphere, prim, &t);
             if (any_lane(met)) {
-                offer_uncrossed(scene, ray, search, met, t, (Reals)0, (Reals)0, prim);
+                Reals middle = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
+                offer_curved(scene, ray, search, met, t, (Reals)2 * middle - t, prim);
             }
         }
     }
@@ -55,12 +70,10 @@ void search_cones(const SceneView* scene, const Ray* ray, Traversal* traversal, 
     while (next_range(traversal, scene->nodes, search->limit, &first, &end)) {
         for (Index i = first; i < end; ++i) {
             Index prim = scene->params.sphere_count + i;
-            Reals t;
+            Reals t, far;
             Mask leaving = leaves_cone(ray, &scene->cones[i], prim);
-            Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t);
-            if (any_lane(met)) {
-                offer_uncrossed(scene, ray, search, met, t, (Reals)0, (Reals)0, prim);
-            }
+            Mask met = intersect_cone(ray, &scene->cones[i], leaving, &t, &far);
+            if (any_lane(met)) offer_curved(scene, ray, search, met, t, far, prim);
         }
     }
 }

@@ -138,9 +138,11 @@ ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving) {
     return roots;
 }
 
-// Whether the rays' lines meet the frustum in front of the origin, and at which distance t.
-Mask intersect_cone(const Ray* ray, __global const Cone* cone, Mask leaving, Reals* t) {
+// Whether the rays' lines meet the frustum in front of the origin, and at which distance t; if that
+// is the nearer of two, *far is the other.
+Mask intersect_cone(const Ray* ray, __global const Cone* cone, Mask leaving, Reals* t, Reals* far) {
     ConeRoots roots = cone_roots(ray, cone, leaving);
+    *far = roots.far_counts ? roots.far : (Reals)0;
     *t = roots.near_counts ? roots.near : roots.far;
     return roots.near_counts | roots.far_counts;
 }

@@ -67,7 +67,9 @@ Ray refracted_ray(const Surface* surface, real3 dir, Reals eta, Indices prim, Ma
         if (!RT_HAS_VERTEX_NORMALS || attempt == 1 || !any_lane(!passes)) break;
         normal = select3(passes, normal, surface->geometric);
     }
-    return spawn_ray(surface, offset_origin(surface, refracted), refracted, prim);
+    // Among surfaces that touch it starts before them all, however grazing (note_crossed).
+    real3 side = select3(surface->back > (Reals)0, negate3(dir), refracted);
+    return spawn_ray(surface, offset_origin(surface, side), refracted, prim);
 }
 
 // Each live lane's ray, and its weight in the lane's color.
@@ -127,10 +129,15 @@ void scatter(const SceneView* scene, const Surface* surface, const Materials* ma
     }
     real3 transmitted = limit3(mul3(throughput, material->transmission));
     Mask total;
+    Indices from = prim;
     Reals eta = inside ? material->ior : (Reals)1 / material->ior;
     Ray refracted = refracted_ray(surface, path->ray.dir, eta, prim, &total);
     if (any_lane(glassy & (surface->back > (Reals)0))) {
         note_crossed(scene, surface, path->ray.dir, inside, prim, &refracted);
+        Mask moved = glassy & (surface->back > (Reals)0);
+        moved &= surface->signed_diameter != (Reals)0;
+        from = moved ? (Indices)RT_NONE : prim;  // the chord no longer starts at the origin
+        refracted.from = from;
     }
     total &= glassy;
     reflected = select3(total, limit3(add3(reflected, transmitted)), reflected);
@@ -142,7 +149,7 @@ void scatter(const SceneView* scene, const Surface* surface, const Materials* ma
         Path later = {refracted, transmitted, splits, path->bounce};
         pending->paths[pending->size++] = later;
     }
-    path->ray = select_ray(reflects, mirror_ray(surface, path->ray.dir, prim), refracted);
+    path->ray = select_ray(reflects, mirror_ray(surface, path->ray.dir, from), refracted);
     path->throughput = select3(reflects, reflected, transmitted);
     path->live = reflects | transmits;
     counts->mirror += reflects & 1;

@@ -130,6 +130,34 @@ TYPED_TEST(Touching, BlocksOfGlassAreCrossedOneAfterTheOther) {
     }
 }
 
+TYPED_TEST(Touching, BodiesOfGlassInOnePlaceAreEnteredAndLeft) {
+    Scene balls = front_view();
+    balls.background = glm::dvec3(1);
+    balls.materials = {glass(0.9, 1.5), glass(0.8, 1.33)};
+    Scene tubes = balls;
+    for (const int material : {0, 1}) {
+        balls.spheres.push_back({glm::dvec3(0), 1, material});
+        tubes.cones.push_back({{0, -1, 0}, {0, 1, 0}, 0.7, 0.8, material});
+    }
+    for (const Scene& scene : {balls, tubes}) {
+        expect_square<TypeParam>(scene, 0.6, [](const auto&) { return 0.9 * 0.9 * 0.8 * 0.8; });
+    }
+}
+
+TYPED_TEST(Touching, SheetsInOnePlaceAreCrossedByGrazingRays) {
+    for (const double height : {1.0, 0.1, 0.01}) {
+        Scene scene = front_view();
+        scene.camera.from = {0, -4 - height, -4 + height};
+        scene.camera.field_of_view.amount = 0.1 * height;
+        scene.background = glm::dvec3(1);
+        scene.materials = {glass(0.9, 1), glass(0.8, 1)};
+        for (const int material : {0, 1}) {
+            add_quad(scene, {{{-9, -9, -9}, {9, -9, -9}, {9, 9, 9}, {-9, 9, 9}}}, material);
+        }
+        expect_square<TypeParam>(scene, 1, [](const auto&) { return 0.9 * 0.8; });
+    }
+}
+
 TYPED_TEST(Touching, GlassStandsOnAFloor) {
     for (const bool is_floor_first : {false, true}) {
         Scene scene = front_view();

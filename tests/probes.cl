@@ -188,8 +188,8 @@ __kernel void probe_intersect_cone(PROBE_ITEMS, __global const ProbeRay* rays,
     Mask leaves = INDICES(leaving) != 0;
     Reals found = (Reals)-1;
     PROBE_EACH_LANE {
-        Reals t = (Reals)0;
-        Mask met = intersect_cone(&ray, &cones[THIS_ITEM], leaves, &t);
+        Reals t = (Reals)0, far;
+        Mask met = intersect_cone(&ray, &cones[THIS_ITEM], leaves, &t, &far);
         found = (THIS_LANE & met) ? t : found;
     }
     PUT_REALS(out, found);
@@ -275,12 +275,12 @@ __kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const
         Index prim = prims[THIS_ITEM];
         Index cone = prim - params->sphere_count;
         Index triangle = cone - params->cone_count;
-        Reals t = (Reals)0, u, v;
+        Reals t = (Reals)0, far, u, v;
         Mask met = THIS_LANE;
         if (cone < 0) {
             met &= intersect_sphere(&ray, &spheres[prim], prim, &t);
         } else if (triangle < 0) {
-            met &= intersect_cone(&ray, &cones[cone], ray.from == prim, &t);
+            met &= intersect_cone(&ray, &cones[cone], ray.from == prim, &t, &far);
         } else {
             met &= intersect_triangle(&shear, &triangles[triangle], &t, &u, &v);
             met &= ray.from != prim;
