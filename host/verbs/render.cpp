@@ -86,7 +86,10 @@ int render_scene(RenderOptions options, double seconds_before_main, LivePicture*
     stats.phases.write = watch.seconds();
     stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
     if (live != nullptr) live->finish(rendered.picture);
-    if (reference) stats.error = image_error(rendered.picture, *reference);
+    const auto pixels = static_cast<std::size_t>(stats.region.width) * stats.region.height;
+    if (reference && stats.non_finite < pixels) {
+        stats.error = image_error(rendered.picture, *reference);
+    }
     print_results(stats, options);
     const bool has_aovs = write_aovs(scene, stats, options);
     const int status = has_aovs ? verdict(rendered, path) : exit_code_of_stop(stop_flag());

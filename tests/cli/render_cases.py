@@ -110,6 +110,15 @@ class NonFinite(CliTest):
             self.assertEqual(result.returncode, 6, result.stderr)
             self.assertIn("16 pixels are not finite, the first at 2,1", result.stderr)
 
+    def test_a_picture_without_finite_pixels_has_no_error(self):
+        scene = self.write_scene(ambient_light=1e30, materials={"bright": {"ambient": 1e6, "mirror": 1e6}},
+                                 spheres=[{"center": [0, 0, 0], "radius": 100, "material": "bright"}])
+        self.render("empty", "--size", "4", "-o", "a.pfm")
+        result = self.run_cli("render", scene, "--size", "4", "--device", "threads", "--reference",
+                              "a.pfm", "--stats=json")
+        self.assertEqual(result.returncode, 6, result.stderr)
+        self.assertNotIn("error", json.loads(result.stdout))
+
 
 class Reference(CliTest):
     def compare(self, reference, *options):
