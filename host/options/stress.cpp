@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "host/error.h"
 #include "host/opencl/device_spec.h"
 #include "host/options/lists.h"
 #include "host/options/verb_options.h"
@@ -43,7 +44,12 @@ void add_stress(const CommandLine& program, Options& options) {
              "folder for each case's reference, worst picture and error map");
     verb.flag("-v,--verbose", stress.verbose, "print a line per case and renderer");
     verb.flag("-q,--quiet", stress.quiet, "no progress on stderr");
-    verb.when_chosen([&] { options.verb = Verb::stress; });
+    verb.when_chosen([&] {
+        if (stress.list && !(stress.json.empty() && stress.output.empty())) {
+            throw Error(ExitCode::usage, "--list runs nothing: leave out --json and -o");
+        }
+        options.verb = Verb::stress;
+    });
 }
 
 }  // namespace rt

@@ -138,6 +138,10 @@ class WrongOption(CliTest):
             with self.subTest(option=option):
                 self.assert_option_refused(option)
 
+    def test_results_of_a_list_of_cases(self):
+        for more in [["--json"], ["-o", "folder"]]:
+            self.assert_refused(self.run_cli("stress", "--list", *more), 2, "--list", "--json")
+
     def test_value_of_a_flag(self):
         self.assert_option_refused("--quiet=x", says=["takes no value"])
         self.assert_refused(self.run_cli("devices", "--json=x"), 2, "'--json' takes no value")
