@@ -20,8 +20,8 @@ namespace {
 std::atomic<bool> bar_shown = false;
 
 [[noreturn]] void throw_lost_results() {
-    throw Error(ExitCode::output, std::string("standard output: cannot write the results: ") +
-                                      std::strerror(errno) + "; send them elsewhere");
+    throw Error(ExitCode::output, std::string("standard output: cannot write: ") +
+                                      std::strerror(errno) + "; redirect it elsewhere");
 }
 
 /// Length of the printable prefix of a text, line ends and tabs included.
@@ -68,8 +68,10 @@ void print_message(const std::string& text) {
     std::fflush(stderr);
 }
 
+void print_note(const std::string& note) { print_message("mirrorball: " + note + "\n"); }
+
 void print_notes(const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) print_message("mirrorball: " + note + "\n");
+    for (const std::string& note : notes) print_note(note);
 }
 
 void print_bar(const std::string& text, bool last) {

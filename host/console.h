@@ -14,7 +14,8 @@ void open_missing_streams();
 /// characters are escaped (printable). Never throws: a lost message must not lose a picture.
 void print_message(const std::string& text);
 
-/// Prints each note as a separate message: what a scene reader left out.
+/// Prints "mirrorball: note" as a line.
+void print_note(const std::string& note);
 void print_notes(const std::vector<std::string>& notes);
 
 /// Overwrites the cursor's line, without a line end: a progress bar. `last` ends the line.

@@ -20,6 +20,9 @@ enum class ExitCode : int {
     bug = 70,
 };
 
+/// The message where no memory is left, wherever that happens.
+inline constexpr const char* out_of_memory = "out of memory; render a smaller picture or scene";
+
 /// The program's only exception type: what is wrong, where, and what to do, in one line (several
 /// lines when several mistakes are reported together). Caught for main (exit_status_of), when
 /// falling back to another device, and between the pictures of a batch.

@@ -28,7 +28,7 @@ int exit_status_of(const std::function<int()>& run) {
     } catch (const Error& error) {
         return failed(error.exit_code(), error.what());
     } catch (const std::bad_alloc&) {
-        return failed(ExitCode::limit, "out of memory; render a smaller picture or scene");
+        return failed(ExitCode::limit, out_of_memory);
     } catch (const std::system_error& error) {
         return failed(ExitCode::limit, error.what());
     } catch (const std::exception& error) {

@@ -15,7 +15,7 @@ inline std::string lower(std::string text) {
 }
 
 /// ".nff" of "a/b.NFF".
-inline std::string lower_ending(const std::string& path) {
+inline std::string lower_extension(const std::string& path) {
     return lower(std::filesystem::path(path).extension().string());
 }
 

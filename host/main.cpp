@@ -30,7 +30,7 @@ int isolated(const rt::RenderOptions& options, double seconds_before_main,
         const rt::IcdFiles files = rt::try_icd_files(options.drivers);
         const rt::UsableIcdFiles usable(files);
         for (const std::string& problem : files.problems) {
-            rt::print_message("mirrorball: " + problem + "\n");
+            rt::print_note(problem);
         }
         if (files.any_dangerous && !files.usable.empty() && !usable.place().empty()) {
             end = rt::run_worker(options.command, {"OCL_ICD_VENDORS=" + usable.place()},
@@ -40,8 +40,8 @@ int isolated(const rt::RenderOptions& options, double seconds_before_main,
     if (end.stop_signal != 0) rt::end_by_stop_signal(end.stop_signal);
     if (end.is_regular) return end.status;
     throw rt::Error(rt::ExitCode::device, (end.task.empty() ? "" : end.task + ": ") +
-                                              "the process that measures " + end.how +
-                                              "; `mirrorball doctor` tests each driver");
+                                              "the worker process " + end.how +
+                                              "; test each driver with 'mirrorball doctor'");
 }
 
 int run(int argc, char** argv, double seconds_before_main) {

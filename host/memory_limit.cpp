@@ -63,7 +63,7 @@ void take_group(FreeMemory& least, const fs::path& group, const GroupFiles& file
     if (!limit || !usage) return;
     const std::uint64_t cache = number_of(group / "memory.stat", files.cache).value_or(0);
     take_least(least, difference(*limit, difference(*usage, cache)),
-               "are left by the memory limit of the container or job (cgroup)");
+               "remain within the memory limit of the container or job (cgroup)");
 }
 
 /// Visits a group and its ancestors. In a container the path may be the host's, with the
@@ -97,7 +97,7 @@ void take_address_space(FreeMemory& least, const std::string& root) {
     const auto pages = number_in(root + "/proc/self/statm").value_or(0);
     const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     take_least(least, difference(limit.rlim_cur, pages * page),
-               "are left of its address space (ulimit -v)");
+               "remain of its address space (ulimit -v)");
 }
 
 }  // namespace
@@ -119,8 +119,8 @@ void check_memory(std::uint64_t bytes, const std::string& what, const std::strin
     if (bytes <= free.bytes) return;
     const auto mib = [](std::uint64_t count) { return static_cast<double>(count) / (1 << 20); };
     throw Error(ExitCode::limit,
-                fmt::format("{} needs {:.0f} MiB of memory and {:.0f} MiB {}; {}", what, mib(bytes),
-                            mib(free.bytes), free.reason, advice));
+                fmt::format("{} needs {:.0f} MiB of memory, but only {:.0f} MiB {}; {}", what,
+                            mib(bytes), mib(free.bytes), free.reason, advice));
 }
 
 }  // namespace rt

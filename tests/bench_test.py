@@ -186,7 +186,7 @@ class Bench(FiguresTest):
 
     def test_a_scene_is_never_replaced_by_results(self):
         before = pathlib.Path(SCENE).read_bytes()
-        self.assertIn("name another file", run("bench", "--json=" + SCENE, code=2).stderr)
+        self.assertIn("choose another name", run("bench", "--json=" + SCENE, code=2).stderr)
         self.assertEqual(pathlib.Path(SCENE).read_bytes(), before)
 
     def test_wrong_usage(self):

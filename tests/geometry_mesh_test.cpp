@@ -141,9 +141,9 @@ TEST(MeshFaces, FacesNeedNotBeFlat) {
 TEST(MeshFaces, FacesWithoutAreaAreLeftOutWithANote) {
     MeshBuilder builder;
     EXPECT_TRUE(split(builder, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}).empty());
-    EXPECT_EQ(builder.notes("f"), Strings{"f: 1 polygon without area left out"});
+    EXPECT_EQ(builder.notes("f"), Strings{"f: ignored 1 zero-area polygon"});
     EXPECT_TRUE(split(builder, Positions(5, glm::dvec3(7, 8, 9))).empty());
-    EXPECT_EQ(builder.notes("f"), Strings{"f: 2 polygons without area left out"});
+    EXPECT_EQ(builder.notes("f"), Strings{"f: ignored 2 zero-area polygons"});
 }
 
 TEST(MeshFaces, FacesThatCrossThemselvesAreFansWithANote) {
@@ -151,14 +151,14 @@ TEST(MeshFaces, FacesThatCrossThemselvesAreFansWithANote) {
     const Positions bow = {{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}};
     EXPECT_EQ(split(builder, bow), (Faces{{0, 1, 2}, {0, 2, 3}}));
     EXPECT_EQ(builder.notes("f"),
-              Strings{"f: 1 polygon crosses itself or is too intricate: it may look wrong"});
+              Strings{"f: 1 polygon is self-intersecting or too complex and may look wrong"});
     Positions pentagram;
     for (int i = 0; i < 5; ++i) {
         pentagram.emplace_back(std::cos(i * 2.513274), std::sin(i * 2.513274), 0);
     }
     EXPECT_EQ(split(builder, pentagram), (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
     EXPECT_EQ(builder.notes("f"),
-              Strings{"f: 2 polygons cross themselves or are too intricate: they may look wrong"});
+              Strings{"f: 2 polygons are self-intersecting or too complex and may look wrong"});
 }
 
 TEST(MeshFaces, IntricateFacesAreFansOnceTheBudgetIsSpent) {
@@ -173,7 +173,7 @@ TEST(MeshFaces, IntricateFacesAreFansOnceTheBudgetIsSpent) {
     EXPECT_NEAR(total_area(comb, split(builder, comb)), shoelace(comb), 1);
     for (int i = 0; i < 20; ++i) EXPECT_EQ(split(builder, comb).size(), comb.size() - 2);
     ASSERT_EQ(builder.notes("f").size(), 1u);
-    EXPECT_NE(builder.notes("f")[0].find("are too intricate"), std::string::npos);
+    EXPECT_NE(builder.notes("f")[0].find("too complex"), std::string::npos);
     const Positions dart = {{2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}, {0, 0, 0}};
     EXPECT_DOUBLE_EQ(total_area(dart, split(builder, dart)), 1.0);
 }

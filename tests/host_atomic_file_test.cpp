@@ -213,8 +213,8 @@ TEST_F(OutputPath, OutputsThatAreInputsAreRefused) {
         const auto [code, message] =
             refusal_of([&] { check_output_is_no_input(path(name), inputs); });
         EXPECT_EQ(code, ExitCode::usage) << name;
-        EXPECT_EQ(message, path(name) + ": is the same file as " + path("scene.json") +
-                               ", which is read; name another");
+        EXPECT_EQ(message, path(name) + ": is the same file as the input " + path("scene.json") +
+                               "; choose another output");
     }
     for (const std::string& name : {path("other.png"), path("new.png"), std::string("-"),
                                     std::string(), std::string("/dev/null")}) {

@@ -104,7 +104,7 @@ TEST(JudgePicture, OnePixelThatARoundingDecidedIsRight) {
 TEST(JudgePicture, NaNPixelIsWrong) {
     Picture picture = test_picture();
     picture.pixels[100] = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(judge_picture(picture, test_picture()).why_wrong, "1 pixels are not finite");
+    EXPECT_EQ(judge_picture(picture, test_picture()).why_wrong, "1 pixel is not finite");
     EXPECT_NE(judge_estimate(picture, test_picture()).why_wrong, "");
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "host/image/encoding.h"
-#include "tests/refusals.h"
 
 namespace rt {
 namespace {

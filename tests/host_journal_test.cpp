@@ -289,7 +289,7 @@ TEST_F(Journals, MergeRefusesWhatDiffers) {
         FAIL() << "two pictures merged";
     } catch (const Error& error) {
         EXPECT_EQ(error.exit_code(), ExitCode::input);
-        EXPECT_NE(std::string(error.what()).find("c.mbj: has different settings than"),
+        EXPECT_NE(std::string(error.what()).find("c.mbj: is not a part of the same picture as"),
                   std::string::npos)
             << error.what();
     }

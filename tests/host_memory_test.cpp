@@ -87,7 +87,7 @@ TEST(CheckMemory, NamesTheBufferItsBytesAndTheWayOut) {
     const auto [code, message] =
         refusal_of([] { check_memory(std::uint64_t{1} << 60, "the film", "use --crop"); });
     EXPECT_EQ(code, ExitCode::limit);
-    EXPECT_EQ(message.find("the film needs 1099511627776 MiB of memory and "), 0u) << message;
+    EXPECT_EQ(message.find("the film needs 1099511627776 MiB of memory, but only "), 0u) << message;
     EXPECT_NE(message.find("; use --crop"), message.npos) << message;
 }
 

@@ -121,7 +121,7 @@ TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
             "scene/scene.json", scene_with(R"({"material": "red", "file": ")" + name + "\"}"));
         const Refusal refusal = refusal_of([&] { load_scene(path); });
         EXPECT_EQ(refusal.exit_code, ExitCode::input);
-        EXPECT_NE(refusal.message.find("lies outside the scene's folder"), std::string::npos);
+        EXPECT_NE(refusal.message.find("is outside the scene's folder"), std::string::npos);
     }
     fs::create_symlink("../scene/inside.ply", folder_ / "scene/alias.ply");
     write("scene/inside.ply", ply_triangle);
@@ -194,7 +194,7 @@ TEST_F(ModelFiles, DegenerateTrianglesAreANoteNotAMistake) {
     const Scene scene = load_scene(path);
     EXPECT_EQ(triangle_count(scene), 1u);
     ASSERT_EQ(scene.notes.size(), 1u);
-    EXPECT_EQ(scene.notes[0], path + ": 2 triangles without area left out");
+    EXPECT_EQ(scene.notes[0], path + ": ignored 2 zero-area triangles");
 }
 
 TEST_F(ModelFiles, AModelAloneFillsThePicture) {

@@ -67,7 +67,7 @@ TEST(ParseMtl, TransparencyIsTheRestOfDissolveWhichWins) {
 TEST(ParseMtl, WhatIsNotDrawnIsCounted) {
     const auto library = parse_mtl("newmtl m\nmap_Kd a b.png\nKe 0 0 0\nKd 1\n", "t.mtl");
     ASSERT_EQ(library.notes.size(), 1u);
-    EXPECT_TRUE(library.notes[0].starts_with("t.mtl: 2 statements left out, the first 'map_Kd'"));
+    EXPECT_TRUE(library.notes[0].starts_with("t.mtl: ignored 2 statements, the first 'map_Kd'"));
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(ParseObj, LinesAreTakenAsTheyCome) {
 TEST(ParseObj, PointsAndLinesAreCounted) {
     const Model model = obj(square + "p 1\nl 1 2\nf 1 2 3\n");
     ASSERT_EQ(model.notes.size(), 1u);
-    EXPECT_EQ(model.notes[0], "t.obj: 2 lines of points or lines (p, l) left out");
+    EXPECT_EQ(model.notes[0], "t.obj: ignored 2 points or lines (p, l)");
 }
 
 TEST(ParseObj, FacesWearTheMaterialsTheyName) {

@@ -49,11 +49,11 @@ TEST_F(ReadPicture, TheFirstBytesTellTheFormatAndANameMayNotDenyIt) {
         fs::copy_file(path("a.exr"), path(name));
         const auto [code, message] = refusal_of([&] { read_picture(path(name)); });
         EXPECT_EQ(code, ExitCode::input) << name;
-        EXPECT_EQ(message, path(name) + ": holds a picture in EXR format; rename it to match");
+        EXPECT_EQ(message, path(name) + ": contains EXR data; correct its extension");
     }
     put(path("c.png"), "no picture at all");
     EXPECT_EQ(refusal_of([&] { read_picture(path("c.png")); }).message,
-              path("c.png") + ": is no PNG picture; write it again");
+              path("c.png") + ": is not a valid PNG file; save it again");
 }
 
 TEST_F(ReadPicture, PnmIsReadToo) {
@@ -187,7 +187,7 @@ TEST_F(ReadPicture, PngThatPromisesTooMuchTakesNoMemory) {
         expect_cheap_refusal(path("a.png"), "cannot hold");
     }
     put(path("a.png"), png_start(70000, 10) + png_chunk("IDAT", std::string(2000000, 'x')));
-    expect_cheap_refusal(path("a.png"), "too many");
+    expect_cheap_refusal(path("a.png"), "scale it down to at most");
     put(path("a.png"), png_start(0, 10) + png_chunk("IDAT", "x"));
     expect_cheap_refusal(path("a.png"), "cannot read");
     put(path("a.png"), png_start(10, 10) + png_chunk("IDAT", "no zlib"));
@@ -295,7 +295,7 @@ TEST_F(ReadPicture, ExrWithTwoChannelsOfOneNameIsRefused) {
 // Found by fuzzing: OpenEXR reads the one, and our limits looked at the other.
 TEST_F(ReadPicture, ExrWhoseHeaderGivesTwoSizesIsRefused) {
     const std::string file = std::string(MIRRORBALL_PICTURES_DIR) + "/two-sizes.exr";
-    expect_cheap_refusal(file, "two sizes");
+    expect_cheap_refusal(file, "disagree on the size");
 }
 
 // OpenEXR takes the union of all lists of channels.

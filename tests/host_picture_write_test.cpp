@@ -198,7 +198,7 @@ TEST_F(WritePicture, OtherEndingsAreWrongUsage) {
         const auto [code, message] =
             refusal_of([&] { write_picture(path(name), ramp_picture(2, 2), Encoding::display); });
         EXPECT_EQ(code, ExitCode::usage) << name;
-        EXPECT_NE(message.find(".png, .exr or .pfm"), message.npos) << message;
+        EXPECT_NE(message.find(".png, .exr, .pfm"), message.npos) << message;
     }
     EXPECT_EQ(files(), 0u);
 }

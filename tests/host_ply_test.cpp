@@ -141,7 +141,7 @@ TEST(ParsePly, BytesAfterTheEndAreNoted) {
     EXPECT_TRUE(parse_ply(whole + "\n", "t.ply").notes.empty());
     const Model model = parse_ply(whole + "more of it", "t.ply");
     ASSERT_EQ(model.notes.size(), 1u);
-    EXPECT_EQ(model.notes[0], "t.ply: 10 bytes after the last element left out");
+    EXPECT_EQ(model.notes[0], "t.ply: ignored 10 bytes after the last element");
 }
 
 /// Two strips in one list, as in Stanford's models, one of which turns a corner.
@@ -243,8 +243,8 @@ TEST(ParsePly, MistakesInRowsReadSideBySideAreToldByTheirRows) {
         const std::string text = ply_grid("binary_little_endian", 12, false, {0, 1, 144});
         const Refusal refusal = refusal_of([&] { parse_ply(text, "t.ply", pace); });
         EXPECT_EQ(refusal.message,
-                  "t.ply: element 'face' 242: vertex 144 does not exist, there are 144 and the "
-                  "first is 0; correct the number");
+                  "t.ply: element 'face' 242: vertex 144 does not exist, there are 144, "
+                  "counted from 0; correct the number");
         std::string infinite = ply_grid("binary_little_endian", 12, false);
         const float bad = std::numeric_limits<float>::infinity();
         const std::size_t row = infinite.find("end_header\n") + 11 + 100 * 27;

@@ -129,7 +129,7 @@ TEST(Triangulate, FaultsAreNamed) {
               PolygonFault::bent);
     EXPECT_EQ(fault_of({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}}, max_polygon_work),
               PolygonFault::zero_area);
-    EXPECT_EQ(fault_of(ring_of(1000, 0.3, 1), 1000), PolygonFault::too_intricate);
+    EXPECT_EQ(fault_of(ring_of(1000, 0.3, 1), 1000), PolygonFault::too_complex);
 }
 
 }  // namespace

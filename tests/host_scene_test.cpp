@@ -464,13 +464,13 @@ TEST(SceneWarnings, ColorsOfBytesAndMirrorsThatBrighten) {
         return warnings_for(ball_at("[0, 0, 0]", material) + lit);
     };
     EXPECT_TRUE(warns(of(R"({"ambient": [255, 128, 0], "diffuse": 200})"),
-                      "ambient of material 'm' and 1 more: that " + bytes));
+                      "ambient of material 'm' and 1 more: " + bytes));
     EXPECT_TRUE(warns(warnings_for(ball_at("[0, 0, 0]", R"({"ambient": 1})") + lit +
                                    R"(, "background": [135, 206, 235])"),
                       bytes));
     EXPECT_TRUE(of(R"({"ambient": 1, "diffuse": [1, 0, 1], "specular": 2.5})").empty());
     EXPECT_TRUE(
-        warns(of(R"({"ambient": 1, "mirror": [0, 1.5, 0]})"), "mirror of material 'm': above 1"));
+        warns(of(R"({"ambient": 1, "mirror": [0, 1.5, 0]})"), "mirror of material 'm': exceeds 1"));
     EXPECT_TRUE(of(R"({"ambient": 1, "mirror": 1, "transmission": 1})").empty());
 }
 

@@ -98,7 +98,7 @@ TEST(StressJudge, ABrokenPictureFails) {
     PictureFigures figures = judge_stress_picture(picture, reference);
     EXPECT_EQ(figures.wrong, 1U);
     EXPECT_NEAR(figures.max_error, 0.01, 1e-6);
-    EXPECT_EQ(exceeded_tolerance(figures, StressTolerance{}), "1 pixels are wrong");
+    EXPECT_EQ(exceeded_tolerance(figures, StressTolerance{}), "1 pixel is wrong");
     picture = right;
     picture.pixels[3 * (25 * 40 + 3)] += 0.001F;
     figures = judge_stress_picture(picture, reference);

@@ -321,7 +321,7 @@ class Dies(WrongDriver):
         result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "segfault"},
                                "doctor")
         self.assertEqual(result.returncode, 5, result.stderr)
-        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its process was killed by SIGSEGV")
+        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its test process was killed by SIGSEGV")
         self.assertRegex(result.stdout, r"ok +threads: ")
 
     def drivers(self, *names):
@@ -367,13 +367,13 @@ class Dies(WrongDriver):
         shim["CL_SHIM_DIE_IN"] = "clBuildProgram"
         result = self.run_with(shim, "doctor", "--deadline", "0.5")
         self.assertEqual(result.returncode, 5, result.stderr)
-        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its process did not end in time")
+        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its test process did not end in time")
 
     def test_by_hanging_ends_what_is_measured(self):
         result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "hang"},
                                *Bench.ARGUMENTS)
         self.assertEqual(result.returncode, 5, result.stderr)
-        self.assertRegex(result.stderr, r"pthread.*: the process that measures made no progress for")
+        self.assertRegex(result.stderr, r"pthread.*: the worker process made no progress for")
 
     @unittest.skipUnless(shutil.which("mpirun"), "needs openmpi-bin")
     def test_does_not_take_an_mpi_job_along(self):
@@ -402,8 +402,8 @@ class Dies(WrongDriver):
             self.assertEqual(result.returncode, 5, result.stderr)
             named, ended = result.stderr.splitlines()
             self.assertIn("its driver crashes while listing its devices (Aborted)", named)
-            self.assertEqual(ended, "mirrorball: listing OpenCL devices: the process that measures was "
-                             "killed by SIGABRT; `mirrorball doctor` tests each driver")
+            self.assertEqual(ended, "mirrorball: listing OpenCL devices: the worker process was "
+                             "killed by SIGABRT; test each driver with 'mirrorball doctor'")
 
     def test_devices_survives(self):
         result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort"},
@@ -465,8 +465,8 @@ class DiesInABatch(WrongDriver):
 
     def test_of_the_command_line(self):
         said = self.check(0, "", *self.scenes, *self.SMALL)
-        self.assertIn("was killed by SIGABRT; starting it again", said)
-        self.assertIn("was killed by SIGABRT; trying again with an empty kernel cache",
+        self.assertIn("was killed by SIGABRT; restarting it", said)
+        self.assertIn("was killed by SIGABRT; retrying with an empty kernel cache",
                       self.check(0, "", *self.scenes, *self.SMALL, at="1"))
 
     def test_of_a_list(self):
@@ -487,7 +487,7 @@ class DiesInABatch(WrongDriver):
             "materials": {"red": {"ambient": [1, 0, 0]}},
             "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "red"}],
             "path": {"keys": [{"frame": 1, "from": [0, 0, 5]}, {"frame": 6, "from": [2, 0, 5]}]}}))
-        self.assertIn("starting it again", self.check(
+        self.assertIn("restarting it", self.check(
             0, "", "path.json", "--frames", "1-6", "-o", "%d.png", "--stats=json"))
 
 
@@ -547,7 +547,7 @@ class Wrong(WrongDriver):
     def test_by_tracing_tiles_again(self):
         arguments = ["--check", "100%", "--tile", "20"]
         result = self.render(self.CORNERS, 0, *arguments)
-        self.assertIn("tiles that threads traced again are different", result.stderr)
+        self.assertIn("tiles differ when traced again on threads", result.stderr)
         self.assertEqual(json.loads(result.stdout)["image"]["hash"], self.right_hash())
         self.render(self.CORNERS, 5, "--no-fallback", *arguments)
 

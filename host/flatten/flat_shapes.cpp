@@ -66,11 +66,12 @@ double barycentric_offset(const glm::dvec3& a, const glm::dvec3& b, const glm::d
 }
 
 [[noreturn]] void refuse_distance(const glm::dvec3& scene_point, double farthest, bool is_float) {
-    throw Error(ExitCode::input,
-                fmt::format("({:g}, {:g}, {:g}) lies more than {:g} times as far away as most "
-                            "of the scene; move it nearer{}",
-                            scene_point.x, scene_point.y, scene_point.z, farthest,
-                            is_float ? ", or use --precision double" : ""));
+    throw Error(
+        ExitCode::input,
+        fmt::format("({:g}, {:g}, {:g}) is more than {:g} times as far away as most of the scene; "
+                    "move it closer{}",
+                    scene_point.x, scene_point.y, scene_point.z, farthest,
+                    is_float ? ", or use --precision double" : ""));
 }
 
 /// `p` is the point in the renderer's frame.

@@ -6,23 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <ranges>
-#include <string>
-
-#include "host/error.h"
 
 namespace rt {
-
-std::string_view to_string(Encoding encoding) {
-    switch (encoding) {
-        case Encoding::display:
-            return "display";
-        case Encoding::srgb:
-            return "srgb";
-        case Encoding::linear:
-            return "linear";
-    }
-    throw Error(ExitCode::bug, "encoding: unknown value; please report this");
-}
 
 double srgb_from_linear(double linear) {
     if (linear <= 0.0031308) return 12.92 * linear;

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "host/image/picture.h"
+#include "host/named.h"
 
 namespace rt {
 
@@ -18,8 +18,8 @@ namespace rt {
 /// - linear: the same numbers as display; the file declares linear light (PNG gAMA 1.0).
 enum class Encoding { display, srgb, linear };
 
-/// The name on the command line: "display", "srgb" or "linear".
-std::string_view to_string(Encoding encoding);
+inline constexpr Named<Encoding> encoding_names[] = {
+    {"display", Encoding::display}, {"srgb", Encoding::srgb}, {"linear", Encoding::linear}};
 
 /// The transfer curve of IEC 61966-2-1 from linear light to the stored value, both in [0, 1].
 double srgb_from_linear(double linear);

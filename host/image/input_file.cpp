@@ -16,14 +16,17 @@ void refuse_picture(const std::string& path, const std::string& reason, const st
     throw Error(ExitCode::input, path + ": " + reason + "; " + advice);
 }
 
+void refuse_damaged(const std::string& path, const std::string& reason) {
+    refuse_picture(path, "cannot read the picture: " + reason, "it may be damaged: save it again");
+}
+
 InputFile open_input_file(const std::string& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) {
         refuse_picture(path, "cannot read: " + std::generic_category().message(errno),
                        "check the path");
     }
-    if (S_ISDIR(status.st_mode))
-        refuse_picture(path, "is a directory", "give the name of a picture");
+    if (S_ISDIR(status.st_mode)) refuse_picture(path, "is a directory", "name a picture file");
     if (!S_ISREG(status.st_mode))
         refuse_picture(path, "is not a regular file", "copy it to one first");
     errno = 0;
@@ -40,15 +43,15 @@ void check_picture_size(const std::string& path, int width, int height, int chan
     constexpr int largest_side = 65536;
     constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
     constexpr std::int64_t most_values = std::int64_t{1} << 30;
-    const std::string size = fmt::format("{} x {} pixels of {} channels", width, height, channels);
+    const std::string size = fmt::format("{}x{} pixels of {} channels", width, height, channels);
     if (width < 1 || height < 1 || channels < 1)
-        refuse_picture(path, "holds " + size, "write it again");
+        refuse_picture(path, "has " + size, "save it again");
     const std::int64_t pixels = std::int64_t{width} * height;
     if (width > largest_side || height > largest_side || pixels > most_pixels || channels > 64 ||
         pixels * channels > most_values) {
         refuse_picture(
-            path, "holds " + size + ", too many",
-            "the limit is 65536 a side, 2^28 pixels and 2^30 values: scale it down first");
+            path, "has " + size,
+            "scale it down to at most 65536 pixels per side, 2^28 pixels and 2^30 values");
     }
 }
 
@@ -57,17 +60,15 @@ void check_stored_size(const std::string& path, std::uintmax_t pixel_bytes,
     if (pixel_bytes / best_ratio <= file_size) return;
     refuse_picture(
         path,
-        fmt::format(
-            "a file of {} bytes cannot hold the {} bytes of pixels that its header promises",
-            file_size, pixel_bytes),
-        "it may be truncated: write it again");
+        fmt::format("its {} bytes cannot hold the {} bytes of pixels that its header declares",
+                    file_size, pixel_bytes),
+        "it may be truncated: save it again");
 }
 
 void check_picture_memory(const std::string& path, int width, int height, int channels) {
     const std::uint64_t values =
         std::uint64_t(width) * std::uint64_t(height) * std::uint64_t(channels);
-    check_memory(values * sizeof(float), path + ": its pixels as floats",
-                 "scale the picture down first");
+    check_memory(values * sizeof(float), path + ": its pixels as floats", "scale it down first");
 }
 
 }  // namespace rt

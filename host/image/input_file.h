@@ -16,6 +16,9 @@ struct InputFile {
 [[noreturn]] void refuse_picture(const std::string& path, const std::string& reason,
                                  const std::string& advice);
 
+/// The same for pixels that cannot be decoded.
+[[noreturn]] void refuse_damaged(const std::string& path, const std::string& reason);
+
 /// Opens a regular file only (a pipe could block forever, a device never end).
 /// Throws Error(ExitCode::input) "path: cannot read: reason; what to do".
 InputFile open_input_file(const std::string& path);

@@ -17,8 +17,7 @@ const PictureModule& load(const char* name, const char* advice, ExitCode failure
 const PictureModule& load_openimageio(ExitCode failure) {
     ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
     return load("libmirrorball_oiio.so",
-                "install libopenimageio2.4 and mirrorball again, or use .png, .exr or .pfm",
-                failure);
+                "reinstall libopenimageio2.4 and mirrorball, or use .png, .exr or .pfm", failure);
 }
 
 }  // namespace
@@ -27,7 +26,7 @@ const PictureModule& picture_module(PictureFormat format, ExitCode failure) {
     if (format == PictureFormat::exr) {
         static const PictureModule& exr =
             load("libmirrorball_exr.so",
-                 "install libopenexr-3-1-30 and mirrorball again, or use .png or .pfm", failure);
+                 "reinstall libopenexr-3-1-30 and mirrorball, or use .png or .pfm", failure);
         return exr;
     }
     static const PictureModule& others = load_openimageio(failure);

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "host/error.h"
+#include "host/usage_error.h"
 
 namespace rt {
 namespace {
@@ -21,20 +22,20 @@ std::string advice(int error) {
         case EDQUOT:
             return "free some space or write to another disk";
         case EFBIG:
-            return "raise the file size limit (ulimit -f) or make a smaller picture";
+            return "raise the file size limit (ulimit -f) or make the picture smaller";
         case EACCES:
         case EPERM:
         case EROFS:
-            return "choose a place you may write to";
+            return "choose a writable location";
         case ENOENT:
         case ENOTDIR:
             return "create the directory first";
         case EISDIR:
-            return "give the name of a file, not of a directory";
+            return "name a file, not a directory";
         case ENAMETOOLONG:
-            return "give a shorter name";
+            return "use a shorter name";
         default:
-            return "write to another place";
+            return "write somewhere else";
     }
 }
 
@@ -118,9 +119,21 @@ void check_outputs_differ(const std::vector<std::string>& outputs) {
         if (output.empty() || find_output_destination(output).in_place) continue;
         const auto [first, is_new] = names.try_emplace(canonical_output(output), output);
         if (is_new) continue;
-        throw Error(ExitCode::usage, output + ": is the same file as " + first->second +
-                                         ", which is also written; name another");
+        usage_error("{}: is the same file as {}, which is also written; choose another output",
+                    output, first->second);
     }
+}
+
+void fail_to_encode(const std::string& path, const std::string& reason) {
+    throw Error(ExitCode::output, path + ": cannot encode the picture: " + reason +
+                                      "; try .pfm, which needs no library");
+}
+
+void create_output_folder(const std::string& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!error) return;
+    throw Error(ExitCode::output, folder + ": cannot create the folder: " + error.message());
 }
 
 std::string partial_path(const std::string& path) {
@@ -144,8 +157,8 @@ void InputFiles::check(const std::string& output) const {
         return;
     const auto found = names_.find({status.st_dev, status.st_ino});
     if (found == names_.end()) return;
-    throw Error(ExitCode::usage, output + ": is the same file as " + found->second +
-                                     ", which is read; name another");
+    usage_error("{}: is the same file as the input {}; choose another output", output,
+                found->second);
 }
 
 void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs) {

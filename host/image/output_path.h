@@ -51,6 +51,12 @@ std::string canonical_output(const std::string& path);
 /// An empty name, "-", devices and pipes never match.
 void check_outputs_differ(const std::vector<std::string>& outputs);
 
+/// Throws Error (ExitCode::output) for a picture that cannot be encoded.
+[[noreturn]] void fail_to_encode(const std::string& path, const std::string& reason);
+
+/// Creates a folder and its parents. Throws Error (ExitCode::output).
+void create_output_folder(const std::string& folder);
+
 /// Where an unfinished picture goes: "dir/out.partial.png" for "dir/out.png".
 std::string partial_path(const std::string& path);
 

@@ -45,8 +45,8 @@ Header read_header(const std::string& path, std::istream& stream) {
     if ((kind != "PF" && kind != "Pf") || !width || !height || !scale || *scale == 0 ||
         !std::isfinite(*scale)) {
         refuse_picture(
-            path, "damaged PFM header",
-            "expected 'PF', width, height and a scale that is not 0: write the file again");
+            path, "damaged PFM header: expected PF or Pf, width, height and a scale other than 0",
+            "save it again");
     }
     return {kind == "PF" ? 3 : 1, *width, *height, *scale};
 }
@@ -56,7 +56,7 @@ Header read_header(const std::string& path, std::istream& stream) {
 void write_pfm(const std::string& path, const Picture& picture) {
     if (picture.channels != 1 && picture.channels != 3) {
         throw Error(ExitCode::output,
-                    fmt::format("{}: a PFM file holds 1 or 3 channels, not {}; write .exr", path,
+                    fmt::format("{}: PFM stores 1 or 3 channels, not {}; use .exr", path,
                                 picture.channels));
     }
     const std::string header = fmt::format("{}\n{} {}\n-1.0\n", picture.channels == 3 ? "PF" : "Pf",
@@ -80,9 +80,9 @@ Picture read_pfm(const std::string& path, InputFile file) {
     const auto start = static_cast<std::uintmax_t>(file.stream.tellg());
     if (file.size - start != expected) {
         refuse_picture(path,
-                       fmt::format("{} bytes of pixels where the header asks for {}",
+                       fmt::format("has {} bytes of pixels, but its header declares {}",
                                    file.size - start, expected),
-                       "write the file again");
+                       "save it again");
     }
     check_picture_memory(path, header.width, header.height, header.channels);
     picture.pixels.resize(row * header.height);

@@ -5,8 +5,8 @@
 #include <array>
 #include <limits>
 
-#include "host/error.h"
 #include "host/lower.h"
+#include "host/usage_error.h"
 
 namespace rt {
 namespace {
@@ -15,7 +15,7 @@ struct FormatNames {
     PictureFormat format;
     std::string_view name;
     const char* module_name;
-    std::array<std::string_view, 3> endings;
+    std::array<std::string_view, 3> extensions;
 };
 
 constexpr FormatNames formats[] = {
@@ -66,11 +66,11 @@ bool needs_module(PictureFormat format) {
 }
 
 std::optional<PictureFormat> known_picture_format(const std::string& path) {
-    const std::string ending = lower_ending(path);
-    if (ending.empty()) return std::nullopt;
+    const std::string extension = lower_extension(path);
+    if (extension.empty()) return std::nullopt;
     for (const FormatNames& names : formats) {
-        const auto& endings = names.endings;
-        if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
+        const auto& extensions = names.extensions;
+        if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) {
             return names.format;
         }
     }
@@ -78,15 +78,14 @@ std::optional<PictureFormat> known_picture_format(const std::string& path) {
 }
 
 PictureFormat picture_format_of_name(const std::string& path) {
-    const std::string ending = lower_ending(path);
-    if (ending == ".pgm") {
-        throw Error(ExitCode::usage, path + ": PGM pictures have no color; name the picture .ppm");
+    const std::string extension = lower_extension(path);
+    if (extension == ".pgm") {
+        usage_error("{}: PGM has no color; use .ppm", path);
     }
     if (const auto format = known_picture_format(path)) return *format;
-    throw Error(ExitCode::usage,
-                path + ": " + (ending.empty() ? "no ending" : "unknown ending '" + ending + "'") +
-                    "; name the picture .png, .exr or .pfm (or .tif, .jpg, .webp, .hdr, .tga, "
-                    ".bmp, .ppm, .dpx)");
+    usage_error("{}: {}; use .png, .exr, .pfm, .tif, .jpg, .webp, .hdr, .tga, .bmp, .ppm or .dpx",
+                path,
+                extension.empty() ? "no file extension" : "unknown extension '" + extension + "'");
 }
 
 std::optional<PictureFormat> picture_format_of_bytes(std::string_view first_bytes) {

@@ -25,20 +25,20 @@ PictureFormat find_format(const std::string& path, InputFile& file) {
     const auto count = static_cast<std::size_t>(file.stream.gcount());
     file.stream.clear();
     file.stream.seekg(0);
-    if (count == 0) refuse_picture(path, "is empty", "write it again");
+    if (count == 0) refuse_picture(path, "is empty", "save it again");
     const auto named = known_picture_format(path);
     const auto held = picture_format_of_bytes({first_bytes, count});
     if (held && (!named || named == held)) return *held;
     if (held) {
-        const std::string what(to_string(*held));
-        refuse_picture(path, "holds a picture in " + what + " format", "rename it to match");
+        refuse_picture(path, fmt::format("contains {} data", to_string(*held)),
+                       "correct its extension");
     }
     if (named == PictureFormat::tga) return *named;
     if (named)
-        refuse_picture(path, "is no " + std::string(to_string(*named)) + " picture",
-                       "write it again");
-    refuse_picture(path, "is not a picture we can read",
-                   "give a PNG, EXR, PFM, TIFF, JPEG, WebP, HDR, TGA, BMP, PNM or DPX file");
+        refuse_picture(path, fmt::format("is not a valid {} file", to_string(*named)),
+                       "save it again");
+    refuse_picture(path, "is not in a supported format",
+                   "use a PNG, EXR, PFM, TIFF, JPEG, WebP, HDR, TGA, BMP, PNM or DPX file");
 }
 
 std::string one_line(std::string text) {
@@ -62,8 +62,7 @@ PictureFile read_with_module(const std::string& path, PictureFormat format, Inpu
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        refuse_picture(path, "cannot read the picture: " + one_line(error.what()),
-                       "the file may be damaged: write it again");
+        refuse_damaged(path, one_line(error.what()));
     }
 }
 
@@ -76,8 +75,7 @@ PictureFile read_picture_file(const std::string& path) try {
     if (format == PictureFormat::pfm) return {read_pfm(path, std::move(file)), {}};
     return read_with_module(path, format, std::move(file));
 } catch (const std::bad_alloc&) {
-    throw Error(ExitCode::limit,
-                path + ": not enough memory for its pixels; scale the picture down first");
+    throw Error(ExitCode::limit, path + ": not enough memory for its pixels; scale it down first");
 }
 
 Picture read_picture(const std::string& path) { return read_picture_file(path).picture; }

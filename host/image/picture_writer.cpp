@@ -73,9 +73,7 @@ std::vector<std::byte> encode_with_module(const std::string& path, PictureFormat
         return library.encode(request);
     } catch (const std::exception& error) {
         const bool is_full = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-        throw Error(ExitCode::output, path + ": cannot encode the picture: " +
-                                          (is_full ? "out of memory" : error.what()) +
-                                          "; try .pfm, which needs no library");
+        fail_to_encode(path, is_full ? "out of memory" : error.what());
     }
 }
 
@@ -106,10 +104,11 @@ void check_picture_fits(const std::string& path, int width, int height,
     if (!format) format = picture_format_of_name(path);
     const int most = longest_side(*format);
     if (width <= most && height <= most) return;
-    throw Error(ExitCode::limit,
-                fmt::format("{}: {}x{} pixels, but a {} picture has at most {} on a side; write "
-                            ".png or .exr, or use --size or --crop",
-                            path, width, height, to_string(*format), most));
+    throw Error(
+        ExitCode::limit,
+        fmt::format("{}: {}x{} pixels are too many for {}, which has at most {} per side; use "
+                    ".png or .exr, or reduce --size",
+                    path, width, height, to_string(*format), most));
 }
 
 void check_picture_path(const std::string& path, std::optional<PictureFormat> format) {

@@ -63,13 +63,10 @@ class PngReader {
     static void read_bytes(png_structp png, png_bytep bytes, std::size_t count) {
         std::istream& stream = static_cast<PngReader*>(png_get_io_ptr(png))->stream_;
         stream.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(count));
-        if (!stream) png_error(png, "it ends too early");
+        if (!stream) png_error(png, "unexpected end of file");
     }
 
-    [[noreturn]] void fail(const char* reason) const {
-        refuse_picture(path_, std::string("cannot read the picture: ") + reason,
-                       "the file may be damaged: write it again");
-    }
+    [[noreturn]] void fail(const char* reason) const { refuse_damaged(path_, reason); }
 
     void check(bool done) const {
         if (!done) fail(error_);

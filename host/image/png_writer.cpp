@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <new>
 
-#include "host/error.h"
+#include "host/image/output_path.h"
 #include "host/image/png_file.h"
 
 namespace rt {
@@ -117,9 +117,7 @@ std::vector<std::byte> encode_png_file(
     const bool written = info != nullptr && write_png(png, info, writer);
     png_destroy_write_struct(&png, &info);
     if (written) return std::move(writer.file);
-    const std::string reason = writer.error[0] == '\0' ? "out of memory" : writer.error;
-    throw Error(ExitCode::output, path + ": cannot encode the picture: " + reason +
-                                      "; try .pfm, which needs no library");
+    fail_to_encode(path, writer.error[0] == '\0' ? "out of memory" : writer.error);
 }
 
 }  // namespace rt

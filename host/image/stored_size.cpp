@@ -37,7 +37,7 @@ void check_jpeg_end(const std::string& path, InputFile& file) {
     const std::string bytes{std::istreambuf_iterator<char>(file.stream), {}};
     const std::size_t scan = bytes.rfind("\xff\xda");  // the last one; thumbnails come before
     if (scan != bytes.npos && bytes.find("\xff\xd9", scan) != bytes.npos) return;
-    refuse_picture(path, "the JPEG picture has no end", "it may be truncated: write it again");
+    refuse_picture(path, "has no end-of-image marker", "it may be truncated: save it again");
 }
 
 }  // namespace rt

@@ -69,8 +69,8 @@ void JournalFile::open_existing() {
     if (::fstat(file.number(), &status) != 0) return;
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (!is_ours) {
-        throw Error(ExitCode::output, fmt::format("{}: {} is rendering this picture; wait for it, "
-                                                  "or name another output",
+        throw Error(ExitCode::output, fmt::format("{}: {} is rendering this picture; wait for it "
+                                                  "to finish, or choose another output",
                                                   path_, holder(path_)));
     }
     char magic[journal_magic.size()];

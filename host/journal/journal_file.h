@@ -17,7 +17,7 @@ namespace rt {
 /// without the journal.
 class JournalFile {
    public:
-    /// What was found in the place of a journal.
+    /// What was found at the journal's path.
     enum class Found { nothing, journal, something_else };
 
     /// Throws Error (ExitCode::output) when another process holds its lock.
@@ -33,7 +33,7 @@ class JournalFile {
     /// Replaces its contents on the next write, which begins with what `start` returns.
     void restart(std::function<std::vector<std::byte>()> start);
 
-    /// Whether a file is there that holds this picture.
+    /// Whether the file exists and holds this picture.
     bool exists() const { return file_ && !start_; }
 
     /// Appends whole records and flushes them to disk. Throws Error (ExitCode::output) when another

@@ -49,13 +49,13 @@ class JournalKeeper {
     /// Whether there is anything worth keeping.
     bool has_pixels() const { return has_pixels_; }
 
-    /// Ends the thread and writes what is left, if `delay` has passed. Throws what the thread met.
+    /// Ends the thread and writes the rest, if `delay` has passed. Rethrows the thread's errors.
     void close();
 
     /// As close, and marks the journal as finished.
     void close_finished();
 
-    /// Ends the thread and discards what is left. Throws what the thread met.
+    /// Ends the thread and discards the rest. Rethrows the thread's errors.
     void discard();
 
    private:

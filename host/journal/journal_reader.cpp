@@ -45,11 +45,11 @@ JournalReader::JournalReader(std::istream& stream, std::uint64_t size)
         throw DamagedJournal(ExitCode::input, "is empty; render it again");
     }
     if (!found.starts_with(journal_magic.substr(0, 6))) {
-        throw Error(ExitCode::input, "is not a journal; give a file that render --shard wrote");
+        throw Error(ExitCode::input, "is not a journal; use a file written by render --shard");
     }
     if (found != journal_magic) {
         throw Error(ExitCode::input,
-                    "is a journal of a different version of mirrorball; render it again");
+                    "was written by a different version of mirrorball; render it again");
     }
     good_bytes_ = sizeof(magic);
     if (!read_record() || kind_ != RecordKind::header) {
@@ -152,7 +152,7 @@ KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used) {
         known.film = std::move(used);
     } else {
         check_memory(static_cast<std::uint64_t>(film.pixels()) * (3 * sizeof(T) + 1),
-                     "the film of a journal", "render it in parts with --crop");
+                     "the film of a journal", "render parts with --crop");
         known.film = Film<T>(film.width, film.height);
     }
     known.is_rendered.resize(static_cast<std::size_t>(film.pixels()));

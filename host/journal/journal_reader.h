@@ -22,11 +22,11 @@ struct JournalRecord {
     Rect rect;                           ///< of tile and lost
     int pass = 0;                        ///< of refined
     std::span<const std::byte> indices;  ///< of refined: i32 each
-    std::span<const std::byte> values;   ///< of tile and refined: three numbers a pixel
+    std::span<const std::byte> values;   ///< of tile and refined: three numbers per pixel
     JournalWriterInfo writer;            ///< of writer
 };
 
-/// A journal whose header is not there, or not whole.
+/// A journal whose header is missing or incomplete.
 struct DamagedJournal : Error {
     using Error::Error;
 };
@@ -68,7 +68,7 @@ struct RefinedPixels {
     std::vector<T> colors;
 };
 
-/// All that a journal holds of a picture.
+/// Everything that a journal has of a picture.
 template <typename T>
 struct KnownPixels {
     Film<T> film{0, 0};  ///< after the first pass

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "host/counted.h"
 #include "host/error.h"
 #include "host/hash.h"
 #include "host/image/input_file.h"
@@ -47,13 +48,15 @@ void check_same_picture(const JournalHeader& header, const std::string& first_pa
         return;
     }
     const auto what = [&]() -> std::string {
-        if (header.scene_hash != first.scene_hash) return "shows a different scene";
-        if (header.settings != first.settings) return "has different settings";
-        return "comes from a different version of mirrorball, or a device that rounds differently,";
+        if (header.scene_hash != first.scene_hash) return "the scene differs";
+        if (header.settings != first.settings) return "the settings differ";
+        return "the version of mirrorball, or the device's rounding, differs";
     };
     throw Error(ExitCode::input,
-                printable(fmt::format("{} than {} ({}, {}; {}, {})", what(), first_path,
-                                      header.scene, header.settings, first.scene, first.settings)));
+                printable(fmt::format("is not a part of the same picture as {}: {} ({}, {}; "
+                                      "{}, {})",
+                                      first_path, what(), header.scene, header.settings,
+                                      first.scene, first.settings)));
 }
 
 template <typename T>
@@ -71,12 +74,12 @@ class Merger {
         const Shares shares = shares_of(header);
         KnownPixels<T> known = read_known_pixels<T>(reader, std::move(used_film_));
         if (reader.good_bytes() < bytes) {
-            notes.push_back(fmt::format("{}: ignored its last {} bytes, which are damaged", path,
-                                        bytes - reader.good_bytes()));
+            notes.push_back(fmt::format("{}: ignored the last {}, which are damaged", path,
+                                        counted(bytes - reader.good_bytes(), "byte")));
         }
         parts_.push_back({path, known.writers});
         if (header.refines && !known.is_finished) {
-            notes.push_back(path + ": ignored, because it is adaptive and not finished");
+            notes.push_back(path + ": ignored, because it is adaptive and unfinished");
             return;
         }
         Film<T> film = known.take_refined_film();
@@ -96,9 +99,10 @@ class Merger {
         const auto& [pair, difference] = *differences_.begin();
         const auto width = static_cast<std::size_t>(region_.width);
         throw Error(ExitCode::different,
-                    fmt::format("{} and {} differ in {} pixels, the first at {},{}; render both "
-                                "shares again: one of the devices is wrong",
-                                described(pair.first), described(pair.second), difference.pixels,
+                    fmt::format("{} and {} differ in {}, the first at {},{}; one of the devices "
+                                "is wrong: render both shares again",
+                                described(pair.first), described(pair.second),
+                                counted(difference.pixels, "pixel"),
                                 static_cast<std::size_t>(region_.x) + difference.first % width,
                                 static_cast<std::size_t>(region_.y) + difference.first / width));
     }

@@ -23,7 +23,7 @@ Spread spread_of_json(const Json& json) {
 
 Baseline read_rows(const Json& json) {
     if (json.at("format") != "mirrorball-bench" || json.at("version") != 1) {
-        throw Error(ExitCode::input, "not mirrorball-bench, version 1");
+        throw Error(ExitCode::input, "expected mirrorball-bench, version 1");
     }
     Baseline baseline;
     for (const Json& row : json.at("rows")) {
@@ -42,10 +42,11 @@ Baseline load_baseline(const std::string& path) {
     try {
         return read_rows(Json::parse(text.view()));
     } catch (const std::exception& error) {
-        throw Error(ExitCode::input,
-                    fmt::format("{}: not the JSON of a mirrorball bench ({}); make one with 'bench "
-                                "--json FILE'",
-                                path, error.what()));
+        throw Error(
+            ExitCode::input,
+            fmt::format("{}: is not a result of mirrorball bench ({}); write one with 'bench "
+                        "--json FILE'",
+                        path, error.what()));
     }
 }
 
@@ -81,8 +82,8 @@ std::vector<Regression> regressions(const BenchResult& result, const Baseline& b
     }
     if (!any_in_common) {
         throw Error(ExitCode::input,
-                    "the baseline has no correct row in common with this bench; give the same "
-                    "scenes, sizes, AA modes and devices");
+                    "no correct row matches the baseline; use the same scenes, sizes, AA modes and "
+                    "devices");
     }
     return slower;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "host/measure/amdahl.h"
+#include "host/named.h"
 
 namespace rt {
 
@@ -97,16 +98,15 @@ void judge_ablation(BenchResult& result) {
         const std::uint64_t expected = usual.repeats.front().image_hash;
         if (found == expected) continue;
         row.verdict = Verdict::wrong;
-        row.why = fmt::format("not the default row's picture: {} instead of {}", hash_text(found),
+        row.why = fmt::format("image {}, but the default row's is {}", hash_text(found),
                               hash_text(expected));
     }
 }
 
 std::string key_of(const BenchCase& asked) {
     return fmt::format("{} {}x{} {} {} {} {}{}{}", hash_text(asked.scene_hash), asked.width,
-                       asked.height, to_string(asked.aa),
-                       asked.double_precision ? "double" : "float", asked.device,
-                       asked.uses_threads ? "" : asked.device_name,
+                       asked.height, to_string(asked.aa), precision_name(asked.double_precision),
+                       asked.device, asked.uses_threads ? "" : asked.device_name,
                        asked.schedule.empty() ? "" : " ", asked.schedule);
 }
 

@@ -73,7 +73,7 @@ FlipResult result_of(std::string output) {
     const std::string line = output.substr(output.rfind('\n') + 1);
     if (line.starts_with("missing ")) {
         return {{},
-                fmt::format("the python3 of PATH has no module {}; install it with 'python3 -m "
+                fmt::format("python3 has no module {}; install it with 'python3 -m "
                             "pip install flip-evaluator numpy'",
                             line.substr(8))};
     }
@@ -99,7 +99,7 @@ FlipResult measure_flip(const Picture& picture, const Picture& reference) {
     constexpr int not_found = 127;
     if (WIFEXITED(status) && WEXITSTATUS(status) == not_found) {
         return {{},
-                "no python3 in PATH; install it, and 'python3 -m pip install flip-evaluator "
+                "no python3 in PATH; install it, then run 'python3 -m pip install flip-evaluator "
                 "numpy'"};
     }
     return result_of(output);

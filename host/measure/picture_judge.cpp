@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/counted.h"
+
 namespace rt {
 
 namespace {
@@ -17,7 +19,7 @@ constexpr double largest_rounding_rmse = 2e-4;
 
 std::string shape_mistake(const Picture& picture, const Picture& reference) {
     if (have_same_shape(picture, reference)) return "";
-    return fmt::format("{}x{} pixels instead of {}x{}", picture.width, picture.height,
+    return fmt::format("{}x{} pixels, expected {}x{}", picture.width, picture.height,
                        reference.width, reference.height);
 }
 
@@ -90,21 +92,22 @@ double most_pixels_off(const Picture& picture) {
 std::string what_is_wrong(const Picture& picture, const Picture& reference,
                           const ImageError& error) {
     if (const std::size_t count = count_non_finite(picture); count > 0) {
-        return fmt::format("{} pixels are not finite", count);
+        return counted(count, "pixel is", "pixels are") + " not finite";
     }
     if (error.non_finite > 0) {
-        return fmt::format("{} pixels of the reference are not finite", error.non_finite);
+        return counted(error.non_finite, "reference pixel is", "reference pixels are") +
+               " not finite";
     }
     if (is_black(picture) && !is_black(reference)) return "the picture is all black";
     if (const std::string shift = shift_of(picture, reference); !shift.empty()) {
         return "the picture is shifted by a pixel: " + shift;
     }
     if (static_cast<double>(error.over_1) > most_pixels_off(picture)) {
-        return fmt::format("{} pixels are off by more than 1/255, RMSE {:.2g}", error.over_1,
-                           error.rmse);
+        return fmt::format("{} off by more than 1/255, RMSE {:.2g}",
+                           counted(error.over_1, "pixel is", "pixels are"), error.rmse);
     }
     if (const double rmse = rounding_rmse(picture, reference); rmse > largest_rounding_rmse) {
-        return fmt::format("values are off by RMSE {:.2g}, more than rounding explains", rmse);
+        return fmt::format("RMSE {:.2g}, more than rounding explains", rmse);
     }
     return "";
 }
@@ -124,7 +127,8 @@ Judgement judge_estimate(const Picture& picture, const Picture& converged) {
     if (!judgment.why_wrong.empty()) return judgment;
     judgment.error = image_error(clamped(picture), clamped(converged));
     if (judgment.error.non_finite > 0) {
-        judgment.why_wrong = fmt::format("{} pixels are not finite", judgment.error.non_finite);
+        judgment.why_wrong =
+            counted(judgment.error.non_finite, "pixel is", "pixels are") + " not finite";
     }
     return judgment;
 }

@@ -10,6 +10,7 @@
 
 #include "host/error.h"
 #include "host/module_file.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
@@ -18,10 +19,10 @@ namespace {
 static_assert(std::is_trivially_copyable_v<RankMessage>);  // sent as raw bytes
 
 const MpiModule& load_mpi() {
-    return *static_cast<const MpiModule*>(load_module(
-        {"libmirrorball_mpi.so", MpiModule::current_version, "MPI",
-         "--mpi needs libopenmpi3, and mirrorball built where libopenmpi-dev is installed"},
-        ExitCode::usage));
+    return *static_cast<const MpiModule*>(
+        load_module({"libmirrorball_mpi.so", MpiModule::current_version, "MPI",
+                     "--mpi requires libopenmpi3, and mirrorball built with libopenmpi-dev"},
+                    ExitCode::usage));
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ void check_mpi() { load_mpi(); }
 
 Ranks::Ranks() : mpi_(load_mpi()) {
     if (!mpi_.start(rank_, size_)) {
-        throw Error(ExitCode::usage, "--mpi: MPI does not start; run it by mpirun");
+        usage_error("--mpi: MPI did not start; launch mirrorball with mpirun");
     }
 }
 

@@ -32,14 +32,14 @@ struct RankMessage {
     std::array<char, 512> text{};  ///< ends with a zero
 };
 
-/// Throws Error (ExitCode::usage) where MPI is missing. Does not start it.
+/// Throws Error (ExitCode::usage) if MPI is missing. Does not start it.
 void check_mpi();
 
 /// The processes that mpirun started, as seen by one of them. Loads MPI. Only the thread that
 /// created it may use it.
 class Ranks {
    public:
-    /// Throws Error (ExitCode::usage) where MPI is missing or does not start.
+    /// Throws Error (ExitCode::usage) if MPI is missing or does not start.
     Ranks();
 
     int rank() const { return rank_; }

@@ -12,7 +12,7 @@ cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, st
     if (bytes == 0) return {};
     if (bytes > device.max_buffer_bytes) {
         throw Error(ExitCode::limit,
-                    fmt::format("{} needs a buffer of {} bytes, and {} allows at most {}; use "
+                    fmt::format("{} needs a buffer of {} bytes, but {} allows at most {}; use "
                                 "--crop to render it in parts, or --device threads",
                                 what, bytes, device.name, device.max_buffer_bytes));
     }

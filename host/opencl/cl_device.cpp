@@ -25,9 +25,9 @@ bool is_too_old(const std::string& version) {
 }
 
 std::string why_unusable(const cl::Device& device, const std::string& version) {
-    if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "the driver says it is not available";
+    if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "its driver reports it as unavailable";
     if (!device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) return "its driver has no compiler";
-    if (is_too_old(version)) return version + "; OpenCL 1.2 is needed";
+    if (is_too_old(version)) return version + "; OpenCL 1.2 is required";
     return "";
 }
 

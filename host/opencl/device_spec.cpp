@@ -13,6 +13,7 @@
 #include "host/number.h"
 #include "host/opencl/gpu_nodes.h"
 #include "host/pocl/pocl_environment.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
@@ -64,12 +65,10 @@ Test test_for(const std::string& spec) {
             };
         }
     }
-    throw Error(
-        ExitCode::usage,
-        fmt::format(
-            "--device '{}' is not a device; use an index, platform:device, pocl, name:TEXT, cpu, "
-            "gpu, threads[:N], all or auto, or several of them separated by commas",
-            spec));
+    usage_error(
+        "--device '{}': expected an index, platform:device, pocl, name:TEXT, cpu, gpu, "
+        "threads[:N], all or auto, or several of them separated by commas",
+        spec);
 }
 
 constexpr std::string_view all_devices = "all";
@@ -82,8 +81,7 @@ std::vector<std::string> specs_of(const std::string& list) {
         at = end + 1;
     }
     if (specs.size() > 1 && std::find(specs.begin(), specs.end(), "") != specs.end()) {
-        throw Error(ExitCode::usage,
-                    fmt::format("--device '{}': a name is missing beside a comma", list));
+        usage_error("--device '{}': an item of the list is empty", list);
     }
     return specs;
 }
@@ -119,8 +117,7 @@ class DeviceFinder {
         for (const DeviceChoice& other : found) {
             if (choice.use_threads != other.use_threads) continue;
             if (choice.use_threads && choice.threads != other.threads) {
-                throw Error(ExitCode::usage,
-                            "--device names threads twice, with different numbers of them");
+                usage_error("--device lists threads twice, with different counts; keep one");
             }
             if (choice.use_threads ||
                 (choice.device.index == other.device.index && choice.failure == other.failure)) {
@@ -133,9 +130,7 @@ class DeviceFinder {
     DeviceChoice find_one(const std::string& spec) {
         if (const auto choice = choose_without_opencl(spec)) {
             if (choice->threads > 0 && threads_ > 0 && choice->threads != threads_) {
-                throw Error(
-                    ExitCode::usage,
-                    fmt::format("--threads {} and --device {} disagree; give one", threads_, spec));
+                usage_error("--threads {} contradicts --device {}; keep one", threads_, spec);
             }
             return *choice;
         }
@@ -209,9 +204,7 @@ bool names_threads(const std::string& spec, DeviceChoice& choice) {
     if (spec == "threads") return true;
     const auto count = parse_number<int>(std::string_view(spec).substr(8));
     if (!count || *count < 1 || *count > most_threads_asked) {
-        throw Error(ExitCode::usage,
-                    fmt::format("--device '{}': the number of threads must be 1 to {}", spec,
-                                most_threads_asked));
+        usage_error("--device '{}': expected 1 to {} threads", spec, most_threads_asked);
     }
     choice.threads = *count;
     return true;
@@ -252,10 +245,8 @@ DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>&
                                 describe_all(devices, problems)));
     }
     if (fitting.size() > 1) {
-        throw Error(ExitCode::usage,
-                    fmt::format("--device '{}' matches several devices; name one by "
-                                "its index:{}",
-                                spec, describe_all(fitting)));
+        usage_error("--device '{}' matches several devices; choose one by its index:{}", spec,
+                    describe_all(fitting));
     }
     if (!fitting.front().unusable.empty()) {
         throw Error(ExitCode::device,

@@ -3,19 +3,27 @@
 
 #include <vector>
 
+#include "host/named.h"
+
 namespace rt {
 
 class CommandLine;
 struct RenderOptions;
 
-/// What render --aov saves for each pixel besides its color.
+/// Per-pixel data that render --aov saves in addition to the color.
 enum class Aov { depth, normal, id, rays, samples };
 
-const char* to_string(Aov aov);
+inline constexpr Named<Aov> aov_names[] = {{"depth", Aov::depth},
+                                           {"normal", Aov::normal},
+                                           {"id", Aov::id},
+                                           {"rays", Aov::rays},
+                                           {"samples", Aov::samples}};
+
+inline const char* to_string(Aov aov) { return name_of(aov_names, aov); }
 
 void add_aov(const CommandLine& verb, std::vector<Aov>& aovs);
 
-/// Throws Error (ExitCode::usage) if there is no file to put them beside.
+/// Throws Error (ExitCode::usage) if there is no file to save them next to.
 void settle_aovs(const RenderOptions& render);
 
 }  // namespace rt

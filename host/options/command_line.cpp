@@ -6,9 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "host/error.h"
 #include "host/options/verb_texts.h"
+#include "host/printable.h"
 #include "host/scene/words.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
@@ -56,9 +57,9 @@ struct CommandLineParser {
 
     explicit CommandLineParser(const CommandLineTexts& texts) : app(texts.about, texts.program) {
         app.set_version_flag("--version", texts.version);
-        app.add_flag("--man")->description("Print the manual page, as roff");
+        app.add_flag("--man")->description("Print the manual page in roff");
         app.add_option("--completions")
-            ->description("Print completions for a shell")
+            ->description("Print a completion script for a shell")
 
             ->type_name("bash|zsh|fish");
         app.require_subcommand(1);
@@ -68,8 +69,7 @@ struct CommandLineParser {
     CommandLine root() { return {*this, &app}; }
 
     [[noreturn]] void refuse_line(const std::string& what) const {
-        throw Error(ExitCode::usage,
-                    what + (what.ends_with("?") ? " See '" : "; see '") + place + " --help'");
+        usage_error("{}{} '{} --help'", what, what.ends_with("?") ? " See" : "; see", place);
     }
 
     /// The verb or nested verb that the words begin with; rejects unknown ones.
@@ -96,7 +96,7 @@ struct CommandLineParser {
             for (const std::string& known : option->get_lnames()) {
                 names.push_back("--" + known);
                 if (names.back() != name) continue;
-                if (word == name + "=") refuse_line("'" + word + "' lacks its value");
+                if (word == name + "=") refuse_line("'" + word + "' has no value");
                 const bool is_flag = option->get_items_expected_max() == 0;
                 if (is_flag && word != name) refuse_line("'" + name + "' takes no value");
                 return;
@@ -139,7 +139,8 @@ struct CommandLineParser {
         if (words.size() == 1 && words[0] == "--man") return man_page(program, app.version());
         if (words.size() != 2 || words[0] != "--completions") return "";
         const std::string text = completions(program, words[1]);
-        if (text.empty()) refuse_line("--completions '" + words[1] + "': give bash, zsh or fish");
+        if (text.empty())
+            refuse_line("--completions '" + words[1] + "': expected bash, zsh or fish");
         return text;
     }
 
@@ -155,10 +156,13 @@ struct CommandLineParser {
             return app.help("", CLI::AppFormatMode::All);
         } catch (const CLI::CallForVersion&) {
             return app.version() + "\n";
-        } catch (const CLI::ParseError& error) {
+        } catch (const CLI::ArgumentMismatch& error) {
             const std::string what = error.what();
-            const std::size_t twice = what.find(": At Most 1");
-            refuse_line(twice == what.npos ? what : what.substr(0, twice) + " is given twice");
+            const bool is_twice = what.find(": At Most 1") != what.npos;
+            refuse_line(what.substr(0, what.find(':')) +
+                        (is_twice ? " is given twice" : " requires a value"));
+        } catch (const CLI::ParseError& error) {
+            refuse_line(error.what());
         }
         return "";
     }
@@ -173,10 +177,26 @@ CommandLine CommandLine::verb(const std::string& name, const std::string& help) 
 
 void CommandLine::option(const std::string& name, const std::string& type, const std::string& help,
                          const TakeText& take, bool required) const {
+    const auto read = [take, shown = name.substr(0, name.find(','))](const std::string& text) {
+        try {
+            take(text);
+        } catch (const BadValue& bad) {
+            throw Error(bad.exit_code,
+                        fmt::format("{} '{}': {}", shown, printable(bad.value), bad.reason));
+        }
+    };
     app_of(app_)
-        .add_option_function<std::string>(name, take, help)
+        .add_option_function<std::string>(name, read, help)
         ->type_name(type)
         ->required(required);
+}
+
+void CommandLine::value(const std::string& name, const std::string& type, std::string& target,
+                        const std::string& help) const {
+    option(name, type, help, [&target](const std::string& text) {
+        if (text.empty()) throw BadValue{text, "expected a name"};
+        target = text;
+    });
 }
 
 void CommandLine::optional_value(const std::string& name, const std::string& type,

@@ -5,9 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "host/error.h"
+
 namespace rt {
 
 using TakeText = std::function<void(const std::string&)>;
+/// Why the value of an option, or a part of it, is refused. CommandLine adds the option's name.
+struct BadValue {
+    std::string value, reason;
+    ExitCode exit_code = ExitCode::usage;
+};
+
 using AcceptsText = std::function<bool(const std::string&)>;
 
 struct CommandLineParser;
@@ -18,9 +26,22 @@ class CommandLine {
    public:
     CommandLine verb(const std::string& name, const std::string& help) const;
 
-    /// An option that takes a value; `take` throws Error (ExitCode::usage) to reject it.
+    /// An option that takes a value; `take` throws BadValue to reject it.
     void option(const std::string& name, const std::string& type, const std::string& help,
                 const TakeText& take, bool required = false) const;
+
+    /// An option whose value `parse` turns into the target's.
+    template <typename T, typename Parse>
+    void value(const std::string& name, const std::string& type, T& target, const Parse& parse,
+               const std::string& help, bool required = false) const {
+        const auto take = [&target, parse](const std::string& text) { target = parse(text); };
+        option(name, type, help, take, required);
+    }
+
+    /// An option whose value is a name: any text but an empty one, as from a script's unset
+    /// variable.
+    void value(const std::string& name, const std::string& type, std::string& target,
+               const std::string& help) const;
 
     /// An option that may stand alone and then means `bare`. The next word is its value if
     /// `accepts` returns true for it; in `--name=VALUE` it always is.

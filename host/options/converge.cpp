@@ -13,7 +13,7 @@ constexpr const char* default_sweep =
 /// The modes of the default sweep that this program has.
 std::vector<AaMode> default_modes() {
     std::vector<AaMode> modes;
-    for (const std::string& part : split_list("--aa", default_sweep)) {
+    for (const std::string& part : split_list(default_sweep)) {
         if (const auto mode = parse_aa_mode(part)) modes.push_back(*mode);
     }
     return modes;
@@ -28,31 +28,23 @@ std::string reference_folder() {
     return home.empty() ? "" : home + "/.cache/mirrorball/references";
 }
 
-std::vector<int> parse_bounces(const std::string& text) {
-    std::vector<int> bounces;
-    for (const std::string& part : split_list("--max-bounces", text)) {
-        bounces.push_back(parse_count("--max-bounces", part, 0, 100000));
-    }
-    return bounces;
-}
+const Named<std::vector<bool>> math_choices[] = {
+    {"strict", {false}}, {"fast", {true}}, {"both", {false, true}}};
 
 void add_sweep(const CommandLine& verb, ConvergeOptions& converge) {
-    verb.option("--size", "WxH|N", "pixels (default: the scene's)",
-                [&](const std::string& text) { converge.size = parse_size("--size", text); });
-    verb.option("--aa", "LIST", "AA modes (default " + std::string(default_sweep) + ")",
-                [&](const std::string& text) { converge.aa = parse_aa_list("--aa", text); });
-    add_device_list(verb, converge.devices);
-    add_count(verb, "--threads", converge.threads, 1, 4096,
-              "number of threads for 'threads' (default: all cores)");
+    add_size(verb, converge.size);
+    verb.value("--aa", "LIST", converge.aa, parse_aa_list,
+               "AA modes (default: " + std::string(default_sweep) + ")");
+    add_device_list(verb, "--devices", converge.devices);
+    verb.value("--threads", "N", converge.threads, count_in(1, most_threads),
+               "number of threads for 'threads' (default: all cores)");
     verb.flag("--scalar", converge.scalar,
-              "also time threads that trace one ray at a time, without vectors (float)");
+              "also time pthreads tracing one ray at a time, without vectors (float)");
     add_precisions(verb, converge.precisions);
-    add_choice<std::vector<bool>>(verb, "--math", converge.fast_math,
-                                  {{"strict", {false}}, {"fast", {true}}, {"both", {false, true}}},
-                                  "strict (default), fast (OpenCL devices only) or both");
-    verb.option("--max-bounces", "LIST",
-                "mirror and refracted rays after the eye ray (default: the scene's)",
-                [&](const std::string& text) { converge.max_bounces = parse_bounces(text); });
+    add_choice(verb, "--math", converge.fast_math, math_choices,
+               "strict (default), fast (OpenCL devices only) or both");
+    verb.value("--max-bounces", "LIST", converge.max_bounces, list_of(count_in(0, most_bounces)),
+               bounces_help);
 }
 
 }  // namespace
@@ -61,16 +53,15 @@ void add_converge(const CommandLine& program, Options& options) {
     ConvergeOptions& converge = options.converge;
     converge.aa = default_modes();
     converge.cache_folder = reference_folder();
-    const CommandLine verb = program.verb("converge", "error against run time");
-    verb.argument("SCENE", converge.scene, "scene file (.json, .nff, .obj, .ply)");
+    const CommandLine verb = program.verb("converge", "measure error against run time");
+    verb.argument("SCENE", converge.scene, scene_help);
     add_sweep(verb, converge);
     add_light_options(verb, converge.light);
-    add_count(verb, "--repeats", converge.repeats, 5, 1000,
-              "timed rounds after the warm-up, at least 5 (default 5)");
-    add_count(verb, "--reference-samples", converge.reference_samples, 2, 4096,
-              "the reference is the mean of two sobol:N pictures in double (default 1024)");
+    add_repeats(verb, converge.repeats, 5);
+    verb.value("--reference-samples", "N", converge.reference_samples, count_in(2, 4096),
+               "the reference is the mean of two sobol:N pictures in double (default: 1024)");
     add_result_files(verb, converge.results);
-    verb.flag("-q,--quiet", converge.quiet, "no progress on stderr");
+    verb.flag("-q,--quiet", converge.quiet, quiet_help);
     verb.when_chosen([&] {
         check_result_files(options.converge.results);
         options.verb = Verb::converge;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/options/parse.h"
+#include "host/options/lists.h"
 #include "host/options/verb_options.h"
 
 namespace rt {
@@ -13,7 +13,7 @@ std::string icd_place() {
 
 void add_devices(const CommandLine& program, Options& options) {
     const CommandLine verb = program.verb("devices", "list usable devices, and why others are not");
-    verb.flag("--json", options.devices.json, "as JSON on stdout");
+    verb.flag("--json", options.devices.json, json_help);
     verb.when_chosen([&] { options.verb = Verb::devices; });
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opencl/device_spec.h"
-#include "host/options/parse.h"
+#include "host/options/lists.h"
 #include "host/options/verb_options.h"
 
 namespace rt {
@@ -8,18 +7,14 @@ namespace rt {
 void add_doctor(const CommandLine& program, Options& options) {
     DoctorOptions& doctor = options.doctor;
     const CommandLine verb = program.verb(
-        "doctor", "test the installation: drivers, devices, caches, formats; say how to fix it");
-    verb.flag("--json", doctor.json, "as JSON on stdout");
-    verb.option("--device", "SPEC", "test only this device, in this process",
-                [&](const std::string& text) {
-                    check_device_list(text);
-                    doctor.device = text;
-                });
-    verb.option(
-        "--deadline", "S",
-        "seconds without progress, or a tenth of a test's time, after which a device counts as "
-        "hung (default 30)",
-        [&](const std::string& text) { doctor.deadline = parse_seconds("--deadline", text, 0.5); });
+        "doctor",
+        "check the installation (drivers, devices, caches, formats) and suggest how to fix it");
+    verb.flag("--json", doctor.json, json_help);
+    verb.value("--device", "SPEC", doctor.device, parse_device,
+               "check only this device, in this process");
+    verb.value("--deadline", "S", doctor.deadline, seconds_from(0.5),
+               "seconds without progress, or a tenth of a test's time, after which a device counts "
+               "as hung (default: 30)");
     verb.when_chosen([&options] { options.verb = Verb::doctor; });
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "host/opencl/device_spec.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
@@ -25,80 +25,62 @@ bool may_take_results(const std::string& word) {
 
 }  // namespace
 
-std::vector<std::string> split_list(const std::string& option, const std::string& text) {
-    std::vector<std::string> parts;
-    std::size_t at = 0;
-    for (;;) {
-        const std::size_t comma = text.find(',', at);
-        parts.push_back(text.substr(at, comma - at));
-        if (parts.back().empty()) refuse(option, text, "give a list separated by commas");
-        if (comma == std::string::npos) return parts;
-        at = comma + 1;
-    }
-}
-
-std::vector<AaMode> parse_aa_list(const std::string& option, const std::string& text) {
+std::vector<AaMode> parse_aa_list(const std::string& text) {
     std::vector<AaMode> modes;
-    for (const std::string& part : split_list(option, text)) {
-        const auto mode = parse_aa_mode(part);
-        if (!mode) refuse(option, part, "not an AA mode; see --aa in 'mirrorball render --help'");
-        if (std::find(modes.begin(), modes.end(), *mode) == modes.end()) modes.push_back(*mode);
+    for (const AaMode& mode : list_of(parse_aa)(text)) {
+        if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
     }
     return modes;
 }
 
-int parse_count(const std::string& option, const std::string& text, int least, int most) {
-    const auto numbers = parse_integers(text, ',');
-    if (!numbers || numbers->size() != 1 || numbers->front() < least || numbers->front() > most) {
-        refuse(option, text, fmt::format("give {} to {}", least, most));
-    }
-    return numbers->front();
+void add_size(const CommandLine& verb, std::optional<PictureSize>& size) {
+    verb.value("--size", "WxH|N", size, parse_size,
+               "picture size in pixels (default: the scene's)");
 }
 
-void add_device_list(const CommandLine& verb, std::vector<std::string>& devices) {
-    verb.option("--devices", "LIST",
-                "device specs as for render --device, separated by commas; threads; all (default): "
-                "threads and every OpenCL device",
-                [&](const std::string& text) {
-                    devices = split_list("--devices", text);
-                    for (const std::string& spec : devices) {
-                        check_device_list(spec);
-                    }
-                });
+void add_encoding(const CommandLine& verb, Encoding& encoding) {
+    add_choice(verb, "--encoding", encoding, encoding_names,
+               "how 8-bit files store linear light (default: display, value x 255)");
+}
+
+void add_device_list(const CommandLine& verb, const std::string& option,
+                     std::vector<std::string>& devices) {
+    verb.value(option, "LIST", devices, list_of(parse_device),
+               "devices as for render --device, separated by commas (default: all, which is "
+               "pthreads and every OpenCL device)");
 }
 
 void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions) {
-    add_choice<std::vector<Precision>>(verb, "--precision", precisions,
-                                       {{"float", {Precision::float32}},
-                                        {"double", {Precision::float64}},
-                                        {"both", {Precision::float32, Precision::float64}}},
-                                       "arithmetic (default both)");
+    static const Named<std::vector<Precision>> choices[] = {
+        {"float", {Precision::float32}},
+        {"double", {Precision::float64}},
+        {"both", {Precision::float32, Precision::float64}}};
+    add_choice(verb, "--precision", precisions, choices, "arithmetic precision (default: both)");
 }
 
-void add_count(const CommandLine& verb, const std::string& option, int& count, int least, int most,
-               const std::string& help) {
-    verb.option(option, "N", help, [&count, option, least, most](const std::string& text) {
-        count = parse_count(option, text, least, most);
-    });
+void add_repeats(const CommandLine& verb, int& repeats, int least) {
+    verb.value(
+        "--repeats", "N", repeats, count_in(least, 1000),
+        fmt::format("number of timed rounds after the warm-up, at least {} (default: 5)", least));
 }
 
 void add_result_file(const CommandLine& verb, const std::string& option, std::string& file,
                      const std::string& help) {
     verb.optional_value(option, "FILE|-", help, "-", may_take_results,
-                        [&file, option](const std::string& text) {
-                            if (text.empty()) refuse(option, text, "name a file, or - for stdout");
+                        [&file](const std::string& text) {
+                            if (text.empty()) refuse(text, "expected a file name, or - for stdout");
                             file = text;
                         });
 }
 
 void add_result_files(const CommandLine& verb, ResultFiles& files) {
-    add_result_file(verb, "--json", files.json, "all raw values and figures as JSON");
-    add_result_file(verb, "--csv", files.csv, "a row per run as CSV");
+    add_result_file(verb, "--json", files.json, "write all measurements as JSON");
+    add_result_file(verb, "--csv", files.csv, "write one row per run as CSV");
 }
 
 void check_result_files(const ResultFiles& files) {
     if (files.json == "-" && files.csv == "-") {
-        refuse("--csv", "-", "stdout takes JSON or CSV; send one to a file");
+        usage_error("--json and --csv cannot both write to stdout; send one to a file");
     }
 }
 

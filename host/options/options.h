@@ -77,7 +77,7 @@ struct Options {
 };
 
 /// Reads the command line and the environment, except for what PoCL and MPI look up. Throws Error
-/// (ExitCode::usage) for what it does not understand.
+/// (ExitCode::usage) for invalid arguments.
 Options parse_options(int argc, const char* const* argv);
 
 }  // namespace rt

@@ -1,73 +1,130 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
+#include "host/named.h"
+#include "host/number.h"
 #include "host/options/command_line.h"
 #include "host/options/render_options.h"
 
 namespace rt {
 
-/// Throws Error (ExitCode::usage): "option 'value': expected".
-[[noreturn]] void refuse(const std::string& option, const std::string& value,
-                         const std::string& expected);
+/// Rejects the value of the option being read, or a part of it: throws BadValue.
+[[noreturn]] void refuse(const std::string& value, const std::string& reason);
 
-/// The same for a name that is none of the choices: lists them, and says which may be meant.
-[[noreturn]] void refuse_choice(const std::string& option, const std::string& value,
-                                const std::vector<std::string>& choices);
+/// The same for a text that is none of the choices; guesses which one was meant.
+[[noreturn]] void refuse_choice(const std::string& value, const std::vector<std::string>& choices);
+
+// Readers of an option's value, or makers of such readers; all reject other text.
+
+/// WIDTHxHEIGHT or N; ExitCode::limit for too many pixels.
+PictureSize parse_size(const std::string& text);
+
+AaMode parse_aa(const std::string& text);
+
+inline std::string parse_text(const std::string& text) { return text; }
+
+/// A device spec, or several separated by commas: the text, once checked. Throws Error.
+std::string parse_device(const std::string& text);
+
+/// A whole number from `least` to `most`.
+inline auto count_in(int least, int most) {
+    return [least, most](const std::string& text) {
+        const auto count = parse_number<int>(text);
+        if (!count || *count < least || *count > most) {
+            refuse(text, fmt::format("expected a whole number from {} to {}", least, most));
+        }
+        return *count;
+    };
+}
+
+/// Seconds from `least` to 1e8.
+inline auto seconds_from(double least) {
+    return [least](const std::string& text) {
+        const auto seconds = parse_number<double>(text);
+        if (!seconds || !(*seconds >= least && *seconds <= 1e8)) {
+            refuse(text, fmt::format("expected a number of seconds, at least {:g}", least));
+        }
+        return *seconds;
+    };
+}
+
+/// "5%" or "5": 0.05.
+inline auto percent_to(double most) {
+    return [most](const std::string& text) {
+        const bool has_sign = text.ends_with('%');
+        const auto percent = parse_number<double>(text.substr(0, text.size() - (has_sign ? 1 : 0)));
+        if (!percent || !(*percent >= 0 && *percent <= most)) {
+            refuse(text, fmt::format("expected a percentage from 0% to {:g}%", most));
+        }
+        return *percent / 100;
+    };
+}
+
+/// The parts between commas; rejects an empty part, for this reason.
+std::vector<std::string> split_list(
+    const std::string& text, const std::string& reason = "expected a list separated by commas");
+
+/// A list separated by commas, each part read by `parse`.
+template <typename Parse>
+auto list_of(const Parse& parse) {
+    return [parse](const std::string& text) {
+        std::vector<std::decay_t<decltype(parse(text))>> values;
+        for (const std::string& part : split_list(text)) values.push_back(parse(part));
+        return values;
+    };
+}
 
 /// Integers with a separator between them; those too large for int become its largest value, for
 /// range checks to reject. Empty for any other text.
 std::optional<std::vector<int>> parse_integers(std::string_view text, char separator);
 
-/// WIDTHxHEIGHT or N. Throws Error: ExitCode::usage, or ExitCode::limit for too many pixels.
-PictureSize parse_size(const std::string& option, const std::string& text);
-
-/// Numbers from 0 to 1e30, separated by commas; empty for any other text.
-std::optional<std::vector<double>> parse_amounts(std::string_view text);
-
-/// Seconds from `least` to 1e8. Throws Error (ExitCode::usage).
-double parse_seconds(const std::string& option, const std::string& text, double least);
-
-/// "5%" or "5": 0.05. Throws Error (ExitCode::usage) outside 0 to `most` percent.
-double parse_percent(const std::string& option, const std::string& text, double most);
-
 /// The value of an environment variable, or "".
 std::string environment(const char* name);
 
-/// An option that names a file, folder or scene: any text but an empty one, which a script whose
-/// variable is unset gives.
-void add_name(const CommandLine& verb, const std::string& option, const std::string& type,
-              std::string& name, const std::string& help);
-
-template <typename E>
-struct Choice {
-    const char* name;
-    E value;
-};
-
-/// An option that takes one of several names.
-template <typename E>
-void add_choice(const CommandLine& verb, const std::string& option, E& value,
-                const std::vector<Choice<E>>& choices, const std::string& help) {
-    std::string type;
+template <typename T, std::size_t n>
+std::vector<std::string> names_of(const Named<T> (&choices)[n]) {
     std::vector<std::string> names;
-    for (const Choice<E>& choice : choices) {
-        type += (type.empty() ? "" : "|") + std::string(choice.name);
-        names.emplace_back(choice.name);
-    }
-    const auto read = [&value, choices, option, names](const std::string& text) {
-        for (const Choice<E>& choice : choices) {
-            if (text == choice.name) {
-                value = choice.value;
-                return;
-            }
-        }
-        refuse_choice(option, text, names);
+    for (const Named<T>& choice : choices) names.emplace_back(choice.name);
+    return names;
+}
+
+/// A name from a table, which must outlive the reader.
+template <typename T, std::size_t n>
+auto one_of(const Named<T> (&choices)[n]) {
+    return [&choices](const std::string& text) {
+        const std::optional<T> value = value_of(choices, text);
+        if (!value) refuse_choice(text, names_of(choices));
+        return *value;
     };
-    verb.option(option, type, help, read);
+}
+
+/// An option that takes a name from a table.
+template <typename T, typename N, std::size_t n>
+void add_choice(const CommandLine& verb, const std::string& option, T& target,
+                const Named<N> (&choices)[n], const std::string& help) {
+    verb.value(option, fmt::format("{}", fmt::join(names_of(choices), "|")), target,
+               one_of(choices), help);
+}
+
+/// The same; without a name, the option means `bare`.
+template <typename T, typename N, std::size_t n>
+void add_optional_choice(const CommandLine& verb, const std::string& option, T& target,
+                         const Named<N> (&choices)[n], const std::string& bare,
+                         const std::string& help) {
+    verb.optional_value(
+        option, fmt::format("{}", fmt::join(names_of(choices), "|")), help, bare,
+        [&choices](const std::string& text) { return value_of(choices, text).has_value(); },
+        [&target, read = one_of(choices)](const std::string& text) { target = read(text); });
 }
 
 }  // namespace rt

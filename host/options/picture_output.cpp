@@ -3,46 +3,36 @@
 
 #include <unistd.h>
 
-#include "host/error.h"
 #include "host/image/output_path.h"
 #include "host/options/parse.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
 void add_picture_output(const CommandLine& verb, std::string& output,
                         std::optional<PictureFormat>& format, const std::string& help) {
-    verb.option("-o,--output", "FILE|-", help, [&output](const std::string& text) {
-        if (text.empty()) refuse("-o", text, "name a picture file");
-        output = text;
-    });
-    verb.option("--format", "png|exr|pfm|..",
-                "picture format of -o -, standard output (default png)",
-                [&format](const std::string& text) {
-                    format = known_picture_format("picture." + text);
-                    if (!format) {
-                        refuse("--format", text,
-                               "give png, exr or pfm (or tif, jpg, webp, hdr, tga, bmp, ppm)");
-                    }
-                });
-}
-
-void add_encoding(const CommandLine& verb, Encoding& encoding) {
-    add_choice<Encoding>(
-        verb, "--encoding", encoding,
-        {{"display", Encoding::display}, {"srgb", Encoding::srgb}, {"linear", Encoding::linear}},
-        "how 8-bit files store linear light (default display: value x 255)");
+    const auto parse_output = [](const std::string& text) {
+        if (text.empty()) refuse(text, "expected the name of a picture file");
+        return text;
+    };
+    const auto parse_format = [](const std::string& text) {
+        const auto known = known_picture_format("picture." + text);
+        if (!known) refuse(text, "expected png, exr, pfm, tif, jpg, webp, hdr, tga, bmp or ppm");
+        return known;
+    };
+    verb.value("-o,--output", "FILE|-", output, parse_output, help);
+    verb.value("--format", "png|exr|pfm|..", format, parse_format,
+               "picture format of standard output, -o - (default: png)");
 }
 
 void settle_picture_output(const std::string& output, std::optional<PictureFormat>& format) {
     if (output != stdout_path) {
-        if (!format) return;
-        throw Error(ExitCode::usage, "--format is for -o -; the ending of a file is its format");
+        if (format) usage_error("--format requires -o -; a file's extension sets its format");
+        return;
     }
     if (!format) format = PictureFormat::png;
     if (isatty(STDOUT_FILENO) == 1) {
-        throw Error(ExitCode::usage,
-                    "-o - writes a picture to standard output, which is a terminal here; send it "
-                    "to a program or a file");
+        usage_error("-o - would write a picture to the terminal; redirect it to a file or a pipe");
     }
 }
 

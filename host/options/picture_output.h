@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "host/image/encoding.h"
 #include "host/image/picture_format.h"
 #include "host/options/command_line.h"
 
@@ -13,8 +12,6 @@ namespace rt {
 /// Adds -o, with the given help, and --format, the format of "-".
 void add_picture_output(const CommandLine& verb, std::string& output,
                         std::optional<PictureFormat>& format, const std::string& help);
-
-void add_encoding(const CommandLine& verb, Encoding& encoding);
 
 /// Sets the format of standard output. Throws Error (ExitCode::usage) if it is a terminal, and if
 /// --format is given for a file, whose extension sets its format.

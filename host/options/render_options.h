@@ -30,12 +30,12 @@ struct RenderOptions : RenderSettings {
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;
     bool resume = false;               ///< requested explicitly
-    std::vector<Aov> aovs;             ///< to be saved beside the picture
+    std::vector<Aov> aovs;             ///< to be saved next to the picture
     ViewSettings view;                 ///< where to show the picture while it renders
     bool mpi = false;                  ///< render on the ranks that mpirun started
     bool watch = false;                ///< render again when the scene's files change
     double timeout = 0;                ///< seconds until it gives up; 0: never
-    bool isolate = true;               ///< OpenCL in a process of its own
+    bool isolate = true;               ///< OpenCL in a separate process
     double deadline = 10;              ///< seconds without progress after which a driver is hung
     std::string failed_device;         ///< that threads replace
     std::string device_failure;        ///< how it failed

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/options/lists.h"
 #include "host/options/verb_options.h"
 
 namespace rt {
@@ -8,9 +9,9 @@ namespace {
 void add_scene_action(const CommandLine& scene, const char* name, const char* help, bool info,
                       Options& options) {
     const CommandLine action = scene.verb(name, help);
-    action.argument("SCENE", options.scene.scene, "scene file (.json, .nff, .obj, .ply)");
+    action.argument("SCENE", options.scene.scene, scene_help);
     add_light_options(action, options.scene.light);
-    action.flag("--json", options.scene.json, "as JSON on stdout");
+    action.flag("--json", options.scene.json, json_help);
     action.when_chosen([&options, info] {
         options.verb = Verb::scene;
         options.scene.info = info;

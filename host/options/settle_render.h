@@ -5,8 +5,8 @@
 
 namespace rt {
 
-/// Checks the options of `render` against one another, once all are read, and fills in what follows
-/// from them. Throws Error (ExitCode::usage) for options that do not go together.
+/// Checks the options of `render` against one another once all are read, and derives the others.
+/// Throws Error (ExitCode::usage) for options that cannot be combined.
 void settle_render(RenderOptions& render);
 
 }  // namespace rt

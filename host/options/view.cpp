@@ -14,22 +14,10 @@ namespace rt {
 
 namespace {
 
-struct Mode {
-    const char* name;
-    PreviewMode mode;
-};
-
-constexpr Mode modes[] = {{"auto", PreviewMode::automatic},
-                          {"half", PreviewMode::half},
-                          {"kitty", PreviewMode::kitty},
-                          {"sixel", PreviewMode::sixel}};
-
-const Mode* find_mode(const std::string& text) {
-    for (const Mode& mode : modes) {
-        if (text == mode.name) return &mode;
-    }
-    return nullptr;
-}
+constexpr Named<PreviewMode> preview_modes[] = {{"auto", PreviewMode::automatic},
+                                                {"half", PreviewMode::half},
+                                                {"kitty", PreviewMode::kitty},
+                                                {"sixel", PreviewMode::sixel}};
 
 /// "HOST:PORT", "HOST", ":PORT" or "[IPv6]:PORT"; missing parts default to tev's.
 TevAddress parse_tev_address(const std::string& text) {
@@ -45,16 +33,16 @@ TevAddress parse_tev_address(const std::string& text) {
     return address;
 }
 
-/// Whether a word is an address rather than a scene: no file, and without a scene's ending.
+/// Whether a word is an address rather than a scene: no file, and without a scene's extension.
 bool is_tev_address(const std::string& text) {
     std::error_code ignored;
     if (text.empty() || text.starts_with('-') || std::filesystem::exists(text, ignored)) {
         return false;
     }
     if (text.find(':') != std::string::npos) return true;
-    constexpr std::string_view endings[] = {".json", ".nff", ".obj", ".ply"};
+    constexpr std::string_view extensions[] = {".json", ".nff", ".obj", ".ply"};
     return text.find('/') == std::string::npos &&
-           std::ranges::find(endings, lower_ending(text)) == std::end(endings);
+           std::ranges::find(extensions, lower_extension(text)) == std::end(extensions);
 }
 
 }  // namespace
@@ -64,25 +52,16 @@ void add_view_options(const CommandLine& verb, ViewSettings& view) {
     view.terminal.colors = environment("COLORTERM");
     view.terminal.without_colors = !environment("NO_COLOR").empty();
     view.terminal.is_shared = !environment("TMUX").empty() || !environment("STY").empty();
-    verb.optional_value(
-        "--preview", "auto|half|kitty|sixel",
-        "show the picture in the terminal as it is rendered, by half blocks or one of the "
-        "terminals' picture protocols (auto, default: the best that the terminal has)",
-        "auto", [](const std::string& text) { return find_mode(text) != nullptr; },
-        [&view](const std::string& text) {
-            const Mode* const mode = find_mode(text);
-            if (mode == nullptr) {
-                refuse_choice("--preview", text, {"auto", "half", "kitty", "sixel"});
-            }
-            view.preview = mode->mode;
-        });
+    add_optional_choice(verb, "--preview", view.preview, preview_modes, "auto",
+                        "show the picture in the terminal while it renders, in half blocks or with "
+                        "a graphics protocol (default: auto, the best the terminal supports)");
     verb.flag("--show", view.window,
-              "show it in a window as it is rendered; Escape or q closes it, and the command ends "
-              "when it is closed");
+              "show the picture in a window while it renders; Escape or q closes the window, and "
+              "the command ends when it is closed");
     const TevAddress usual;
     verb.optional_value(
         "--tev", "HOST[:PORT]",
-        "show it in the image viewer tev as it is rendered (default: 127.0.0.1:14158)",
+        "show the picture in the image viewer tev while it renders (default: 127.0.0.1:14158)",
         usual.host + ":" + usual.port, is_tev_address,
         [&view](const std::string& text) { view.tev = parse_tev_address(text); });
 }

@@ -15,7 +15,7 @@ DeviceStats threads_stats(const FlatScene<T>& scene, const AaMode& aa,
     stats.kernels = kernels.features;
     stats.name = "threads";
     stats.threads = thread_count(options, aa.samples());
-    stats.schedule = options.schedule == Schedule::tiles ? "tiles" : "buffers";
+    stats.schedule = name_of(schedule_names, options.schedule);
     return stats;
 }
 
@@ -56,22 +56,22 @@ void say_ignored_settings(const DeviceChoice& choice, const RenderSettings& sett
     };
     if (choice.use_threads) {
         if (settings.launch != Launch::automatic) {
-            say("--launch is for OpenCL devices; threads ignore it");
+            say("--launch has no effect on threads");
         }
-        if (settings.fast_math) say("--math fast is for OpenCL devices; threads are strict");
+        if (settings.fast_math) say("--math fast has no effect on threads");
         return;
     }
     if (settings.schedule != Schedule::tiles) {
-        say("--schedule is for --device threads; OpenCL devices ignore it");
+        say("--schedule has no effect on OpenCL devices");
     }
     if (!choice.failure.empty()) return;
     if (settings.threads > 0 && choice.device.platform != pocl_platform) {
-        say("--threads is for --device threads and PoCL; " + choice.device.name + " ignores it");
+        say("--threads has no effect on " + choice.device.name);
     }
     if (!settings.fast_math && !choice.device.rounds_correctly && events.detail) {
         events.detail(choice.device.name +
-                      " does not guarantee correctly rounded division and square root; the "
-                      "picture's bits may differ from other devices'");
+                      " does not guarantee correctly rounded division and square roots, so its "
+                      "pictures may differ in a few bits");
     }
 }
 

@@ -11,8 +11,8 @@
 
 namespace rt {
 
-/// Calls `say`, on a thread of its own, if it is not destroyed within `patience`: for steps that
-/// are usually short.
+/// Calls `say`, on a separate thread, unless destroyed within `patience`: for steps that are
+/// usually short.
 class LateMessage {
    public:
     LateMessage(std::chrono::milliseconds patience, std::function<void()> say)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/counted.h"
 #include "host/error.h"
 #include "host/hash.h"
 #include "host/opencl/render_kernels.h"
@@ -98,9 +99,9 @@ void PictureJournal<T>::open() {
     if (file_->found() == Found::something_else) {
         if (settings_.shares) {
             throw Error(ExitCode::output,
-                        path + ": is not a journal, or cannot be written; name another file");
+                        path + ": is not a journal or cannot be written; choose another file");
         }
-        say_(path + " is not a mirrorball journal; finished tiles are not saved");
+        say_(path + ": is not a mirrorball journal; finished tiles are not saved");
         file_.reset();
         return;
     }
@@ -109,12 +110,12 @@ void PictureJournal<T>::open() {
     if (is_foreign && settings_.shares) {
         throw Error(ExitCode::output, path +
                                           ": belongs to a different picture, share or version; "
-                                          "name another file, or give --fresh to replace it");
+                                          "choose another file, or replace it with --fresh");
     }
     if (is_foreign) {
-        say_(path +
-             " belongs to a different picture, different settings or a different version; starting "
-             "over");
+        say_(
+            path +
+            ": belongs to a different picture or version, or to different settings; starting over");
     }
     if (!known_) start_again();
     if (settings_.fresh && is_ours_) file_->empty();
@@ -149,10 +150,9 @@ void PictureJournal<T>::read() {
         if (error.exit_code() != ExitCode::input) throw;  // otherwise it is of another version
     }
     if (!known_) return;
-    const std::string damage =
-        damaged_bytes == 0
-            ? ""
-            : fmt::format("; ignored its last {} bytes, which are damaged", damaged_bytes);
+    const std::string damage = damaged_bytes == 0 ? ""
+                                                  : fmt::format("; ignored its damaged end ({})",
+                                                                counted(damaged_bytes, "byte"));
     say_(fmt::format("resuming from {}, which has {:.0f} % of the first pass{}{}", file_->path(),
                      100 * known_->share_rendered(),
                      known_->refined[0].pixels.empty() ? "" : " and some refined pixels", damage));

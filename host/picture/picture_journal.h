@@ -53,14 +53,14 @@ class PictureJournal {
     TileEvents tile_events();
     RefineEvents<T> refine_events();
 
-    /// The film is final, and need not stay alive.
+    /// The film is final and no longer used.
     void hold();
 
     /// Closes it, once what was rendered is known to be right. Throws Error (ExitCode::output) if
     /// shares are not on disk.
     void end(bool is_complete);
 
-    /// Drops all that was saved, here and on disk: it was wrong.
+    /// Discards everything saved, in memory and on disk, because it was wrong.
     void discard();
 
     std::shared_ptr<JournalFile> file() const { return file_; }

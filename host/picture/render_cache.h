@@ -21,8 +21,8 @@ struct RenderCache {
 
     RenderCache();
 
-    /// A hash of all in a scene that flattening reads; `hash` is its scene_hash, which leaves out
-    /// the settings.
+    /// A hash of everything in a scene that flattening reads; `hash` is its scene_hash, which
+    /// excludes the settings.
     static std::uint64_t flat_key(const Scene& scene, std::uint64_t hash);
 
     std::shared_ptr<OpenDevices> devices;

@@ -24,6 +24,7 @@
 #include "host/render/picture_loop.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_hash.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
@@ -36,10 +37,8 @@ Rect chosen_region(const Scene& scene, const RenderSettings& settings) {
     if (!settings.crop) return whole;
     const Rect& crop = *settings.crop;
     if (crop.x + crop.width > whole.width || crop.y + crop.height > whole.height) {
-        throw Error(
-            ExitCode::usage,
-            fmt::format("--crop reaches to {},{}, beyond the picture of {}x{} pixels",
-                        crop.x + crop.width, crop.y + crop.height, whole.width, whole.height));
+        usage_error("--crop extends to {},{}, but the picture has {}x{} pixels",
+                    crop.x + crop.width, crop.y + crop.height, whole.width, whole.height);
     }
     return crop;
 }
@@ -237,9 +236,9 @@ class Job {
     void render_with(Crew<T>& crew, const std::string& names) {
         check_memory(
             static_cast<std::uint64_t>(rendered_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
-            fmt::format("the film of {}x{} pixels, with its file", rendered_.width,
+            fmt::format("the film of {}x{} pixels, including its file,", rendered_.width,
                         rendered_.height),
-            "make it smaller with --size, or render parts with --crop");
+            "reduce --size, or render parts with --crop");
         film_ = journal_->take_film();
         tile_ = tile_size(crew);
         if (events_.began) events_.began(region_.width, region_.height);
@@ -347,8 +346,8 @@ class Job {
                                             settings_.check, region_, film_);
         stats_.tiles_checked = check.tiles;
         if (check.wrong_tiles == 0) return "";
-        return fmt::format("{} of {} tiles that threads traced again are different",
-                           check.wrong_tiles, check.tiles);
+        return fmt::format("{} of {} tiles differ when traced again on threads", check.wrong_tiles,
+                           check.tiles);
     }
 
     /// Renders the whole picture again on threads if the results were wrong.

@@ -30,7 +30,7 @@ struct RenderedPicture {
 struct RenderEvents {
     std::function<void(const std::string& line)> message;  ///< what users should know
     std::function<void(const std::string& line)> detail;   ///< what they may want to know
-    /// A device still compiles after a second; on a thread of its own.
+    /// A device is still compiling after a second; on a separate thread.
     std::function<void(const std::string& line)> compiling;
     /// Tracing begins. Until `ended`, any thread may ask the queue for progress.
     std::function<void(const TileQueue&)> started;
@@ -52,8 +52,7 @@ RenderedPicture render_picture(const Scene& scene, const RenderSettings& setting
                                std::future<std::vector<DeviceChoice>> devices,
                                const RenderEvents& events, const StopFlag& stop);
 
-/// The same on devices chosen before. The cache serves one picture at a time; null: nothing is
-/// kept.
+/// The same on devices already chosen. The cache serves one picture at a time; null: no cache.
 RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
                                const std::vector<DeviceChoice>& devices, const RenderEvents& events,
                                const StopFlag& stop, RenderCache* cache = nullptr);

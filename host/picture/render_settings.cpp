@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/render_settings.h"
 
-#include <fmt/format.h>
-
-#include "host/error.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
@@ -14,9 +12,8 @@ void check_filter(const Scene& scene) {
     constexpr int fewest = 16;
     if (scene.filter == Filter::mitchell && scene.aa.pattern == AaMode::Pattern::sobol &&
         scene.aa.count < fewest) {
-        throw Error(ExitCode::usage, fmt::format("--filter mitchell needs at least sobol:{}; {} "
-                                                 "is too few",
-                                                 fewest, to_string(scene.aa)));
+        usage_error("--filter mitchell requires at least sobol:{}; {} is too few", fewest,
+                    to_string(scene.aa));
     }
 }
 

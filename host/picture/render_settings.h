@@ -17,6 +17,9 @@ namespace rt {
 
 enum class Precision { float32, float64 };
 
+inline constexpr Named<Precision> precision_names[] = {{"float", Precision::float32},
+                                                       {"double", Precision::float64}};
+
 struct PictureSize {
     int width, height;
 };

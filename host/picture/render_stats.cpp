@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "host/named.h"
 #include "host/processor_time.h"
 
 namespace rt {
@@ -46,8 +47,8 @@ std::string settings_text(const RenderStats& stats) {
     return fmt::format("{}x{}+{}+{} of {}x{}, {}, {} filter, {} bounces, {}, {} math",
                        stats.region.width, stats.region.height, stats.region.x, stats.region.y,
                        stats.width, stats.height, to_string(stats.aa), to_string(stats.filter),
-                       stats.max_bounces, stats.double_precision ? "double" : "float",
-                       stats.fast_math ? "fast" : "strict");
+                       stats.max_bounces, precision_name(stats.double_precision),
+                       math_name(stats.fast_math));
 }
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }

@@ -107,9 +107,8 @@ void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>&
     }
     if (wrong == 0) return;
     throw Error(ExitCode::device,
-                fmt::format("{} fails its self-test: {} of {} pixels differ from what threads "
-                            "compute; clear its kernel cache, update its driver, or use --device "
-                            "threads",
+                fmt::format("{} fails its self-test: {} of {} pixels differ from those of threads; "
+                            "clear its kernel cache, update its driver, or use --device threads",
                             name, wrong, pixels));
 }
 
@@ -139,11 +138,12 @@ std::string impossible_rays(const RayCounts& rays, std::size_t lights, int max_b
     const double most = has_glass ? std::exp2(bounces + 1) - 2 : bounces;
     const std::uint64_t secondary = rays.mirror + rays.transmitted;
     if (static_cast<double>(secondary) > most * static_cast<double>(rays.primary)) {
-        return fmt::format("{} mirror and refracted rays of {} eye rays", secondary, rays.primary);
+        return fmt::format("{} mirror and refracted rays for {} eye rays", secondary, rays.primary);
     }
     const double surfaces = static_cast<double>(rays.primary) + static_cast<double>(secondary);
     if (static_cast<double>(rays.shadow) > surfaces * static_cast<double>(lights)) {
-        return fmt::format("{} shadow rays of {} others", rays.shadow, rays.primary + secondary);
+        return fmt::format("{} shadow rays for {} other rays", rays.shadow,
+                           rays.primary + secondary);
     }
     return "";
 }

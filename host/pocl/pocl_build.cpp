@@ -9,7 +9,7 @@ std::string pocl_build_advice() {
     const std::string why = why_pocl_cache_is_read_only();
     if (why.empty()) return "update the driver";
     return "PoCL cannot write its kernel cache (" + why +
-           "): set POCL_CACHE_DIR to a folder that it can write";
+           "): set POCL_CACHE_DIR to a writable folder";
 }
 
 }  // namespace rt

@@ -17,7 +17,7 @@ namespace rt {
 inline constexpr const char* pocl_build_options =
     " -D_OPENCL_H_ -DRT_DECLARES_BUILTINS=1 -DRT_ITEM=__attribute__((noinline))";
 
-/// What to do after PoCL failed to build.
+/// Advice for when PoCL fails to build.
 std::string pocl_build_advice();
 
 }  // namespace rt

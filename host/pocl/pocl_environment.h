@@ -13,7 +13,7 @@ namespace rt {
 ///
 /// Kernel cache: POCL_CACHE_DIR, unless it is empty, another user's, or world-writable; else
 /// mirrorball/pocl in $XDG_CACHE_HOME or ~/.cache, without a home in $TMPDIR/mirrorball-UID, closed
-/// to others; else a temporary folder of this process. PoCL runs what lies there.
+/// to others; else a temporary folder of this process. PoCL runs the code it finds there.
 ///
 /// PATH: adds /usr/bin and /bin if it has no `ld`, which PoCL calls, ending the process if it is
 /// missing.

@@ -2,6 +2,7 @@
 #include "host/print/bench_json.h"
 
 #include "host/measure/bench.h"
+#include "host/named.h"
 #include "host/print/run_json.h"
 #include "host/printable.h"
 
@@ -41,7 +42,7 @@ Json row_json(const BenchResult& result, const BenchRow& row) {
             {"width", asked.width},
             {"height", asked.height},
             {"aa", to_string(asked.aa)},
-            {"precision", asked.double_precision ? "double" : "float"},
+            {"precision", precision_name(asked.double_precision)},
             {"device", asked.device},
             {"device_name", asked.device_name},
             {"threads", asked.threads},

@@ -7,6 +7,7 @@
 
 #include "host/measure/bench.h"
 #include "host/measure/machine_load.h"
+#include "host/named.h"
 #include "host/print/rounds_text.h"
 #include "host/printable.h"
 
@@ -19,7 +20,7 @@ constexpr std::size_t device_columns = 19;
 /// The heading of a group of rows.
 std::string group_of(const BenchCase& asked) {
     return fmt::format("{} {}x{}, {}, {}", printable(asked.scene_path), asked.width, asked.height,
-                       to_string(asked.aa), asked.double_precision ? "double" : "float");
+                       to_string(asked.aa), precision_name(asked.double_precision));
 }
 
 std::string device_text(const BenchCase& asked) {
@@ -110,9 +111,9 @@ std::string ablation_text(const BenchResult& result) {
 constexpr const char* legend =
     "Medians; +-%: median absolute deviation. total: flatten, open, build, upload,\n"
     "trace, resolve, read back. speed-up: relative to one thread with the same\n"
-    "schedule (devices: tiles). Amdahl: the speed-up of total that it predicts,\n"
-    "1/((1-f)+f/n), f = trace/total of one thread. scalar: one ray at a time. RMSE:\n"
-    "from the same samples in double, clamped to [0,1].\n";
+    "schedule (devices: tiles). Amdahl: predicted speed-up of total, 1/((1-f)+f/n),\n"
+    "f = trace/total of one thread. scalar: one ray at a time. RMSE: relative to the\n"
+    "same samples in double, clamped to [0,1].\n";
 
 }  // namespace
 

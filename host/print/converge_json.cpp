@@ -3,6 +3,7 @@
 
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
+#include "host/named.h"
 #include "host/print/run_json.h"
 #include "host/printable.h"
 
@@ -28,8 +29,8 @@ Json reference_json(const ConvergeReference& reference) {
 Json build_json(const ConvergeCase& of) {
     return {{"device", of.device},
             {"device_name", of.device_name},
-            {"precision", of.double_precision ? "double" : "float"},
-            {"math", of.fast_math ? "fast" : "strict"}};
+            {"precision", precision_name(of.double_precision)},
+            {"math", math_name(of.fast_math)}};
 }
 
 /// Null unless the point is right.

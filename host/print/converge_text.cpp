@@ -9,6 +9,7 @@
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
+#include "host/named.h"
 #include "host/print/rounds_text.h"
 #include "host/printable.h"
 
@@ -24,14 +25,13 @@ std::string device_text(const std::string& device, const std::string& name) {
 /// "0 pthread-AMD EP float  strict"
 std::string who(const ConvergeCase& of) {
     return fmt::format("{:<16} {:<6} {:<6}", device_text(of.device, of.device_name).substr(0, 16),
-                       of.double_precision ? "double" : "float", of.fast_math ? "fast" : "strict");
+                       precision_name(of.double_precision), math_name(of.fast_math));
 }
 
 /// The heading of the points of one setting.
 std::string group_of(const ConvergeCase& of) {
     return fmt::format("{}, {}, {}, {}", device_text(of.device, of.device_name),
-                       of.double_precision ? "double" : "float",
-                       of.fast_math ? "fast math" : "strict",
+                       precision_name(of.double_precision), of.fast_math ? "fast math" : "strict",
                        counted(static_cast<std::size_t>(of.max_bounces), "bounce"));
 }
 

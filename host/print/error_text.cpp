@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "host/counted.h"
+
 namespace rt {
 
 namespace {
 
 std::string count_line(const char* name, std::size_t count, std::size_t pixels) {
-    return fmt::format("  {:<12}{} pixel{} ({:.2f} %)\n", name, count, count == 1 ? "" : "s",
+    return fmt::format("  {:<12}{} ({:.2f} %)\n", name, counted(count, "pixel"),
                        100.0 * static_cast<double>(count) / static_cast<double>(pixels));
 }
 

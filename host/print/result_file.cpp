@@ -22,7 +22,7 @@ void check_result_path(const std::string& path, const std::string& first_bytes) 
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     if (file.gcount() == 0 || start == first_bytes) return;
     throw Error(ExitCode::usage,
-                path + ": already exists and does not hold such results; name another file");
+                path + ": already exists and is not such a result file; choose another name");
 }
 
 void write_result(const std::string& path, const std::string& text) {

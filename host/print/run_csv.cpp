@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "host/named.h"
 #include "host/print/environment_json.h"
 #include "host/printable.h"
 #include "host/version.h"
@@ -27,8 +28,8 @@ std::vector<std::string> what_cells(const RenderStats& run, const RunPlace& plac
             std::to_string(run.height),
             to_string(run.aa),
             std::to_string(run.max_bounces),
-            run.double_precision ? "double" : "float",
-            run.fast_math ? "fast" : "strict",
+            precision_name(run.double_precision),
+            math_name(run.fast_math),
             quoted(place.device),
             quoted(run.device.name),
             std::to_string(run.device.threads),

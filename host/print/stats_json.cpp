@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host/named.h"
 #include "host/print/environment_json.h"
 #include "host/print/error_json.h"
 #include "host/print/flatten_text.h"
@@ -41,8 +42,8 @@ Json settings_json(const RenderStats& stats) {
             {"samples", stats.aa.samples()},
             {"filter", to_string(stats.filter)},
             {"max_bounces", stats.max_bounces},
-            {"precision", stats.double_precision ? "double" : "float"},
-            {"math", stats.fast_math ? "fast" : "strict"},
+            {"precision", precision_name(stats.double_precision)},
+            {"math", math_name(stats.fast_math)},
             {"features", stats.all_features ? "all" : "auto"},
             {"features_added", names_of(stats.also_features, true)},
             {"hierarchies", !stats.hierarchies   ? "auto"

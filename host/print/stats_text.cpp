@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "host/counted.h"
+#include "host/named.h"
 #include "host/print/flatten_text.h"
 
 namespace rt {
@@ -13,12 +14,10 @@ namespace {
 std::string device_text(const DeviceStats& device) {
     if (device.lanes == 0) return device.name;  // several devices
     if (!device.schedule.empty()) {
-        return fmt::format("{} thread{}, {}, {} lane{} ({})", device.threads,
-                           device.threads == 1 ? "" : "s", device.schedule, device.lanes,
-                           device.lanes == 1 ? "" : "s", device.isa);
+        return fmt::format("{}, {}, {} ({})", counted(device.threads, "thread"), device.schedule,
+                           counted(device.lanes, "lane"), device.isa);
     }
-    return fmt::format("{}, per {}, {} lane{}", device.name, device.launch, device.lanes,
-                       device.lanes == 1 ? "" : "s");
+    return fmt::format("{}, per {}, {}", device.name, device.launch, counted(device.lanes, "lane"));
 }
 
 std::string share_text(const DeviceShare& share) {
@@ -97,7 +96,7 @@ std::string summary_line(const RenderStats& stats) {
         "{}: {}x{} {} {} on {}: {:.2f} Mrays in {:.3f} s ({:.1f} Mrays/s), total "
         "{:.3f} s, image {}",
         stats.scene.name, stats.region.width, stats.region.height, to_string(stats.aa),
-        stats.double_precision ? "double" : "float", device_text(stats.device),
+        precision_name(stats.double_precision), device_text(stats.device),
         static_cast<double>(stats.rays.total()) * 1e-6, stats.phases.renderer.trace,
         stats.rays_per_second() * 1e-6, stats.phases.total, hash_text(stats.image_hash));
 }
@@ -112,8 +111,8 @@ std::string error_line(const ImageError& error) {
 
 std::string driver_time_text(const RenderStats& stats) {
     return fmt::format(
-        "kernels ran for {:.3f} s of the {:.3f} s of tracing; the driver seems to have been "
-        "compiling; a second run shows the true tracing speed",
+        "kernels ran for only {:.3f} s of the {:.3f} s of tracing, probably because the driver was "
+        "compiling; run again to see the true speed",
         stats.phases.renderer.kernel, stats.phases.renderer.trace);
 }
 
@@ -124,7 +123,7 @@ std::string stats_text(const RenderStats& stats) {
         "device  {}\n",
         stats.scene.name, holdings_text(stats), hash_text(stats.scene.hash), stats.region.width,
         stats.region.height, to_string(stats.aa), stats.max_bounces,
-        stats.double_precision ? "double" : "float", stats.fast_math ? "fast" : "strict",
+        precision_name(stats.double_precision), math_name(stats.fast_math),
         hash_text(stats.image_hash), device_text(stats.device));
     if (!stats.device.fallback_from.empty()) {
         text += fmt::format("        instead of {}, which failed\n", stats.device.fallback_from);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/named.h"
 #include "host/picture/render_stats.h"
 #include "host/print/run_json.h"
 
@@ -37,7 +38,7 @@ const char* verdict_of(const StressRow& row) {
 Json row_json(const StressRow& row) {
     Json json{{"renderer", row.renderer},
               {"device", row.device},
-              {"precision", row.double_precision ? "double" : "float"},
+              {"precision", precision_name(row.double_precision)},
               {"verdict", verdict_of(row)},
               {"why", row.why},
               {"seconds", row.seconds}};

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "host/named.h"
+
 namespace rt {
 
 namespace {
@@ -49,7 +51,7 @@ std::string family_bar(const StressFamilyResult& family) {
 }
 
 std::string row_name(const StressRow& row) {
-    return fmt::format("{} {}", row.renderer, row.double_precision ? "double" : "float");
+    return fmt::format("{} {}", row.renderer, precision_name(row.double_precision));
 }
 
 std::string row_figures(const StressRow& row) {

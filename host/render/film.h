@@ -10,7 +10,7 @@
 
 namespace rt {
 
-/// The rendered picture in linear light, unclamped: three numbers a pixel, row 0 at the top.
+/// The rendered picture in linear light, unclamped: three numbers per pixel, row 0 at the top.
 template <typename T>
 struct Film {
     Film(int film_width, int film_height) : width(film_width), height(film_height) {

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "host/error.h"
+#include "host/usage_error.h"
 #include "native_table.h"
 
 // The entry points of every variant, as native.cl declares them.
@@ -120,16 +121,15 @@ const NativeKernels<T>& choose_native(const NativeChoice& choice) {
     if (wanted.isa.empty() && !isas.empty()) wanted.isa = isas.front();
     if (std::find(isas.begin(), isas.end(), wanted.isa) == isas.end()) {
         throw Error(ExitCode::device,
-                    fmt::format("this processor cannot run the kernels{}; it can run those for: {}",
+                    fmt::format("this processor cannot run the kernels{}; it supports: {}",
                                 wanted.isa.empty() ? "" : " for " + wanted.isa,
                                 isas.empty() ? "none" : fmt::format("{}", fmt::join(isas, ", "))));
     }
     for (const NativeKernels<T>& kernels : all_kernels<T>()) {
         if (serves(kernels, wanted)) return kernels;
     }
-    throw Error(ExitCode::usage,
-                fmt::format("no kernels for {} trace packets of {} rays; use --lanes 1 or auto",
-                            wanted.isa, wanted.lanes));
+    usage_error("--lanes {} is not available for {}; use --lanes 1 or auto", wanted.lanes,
+                wanted.isa);
 }
 
 template NativeView<float> native_view(const FlatScene<float>&);

@@ -52,18 +52,4 @@ std::string to_string(const AaMode& mode) {
     return "";
 }
 
-std::string to_string(Filter filter) {
-    switch (filter) {
-        case Filter::box:
-            return "box";
-        case Filter::tent:
-            return "tent";
-        case Filter::gaussian:
-            return "gaussian";
-        case Filter::mitchell:
-            return "mitchell";
-    }
-    return "";
-}
-
 }  // namespace rt

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "host/named.h"
+
 namespace rt {
 
 /// How a pixel is sampled.
@@ -48,6 +50,11 @@ std::string to_string(const AaMode& mode);
 /// How a pixel's samples are weighted (kernels/sampling.cl).
 enum class Filter { box, tent, gaussian, mitchell };
 
-std::string to_string(Filter filter);
+inline constexpr Named<Filter> filter_names[] = {{"box", Filter::box},
+                                                 {"tent", Filter::tent},
+                                                 {"gaussian", Filter::gaussian},
+                                                 {"mitchell", Filter::mitchell}};
+
+inline const char* to_string(Filter filter) { return name_of(filter_names, filter); }
 
 }  // namespace rt

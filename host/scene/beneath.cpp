@@ -59,8 +59,7 @@ OpenedFile open_beneath(const SceneFolder& folder, const std::string& name) {
     const auto problem = [&](std::string_view what) {
         return OpenedFile{FileDescriptor(), {}, fmt::format("{} {}", in_quotes(name), what)};
     };
-    constexpr std::string_view outside =
-        "lies outside the scene's folder; put it next to the scene, or in a folder there";
+    constexpr std::string_view outside = "is outside the scene's folder; move it into that folder";
     constexpr std::string_view unreachable = "cannot be found or opened; check the name";
     if (name.empty()) return problem("is not a file name; write one");
     if (climbs(name)) return problem(outside);

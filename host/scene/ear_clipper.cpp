@@ -45,11 +45,11 @@ PolygonFault EarClipper::run() {
         return PolygonFault::none;
     }
     if (edges_cross()) {
-        return work_ < 0 ? PolygonFault::too_intricate : PolygonFault::crosses_itself;
+        return work_ < 0 ? PolygonFault::too_complex : PolygonFault::crosses_itself;
     }
     find_obstacles();
     clip();
-    if (work_ < 0) return PolygonFault::too_intricate;
+    if (work_ < 0) return PolygonFault::too_complex;
     return count_ > 2 ? PolygonFault::crosses_itself : PolygonFault::none;
 }
 

@@ -78,16 +78,15 @@ bool zero_area(const std::array<glm::dvec3, 3>& corners) {
 
 std::optional<AxesMistake> find_axes_mistake(glm::dvec3 from, glm::dvec3 at, glm::dvec3 up) {
     if (nearly_same_point(from, at)) {
-        return AxesMistake{false, "the camera looks from and at the same point; move one of them"};
+        return AxesMistake{false, "from and at are the same point; move one of them"};
     }
     const auto view = unit_direction(at - from);
     const auto up_direction = unit_direction(up);
     if (!up_direction) {
-        return AxesMistake{true, "up is zero; give the direction that is up in the picture"};
+        return AxesMistake{true, "up is zero; write the direction that points up in the picture"};
     }
     if (nearly_parallel(*view, *up_direction)) {
-        return AxesMistake{
-            true, "up is parallel to the view direction; give an up that leans to the side"};
+        return AxesMistake{true, "up is parallel to the view direction; choose another direction"};
     }
     return std::nullopt;
 }

@@ -21,6 +21,9 @@ bool nearly_parallel(glm::dvec3 a, glm::dvec3 b);
 /// coordinates.
 bool zero_area(const std::array<glm::dvec3, 3>& corners);
 
+inline constexpr const char* same_cone_ends = "apex is the same point as base; move one of them";
+inline constexpr const char* zero_cone_radii = "both radii are 0; make one of them larger";
+
 /// Why from, at and up are no valid camera.
 struct AxesMistake {
     bool is_up = false;  ///< up is to blame, not from and at

@@ -55,7 +55,7 @@ class TreeBuilder {
         constexpr int number_overflow = 406;
         if (exception.id == number_overflow) {
             const std::size_t start = next_token();
-            mistakes_.add(start, fmt::format("number {} is too large; write one within 1e30",
+            mistakes_.add(start, fmt::format("number {} is too large; write one from -1e30 to 1e30",
                                              in_quotes(text_.substr(start, end_ - start))));
         } else {
             const std::size_t offset = characters_read > 0 ? characters_read - 1 : 0;
@@ -80,7 +80,7 @@ class TreeBuilder {
     template <class T>
     JsonValue& append(T&& data) {
         if (++value_count_ > max_json_values) {
-            throw Error(ExitCode::limit, fmt::format("{}: the file holds more than {} values; "
+            throw Error(ExitCode::limit, fmt::format("{}: the file has more than {} values; "
                                                      "split or shrink the scene",
                                                      mistakes_.place(end_), max_json_values));
         }

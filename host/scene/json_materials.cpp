@@ -29,10 +29,8 @@ Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
 
 /// What to do about an unknown material.
 std::string advice(std::string_view name, std::span<const std::string_view> known) {
-    if (known.empty()) return "the scene has no materials, define it under \"materials\"";
-    const std::string_view near = nearest_word(name, known);
-    if (!near.empty()) return fmt::format("did you mean {}?", in_quotes(near));
-    return "known materials are " + word_list(known);
+    if (known.empty()) return "the scene has no materials; define it under \"materials\"";
+    return suggestion(name, known, "known materials are");
 }
 
 }  // namespace

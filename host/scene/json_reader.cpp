@@ -185,11 +185,9 @@ ObjectReader::ObjectReader(const JsonValue& value, std::string_view what,
     }
     for (const JsonMember& member : *members_) {
         if (std::ranges::find(known_keys, member.key) != known_keys.end()) continue;
-        const std::string_view near = nearest_word(member.key, known_keys);
-        const std::string advice = near.empty() ? "known keys are " + word_list(known_keys)
-                                                : fmt::format("did you mean {}?", in_quotes(near));
         mistakes.add(member.key_offset,
-                     fmt::format("unknown key {} in {}; {}", in_quotes(member.key), what, advice));
+                     fmt::format("unknown key {} in {}; {}", in_quotes(member.key), what,
+                                 suggestion(member.key, known_keys, "known keys are")));
     }
 }
 

@@ -94,12 +94,10 @@ Scene::Cone read_cone(const JsonValue& value, const MaterialTable& materials, Mi
     reader.required("apex_radius", "\"apex_radius\": 0", cone.apex_radius, read_not_negative);
     if (mistakes.count() == before) {
         if (nearly_same_point(cone.base, cone.apex)) {
-            mistakes.add(reader.find("apex")->offset,
-                         "apex is the same point as base; move one of them");
+            mistakes.add(reader.find("apex")->offset, same_cone_ends);
         }
         if (cone.base_radius == 0 && cone.apex_radius == 0) {
-            mistakes.add(reader.find("base_radius")->offset,
-                         "both radii are 0; make one of them larger");
+            mistakes.add(reader.find("base_radius")->offset, zero_cone_radii);
         }
     }
     read_material_of(reader, materials, cone.material);

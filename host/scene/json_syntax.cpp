@@ -60,14 +60,14 @@ JsonSyntaxMistake explain_string(std::string_view text, std::size_t at, std::siz
     const std::size_t line_end = std::min(text.find_first_of("\r\n", at), text.size());
     if (json_token_end(text, at) > line_end || text[json_token_end(text, at) - 1] != '"' ||
         json_token_end(text, at) == at + 1) {
-        return {at, "the string is not closed on its line; add the closing '\"'"};
+        return {at, "the string is not closed on the same line; add the closing '\"'"};
     }
     const std::size_t place = std::clamp(reader_offset, at, text.size() - 1);
     if (static_cast<unsigned char>(text[place]) < 0x20) {
-        return {place, "there is a control character in the string; write it as \\uXXXX"};
+        return {place, "the string contains a control character; write it as \\uXXXX"};
     }
     return {place,
-            "unknown or broken escape in the string; JSON knows \\\" \\\\ \\/ \\b \\f \\n \\r \\t "
+            "invalid escape in the string; JSON has \\\" \\\\ \\/ \\b \\f \\n \\r \\t "
             "and \\uXXXX (surrogates in pairs)"};
 }
 
@@ -96,18 +96,18 @@ std::string explain_character(std::string_view text, std::size_t at) {
     if (text[at] == '#') return "'#' does not start a comment; use // or /* */";
     if (text[at] != '/') return "";
     if (text.substr(at, 2) == "/*") return "the comment is not closed; add */";
-    return "a single '/' stands here; comments are // or /* */";
+    return "unexpected '/'; comments are // or /* */";
 }
 
 std::string explain_end(JsonState state, std::string_view wanted) {
     if (state == JsonState::start) {
-        return "the file has no scene; write { \"camera\": ... } with what it shows";
+        return "the file has no scene; write one such as { \"camera\": ... }";
     }
     return fmt::format("the file ends too early; expected {}", wanted);
 }
 
 std::string explain_closing(char bracket) {
-    return fmt::format("there is a comma before '{}'; remove it", bracket);
+    return fmt::format("unexpected comma before '{}'; remove it", bracket);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::optional<glm::dvec3> read_scale(const JsonValue& value, std::string_view na
         scale = read_vec3(value, name, mistakes);
     }
     if (!scale || (scale->x != 0 && scale->y != 0 && scale->z != 0)) return scale;
-    mistakes.add(value.offset, "scale is 0 somewhere; write other numbers");
+    mistakes.add(value.offset, "scale contains a 0; write other numbers");
     return std::nullopt;
 }
 
@@ -75,7 +75,7 @@ std::optional<Affine> read_transform(const JsonValue& value, std::string_view na
         items ? read_matrix(value, *items, name, mistakes) : read_steps(value, mistakes);
     if (!affine || normal_matrix(affine->linear)) return affine;
     mistakes.add(value.offset,
-                 "the transform is singular, it flattens the mesh; correct its "
+                 "the transform is singular and flattens the mesh; correct its "
                  "numbers");
     return std::nullopt;
 }

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "host/counted.h"
+
 namespace rt {
 namespace {
 
@@ -90,7 +92,7 @@ void MeshBuilder::split(std::span<const std::uint32_t> corners) {
             return parts_.clear();
         case PolygonFault::crosses_itself:
         case PolygonFault::bent:
-        case PolygonFault::too_intricate:
+        case PolygonFault::too_complex:
             ++fans_;
             return make_fan(corners.size(), parts_);
     }
@@ -98,13 +100,14 @@ void MeshBuilder::split(std::span<const std::uint32_t> corners) {
 
 std::vector<std::string> MeshBuilder::notes(const std::string& file_name) const {
     std::vector<std::string> notes;
-    const auto note = [&](std::size_t count, std::string_view one, std::string_view many) {
-        if (count == 0) return;
-        notes.push_back(fmt::format("{}: {} {}", file_name, count, count == 1 ? one : many));
-    };
-    note(zero_areas_, "polygon without area left out", "polygons without area left out");
-    note(fans_, "polygon crosses itself or is too intricate: it may look wrong",
-         "polygons cross themselves or are too intricate: they may look wrong");
+    if (zero_areas_ > 0) {
+        notes.push_back(
+            fmt::format("{}: ignored {}", file_name, counted(zero_areas_, "zero-area polygon")));
+    }
+    if (fans_ > 0) {
+        notes.push_back(fmt::format("{}: {} self-intersecting or too complex and may look wrong",
+                                    file_name, counted(fans_, "polygon is", "polygons are")));
+    }
     return notes;
 }
 

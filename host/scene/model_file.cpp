@@ -5,6 +5,7 @@
 
 #include <string_view>
 
+#include "host/counted.h"
 #include "host/error.h"
 #include "host/lower.h"
 #include "host/printable.h"
@@ -36,35 +37,30 @@ Model parse_model(const FileDescriptor& file, const std::string& path,
     return parse_obj(text.view(), printable(path), open);
 }
 
-std::string counted(std::size_t count, std::string_view one, std::string_view many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 }  // namespace
 
-bool is_obj_name(const std::string& path) { return lower_ending(path) == ".obj"; }
-bool is_ply_name(const std::string& path) { return lower_ending(path) == ".ply"; }
+bool is_obj_name(const std::string& path) { return lower_extension(path) == ".obj"; }
+bool is_ply_name(const std::string& path) { return lower_extension(path) == ".ply"; }
 
 Model finish_model(Model model, const std::string& path, const Affine& transform) {
     const MeshLosses losses = finish_mesh(model.mesh, transform);
     if (losses.too_far) {
         throw Error(ExitCode::input, path +
-                                         ": a vertex lies beyond 1e30 once it is transformed; "
+                                         ": a vertex exceeds 1e30 after the transform; "
                                          "make the transform smaller");
     }
     if (model.mesh.faces.empty()) {
         throw Error(ExitCode::input, path +
-                                         ": no face has an area, so there is nothing to draw; "
-                                         "give a model with faces");
+                                         ": no face has any area, so there is nothing to draw; "
+                                         "use a model with faces");
     }
     if (losses.zero_areas > 0) {
-        model.notes.push_back(fmt::format(
-            "{}: {} left out", path,
-            counted(losses.zero_areas, "triangle without area", "triangles without area")));
+        model.notes.push_back(
+            fmt::format("{}: ignored {}", path, counted(losses.zero_areas, "zero-area triangle")));
     }
     if (losses.zero_normals > 0) {
         model.notes.push_back(
-            fmt::format("{}: {} of length 0: faces there are flat", path,
+            fmt::format("{}: {} of length 0, so faces there are flat", path,
                         counted(losses.zero_normals, "vertex normal is", "vertex normals are")));
     }
     return model;

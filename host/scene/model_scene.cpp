@@ -89,9 +89,10 @@ Scene make_model_scene(Model model, const std::string& path) {
     scene.name = name_of_file(path);
     scene.camera = framing_camera(sphere);
     if (nearly_same_point(scene.camera.from, scene.camera.at)) {
-        throw Error(ExitCode::input, printable(path) +
-                                         ": the model is too small for how far it lies from "
-                                         "the origin; move it nearer");
+        throw Error(
+            ExitCode::input,
+            printable(path) +
+                ": the model is too small for its distance from the origin; move it closer");
     }
     scene.background = glm::dvec3(0.85, 0.9, 0.95);
     scene.ambient_light = glm::dvec3(0.25);

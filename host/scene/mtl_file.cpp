@@ -8,6 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "host/counted.h"
 #include "host/printable.h"
 #include "host/scene/line_scanner.h"
 #include "host/scene/scene_limits.h"
@@ -65,9 +66,8 @@ class MtlReader {
         for (const Mtl& mtl : found_) library.materials.push_back(to_material(mtl));
         if (left_out_ > 0) {
             library.notes.push_back(fmt::format(
-                "{}: {} statement{} left out, the first {}: textures and what a renderer of "
-                "another kind needs are not drawn",
-                file_name_, left_out_, left_out_ == 1 ? "" : "s", in_quotes(first_left_out_)));
+                "{}: ignored {}, the first {}: textures and extensions are not supported",
+                file_name_, counted(left_out_, "statement"), in_quotes(first_left_out_)));
         }
         return library;
     }
@@ -129,7 +129,7 @@ class MtlReader {
         LineScanner ahead = scanner_;
         const std::string_view kind = ahead.word();
         if (there && (kind == "spectral" || kind == "xyz")) {
-            mistakes_.add(offset, fmt::format("{} colors are not known; write {} r g b",
+            mistakes_.add(offset, fmt::format("{} colors are not supported; write {} r g b",
                                               in_quotes(kind), word));
             return;
         }
@@ -198,7 +198,7 @@ class MtlReader {
     void require_end(std::string_view word) {
         if (!scanner_.word_follows()) return;
         const std::size_t offset = scanner_.offset();
-        mistakes_.add(offset, fmt::format("{} follows the numbers of {}; remove it",
+        mistakes_.add(offset, fmt::format("unexpected {} after the numbers of {}; remove it",
                                           in_quotes(scanner_.word()), word));
     }
 

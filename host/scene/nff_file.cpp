@@ -72,9 +72,9 @@ class NffReader {
     }
 
     void note_unknown(const NffToken& word) {
-        std::string advice = "there are v, b, l, f, c, s, p and pp, and no extensions";
+        std::string advice = "NFF has v, b, l, f, c, s, p and pp; extensions are not supported";
         if (word.is_number()) advice = "one number too many, or an entity's letter is missing";
-        if (word.text == "nff" && !view_) advice = "this is Sense8's NFF, another format";
+        if (word.text == "nff" && !view_) advice = "this is Sense8's NFF, a different format";
         mistakes_.add(word.offset,
                       fmt::format("unknown entity {}; {}", in_quotes(word.text), advice));
     }
@@ -153,12 +153,12 @@ class NffReader {
         const auto apex_radius = apex ? tokens_.read_number("apex radius") : std::nullopt;
         if (!apex_radius) return false;
         if (nearly_same_point(*base, *apex)) {
-            mistakes_.add(apex_offset, "apex is the same point as base; move one of them");
+            mistakes_.add(apex_offset, same_cone_ends);
         }
         if (std::min(*base_radius, *apex_radius) < 0 && std::max(*base_radius, *apex_radius) > 0) {
             mistakes_.add(offset, "the radii have opposite signs; give both the same sign");
         } else if (*base_radius == 0 && *apex_radius == 0) {
-            mistakes_.add(offset, "both radii are 0; make one of them larger");
+            mistakes_.add(offset, zero_cone_radii);
         }
         scene_.cones.push_back(
             {*base, *apex, std::abs(*base_radius), std::abs(*apex_radius), fills_.current()});

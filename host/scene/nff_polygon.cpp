@@ -67,9 +67,9 @@ void NffPolygons::note_fault(std::size_t offset, PolygonFault fault) {
             return mistakes_.add(offset, "the polygon crosses itself; split it where it does");
         case PolygonFault::bent:
             return mistakes_.add(offset, "the polygon is not flat; split it into triangles");
-        case PolygonFault::too_intricate:
+        case PolygonFault::too_complex:
             throw Error(ExitCode::limit, mistakes_.place(offset) +
-                                             ": the file's polygons are too intricate; split "
+                                             ": the file's polygons are too complex; split "
                                              "those with thousands of vertices");
     }
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "host/counted.h"
 #include "host/printable.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/obj_corner.h"
@@ -33,7 +34,7 @@ bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
 void require_statement_end(LineScanner& scanner, std::string_view word, Mistakes& mistakes) {
     if (!scanner.word_follows()) return;
     const std::size_t offset = scanner.offset();
-    mistakes.add(offset, fmt::format("{} follows the numbers of {}; remove it",
+    mistakes.add(offset, fmt::format("unexpected {} after the numbers of {}; remove it",
                                      in_quotes(scanner.word()), word));
 }
 
@@ -108,13 +109,11 @@ class FaceReader {
     }
 
     void refuse_statement(std::size_t offset, std::string_view word) {
-        std::string advice = "known statements are " + word_list(known_words);
+        std::string advice = suggestion(word, known_words, "known statements are");
         if (is_one_of(word, free_form_words)) {
-            advice = "curves and surfaces cannot be drawn; export polygons";
+            advice = "curves and surfaces are not supported; export polygons";
         } else if (word == "call" || word == "csh") {
-            advice = "other files and commands are not run; put their text here";
-        } else if (const auto near = nearest_word(word, known_words); !near.empty()) {
-            advice = fmt::format("did you mean {}?", in_quotes(near));
+            advice = "including files and running commands is not supported";
         }
         mistakes_.add(offset, fmt::format("unknown statement {}; {}", in_quotes(word), advice));
     }
@@ -126,7 +125,7 @@ class FaceReader {
         const bool good = index >= -size && index <= size && index != 0;
         if (good) return static_cast<std::uint32_t>(index > 0 ? index - 1 : size + index);
         if (index == 0) {
-            mistakes_.add(offset, fmt::format("{} 0 does not exist; count from 1", what));
+            mistakes_.add(offset, fmt::format("{} 0 does not exist; indices start at 1", what));
         } else {
             mistakes_.add(
                 offset,
@@ -162,9 +161,8 @@ class FaceReader {
         const auto position = resolve(corner->position, above_.positions, "vertex", offset);
         if (!position) return false;
         if (!corners_.empty() && corner->has_normal == normals_.empty()) {
-            mistakes_.add(offset,
-                          "some corners of the face have a normal and some have none; "
-                          "give all of them one, or none");
+            mistakes_.add(
+                offset, "only some corners of the face have normals; give normals to all or none");
             return false;
         }
         corners_.push_back(*position);
@@ -186,8 +184,8 @@ class FaceReader {
             }
         }
         if (corners_.size() < 3) {
-            mistakes_.add(offset, fmt::format("the face has {} corner{}; write three or more",
-                                              corners_.size(), corners_.size() == 1 ? "" : "s"));
+            mistakes_.add(offset, fmt::format("the face has {}; write three or more",
+                                              counted(corners_.size(), "corner")));
         } else if (clean_ && mistakes_.count() == 0) {
             add_face();
         }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/counted.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/obj_chunk.h"
 #include "host/scene/obj_materials.h"
@@ -43,8 +44,9 @@ class ObjReader {
             mistakes_.throw_if_any();
         }
         if (left_out_ > 0) {
-            model.notes.push_back(fmt::format("{}: {} line{} of points or lines (p, l) left out",
-                                              file_name_, left_out_, left_out_ == 1 ? "" : "s"));
+            model.notes.push_back(
+                fmt::format("{}: ignored {} (p, l)", file_name_,
+                            counted(left_out_, "point or line", "points or lines")));
         }
         return model;
     }

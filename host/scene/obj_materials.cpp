@@ -93,11 +93,8 @@ void ObjMaterials::resolve(Model& model, Mistakes& mistakes) const {
         const auto found = known.find(use.name);
         indices.push_back(found == known.end() ? fallback : found->second);
         if (found != known.end() || lacks_library_) continue;
-        const std::string_view near = nearest_word(use.name, names);
-        mistakes.add(use.offset,
-                     fmt::format("unknown material {}; {}", in_quotes(use.name),
-                                 near.empty() ? "the libraries hold " + word_list(names)
-                                              : fmt::format("did you mean {}?", in_quotes(near))));
+        mistakes.add(use.offset, fmt::format("unknown material {}; {}", in_quotes(use.name),
+                                             suggestion(use.name, names, "the libraries contain")));
     }
     const auto index_of = [&](int number) {
         return number < 0 ? fallback : indices[static_cast<std::size_t>(number)];

@@ -63,10 +63,10 @@ void check_header(const PlyHeader& header, Mistakes& mistakes) {
     const PlyElement* vertex = header.find("vertex");
     const PlyElement* face = header.find("face");
     const PlyElement* strips = header.find("tristrips");
-    if (!vertex) mistakes.add(0, "the header declares no element 'vertex'; give a mesh");
+    if (!vertex) mistakes.add(0, "the header declares no element 'vertex'; use a mesh");
     if (!face && !strips) {
         mistakes.add(0,
-                     "the header declares no element 'face'; points alone cannot be drawn, give a "
+                     "the header declares no element 'face'; points alone cannot be drawn, use a "
                      "mesh");
     }
     if (vertex) check_vertex(*vertex, mistakes);
@@ -110,10 +110,11 @@ class BodyReader {
         if (least == 0) return;
         const std::uint64_t most = (rows_.bytes_left() + 1) / least;
         if (element.count <= most) return;
-        mistakes_.add(element.offset,
-                      fmt::format("element {} declares {} rows, and the rest of the file holds {} "
-                                  "at most; correct the count or save the model again",
-                                  in_quotes(element.name), element.count, most));
+        mistakes_.add(
+            element.offset,
+            fmt::format("element {} declares {} rows, but the rest of the file holds at most {}; "
+                        "correct the count or save the model again",
+                        in_quotes(element.name), element.count, most));
         mistakes_.throw_if_any();
     }
 
@@ -247,7 +248,7 @@ class BodyReader {
         if (!length) return false;
         if (*length < 3 || *length > max_face_corners) {
             rows_.note(
-                fmt::format("the face has {} corners; give it 3 to {}", *length, max_face_corners));
+                fmt::format("the face has {} corners; use 3 to {}", *length, max_face_corners));
             return rows_.skip(list.type, *length);
         }
         corners_.clear();
@@ -264,7 +265,7 @@ class BodyReader {
         const std::size_t count = builder_.mesh.positions.size();
         if (index >= 0 && static_cast<std::uint64_t>(index) < count) return;
         rows_.note(fmt::format(
-            "vertex {} does not exist, there are {} and the first is 0; correct the number", index,
+            "vertex {} does not exist, there are {}, counted from 0; correct the number", index,
             count));
     }
 

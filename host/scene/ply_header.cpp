@@ -34,7 +34,7 @@ class HeaderReader {
 
     PlyHeader read() {
         if (scanner_.word() != "ply" || scanner_.word_follows()) {
-            fail(0, "the file does not begin with a line 'ply'; give a PLY file");
+            fail(0, "the file does not start with a line 'ply'; use a PLY file");
         }
         read_lines();
         if (!has_format_) {
@@ -69,7 +69,7 @@ class HeaderReader {
         while (true) {
             scanner_.next_line();
             if (!scanner_.find_word()) {
-                fail(scanner_.offset(), "the header has no end; write end_header below it");
+                fail(scanner_.offset(), "the header has no end; add a line end_header");
             }
             offset_ = scanner_.offset();
             const std::string_view word = scanner_.word();
@@ -85,7 +85,7 @@ class HeaderReader {
         if (word == "property") return read_property();
         constexpr std::string_view known[] = {"format",  "comment",  "obj_info",
                                               "element", "property", "end_header"};
-        mistakes_.add(offset_, fmt::format("unknown word {} in the header; known are {}",
+        mistakes_.add(offset_, fmt::format("unknown word {} in the header; known words are {}",
                                            in_quotes(word), word_list(known)));
     }
 
@@ -96,10 +96,10 @@ class HeaderReader {
         const std::string_view name = scanner_.word(), version = scanner_.word();
         const auto found = std::ranges::find(names, name);
         if (found == std::end(names)) {
-            mistakes_.add(offset, fmt::format("unknown format {}; known are {}", in_quotes(name),
-                                              word_list(names)));
+            mistakes_.add(offset, fmt::format("unknown format {}; known formats are {}",
+                                              in_quotes(name), word_list(names)));
         } else if (version != "1.0") {
-            mistakes_.add(offset, fmt::format("version {} of the format is not known; write 1.0",
+            mistakes_.add(offset, fmt::format("unknown version {} of the format; write 1.0",
                                               in_quotes(version)));
         } else if (has_format_) {
             mistakes_.add(offset_, "the format is given twice; keep one");
@@ -131,7 +131,8 @@ class HeaderReader {
                                                in_quotes(element.name)));
         }
         if (header_.elements.size() >= max_declared) {
-            fail(offset_, fmt::format("more than {} elements; give a PLY file", max_declared));
+            fail(offset_,
+                 fmt::format("more than {} elements; check that this is a PLY file", max_declared));
         }
         header_.elements.push_back(std::move(element));
     }
@@ -162,7 +163,7 @@ class HeaderReader {
             property.count_type = read_type();
             if (!property.count_type) return;
             if (!is_whole(*property.count_type)) {
-                mistakes_.add(offset, "a list's length is no whole number; write uchar or int");
+                mistakes_.add(offset, "a list's length must be a whole number; write uchar or int");
                 return;
             }
         }
@@ -182,7 +183,8 @@ class HeaderReader {
                                                "rename one",
                                                in_quotes(property.name), in_quotes(element.name)));
         } else if (element.properties.size() >= max_declared) {
-            fail(offset_, fmt::format("more than {} properties; give a PLY file", max_declared));
+            fail(offset_, fmt::format("more than {} properties; check that this is a PLY file",
+                                      max_declared));
         } else {
             element.properties.push_back(std::move(property));
         }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/counted.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -17,7 +18,7 @@ std::string BinaryRows::leftover() {
     const std::uint64_t left = bytes_left();
     const std::string_view rest(at_, left);
     if (left <= few && rest.find_first_not_of("\r\n \t") == rest.npos) return {};
-    return fmt::format("{} bytes after the last element left out", left);
+    return fmt::format("ignored {} after the last element", counted(left, "byte"));
 }
 
 void TextRows::start_row(const PlyElement& element, std::uint64_t row) {
@@ -35,7 +36,7 @@ void TextRows::end_row() {
     if (!noted_ && scanner_.word_follows()) {
         const std::size_t offset = scanner_.offset();
         mistakes_.add(offset,
-                      fmt::format("{} follows the values of {}; remove it",
+                      fmt::format("unexpected {} after the values of {}; remove it",
                                   in_quotes(scanner_.word()), ply_row_name(*element_, row_)));
     }
     scanner_.next_line();

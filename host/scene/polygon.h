@@ -14,7 +14,7 @@ enum class PolygonFault {
     zero_area,       ///< all corners lie on one line
     crosses_itself,  ///< two edges cross, or the boundary folds over
     bent,            ///< a corner is farther than max_bend off the polygon's plane
-    too_intricate,   ///< the work would exceed the budget
+    too_complex,     ///< the work would exceed the budget
 };
 
 /// The largest distance of a corner from the polygon's plane, as a fraction of the polygon's

@@ -29,7 +29,7 @@ struct Scene {
     /// What the author fixed of the view; the other extent follows from the picture's aspect.
     struct FieldOfView {
         enum class Fixed {
-            window,       ///< Camera::window stands as it is, whatever the picture's aspect
+            window,       ///< Camera::window is used as is, regardless of the picture's aspect
             horizontal,   ///< the full angle the picture's width spans (perspective)
             vertical,     ///< the full angle the picture's height spans (perspective)
             view_width,   ///< the width in scene units (orthographic)
@@ -133,7 +133,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     /// What the reader ignored, a sentence each, for the user; no effect on rendering.
     std::vector<std::string> notes;
-    std::vector<std::string> model_files;  ///< that the reader read besides its own file
+    std::vector<std::string> model_files;  ///< read in addition to the scene's own file
 };
 
 /// The triangles of the scene, those of its meshes included.

@@ -12,7 +12,7 @@ namespace {
 
 Scene load(const std::string& path) {
     if (path == stdin_scene) return parse_json_scene(read_stdin().view(), "stdin");
-    const std::string ending = lower_ending(path);
+    const std::string ending = lower_extension(path);
     if (ending == ".nff") return load_nff_scene(path);
     if (ending == ".obj" || ending == ".ply") return load_model_scene(path);
     return load_json_scene(path);

@@ -85,18 +85,19 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
     }
     if (has_shapes(scene) && !is_anything_in_view(scene)) {
         warnings.emplace_back(
-            "nothing is in view; look at from, at and the angle or window of the camera");
+            "nothing is in view; check the camera's from, at, and angle or window");
     }
     if (const auto found = colors_of_bytes(scene); !found.empty()) {
-        warnings.push_back(fmt::format(
-            "{}: that looks like 0 to 255; colors go from 0 to 1, divide by 255", first_of(found)));
+        warnings.push_back(
+            fmt::format("{}: looks like 0 to 255, but colors range from 0 to 1; divide by 255",
+                        first_of(found)));
         return warnings;
     }
     const std::span<const NamedColor> passed_on(material_colors + 3, 2);
     const auto brightens = [](const glm::dvec3& color) { return brightest(color) > 1; };
     if (const auto found = materials_where(scene, passed_on, brightens); !found.empty()) {
         warnings.push_back(fmt::format(
-            "{}: above 1, so that light grows at each bounce; make it 1 at most", first_of(found)));
+            "{}: exceeds 1, so light grows at each bounce; use at most 1", first_of(found)));
     }
     return warnings;
 }

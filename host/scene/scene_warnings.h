@@ -8,7 +8,7 @@
 
 namespace rt {
 
-/// Warnings about what is valid but rarely intended, a sentence each: no light at all, nothing in
+/// Warnings about valid but rarely intended input, one sentence each: no light at all, nothing in
 /// view, colors of 0 to 255, mirrors that brighten. No false alarms, but not exhaustive.
 std::vector<std::string> scene_warnings(const Scene& scene);
 

@@ -31,7 +31,7 @@ constexpr std::size_t piece = std::size_t{4} << 20;  // bytes that a thread read
     if (reason == ENOENT) refuse(path, "no such file; check the path");
     if (reason == EACCES || reason == EPERM) refuse_read(path, reason);
     if (reason == ENXIO) refuse(path, "is not a regular file; save the scene to a file first");
-    refuse(path, fmt::format("cannot be reached ({}); check the path", std::strerror(reason)));
+    refuse(path, fmt::format("cannot be opened ({}); check the path", std::strerror(reason)));
 }
 
 /// Reads up to `size` bytes at an offset; fewer where the file ends before.

@@ -71,6 +71,13 @@ std::string guess_text(const std::string& word, const std::vector<std::string>& 
     return guess.empty() ? "" : fmt::format("; did you mean '{}'?", guess);
 }
 
+std::string suggestion(std::string_view word, std::span<const std::string_view> known,
+                       std::string_view otherwise) {
+    const std::string_view near = nearest_word(word, known);
+    if (!near.empty()) return fmt::format("did you mean {}?", in_quotes(near));
+    return fmt::format("{} {}", otherwise, word_list(known));
+}
+
 std::string word_list(std::span<const std::string_view> words) {
     std::string result;
     const std::size_t shown = std::min(words.size(), max_words);

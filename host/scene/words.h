@@ -17,6 +17,11 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
 /// What a mistyped word may have meant: "; did you mean '--size'?", or "" if nothing is close.
 std::string guess_text(const std::string& word, const std::vector<std::string>& known);
 
+/// Advice on an unknown word: "did you mean 'x'?" or, when none is close, `otherwise` and the known
+/// words.
+std::string suggestion(std::string_view word, std::span<const std::string_view> known,
+                       std::string_view otherwise);
+
 /// 'a', 'b' and 'c', cut after the first few.
 std::string word_list(std::span<const std::string_view> words);
 

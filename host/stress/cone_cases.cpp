@@ -44,7 +44,7 @@ Scene long_cones(double length, bool from_afar = false) {
 
 StressFamily long_cone_family() {
     const StressFamily away = sweep(
-        {"long-cone", "length over radius", "the far end's numbers drown those of the near one"},
+        {"long-cone", "length over radius", "the far end's magnitudes swamp the near end's"},
         {4e1, 4e2, 4e4, 4e6, 4e8}, {4e2, 4e6}, [](double ratio) { return long_cones(ratio / 4); });
     return sweep(away, {4e2, 4e6}, {4e6}, [](double ratio) {
         return labeled(fmt::format("{:g}-from-afar", ratio), ratio,
@@ -145,19 +145,20 @@ StressFamily cone_rays() {
 }  // namespace
 
 StressFamilies cone_families() {
-    return {size_family("cone-size", "the quadratic's terms cancel for small and for large cones",
-                        0.5, sized_cone),
-            long_cone_family(),
-            cone_needles(),
-            flat_cones(),
-            scaled_and_moved("cylinder-scale",
-                             "absolute epsilons fill small tubes and prick large ones", tubes),
-            scaled_and_moved("glass-scale", "absolute epsilons skip the far side of small glass",
-                             glass_still_life),
-            leaving_cones("leaving-cone", 3,
-                          "an absolute epsilon is acne on large cones and a hole in small ones"),
-            leaving_cones("leaving-far-cone", 1000, "the same with the cone a thousand radii away"),
-            cone_rays()};
+    return {
+        size_family("cone-size", "the quadratic's terms cancel for small and for large cones", 0.5,
+                    sized_cone),
+        long_cone_family(),
+        cone_needles(),
+        flat_cones(),
+        scaled_and_moved("cylinder-scale",
+                         "absolute epsilons fill small tubes and leave holes in large ones", tubes),
+        scaled_and_moved("glass-scale", "absolute epsilons skip the far side of small glass",
+                         glass_still_life),
+        leaving_cones("leaving-cone", 3,
+                      "an absolute epsilon causes acne on large cones and holes in small ones"),
+        leaving_cones("leaving-far-cone", 1000, "the same with the cone a thousand radii away"),
+        cone_rays()};
 }
 
 }  // namespace rt

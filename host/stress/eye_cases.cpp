@@ -29,7 +29,7 @@ StressCase with_tube(glm::dvec3 from, glm::dvec3 at) {
 /// The red ball is about (-1.5, 1, 0) with radius 1, the floor at y = 0.
 StressFamily eyes_in_and_between() {
     return listed(
-        {"eye-place", "where the eye is", "the near root is behind the eye, or its rounding is"},
+        {"eye-place", "where the eye is", "the near root, or its rounding, is behind the eye"},
         {{"in-a-ball", InQuick::yes, seen_from({-1.5, 1.25, 0.25}, {0, 0.5, 1})},
          {"just-in-a-ball", InQuick::no, seen_from({-1.5, 2 - 0x1p-20, 0}, {0, 0.5, 1})},
          {"just-off-a-ball", InQuick::yes, seen_from({-1.5, 2 + 0x1p-20, 0}, {1, 1, 4})},
@@ -43,7 +43,7 @@ StressFamily eyes_in_and_between() {
 /// Rays from such an eye start with the surface's primitive index.
 StressFamily eyes_on_surfaces() {
     return listed({"eye-on-surface", "what the eye is on",
-                   "rounding decides whether the surface hides all else"},
+                   "rounding decides whether the surface hides everything else"},
                   {{"top-of-a-ball", InQuick::yes, seen_from({-1.5, 2, 0}, {1, 1, 4})},
                    {"side-of-a-ball", InQuick::no, seen_from({-0.5, 1, 0}, {2, 1, 1})},
                    {"ball-looking-in", InQuick::no, seen_from({-1.5, 2, 0}, {-1.25, 0, 0.5})},

@@ -104,15 +104,15 @@ Scene prism(double beyond) {
 /// At the critical angle to within rounding, both answers are right; only NaN and differences
 /// between devices are wrong.
 StressFamily critical_angles() {
-    return sweep({"critical-angle", "radians beyond it", "the root of what should be 0 is NaN"},
-                 {-0.1, -1e-3, -1e-5, -1e-7, 0.0, 1e-7, 1e-5, 1e-3, 0.1}, {0, 1e-5},
-                 [](double beyond) {
-                     StressTolerance tolerance;
-                     tolerance.in_float = std::fabs(beyond) >= 1e-5;
-                     if (std::fabs(beyond) < 1e-3) tolerance.max_error = 1e-2;
-                     return picture_case([=] { return prism(beyond); }, tolerance,
-                                         beyond == 0 ? ReferenceKind::none : ReferenceKind::quad);
-                 });
+    return sweep(
+        {"critical-angle", "radians beyond it", "the square root of what should be 0 is NaN"},
+        {-0.1, -1e-3, -1e-5, -1e-7, 0.0, 1e-7, 1e-5, 1e-3, 0.1}, {0, 1e-5}, [](double beyond) {
+            StressTolerance tolerance;
+            tolerance.in_float = std::fabs(beyond) >= 1e-5;
+            if (std::fabs(beyond) < 1e-3) tolerance.max_error = 1e-2;
+            return picture_case([=] { return prism(beyond); }, tolerance,
+                                beyond == 0 ? ReferenceKind::none : ReferenceKind::quad);
+        });
 }
 
 /// Nested glass balls; each surface refracts as if air were outside.
@@ -129,19 +129,18 @@ Scene nested_glass(int bounces, double mirror) {
 
 /// Every ball magnifies the rounding errors of the ones before it.
 StressFamily glass_depths() {
-    return sweep(
-        {"glass-depth", "bounces", "every surface magnifies the rounding of those before it"},
-        {2, 4, 8, 16, 64}, {8}, [](int bounces) {
-            StressTolerance tolerance;
-            if (bounces > 8) tolerance.max_error = 1e-3;
-            return picture_case([=] { return nested_glass(bounces, 0); }, tolerance);
-        });
+    return sweep({"glass-depth", "bounces",
+                  "each surface magnifies the rounding errors of the previous ones"},
+                 {2, 4, 8, 16, 64}, {8}, [](int bounces) {
+                     StressTolerance tolerance;
+                     if (bounces > 8) tolerance.max_error = 1e-3;
+                     return picture_case([=] { return nested_glass(bounces, 0); }, tolerance);
+                 });
 }
 
 /// The ray tree: every surface reflects and transmits. In the deepest tree, few branches matter.
 StressFamily glass_trees() {
-    return sweep({"glass-tree", "bounces",
-                  "trees of rays outgrow their stack, or lose the branches that wait on it"},
+    return sweep({"glass-tree", "bounces", "ray trees overflow their stack or lose branches"},
                  {4, 8, 16}, {4}, [](int bounces) {
                      Scene scene = nested_glass(bounces, bounces > 8 ? 1e-5 : 0.125);
                      set_image_size(scene, 32, 24);
@@ -189,7 +188,7 @@ Scene lit_by_background(double mirror) {
 
 StressFamily glass_energy() {
     return sweep({"glass-energy", "share that is mirrored",
-                  "light that is counted twice where it splits, or where all of it turns"},
+                  "light counted twice where it splits or is totally reflected"},
                  {0.0, 0.01, 0.25, 0.5, 0.99}, {0.25}, lit_by_background);
 }
 

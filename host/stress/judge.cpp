@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host/counted.h"
+
 namespace rt {
 
 namespace {
@@ -65,14 +67,14 @@ PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& re
 }
 
 std::string exceeded_tolerance(const PictureFigures& figures, const StressTolerance& tolerance) {
-    if (figures.nans > 0) return fmt::format("{} pixels are NaN", figures.nans);
+    if (figures.nans > 0) return counted(figures.nans, "pixel is", "pixels are") + " NaN";
     if (figures.infinities > 0 && !tolerance.may_overflow) {
-        return fmt::format("{} pixels are infinite", figures.infinities);
+        return counted(figures.infinities, "pixel is", "pixels are") + " infinite";
     }
     if (figures.wrong > tolerance.most_wrong)
-        return fmt::format("{} pixels are wrong", figures.wrong);
+        return counted(figures.wrong, "pixel is", "pixels are") + " wrong";
     if (figures.wrong_at_edges > tolerance.most_wrong_at_edges) {
-        return fmt::format("{} pixels are wrong at edges", figures.wrong_at_edges);
+        return counted(figures.wrong_at_edges, "pixel is", "pixels are") + " wrong at edges";
     }
     if (!(figures.max_error <= tolerance.max_error)) {
         return fmt::format("off by {:.2g}", figures.max_error);

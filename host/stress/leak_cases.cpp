@@ -52,7 +52,7 @@ StressCase inside_mesh(const StressMesh& mesh, glm::dvec3 eye, glm::dvec3 at) {
 StressFamily inside_meshes() {
     const glm::dvec3 far(148376, 1234, -223423);
     return listed(
-        {"mesh-from-inside", "mesh", "rays slip through between two triangles that share an edge"},
+        {"mesh-from-inside", "mesh", "rays slip between two triangles that share an edge"},
         {{"bumpy-ball", InQuick::yes,
           inside_mesh(bumpy_mesh(2), {0.125, 0.0625, 0.25}, {0, 0, -1})},
          {"fan", InQuick::no, inside_mesh(fan_mesh(250), {0.0625, 0.125, 0.0625}, {0, 1, 0.001})},

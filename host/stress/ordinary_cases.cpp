@@ -81,10 +81,10 @@ StressFamily ordinary() {
 StressFamily random_scenes() {
     std::vector<int> seeds(48);
     std::iota(seeds.begin(), seeds.end(), 1);
-    return sweep(
-        {"random-scenes", "seed", "shapes that nobody chose: touching, crossing, tiny, huge"},
-        seeds, {1, 2, 3, 25, 26},
-        [](int seed) { return seed <= 24 ? random_scene(seed) : random_glass_scene(seed); });
+    return sweep({"random-scenes", "seed", "random shapes: touching, crossing, tiny, huge"}, seeds,
+                 {1, 2, 3, 25, 26}, [](int seed) {
+                     return seed <= 24 ? random_scene(seed) : random_glass_scene(seed);
+                 });
 }
 
 }  // namespace

@@ -89,11 +89,12 @@ StressFamily sphere_rays() {
 
 StressFamilies ray_families() {
     return {
-        leak_rays("rays-at-edges", "edge functions of neighbors round apart", RayAim::edges),
+        leak_rays("rays-at-edges", "edge functions of neighboring triangles round differently",
+                  RayAim::edges),
         leak_rays("rays-at-vertices", "three roundings meet at a vertex", RayAim::vertices),
         t_junctions(),
         leaving_spheres("leaving-sphere", 3,
-                        "an absolute epsilon is acne on large balls and a hole in small ones"),
+                        "an absolute epsilon causes acne on large balls and holes in small ones"),
         leaving_spheres("leaving-far-sphere", 1000, "the same with the ball a thousand radii away"),
         sphere_rays()};
 }

@@ -18,7 +18,8 @@ StressCase same_bits(MakeScene scene) {
 
 StressFamily powers_of_two() {
     return sweep(
-        {"scale-2", "scale", "absolute epsilons swallow small scenes and prick large ones"},
+        {"scale-2", "scale",
+         "absolute epsilons swallow small scenes and leave holes in large ones"},
         {0, -40, -36, -32, -28, -24, -20, -16, -12, -8, -4, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40},
         {0, -40, -20, 20, 40}, [](int k) { return scaled_by_two(still_life, k); });
 }
@@ -32,7 +33,7 @@ StressFamily powers_of_ten() {
 
 StressFamily integer_shifts() {
     return sweep({"shift", "distance from the origin",
-                  "coordinates far from the origin leave no digits for the scene"},
+                  "coordinates far from the origin leave no precision for the scene"},
                  {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {0, 5, 9}, [](int k) {
                      if (k == 0) return labeled("0", 0, same_bits(still_life));
                      return moved(still_life, fmt::format("1e{}", k), std::pow(10.0, k));
@@ -53,7 +54,7 @@ StressFamily odd_shifts() {
 /// A scene with one distant object, which must not set the scale.
 StressFamily outliers() {
     return sweep({"outlier", "distance of one ball",
-                  "one thing far away must not cost the others their digits"},
+                  "one distant object must not cost the others their precision"},
                  {1e2, 1e4, 1e6, 1e9, 1e12, 1e15}, {1e9}, [](double distance) {
                      Scene scene = still_life();
                      const double radius = 0.25 * distance;

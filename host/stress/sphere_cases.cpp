@@ -44,9 +44,10 @@ StressFamily floors() {
 }
 
 StressFamily huge_floors() {
-    const StressFamily floors = sweep({"huge-ball-floor", "radius of the ground",
-                                       "r^2 - l^2 loses all digits where the ground ball is huge"},
-                                      {1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, {1e5}, ball_floor);
+    const StressFamily floors =
+        sweep({"huge-ball-floor", "radius of the ground",
+               "r^2 - l^2 loses all precision where the ground ball is huge"},
+              {1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, {1e5}, ball_floor);
     return sweep(floors, {1e6}, {1e6}, [](double radius) {
         return labeled("1e+06-among-far-balls", radius, picture_case([=] {
                            Scene scene = ball_floor(radius);

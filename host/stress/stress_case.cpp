@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stress/stress_case.h"
 
-#include <fmt/format.h>
 #include <fnmatch.h>
 
 #include <algorithm>
 
-#include "host/error.h"
 #include "host/stress/families.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
@@ -27,8 +26,7 @@ void check_glob(const std::string& glob, const std::vector<StressFamily>& famili
         }
         names += "\n  " + family.name;
     }
-    throw Error(ExitCode::usage,
-                fmt::format("no stress case fits '{}'; the families are:{}", glob, names));
+    usage_error("'{}' matches no stress case; the families are:{}", glob, names);
 }
 
 }  // namespace
@@ -54,7 +52,7 @@ std::vector<StressFamily> chosen_families(std::vector<StressFamily> families,
     }
     std::erase_if(families, [](const StressFamily& family) { return family.cases.empty(); });
     if (families.empty()) {
-        throw Error(ExitCode::usage, "no case is left; leave out --quick or --except");
+        usage_error("no case is left to run; omit --quick or --except");
     }
     return families;
 }

@@ -111,8 +111,8 @@ StressFamily ties() {
         return picture_case([=] { return duplicate_ball(moved); }, {}, reference);
     };
     return listed(
-        {"ties", "what lies twice",
-         "where two surfaces are one, rounding or the order of tests picks a color"},
+        {"ties", "what is duplicated",
+         "where surfaces coincide, rounding or the order of tests picks the color"},
         {{"same", InQuick::no, square(Copy::same)},
          {"other-diagonal", InQuick::yes, square(Copy::other_diagonal)},
          {"turned", InQuick::no, square(Copy::turned)},
@@ -181,9 +181,9 @@ Scene needle_fan(double aspect) {
 }
 
 StressFamily needles() {
-    return sweep(
-        {"needles", "length over width", "thin triangles lose their distance, and their neighbors"},
-        {1e2, 1e3, 1e4, 1e6, 1e8}, {1e4, 1e6}, needle_fan);
+    return sweep({"needles", "length over width",
+                  "distances to thin triangles are inaccurate, and gaps open next to them"},
+                 {1e2, 1e3, 1e4, 1e6, 1e8}, {1e4, 1e6}, needle_fan);
 }
 
 /// A floor triangle so large that its barycentric weights barely determine a point.

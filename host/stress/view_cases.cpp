@@ -54,7 +54,7 @@ StressFamily ups() {
             return scene;
         });
     };
-    return listed({"up", "the camera's up", "axes lose their digits, or their length"},
+    return listed({"up", "the camera's up", "axes lose precision, or their length"},
                   {{"1e-30", InQuick::yes, with_up({0, 1e-30, 0})},
                    {"1e30", InQuick::no, with_up({0, 1e30, 0})},
                    {"1e-300", InQuick::no, with_up({0, 1e-300, 0})},
@@ -65,8 +65,7 @@ StressFamily ups() {
 StressFamily picture_shapes() {
     using Size = std::pair<int, int>;
     const std::vector<Size> sizes{{1, 1}, {1, 2}, {3, 5}, {1, 1024}, {1, 65536}, {65536, 1}};
-    return sweep({"picture-shape", "pixels",
-                  "one pixel, one column, one row: indices and halves of nothing"},
+    return sweep({"picture-shape", "pixels", "one pixel, one column, one row: degenerate sizes"},
                  sizes, {{1, 1}, {1, 1024}}, [](const Size& size) {
                      const auto [width, height] = size;
                      return labeled(fmt::format("{}x{}", width, height), width * height,

@@ -11,15 +11,15 @@
 
 namespace rt {
 
-/// One deviation from the defaults: something the scene does not need put back in, or something it
-/// uses taken away.
+/// One deviation from the defaults: compiles something the scene does not need, or removes
+/// something it uses.
 struct Change {
     std::string what;
     std::function<void(RenderSettings&)> make;
 };
 
 /// The changes that `bench --ablate` tries on this scene and device. Hierarchies are removed only
-/// where testing all primitives one by one takes bearable time.
+/// where testing all primitives one by one does not take too long.
 std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& device,
                                        Precision precision);
 

@@ -128,7 +128,7 @@ bool write_aovs(const Scene& scene, const RenderStats& stats, const RenderOption
     if (options.aovs.empty() || !stats.complete()) return true;
     const Aovs aovs(scene, stats, options);
     if (stop_flag() != 0) {
-        print_message("mirrorball: stopped; --aov has saved nothing\n");
+        print_note("stopped; --aov saved nothing");
         return false;
     }
     const std::vector<std::string> files = aov_files(options);

@@ -13,9 +13,9 @@ namespace rt {
 /// Rejects, before anything is computed, AOV files that could not be written, or are inputs.
 void check_aov_files(const RenderOptions& options, const std::vector<std::string>& inputs);
 
-/// Writes the AOVs in options.aovs beside the picture: as channels of NAME.aov.exr if the picture
+/// Writes the AOVs in options.aovs next to the picture: as channels of NAME.aov.exr if the picture
 /// is an .exr, else each in false color as NAME.depth.png and so on. `scene` is as it was rendered.
-/// Returns false, with a message and nothing written, if a stop signal came meanwhile. Throws Error
+/// Returns false, with a message and nothing written, after a stop signal. Throws Error
 /// (ExitCode::output).
 bool write_aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options);
 

@@ -19,6 +19,7 @@
 #include "host/options/frame_number.h"
 #include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
@@ -29,9 +30,9 @@ std::optional<std::string> next_name(std::istringstream& words) {
     if ((words >> std::ws).eof()) return std::nullopt;
     std::string name;
     if (!(words >> std::quoted(name))) {
-        throw Error(ExitCode::usage, "no closing quote; put names with blanks in double quotes");
+        usage_error("missing closing quote; put names with spaces in double quotes");
     }
-    if (name.empty()) throw Error(ExitCode::usage, "an empty name; give SCENE or SCENE OUTPUT");
+    if (name.empty()) usage_error("empty name; expected SCENE or SCENE OUTPUT");
     return name;
 }
 
@@ -47,10 +48,8 @@ std::optional<BatchItem> parse_batch_line(const std::string& line) {
     item.output = next_name(words).value_or("");
     std::string more;
     if (words >> more) {
-        throw Error(ExitCode::usage,
-                    fmt::format("'{}' after SCENE and OUTPUT; put names with blanks in double "
-                                "quotes",
-                                more));
+        usage_error(
+            "unexpected '{}' after SCENE and OUTPUT; put names with spaces in double quotes", more);
     }
     return item;
 }
@@ -85,7 +84,7 @@ LineReader::LineReader(const std::string& path, BatchLog& log)
     struct stat status {};
     if (fstat(file_.number(), &status) == 0 && S_ISDIR(status.st_mode)) {
         throw Error(ExitCode::input,
-                    path + ": Is a directory; give a file that lists scenes, one per line");
+                    path + ": is a directory; name a file that lists scenes, one per line");
     }
     if (path == "-" || !S_ISREG(status.st_mode)) return;
     chunk_ = 4096;
@@ -148,7 +147,7 @@ bool BatchList::take(BatchItem& item) {
         const std::optional<BatchItem> parsed = parse_batch_line(*line);
         if (!parsed) continue;
         if (options_.batch == "-" && parsed->scene == stdin_scene) {
-            throw Error(ExitCode::usage, "standard input is this list; name a file");
+            usage_error("standard input is already the list of scenes; name a scene file");
         }
         item.scene = parsed->scene;
         item.output = parsed->output;
@@ -164,9 +163,8 @@ bool BatchList::next(BatchItem& item) {
     if (item.output.empty()) item.output = batch_output(options_.output, item.scene);
     if (item.output.empty()) return true;
     if (!outputs_.insert(canonical_output(item.output)).second) {
-        throw Error(
-            ExitCode::usage,
-            item.output + " is already the output of another scene; give each scene its own file");
+        usage_error("{}: is already the output of another scene; give each scene its own file",
+                    item.output);
     }
     return true;
 }

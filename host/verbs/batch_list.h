@@ -26,7 +26,7 @@ struct BatchItem {
 /// that begins with '#'. Throws Error (ExitCode::usage).
 std::optional<BatchItem> parse_batch_line(const std::string& line);
 
-/// The scenes that a list names; none if it is no regular file, whose end nobody knows.
+/// The scenes named by a list; none if it is not a regular file, since it may have no end.
 std::vector<std::string> scenes_of_list(const std::string& path);
 
 /// The pattern with its %d or %04d replaced by the frame number.

@@ -19,7 +19,7 @@ class BatchLog {
     /// Memory for a log, inherited by child processes; none if there is not enough.
     static FileDescriptor make_memory();
 
-    /// Reads what is there. `descriptor`: the memory's number; empty: nothing is kept.
+    /// Reads the existing log. `descriptor`: the memory's number; empty: nothing is kept.
     explicit BatchLog(const std::string& descriptor);
 
     /// The next line of the list that an earlier process has read.

@@ -87,7 +87,7 @@ class Plan {
 
    private:
     void say(const std::string& line) const {
-        if (!options_.quiet) print_message("mirrorball: " + line + "\n");
+        if (!options_.quiet) print_note(line);
     }
 
     bool wants_double() const {
@@ -199,9 +199,8 @@ class Plan {
         asked.threads = device.threads;
         asked.change = change;
         if (device.is_threads) {
-            asked.schedule = picture.lanes == 1                    ? "scalar"
-                             : picture.schedule == Schedule::tiles ? "tiles"
-                                                                   : "buffers";
+            asked.schedule =
+                picture.lanes == 1 ? "scalar" : name_of(schedule_names, picture.schedule);
         }
         row.timed.scene = &loaded.scene;
         row.timed.reference = &references_.back();
@@ -224,10 +223,9 @@ void say_bad_rows(const BenchResult& result) {
     for (const auto* rows : {&result.rows, &result.ablation}) {
         for (const BenchRow& row : *rows) {
             if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
-            print_message(fmt::format("mirrorball: {} ({}){}: {}: {}\n", key_of(row.asked),
-                                      row.asked.device_name,
-                                      row.asked.change.empty() ? "" : ", " + row.asked.change,
-                                      to_string(row.verdict), row.why));
+            print_note(fmt::format("{} ({}){}: {}: {}", key_of(row.asked), row.asked.device_name,
+                                   row.asked.change.empty() ? "" : ", " + row.asked.change,
+                                   to_string(row.verdict), row.why));
         }
     }
 }
@@ -236,7 +234,7 @@ void say_bad_rows(const BenchResult& result) {
 bool has_regressed(const BenchResult& result, const Baseline& baseline, double max_regress) {
     const auto found = regressions(result, baseline, max_regress);
     for (const Regression& regression : found) {
-        print_message("mirrorball: slower: " + to_string(regression) + "\n");
+        print_note("slower: " + to_string(regression));
     }
     return !found.empty();
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/console.h"
+#include "host/counted.h"
 #include "host/error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
@@ -18,6 +19,7 @@
 #include "host/print/run_json.h"
 #include "host/print/stats_json.h"
 #include "host/printable.h"
+#include "host/usage_error.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {
@@ -49,14 +51,14 @@ void clamp_finite(Picture& picture) {
 void check_same_shape(const Picture& a, const Picture& b, const CompareOptions& options) {
     if (have_same_shape(a, b)) return;
     throw Error(ExitCode::input,
-                fmt::format("{} is {}x{} pixels of {} channels, {} is {}x{} of {}; give pictures "
-                            "with the same size and number of channels",
-                            options.picture, a.width, a.height, a.channels, options.reference,
-                            b.width, b.height, b.channels));
+                fmt::format("{} has {}x{} pixels and {}, but {} has {}x{} and {}; compare "
+                            "pictures of the same size and channels",
+                            options.picture, a.width, a.height, counted(a.channels, "channel"),
+                            options.reference, b.width, b.height, b.channels));
 }
 
 FlipResult flip_of(const Comparison& result) {
-    if (result.error.non_finite > 0) return {{}, "there are pixels that are not finite"};
+    if (result.error.non_finite > 0) return {{}, "some pixels are not finite"};
     return measure_flip(result.picture, result.reference);
 }
 
@@ -64,16 +66,15 @@ std::string non_finite_text(const char* name, const Picture& picture) {
     const std::size_t count = count_non_finite(picture);
     if (count == 0) return "";
     const auto [x, y] = first_non_finite(picture);
-    return fmt::format("{} pixel{} of {} not finite, the first at {},{}", count,
-                       count == 1 ? "" : "s", name, x, y);
+    return fmt::format("{} of {} not finite, the first at {},{}", counted(count, "pixel"), name, x,
+                       y);
 }
 
 /// A threshold that cannot be checked is an error, not a pass.
 void check_flip(const FlipResult& flip, double limit, std::vector<std::string>& breaches) {
-    if (!flip.mean) throw Error(ExitCode::usage, "--max-flip: not measured: " + flip.note);
+    if (!flip.mean) usage_error("--max-flip: cannot measure FLIP: {}", flip.note);
     if (!(*flip.mean <= limit)) {
-        breaches.push_back(
-            fmt::format("FLIP {:.4g} is above --max-flip {:.4g}", *flip.mean, limit));
+        breaches.push_back(fmt::format("FLIP {:.4g} exceeds --max-flip {:.4g}", *flip.mean, limit));
     }
 }
 
@@ -86,15 +87,14 @@ std::vector<std::string> breaches_of(const Comparison& result, const CompareOpti
     const auto check = [&](const char* name, double value, const char* option,
                            std::optional<double> limit) {
         if (!limit || value <= *limit) return;
-        breaches.push_back(
-            fmt::format("{} {:.4g} is above {} {:.4g}", name, value, option, *limit));
+        breaches.push_back(fmt::format("{} {:.4g} exceeds {} {:.4g}", name, value, option, *limit));
     };
     const ImageError& error = result.error;
     check("RMSE", error.rmse, "--max-rmse", options.max_rmse);
     check("maximum", error.max, "--max-abs", options.max_abs);
     if (options.max_pixels && error.over_1 > static_cast<std::size_t>(*options.max_pixels)) {
-        breaches.push_back(fmt::format("{} pixel{} over 1/255, above --max-pixels {}", error.over_1,
-                                       error.over_1 == 1 ? "" : "s", *options.max_pixels));
+        breaches.push_back(fmt::format("{} over 1/255, exceeding --max-pixels {}",
+                                       counted(error.over_1, "pixel"), *options.max_pixels));
     }
     if (options.max_flip && error.non_finite == 0) {
         check_flip(*result.flip, *options.max_flip, breaches);
@@ -126,11 +126,10 @@ void write_heatmap(const Comparison& result, const CompareOptions& options) {
 }
 
 std::string comparison_text(const Comparison& result, const CompareOptions& options) {
-    std::string text =
-        fmt::format("{} against {}: {}x{} pixels, {} channel{}{}\n", printable(options.picture),
-                    printable(options.reference), result.picture.width, result.picture.height,
-                    result.picture.channels, result.picture.channels == 1 ? "" : "s",
-                    options.clamp ? ", clamped to 0..1" : "");
+    std::string text = fmt::format(
+        "{} compared to {}: {}x{} pixels, {}{}\n", printable(options.picture),
+        printable(options.reference), result.picture.width, result.picture.height,
+        counted(result.picture.channels, "channel"), options.clamp ? ", clamped to 0..1" : "");
     text += error_table(result.error, result.pixels());
     if (result.flip) {
         text +=
@@ -184,7 +183,7 @@ int run_compare(const CompareOptions& options) {
     if (!options.heatmap.empty()) write_heatmap(result, options);
     print_comparison(result, options);
     if (result.breaches.empty()) return static_cast<int>(ExitCode::done);
-    print_message("mirrorball: " + fmt::format("{}", fmt::join(result.breaches, "; ")) + "\n");
+    print_note(fmt::format("{}", fmt::join(result.breaches, "; ")));
     return static_cast<int>(ExitCode::different);
 }
 

@@ -160,8 +160,8 @@ int verdict(const ConvergeResult& result) {
     for (const ConvergePoint& point : result.points) {
         if (point.verdict != Verdict::wrong && point.verdict != Verdict::failed) continue;
         (point.verdict == Verdict::wrong ? wrong : failed) = true;
-        print_message(fmt::format("mirrorball: {} {}: {}: {}\n", point.asked.device_name,
-                                  to_string(point.asked.aa), to_string(point.verdict), point.why));
+        print_note(fmt::format("{} {}: {}: {}", point.asked.device_name, to_string(point.asked.aa),
+                               to_string(point.verdict), point.why));
     }
     if (result.interrupted) return 128 + stop_flag();
     if (wrong) return static_cast<int>(ExitCode::different);

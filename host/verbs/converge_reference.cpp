@@ -78,7 +78,7 @@ std::optional<Picture> read_half(const std::string& path, const Scene& scene) {
         if (fits && hash == hash_text(hash_of(half))) return half;
     } catch (const Error&) {
     }
-    print_message(fmt::format("mirrorball: {}: a damaged reference; rendering it again\n", path));
+    print_note(path + ": the cached reference is damaged; rendering it again");
     return std::nullopt;
 }
 
@@ -90,7 +90,7 @@ void keep_half(const std::string& path, const Picture& half) {
         const std::string hash = hash_text(hash_of(half));
         write_file_atomically(hash_path(path), std::as_bytes(std::span(hash)));
     } catch (const Error& error) {
-        print_message(fmt::format("mirrorball: the reference is not cached: {}\n", error.what()));
+        print_note(fmt::format("the reference is not cached: {}", error.what()));
     }
 }
 
@@ -112,8 +112,8 @@ Half make_half(Scene scene, int seed, const ConvergeOptions& options) {
         return half;
     }
     if (!options.quiet) {
-        print_message(fmt::format("mirrorball: rendering the reference, {} in double, half {}\n",
-                                  to_string(scene.aa), seed));
+        print_note(fmt::format("rendering half {} of the reference, {} in double", seed,
+                               to_string(scene.aa)));
     }
     RenderSettings settings = timed_settings();
     settings.precision = Precision::float64;

@@ -69,12 +69,10 @@ void add_all(std::vector<ListedDevice>& list, ClDevices& devices) {
         if (device.unusable.empty()) {
             add_once(list, list_entry(device));
         } else {
-            print_message("mirrorball: " + device.name + " is left out: " + device.unusable + "\n");
+            print_note("skipping " + device.name + ": " + device.unusable);
         }
     }
-    for (const std::string& problem : devices.problems()) {
-        print_message("mirrorball: " + problem + "\n");
-    }
+    print_notes(devices.problems());
 }
 
 }  // namespace

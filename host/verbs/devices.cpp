@@ -74,7 +74,7 @@ std::string device_text(const ClDevice& device) {
         static_cast<double>(device.memory_bytes) / gib,
         static_cast<double>(device.max_buffer_bytes) / gib);
     if (!device.rounds_correctly) {
-        text += "   does not guarantee correctly rounded division: bits may differ\n";
+        text += "   does not guarantee correctly rounded division, so bits may differ\n";
     }
     if (!device.icd_file.empty()) {
         text += fmt::format("   only with OCL_ICD_VENDORS={}, as --device {}\n", device.icd_file,
@@ -93,8 +93,7 @@ void print_lines(const std::vector<std::string>& lines) {
 /// The line for pthreads: cores, and the instruction sets that have kernels.
 std::string threads_text(int cores) {
     const std::vector<std::string> isas = native_isas();
-    std::string text =
-        fmt::format("threads  POSIX threads on {} core{}", cores, cores == 1 ? "" : "s");
+    std::string text = "threads  POSIX threads on " + counted(cores, "core");
     if (isas.empty()) return text + ": no kernels for this processor\n";
     text += fmt::format(", kernels for {}", fmt::join(isas, ", "));
     if (!has_fast_fma(isas.front())) text += " (slow: no fused multiply-add)";

@@ -8,6 +8,7 @@
 #include "host/error.h"
 #include "host/image/picture_io.h"
 #include "host/mpi/ranks.h"
+#include "host/named.h"
 #include "host/opencl/icd_files.h"
 #include "host/picture/render_picture.h"
 #include "host/pocl/pocl_cache.h"
@@ -68,7 +69,7 @@ void render_known_picture(const DeviceChoice& device, Precision precision) {
     const bool is_double = precision == Precision::float64;
     if (rendered.stats.image_hash == (is_double ? double_hash : float_hash)) return;
     throw Error(ExitCode::different,
-                fmt::format("computes wrong bits in {}: image {}", is_double ? "double" : "float",
+                fmt::format("renders a wrong picture in {} (image {})", precision_name(is_double),
                             hash_text(rendered.stats.image_hash)));
 }
 
@@ -93,13 +94,13 @@ Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
     if (stop > 0) end_by_stop_signal(stop);
     Finding finding{State::broken, name, ""};
     if (!end.is_regular) {
-        finding.verdict = "its process " + end.how + "; update its driver";
+        finding.verdict = "its test process " + end.how + "; update its driver";
     } else if (end.status == 0) {
         finding.state = State::fine;
         finding.verdict = fmt::format("renders the right picture ({:.2f} s)", watch.seconds());
     } else if (end.status == static_cast<int>(ExitCode::different)) {
         finding.verdict =
-            "renders a wrong picture (see above); clear its kernel cache, update its "
+            "renders a wrong picture (see above); clear its kernel cache or update its "
             "driver";
     } else {
         finding.verdict = "cannot render (see above)";
@@ -107,10 +108,10 @@ Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
     return finding;
 }
 
-Finding test_format(const char* name, const char* ending) {
+Finding test_format(const char* name, const char* extension) {
     const TemporaryFolder folder;
     try {
-        check_picture_path(folder.name() + "/picture" + ending);
+        check_picture_path(folder.name() + "/picture" + extension);
         return {State::fine, name, "can be written and read"};
     } catch (const Error& error) {
         const std::string text = error.what();
@@ -139,15 +140,14 @@ Finding test_kernel_cache() {
     const std::string why = why_pocl_cache_is_read_only();
     if (!why.empty()) {
         return {State::broken, "kernel cache",
-                "PoCL cannot write to it: " + why +
-                    "; set POCL_CACHE_DIR to a folder that you can write to"};
+                "PoCL cannot write to it: " + why + "; set POCL_CACHE_DIR to a writable folder"};
     }
     if (!pocl_keeps_kernels()) {
         return {State::missing, "kernel cache",
-                "PoCL compiles every kernel again; unset POCL_KERNEL_CACHE"};
+                "PoCL recompiles its kernels in every run; unset POCL_KERNEL_CACHE"};
     }
     return {State::fine, "kernel cache",
-            "PoCL saves what it compiles in " + pocl_cache_folder().string()};
+            "PoCL caches compiled kernels in " + pocl_cache_folder().string()};
 }
 
 void examine_devices(const DoctorOptions& options, IcdFiles& files,
@@ -172,9 +172,8 @@ std::vector<Finding> examine(const DoctorOptions& options) {
     std::vector<Finding> findings;
     const std::vector<std::string> isas = native_isas();
     findings.push_back({isas.empty() ? State::broken : State::fine, "processor",
-                        isas.empty()
-                            ? "is not supported by the threads renderer; render on an OpenCL device"
-                            : fmt::format("kernels for {}", fmt::join(isas, ", "))});
+                        isas.empty() ? "has no kernels for pthreads; render on an OpenCL device"
+                                     : fmt::format("kernels for {}", fmt::join(isas, ", "))});
     prepare_pocl(0);
     IcdFiles files = try_icd_files(options.drivers);
     for (const std::string& file : files.usable) {
@@ -184,9 +183,9 @@ std::vector<Finding> examine(const DoctorOptions& options) {
         findings.push_back({State::broken, "driver", problem});
     }
     if (files.usable.empty()) {
-        findings.push_back({State::missing, "OpenCL",
-                            "no driver in " + options.drivers +
-                                "; install pocl-opencl-icd, or your GPU's driver"});
+        findings.push_back(
+            {State::missing, "OpenCL",
+             "no driver in " + options.drivers + "; install pocl-opencl-icd or your GPU's driver"});
     }
     files.problems.clear();
     findings.push_back(test_in_worker(options, "threads", "threads", {}));

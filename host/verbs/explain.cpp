@@ -12,6 +12,7 @@
 #include "host/printable.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
+#include "host/usage_error.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {
@@ -24,14 +25,12 @@ Scene scene_to_explain(const ExplainOptions& options) {
     if (scene.max_bounces > ExplainOptions::most_bounces) {
         throw Error(
             ExitCode::limit,
-            fmt::format(
-                "{}: up to {} bounces is too many to explain; give --max-bounces {} or less",
-                printable(options.scene), scene.max_bounces, ExplainOptions::most_bounces));
+            fmt::format("{}: {} bounces are too many to explain; use --max-bounces {} or less",
+                        printable(options.scene), scene.max_bounces, ExplainOptions::most_bounces));
     }
     if (options.x >= scene.width || options.y >= scene.height) {
-        throw Error(ExitCode::usage,
-                    fmt::format("--pixel {},{}: the picture has {}x{} pixels, counted from 0",
-                                options.x, options.y, scene.width, scene.height));
+        usage_error("--pixel {},{}: outside the picture of {}x{} pixels, counted from 0", options.x,
+                    options.y, scene.width, scene.height);
     }
     return scene;
 }

@@ -50,7 +50,7 @@ class IsolatedRender {
         for (std::size_t before = 0, now = 0; has_failed(end); before = now) {
             now = BatchLog(options_.batch_log).finished();
             if (now == before) break;
-            say(end, "starting it again");
+            say(end, "restarting it");
             end = work({});
         }
         keep_journal(journal);
@@ -113,11 +113,11 @@ class IsolatedRender {
         const UsableIcdFiles usable(files);
         if (cache.name().empty() || usable.place().empty()) return first;
         if (!files.any_dangerous) {
-            say(first, "trying again with an empty kernel cache");
+            say(first, "retrying with an empty kernel cache");
             return work({"POCL_CACHE_DIR=" + cache.name()});
         }
         if (files.usable.empty()) return first;
-        say(first, "trying again with the other drivers");
+        say(first, "retrying with the other drivers");
         const WorkerEnd second = work({"OCL_ICD_VENDORS=" + usable.place()});
         const bool lacks_device =
             second.is_regular && second.status == static_cast<int>(ExitCode::device);
@@ -147,8 +147,7 @@ class IsolatedRender {
 
     void say(const WorkerEnd& end, const std::string& then) const {
         if (options_.quiet) return;
-        print_message(
-            fmt::format("mirrorball: {}: the driver process {}; {}\n", name_, end.how, then));
+        print_note(fmt::format("{}: the driver process {}; {}", name_, end.how, then));
     }
 
     RenderOptions options_;

@@ -25,9 +25,7 @@ namespace {
 
 std::string missing_text(const MergedPicture& merged) {
     return fmt::format("{} missing; render --shard {}",
-                       merged.missing_pixels == 1
-                           ? "1 pixel is"
-                           : counted(merged.missing_pixels, "pixel") + " are",
+                       counted(merged.missing_pixels, "pixel is", "pixels are"),
                        to_string(*merged.missing));
 }
 
@@ -47,8 +45,7 @@ void verify(const MergedPicture& merged, const MergeOptions& options) {
     const TemporaryFolder folder;
     if (folder.name().empty()) {
         throw Error(ExitCode::output,
-                    "--verify: cannot make a temporary folder; set TMPDIR to a folder that can be "
-                    "written");
+                    "--verify: cannot create a temporary folder; set TMPDIR to a writable folder");
     }
     const std::string again = folder.name() + "/rendered-here.mbj";
     install_stop_signals();
@@ -56,7 +53,7 @@ void verify(const MergedPicture& merged, const MergeOptions& options) {
     std::vector<std::string> parts = options.parts;
     parts.push_back(again);
     merge_journals(parts);
-    if (!options.quiet) print_message("mirrorball: what was rendered again has the same bits\n");
+    if (!options.quiet) print_note("the part rendered again is bit-identical");
 }
 
 }  // namespace
@@ -67,11 +64,11 @@ int run_merge(const MergeOptions& options) {
         check_output_is_no_input(options.output, options.parts);
     }
     const MergedPicture merged = merge_journals(options.parts);
-    for (const std::string& note : merged.notes) print_message("mirrorball: " + note + "\n");
+    print_notes(merged.notes);
     if (merged.missing && !options.allow_missing) {
         throw Error(ExitCode::incomplete, missing_text(merged));
     }
-    if (merged.missing) print_message("mirrorball: " + missing_text(merged) + "\n");
+    if (merged.missing) print_note(missing_text(merged));
     if (options.verify > 0) verify(merged, options);
     if (stop_flag() != 0) return 128 + stop_flag();
     if (!options.output.empty()) write_merged(merged, options);

@@ -6,7 +6,7 @@
 
 namespace rt {
 
-/// What every rank but 0 does: renders the shares that rank 0 hands out, until it says to end.
+/// Every other rank: renders the shares that rank 0 hands out, until told to end.
 /// Failures are reported to rank 0. Returns the exit status.
 int serve_rank_0(const RenderOptions& options, Ranks& ranks);
 

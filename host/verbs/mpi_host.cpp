@@ -50,7 +50,7 @@ class MpiHost {
         own.join();
         if (own_failure_) std::rethrow_exception(own_failure_);
         if (!queue_.is_done()) return report_stop();
-        for (const std::string& note : notes_) print_message("mirrorball: " + note + "\n");
+        print_notes(notes_);
         ranks_.send_all(Kind::stop);  // merging may take longer than they would wait
         return merge();
     }
@@ -112,9 +112,8 @@ class MpiHost {
     }
 
     int report_stop() const {
-        print_message(fmt::format(
-            "mirrorball: {} after {} of {} shares; the same command resumes from there\n",
-            stop_reason(), queue_.finished().size(), shares_));
+        print_note(fmt::format("{} after {} of {} shares; the same command resumes from there",
+                               stop_reason(), queue_.finished().size(), shares_));
         return exit_code_of_stop(stop_flag());
     }
 
@@ -128,8 +127,8 @@ class MpiHost {
         merged.quiet = options_.quiet;
         const int status = run_merge(merged);
         if (!options_.quiet) {
-            print_message(fmt::format("mirrorball: shares rendered by each rank: {}\n",
-                                      fmt::join(shares_by_rank_, " ")));
+            print_note(
+                fmt::format("shares rendered by each rank: {}", fmt::join(shares_by_rank_, " ")));
         }
         remove_parts(options_);
         return status;

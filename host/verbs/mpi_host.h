@@ -6,7 +6,7 @@
 
 namespace rt {
 
-/// What rank 0 does: hands out the shares of a picture, renders some on a thread of its own, and
+/// Rank 0: hands out the shares of a picture, renders some on a separate thread, and
 /// merges them. Returns the exit status; the caller still has to end the other ranks. Throws
 /// Error.
 int host_ranks(const RenderOptions& options, Ranks& ranks);

@@ -39,17 +39,17 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
             const auto [x, y] = first_non_finite(reference);
             throw Error(
                 ExitCode::input,
-                fmt::format("{}: {} not finite, the first at {},{}; give a reference "
+                fmt::format("{}: {} not finite, the first at {},{}; use a reference "
                             "without NaN and infinities",
-                            options.reference,
-                            count == 1 ? "1 pixel is" : counted(count, "pixel") + " are", x, y));
+                            options.reference, counted(count, "pixel is", "pixels are"), x, y));
         }
         return reference;
     }
-    throw Error(ExitCode::input, fmt::format("{}: {}x{} pixels of {} channels, but the picture "
-                                             "will be {}x{} of 3; give --size or --crop to match",
-                                             options.reference, reference.width, reference.height,
-                                             reference.channels, width, height));
+    throw Error(ExitCode::input,
+                fmt::format("{}: has {}x{} pixels and {}, but the picture will "
+                            "have {}x{} and 3; adjust --size or --crop",
+                            options.reference, reference.width, reference.height,
+                            counted(reference.channels, "channel"), width, height));
 }
 
 /// `kept`: viewers that stay open for the next picture; null: they wait to be closed.

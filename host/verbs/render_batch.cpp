@@ -24,6 +24,7 @@
 #include "host/scene/camera_path.h"
 #include "host/scene/scene_hash.h"
 #include "host/stop_signal.h"
+#include "host/usage_error.h"
 #include "host/verbs/batch_list.h"
 #include "host/verbs/batch_log.h"
 #include "host/verbs/render_steps.h"
@@ -137,7 +138,7 @@ class Batch {
         } catch (const Error& error) {
             note(item, error);
         } catch (const std::bad_alloc&) {
-            note(item, Error(ExitCode::limit, "out of memory; render a smaller picture or scene"));
+            note(item, Error(ExitCode::limit, out_of_memory));
         }
         return false;
     }
@@ -213,7 +214,7 @@ class Batch {
     void note(const BatchItem& item, const Error& error) {
         const int status = static_cast<int>(error.exit_code());
         if (!log_.status_of(item.number)) {
-            print_message(fmt::format("mirrorball: {}{}\n", item.where, error.what()));
+            print_note(item.where + error.what());
             log_.add_finished(item.number, status);
         }
         count(item, status);
@@ -234,25 +235,21 @@ class Batch {
 
     int sum_up() const {
         if (there_ > 0 && !options_.quiet) {
-            print_message(
-                fmt::format("mirrorball: {} already there\n",
-                            there_ == 1 ? "1 frame was" : counted(there_, "frame") + " were"));
+            print_note("skipped " + counted(there_, "existing frame"));
         }
         if (stop_flag() != 0) {
-            print_message(fmt::format("mirrorball: {} after {}\n", stop_reason(),
-                                      counted(pictures_, "picture")));
+            print_note(fmt::format("{} after {}", stop_reason(), counted(pictures_, "picture")));
             return exit_code_of_stop(stop_flag());
         }
-        if (pictures_ == 0 && there_ == 0) throw Error(ExitCode::usage, "the list has no scenes");
+        if (pictures_ == 0 && there_ == 0) usage_error("the list contains no scenes");
         if (failed_.empty()) return 0;
-        std::string text =
-            fmt::format("mirrorball: {} of {} failed, with exit codes:", failed_.size(),
-                        counted(pictures_, "picture"));
+        std::string text = fmt::format("{} of {} failed, with exit codes:", failed_.size(),
+                                       counted(pictures_, "picture"));
         constexpr std::size_t most_named = 20;
         for (std::size_t i = 0; i < std::min(failed_.size(), most_named); ++i) {
             text += (i == 0 ? " " : ", ") + failed_[i];
         }
-        print_message(text + (failed_.size() > most_named ? ", ...\n" : "\n"));
+        print_note(text + (failed_.size() > most_named ? ", ..." : ""));
         return worst_;
     }
 

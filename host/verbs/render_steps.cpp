@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/console.h"
+#include "host/counted.h"
 #include "host/error.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
@@ -75,17 +76,16 @@ bool say_unsaved(const RenderOptions& options) {
     const bool wants_figures =
         options.stats != StatsFormat::summary || !options.reference.empty() || options.quiet;
     if (wants_figures || !options.output.empty()) return false;
-    print_message("mirrorball: without -o FILE the picture is not saved\n");
+    print_note("the picture is not saved; to save it, use -o FILE");
     return true;
 }
 
 bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count) {
     if (count == 0) return false;
     const auto [x, y] = first_non_finite(picture);
-    print_message(
-        fmt::format("mirrorball: {} pixel{} not finite, the first at {},{}; look for "
-                    "very large numbers in the scene\n",
-                    count, count == 1 ? " is" : "s are", region.x + x, region.y + y));
+    print_note(
+        fmt::format("{} not finite, the first at {},{}; look for very large numbers in the scene",
+                    counted(count, "pixel is", "pixels are"), region.x + x, region.y + y));
     return true;
 }
 
@@ -156,8 +156,8 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         write();
     } catch (const DiskFull&) {
         if (!stats.complete() || !rendered.journal || !rendered.journal->exists()) throw;
-        print_message(fmt::format("mirrorball: the disk is full: writing {} in place of {}\n", path,
-                                  rendered.journal->path()));
+        print_note(
+            fmt::format("the disk is full; replacing {} with {}", rendered.journal->path(), path));
         rendered.journal->make_room(write);
     }
     if (!stats.complete()) return path;
@@ -169,7 +169,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
 std::function<void(const std::string& line)> message_printer(const RenderOptions& options) {
     return [&options](const std::string& text) {
         const std::string line = options.verbose ? text : text.substr(0, text.find('\n'));
-        if (!options.quiet) print_message("mirrorball: " + line + "\n");
+        if (!options.quiet) print_note(line);
     };
 }
 
@@ -225,7 +225,7 @@ void print_results(const RenderStats& stats, const RenderOptions& options) {
     if (options.stats == StatsFormat::json) return print_result(json_text(stats_json(stats)));
     if (options.stats == StatsFormat::text) return print_result(stats_text(stats));
     if (!options.quiet && stats.driver_took_its_time()) {
-        print_message("mirrorball: " + driver_time_text(stats) + "\n");
+        print_note(driver_time_text(stats));
     }
     if (!options.quiet) print_message(summary_line(stats) + "\n");
     if (stats.error) print_result(error_line(*stats.error) + "\n");
@@ -237,9 +237,9 @@ int verdict(const RenderedPicture& rendered, const std::string& output) {
     if (!stats.complete()) {
         const bool can_go_on = rendered.journal != nullptr && rendered.journal->exists() &&
                                rendered.journal->failure().empty();
-        print_message(fmt::format("mirrorball: {} after {}{}{}\n", stop_reason(), share_done(stats),
-                                  output.empty() ? "" : "; the finished part is in " + output,
-                                  can_go_on ? "; the same command resumes from there" : ""));
+        print_note(fmt::format("{} after {}{}{}", stop_reason(), share_done(stats),
+                               output.empty() ? "" : "; the finished part is in " + output,
+                               can_go_on ? "; the same command resumes from there" : ""));
         return exit_code_of_stop(stop_flag());
     }
     return static_cast<int>(non_finite ? ExitCode::non_finite : ExitCode::done);

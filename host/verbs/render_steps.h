@@ -37,7 +37,7 @@ void start_timeout(const RenderOptions& options);
 /// Rejects, before anything is computed, an output that could not be written.
 void check_output(const RenderOptions& options);
 
-/// Chooses where finished tiles are kept: beside the output, or in it for shares.
+/// Chooses where finished tiles are kept: next to the output, or in it for shares.
 void choose_journal(RenderOptions& options);
 
 /// Loads options.scene as it is to be rendered; reports on stderr what the reader skipped. Rejects
@@ -51,8 +51,8 @@ std::function<void(const std::string& line)> message_printer(const RenderOptions
 /// The viewers that the options ask for; null without any. The options must outlive it.
 std::unique_ptr<LivePicture> make_live_picture(const RenderOptions& options);
 
-/// After the final picture: waits until the windows are closed and viewers have the picture, or a
-/// stop signal comes, of which nothing is said: all is done.
+/// After the final picture: waits until the windows are closed and viewers have the picture, or for
+/// a stop signal, which is not reported, since everything is done.
 void wait_for_viewers(LivePicture& live);
 
 /// Shows a render's events on stderr and in viewers, if there are any. All must outlive it.

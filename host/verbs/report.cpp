@@ -67,7 +67,7 @@ class SceneStudy {
    private:
     void say(int step, const char* what) const {
         if (options_.quiet) return;
-        print_message(fmt::format("mirrorball: {}, step {} of 3: {}\n", path_, step, what));
+        print_note(fmt::format("{}, step {} of 3: {}", path_, step, what));
     }
 
     static void stop_if(bool interrupted) {

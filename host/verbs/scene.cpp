@@ -115,7 +115,7 @@ Json check_json(const std::string& path, const std::string& mistakes,
 
 void print_warnings(const std::string& path, const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) {
-        print_message(fmt::format("mirrorball: {}: warning: {}\n", printable(path), warning));
+        print_note(fmt::format("{}: warning: {}", printable(path), warning));
     }
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "host/error.h"
+#include "host/image/output_path.h"
 #include "host/stop_signal.h"
 #include "host/verbs/render_steps.h"
 #include "host/worker.h"
@@ -76,11 +76,7 @@ std::string part_name(const RenderOptions& options, const ShareQueue::Turn& turn
 }
 
 void make_parts_folder(const RenderOptions& options) {
-    std::error_code error;
-    std::filesystem::create_directories(parts_folder(options), error);
-    if (!error) return;
-    throw Error(ExitCode::output, fmt::format("{}: cannot make this folder: {}",
-                                              parts_folder(options), error.message()));
+    create_output_folder(parts_folder(options));
 }
 
 void remove_parts(const RenderOptions& options) {

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <filesystem>
 
 #include "host/console.h"
 #include "host/error.h"
@@ -24,16 +21,6 @@ std::vector<StressFamily> families_for(const StressOptions& options) {
     return chosen_families(all_stress_families(), options.cases, options.except, options.quick);
 }
 
-void make_folder(const std::string& folder) {
-    std::error_code error;
-    if (!folder.empty()) std::filesystem::create_directories(folder, error);
-    if (error) {
-        throw Error(ExitCode::output,
-                    fmt::format("{}: cannot create the folder: {}", folder, error.message()));
-    }
-    if (!folder.empty()) check_output_path(folder + "/reference.png");
-}
-
 }  // namespace
 
 StressResult measure_stress(const StressOptions& options) {
@@ -47,7 +34,10 @@ int run_stress(const StressOptions& options) {
         return 0;
     }
     check_result_path(options.json, json_start("mirrorball-stress"));
-    make_folder(options.output);
+    if (!options.output.empty()) {
+        create_output_folder(options.output);
+        check_output_path(options.output + "/reference.png");
+    }
     const StressResult result = measure_stress(options);
     if (options.json != "-") print_result(stress_text(result, options.verbose));
     write_result(options.json, options.json.empty() ? "" : json_text(stress_json(result)));

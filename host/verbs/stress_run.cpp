@@ -8,8 +8,10 @@
 #include <set>
 
 #include "host/console.h"
+#include "host/counted.h"
 #include "host/error.h"
 #include "host/hash.h"
+#include "host/named.h"
 #include "host/opencl/cl_ray_tracer.h"
 #include "host/opencl/device_spec.h"
 #include "host/picture/render_picture.h"
@@ -52,7 +54,8 @@ class Runner {
    public:
     explicit Runner(const StressOptions& options)
         : options_(options), devices_(listed_devices(options.devices)) {
-        if (devices_.empty()) throw Error(ExitCode::device, "no device to run on");
+        if (devices_.empty())
+            throw Error(ExitCode::device, "no usable device; see 'mirrorball devices'");
     }
 
     StressFamilyResult run(const StressFamily& family) {
@@ -144,7 +147,7 @@ class Runner {
     void check_same_bits(const PictureTrial& trial, StressRow& row) {
         if (trial.same_bits.empty() || !row.why.empty()) return;
         const std::string key = fmt::format("{} {} {}", trial.same_bits, row.device,
-                                            row.double_precision ? "double" : "float");
+                                            precision_name(row.double_precision));
         const auto [first, is_new] = first_hashes_.try_emplace(key, row.hash);
         if (!is_new && first->second != row.hash) {
             row.why = "bits differ from " + trial.same_bits;
@@ -232,7 +235,7 @@ class Runner {
             }
             if (hashes.size() < 2) continue;
             result.disagreement = fmt::format("devices give {} different pictures in {}",
-                                              hashes.size(), double_precision ? "double" : "float");
+                                              hashes.size(), precision_name(double_precision));
         }
     }
 
@@ -254,8 +257,7 @@ StressResult run_stress_cases(const std::vector<StressFamily>& families,
     install_stop_signals();
     for (const StressFamily& family : families) {
         if (!options.quiet) {
-            print_message(fmt::format("mirrorball: {}, {} case{}\n", family.name,
-                                      family.cases.size(), family.cases.size() == 1 ? "" : "s"));
+            print_note(fmt::format("{}, {}", family.name, counted(family.cases.size(), "case")));
         }
         StressFamilyResult done = runner.run(family);
         if (stop_flag() != 0) break;  // it may be unfinished: no verdict

@@ -70,11 +70,11 @@ void try_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
 /// Estimates the time left from the previous round.
 void say_round(int round, int rounds, std::size_t pictures, double seconds_before) {
     if (round == 0) {
-        return print_message("mirrorball: warm-up, " + counted(pictures, "picture") + "\n");
+        return print_note("warm-up, " + counted(pictures, "picture"));
     }
     const auto left = static_cast<long>(std::ceil(seconds_before * (rounds - round + 1)));
-    print_message(fmt::format("mirrorball: round {} of {}, {}, about {}:{:02} left\n", round,
-                              rounds, counted(pictures, "picture"), left / 60, left % 60));
+    print_note(fmt::format("round {} of {}, {}, about {}:{:02} left", round, rounds,
+                           counted(pictures, "picture"), left / 60, left % 60));
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ void say_busy(bool quiet) {
     const std::string text = busy_text(load_of(load_average()));
     if (quiet || said || text.empty()) return;
     said = true;
-    print_message("mirrorball: " + text + "\n");
+    print_note(text);
 }
 
 FreshKernelCache::FreshKernelCache() {

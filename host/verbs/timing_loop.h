@@ -54,7 +54,7 @@ double load_average();
 /// Warns on stderr, once and unless `quiet`, that the machine is busy with other work.
 void say_busy(bool quiet);
 
-/// An empty kernel cache for PoCL in a folder of its own, removed at the end: the first build of
+/// An empty kernel cache for PoCL in its own folder, removed at the end: the first build of
 /// each kernel is then cold and all others are warm, whatever ran before. Create it before OpenCL
 /// starts. Has no effect if no folder can be made.
 class FreshKernelCache {

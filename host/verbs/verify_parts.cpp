@@ -12,6 +12,7 @@
 #include "host/picture/render_picture.h"
 #include "host/scene/scene_file.h"
 #include "host/stop_signal.h"
+#include "host/usage_error.h"
 
 namespace rt {
 
@@ -23,15 +24,12 @@ std::string scene_to_load(const JournalHeader& header, const std::string& scene)
     if (!header.scene_file.empty() && std::filesystem::exists(header.scene_file, ignored)) {
         return header.scene_file;
     }
-    throw Error(ExitCode::usage, "--verify: the scene is not where it was rendered (" +
-                                     (header.scene_file.empty() ? "unknown" : header.scene_file) +
-                                     "); give --scene SCENE");
+    usage_error("--verify: cannot find the scene file{}; name it with --scene",
+                header.scene_file.empty() ? "" : " " + header.scene_file);
 }
 
 Filter filter_of(const JournalHeader& header) {
-    for (const Filter filter : {Filter::box, Filter::tent, Filter::gaussian, Filter::mitchell}) {
-        if (header.filter == to_string(filter)) return filter;
-    }
+    if (const auto filter = value_of(filter_names, header.filter)) return *filter;
     throw Error(ExitCode::input, "a part's header is damaged (filter); render it again");
 }
 

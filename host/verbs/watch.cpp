@@ -72,7 +72,7 @@ int watch_scene(const std::string& scene, bool is_quiet, const std::function<int
             print_error(error.what());
         }
         if (stop_flag() != 0 || is_over()) break;
-        if (!is_quiet) print_message("mirrorball: waiting for " + scene + " to change\n");
+        if (!is_quiet) print_note("waiting for " + scene + " to change");
         const bool was_quiet = stop_quietly(true);  // nothing is left to save
         await_change(files, before, is_over);
         stop_quietly(was_quiet);

@@ -16,7 +16,7 @@
 namespace rt {
 
 /// Passes a picture in progress to viewers, calling them all on its own thread: one that is slow or
-/// hangs never holds the render up.
+/// hangs never delays the render.
 class LivePicture {
    public:
     explicit LivePicture(std::vector<std::unique_ptr<Viewer>> viewers);

@@ -27,7 +27,7 @@ std::vector<std::unique_ptr<Viewer>> make_viewers(const ViewSettings& settings,
     const Terminal terminal = find_terminal(settings.terminal, asks_it);
     const PreviewMode mode = preview_mode(terminal, *settings.preview);
     if (mode == PreviewMode::half && !terminal.has_blocks) {
-        say("no preview: the terminal is without colors, or its text is not UTF-8");
+        say("no preview: the terminal does not support colors or UTF-8");
         return viewers;
     }
     viewers.push_back(std::make_unique<TerminalViewer>(terminal, mode, encoding));

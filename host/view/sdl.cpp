@@ -23,7 +23,7 @@ int leave(void*) {
 
 const Library* load(std::string& why) {
     if (is_lost) {
-        why = "the X server is gone";
+        why = "the X server is not running";
         return nullptr;
     }
     void* const handle = dlopen("libSDL2-2.0.so.0", RTLD_NOW | RTLD_LOCAL);

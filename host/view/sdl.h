@@ -57,14 +57,14 @@ struct Library {
     int (*PollEvent)(Event*);
 };
 
-/// Null where SDL is not installed, or the X server went away before; `why` says so.
+/// Null if SDL is not installed or the X server was lost; `why` says so.
 const Library* load(std::string& why);
 
 /// For `survives`: call it after Init, which loads Xlib.
 void expect_loss();
 
-/// Calls SDL's functions. Returns false if the X server goes away meanwhile, at which Xlib would
-/// end the program: SDL must not be called again then. `calls` is left by longjmp, so it must
+/// Calls SDL's functions. Returns false if the X server is lost, on which Xlib would end the
+/// program: SDL must not be called again then. `calls` is left by longjmp, so it must
 /// create nothing that has a destructor.
 bool survives(const std::function<void()>& calls);
 

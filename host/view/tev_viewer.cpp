@@ -170,8 +170,8 @@ void TevViewer::tick(const Picture& picture) {
     if (!is_open()) return;
     const auto now = Clock::now();
     if (now - last_sent_ > reading_patience)
-        return give_up("tev reads nothing; going on without it");
-    if (now > deadline_) give_up("tev reads too slowly; going on without it");
+        return give_up("tev does not respond; continuing without it");
+    if (now > deadline_) give_up("tev is too slow; continuing without it");
 }
 
 void TevViewer::send(const Picture& picture) {
@@ -192,7 +192,8 @@ void TevViewer::send(const Picture& picture) {
         } else if (errno == EAGAIN) {
             is_writable(socket_.number(), turn);
         } else if (errno != EINTR) {
-            give_up(fmt::format("tev is gone ({}); going on without it", std::strerror(errno)));
+            give_up(fmt::format("lost the connection to tev ({}); continuing without it",
+                                std::strerror(errno)));
         }
     }
 }

@@ -13,7 +13,7 @@ struct TevAddress {
     std::string host = "127.0.0.1", port = "14158";
 };
 
-/// What the environment tells about the terminal.
+/// What the environment says about the terminal.
 struct TerminalNames {
     std::string kind;             ///< TERM
     std::string colors;           ///< COLORTERM

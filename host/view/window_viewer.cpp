@@ -21,7 +21,7 @@ void WindowViewer::call(const std::function<void()>& calls) {
     if (was_closed_ || sdl::survives(calls)) return;
     was_closed_ = true;
     window_ = nullptr;
-    say_("no window: the X server is gone; going on without it");
+    say_("lost the X server; continuing without a window");
 }
 
 void WindowViewer::open(int width, int height) {

@@ -45,7 +45,7 @@ class WindowViewer : public Viewer {
     sdl::Texture* texture_ = nullptr;
     int texture_width_ = 0, texture_height_ = 0;
     std::int64_t pixels_ = 0, pixels_shown_ = 0;
-    bool was_closed_ = false;  ///< or cannot be opened, or has lost its screen
+    bool was_closed_ = false;  ///< or could not be opened, or lost its display
 };
 
 }  // namespace rt

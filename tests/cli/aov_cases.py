@@ -100,7 +100,7 @@ class Aov(CliTest):
         process.send_signal(signal.SIGINT)
         stderr = process.communicate()[1]
         self.assertEqual(process.returncode, 130, stderr)
-        self.assertIn("--aov has saved nothing", stderr)
+        self.assertIn("--aov saved nothing", stderr)
         self.assertEqual(self.files(), ["a.png"])
 
     def test_refusals(self):

@@ -97,7 +97,7 @@ class SeveralScenes(BatchTest):
         result = self.run_cli("render", scene_path("cones"), scene_path("cones"), "-o", "%s.png",
                               *SMALL)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("cones.png is already the output of another scene", result.stderr)
+        self.assertIn("cones.png: is already the output of another scene", result.stderr)
         self.assertEqual(self.files(), ["cones.png"])
 
 
@@ -108,7 +108,7 @@ class List(BatchTest):
         result = self.run_cli("render", "--batch", self.write_text("list", text), "-o", "%s.png",
                               *SMALL)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("list:5: 'b.png' after SCENE and OUTPUT", result.stderr)
+        self.assertIn("list:5: unexpected 'b.png' after SCENE and OUTPUT", result.stderr)
         self.assertEqual(self.files(), ["cones.png", "list", "with blank.png"])
         self.assertEqual(self.bytes_of("cones.png"), self.bytes_of("with blank.png"))
 
@@ -124,7 +124,7 @@ class List(BatchTest):
         self.write_text("list", text)
         result = self.run_cli("render", "--batch", "list", *SMALL)
         self.assertEqual(result.returncode, 2)
-        for line, word in [(2, "no closing quote"), (3, "empty name"), (4, "no closing quote"),
+        for line, word in [(2, "missing closing quote"), (3, "empty name"), (4, "missing closing quote"),
                            (5, "empty name")]:
             self.assertRegex(result.stderr, f"mirrorball: list:{line}: .*{word}")
         self.assertEqual(result.stderr.splitlines()[-1],
@@ -162,11 +162,11 @@ class List(BatchTest):
         self.write_text("list", f"{scene} a.png\n{scene} b.png\n{scene} folder/a.png\n")
         result = self.run_cli("render", "--batch", "list", *SMALL)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("list:2: b.png is already the output of another scene", result.stderr)
-        self.assertIn("list:3: folder/a.png is already the output of another scene", result.stderr)
+        self.assertIn("list:2: b.png: is already the output of another scene", result.stderr)
+        self.assertIn("list:3: folder/a.png: is already the output of another scene", result.stderr)
 
     def test_a_folder_is_no_list(self):
-        self.assert_refused(self.run_cli("render", "--batch", "."), 3, "Is a directory")
+        self.assert_refused(self.run_cli("render", "--batch", "."), 3, "is a directory")
 
     def test_no_scene_at_all(self):
         self.assert_refused(self.run_cli("render", "--batch", self.write_text("list", "# none\n")),

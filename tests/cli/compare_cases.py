@@ -150,9 +150,9 @@ class Thresholds(CompareTest):
     def test_all_breaches_in_one_line(self):
         result = self.compare("a.pfm", "b.pfm", "--max-abs", "0.4", "--max-pixels", "0",
                               "--max-rmse", "2/255", code=1)
-        for name in ["RMSE 0.2041 is above --max-rmse 0.007843",
-                     "maximum 0.5 is above --max-abs 0.4",
-                     "1 pixel over 1/255, above --max-pixels 0"]:
+        for name in ["RMSE 0.2041 exceeds --max-rmse 0.007843",
+                     "maximum 0.5 exceeds --max-abs 0.4",
+                     "1 pixel over 1/255, exceeding --max-pixels 0"]:
             self.assertIn(name, result.stderr)
 
     def test_none_given_means_zero(self):
@@ -174,13 +174,13 @@ class Refuses(CompareTest):
         self.write_pfm("a.pfm", 2, 1, [0.0] * 6)
         self.write_pfm("b.pfm", 1, 2, [0.0] * 6)
         self.assert_refused(self.run_cli("compare", "a.pfm", "b.pfm", "--heatmap", "h.png"), 3,
-                            "a.pfm is 2x1", "b.pfm is 1x2")
+                            "a.pfm has 2x1", "b.pfm has 1x2")
         self.assertEqual(self.files(), ["a.pfm", "b.pfm"])
 
     def test_other_channels(self):
         self.write_pfm("a.pfm", 2, 1, [0.0] * 6)
         self.write_pfm("b.pfm", 2, 1, [0.0] * 2, channels=1)
-        self.assert_refused(self.run_cli("compare", "a.pfm", "b.pfm"), 3, "3 channels", "of 1")
+        self.assert_refused(self.run_cli("compare", "a.pfm", "b.pfm"), 3, "3 channels", "and 1;")
 
     def test_what_is_no_picture(self):
         self.write_pfm("a.pfm", 2, 1, [0.0] * 6)
@@ -285,7 +285,7 @@ class Flip(CompareTest):
         self.assertIn("FLIP        2.5000e-01 (flip-evaluator 1.7, 67 pixels per degree)", text)
         self.compare("a.pfm", "box.pfm", "--max-flip", "0.25", env=env)
         result = self.compare("a.pfm", "box.pfm", "--max-flip", "0.2", env=env, code=1)
-        self.assertIn("FLIP 0.25 is above --max-flip 0.2", result.stderr)
+        self.assertIn("FLIP 0.25 exceeds --max-flip 0.2", result.stderr)
 
     def test_says_so_where_it_is_missing(self):
         env = self.python("echo missing flip_evaluator\n")

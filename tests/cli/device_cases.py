@@ -114,7 +114,7 @@ class Choice(CliTest):
     def test_lists(self):
         for spec in ["pocl,", ",", ",threads", "threads,,pocl"]:
             with self.subTest(spec=spec):
-                self.refused(spec, 2, "missing")
+                self.refused(spec, 2, "empty")
         self.assert_refused(self.run_cli("render", scene_path("empty"), "-o", "out.png",
                                          "--device", "threads:1,threads:2"), 2, "threads twice")
         for spec, names in [("threads,threads", []), ("pocl,0,cpu", []), ("auto,threads", []),

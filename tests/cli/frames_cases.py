@@ -49,10 +49,10 @@ class Frames(CliTest):
         (self.folder / "f02.pfm").write_text("mine")
         (self.folder / "f03.pfm").unlink()
         result = self.frames("--frames", "1-3", "--resume")
-        self.assertIn("2 frames were already there", result.stderr)
+        self.assertIn("skipped 2 existing frames", result.stderr)
         self.assertEqual((self.folder / "f02.pfm").read_text(), "mine")
         self.assertTrue((self.folder / "f03.pfm").exists())
-        self.assertIn("3 frames were", self.frames("--frames", "1-3", "--resume").stderr)
+        self.assertIn("skipped 3 existing frames", self.frames("--frames", "1-3", "--resume").stderr)
 
     def test_resume_replaces_those_of_other_pictures(self):
         for ending in ["png", "exr"]:
@@ -60,15 +60,15 @@ class Frames(CliTest):
                 output = f"f%02d.{ending}"
                 self.frames("--frames", "1-2", output=output)
                 again = ["--frames", "1-2", "--resume"]
-                self.assertIn("2 frames were already", self.frames(*again, output=output).stderr)
+                self.assertIn("skipped 2 existing frames", self.frames(*again, output=output).stderr)
                 for change in [["--size", "16x12"], ["--ambient", "0.5"], ["--precision", "double"]]:
                     self.frames("--frames", "1", *change, output=output)
                     result = self.frames(*again, *change, output=output)
-                    self.assertIn("1 frame was already", result.stderr)
+                    self.assertIn("skipped 1 existing frame", result.stderr)
                     result = self.frames(*again, *change, output=output)
-                    self.assertIn("2 frames were already", result.stderr)
+                    self.assertIn("skipped 2 existing frames", result.stderr)
                 (self.folder / f"f01.{ending}").write_text("cut")
-                self.assertIn("1 frame was", self.frames(*again, *change, output=output).stderr)
+                self.assertIn("skipped 1 existing frame", self.frames(*again, *change, output=output).stderr)
 
     def test_a_scene_that_cannot_be_read_is_told_once(self):
         (self.folder / "s.json").unlink()

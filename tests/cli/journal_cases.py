@@ -69,7 +69,7 @@ class Shares(JournalTest):
                 self.share("1/2", "b.mbj", *SMALL, *more)
                 for share in ["1%", "100%"]:
                     result = self.merge("a.mbj", "b.mbj", "--verify", share)
-                    self.assertIn("rendered again has the same bits", result.stderr)
+                    self.assertIn("rendered again is bit-identical", result.stderr)
                 (self.folder / "a.mbj").unlink()
                 (self.folder / "b.mbj").unlink()
 
@@ -81,7 +81,7 @@ class Shares(JournalTest):
         self.assert_refused(self.run_cli("merge", "a.mbj", "--verify", "1%"), 2, "--scene")
         self.merge("a.mbj", "--verify", "1%", "--scene", "moved.json")
         self.assert_refused(self.run_cli("merge", "a.mbj", "--verify", "1%", "--scene",
-                                         scene_path("glass")), 3, "different scene")
+                                         scene_path("glass")), 3, "the scene differs")
 
     def test_verified_with_the_options_of_the_parts(self):
         for more in [["--ambient", "0.3"], ["--ambient", "0.1,0.2,0.3", "--light-scale", "0.4"]]:
@@ -94,7 +94,7 @@ class Shares(JournalTest):
         self.share("0/2", "a.mbj", *SMALL, scene="mirror-hall")
         self.share("1/2", "b.mbj", *SMALL, "--max-bounces", "2", scene="mirror-hall")
         result = self.run_cli("merge", "a.mbj", "b.mbj")
-        self.assert_refused(result, 3, "b.mbj: has different settings than a.mbj")
+        self.assert_refused(result, 3, "b.mbj: is not a part of the same picture as a.mbj: the settings differ")
         self.assertEqual(result.stderr.count("b.mbj"), 1)
 
     def test_fit_together_whatever_finds_their_hits(self):
@@ -210,7 +210,7 @@ class Shares(JournalTest):
         self.share("1/2", "b.mbj", *SMALL, "--aa", "none")
         self.share("1/2", "c.mbj", *SMALL, scene="glass")
         self.write_text("text.mbj", "no journal")
-        for part, words in [("b.mbj", "different settings"), ("c.mbj", "different scene"),
+        for part, words in [("b.mbj", "the settings differ"), ("c.mbj", "the scene differs"),
                             ("text.mbj", "is not a journal"),
                             ("nowhere.mbj", "cannot read"), (".", "directory")]:
             self.assert_refused(self.run_cli("merge", "a.mbj", part, "-o", "x.png"), 3, part, words)
@@ -306,7 +306,7 @@ class Resume(JournalTest):
         self.share("0/1", "out.png.mbj", *SMALL)
         (self.folder / "out.png.mbj").write_bytes(self.bytes_of("out.png.mbj")[:-20])
         result = self.render("cornell-box", "-o", "out.png", *SMALL)
-        self.assertRegex(result.stderr, r"resuming .*; ignored its last \d+ bytes, which are damaged")
+        self.assertRegex(result.stderr, r"resuming .*; ignored its damaged end \(\d+ bytes\)")
 
     def test_the_unfinished_picture_goes_with_the_finished_one(self):
         self.interrupted(signal.SIGTERM, scene_path("mirror-hall"), "--size", "300", "--aa",
@@ -334,7 +334,7 @@ class Resume(JournalTest):
                        'exit $code')
             result = self.run_shell(f"{' '.join(namespace)} bash -c {shlex.quote(command)}")
             self.assertEqual(result.returncode, code, result.stderr)
-            self.assertIn("the disk is full: writing t/out.pfm in place of t/out.pfm.mbj",
+            self.assertIn("the disk is full; replacing t/out.pfm.mbj with t/out.pfm",
                           result.stderr)
             self.assertEqual(self.files(), [left, "part.mbj", "t"])
             self.assertGreater((self.folder / left).stat().st_size, 500000)

@@ -21,7 +21,7 @@ class WrongName(CliTest):
     def test_unknown_extension(self):
         for name in ["out.gif", "out", "out.png.bak", ".png", "out."]:
             with self.subTest(name=name):
-                self.assert_refused(self.render_to(name), 2, name, ".png, .exr or .pfm")
+                self.assert_refused(self.render_to(name), 2, name, ".png, .exr, .pfm")
         self.assertEqual(self.files(), [])
 
     def test_extension_in_capitals_is_known(self):
@@ -152,7 +152,7 @@ class OverInputs(CliTest):
         self.render(SCENE, "--size", "8", "--device", "threads", "-o", "a.png")
         self.write_text("notes.txt", "mine")
         self.assert_refused(self.run_cli("compare", "a.png", "a.png", "--json=notes.txt"), 2,
-                            "does not hold such results")
+                            "is not such a result file")
         self.assertEqual((self.folder / "notes.txt").read_text(), "mine")
         for _ in range(2):
             result = self.run_cli("compare", "a.png", "a.png", "--json=a.json")

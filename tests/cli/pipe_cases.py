@@ -61,14 +61,14 @@ class PictureToStdout(CliTest):
     def test_what_else_would_want_stdout(self):
         for more in [["--stats"], ["--stats=json"], ["--reference", "x.png"]]:
             result = self.run_cli("render", scene_path("single-sphere"), "-o", "-", *more)
-            self.assert_refused(result, 2, "-o -", "--stats and --reference")
+            self.assert_refused(result, 2, "-o -", "--stats or --reference")
 
     def test_format_is_for_stdout_alone(self):
         scene = scene_path("single-sphere")
         self.assert_refused(self.run_cli("render", scene, "-o", "a.png", "--format", "exr"), 2,
-                            "--format", "ending")
+                            "--format", "extension")
         self.assert_refused(self.run_cli("render", scene, "-o", "-", "--format", "gif"), 2,
-                            "'gif'", "png, exr or pfm")
+                            "'gif'", "png, exr, pfm")
 
     def test_merge(self):
         scene = scene_path("single-sphere")

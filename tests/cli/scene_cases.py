@@ -231,14 +231,14 @@ class Models(CliTest):
         for options, lines in [((), 2), (("-q",), 0)]:
             result = self.run_cli("render", path, "--device", "threads", "--size", "8", *options)
             self.assertEqual(result.returncode, 0)
-            self.assertEqual(result.stderr.count("left out"), lines)
+            self.assertEqual(result.stderr.count("ignored"), lines)
 
     def test_bench_says_what_is_left_out(self):
         path = self.write_text("A.OBJ", TRIANGLE + "f 1 1 2\n")
         result = self.run_cli("bench", path, "--devices", "threads", "--threads", "1", "--sizes", "8",
                               "--aa", "none", "--repeats", "1")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(result.stderr.count("left out"), 1)
+        self.assertEqual(result.stderr.count("ignored"), 1)
 
     def test_light_of_a_model_alone(self):
         path = self.write_text("a.obj", TRIANGLE)

@@ -131,7 +131,7 @@ class WrongOption(CliTest):
                 self.assert_option_refused(option, "")
         for verb, option in [("bench", "--baseline"), ("merge", "--scene"), ("stress", "-o")]:
             self.assert_refused(self.run_cli(verb, *["x"] * (verb != "stress"), option, ""), 2,
-                                option, "give a name")
+                                option, "expected a name")
 
     def test_missing_value(self):
         for option in ["--size", "--device", "--crop"]:

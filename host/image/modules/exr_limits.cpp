@@ -78,7 +78,7 @@ void read_channels(Bytes& bytes, HeaderLimits& header) {
         bytes.number<std::uint32_t>();  // pLinear
         const auto x_sampling = bytes.number<std::int32_t>();
         const auto y_sampling = bytes.number<std::int32_t>();
-        if (x_sampling != 1 || y_sampling != 1) refuse("not all channels have all pixels");
+        if (x_sampling != 1 || y_sampling != 1) refuse("it has subsampled channels");
         header.pixel_bytes += sizes[type];
     }
 }
@@ -108,9 +108,9 @@ bool read_header(Bytes& bytes, HeaderLimits& header) {
         } else if (type == "preview" && size >= 8) {
             const std::uint64_t width = bytes.number<std::uint32_t>();
             const std::uint64_t pixels = width * bytes.number<std::uint32_t>();
-            if (pixels > static_cast<std::uint64_t>(size) / 4) refuse("its preview is cut off");
+            if (pixels > static_cast<std::uint64_t>(size) / 4) refuse("its preview is truncated");
         }
-        if (bytes.left() < end) refuse("an attribute is longer than it says");
+        if (bytes.left() < end) refuse("an attribute is larger than declared");
         bytes.skip(bytes.left() - end);
     }
     return any;
@@ -132,7 +132,7 @@ Compression compression_of(const HeaderLimits& header) {
                                                  {16, 32},         // B44A
                                                  {200000, 32},     // DWAA
                                                  {200000, 256}}};  // DWAB
-    if (header.compression >= kinds.size()) refuse("its compression is unknown");
+    if (header.compression >= kinds.size()) refuse("its compression method is unknown");
     return kinds[header.compression];
 }
 
@@ -165,7 +165,7 @@ void check(const HeaderLimits& header, std::uint64_t file_size) {
     constexpr std::int64_t largest_side = 65536;
     constexpr std::uint64_t most_channels = 1024;
     if (header.width() < 1 || header.height() < 1 || header.channels.empty()) {
-        refuse("it holds no pixels");
+        refuse("it has no pixels");
     }
     if (header.width() > largest_side || header.height() > largest_side ||
         header.channels.size() > most_channels) {
@@ -187,7 +187,7 @@ ExrSize check_exr_headers(std::istream& stream, std::uint64_t file_size) {
     if (bytes.number<std::uint32_t>() != 20000630) refuse("it is not an EXR file");
     const auto version = bytes.number<std::uint32_t>();
     if ((version & 0xff) != 2) refuse("its version is unknown");
-    if ((version & deep) != 0) refuse("it holds deep pixels");
+    if ((version & deep) != 0) refuse("it has deep pixels");
     HeaderLimits first;
     read_header(bytes, first);
     check(first, file_size);

@@ -58,7 +58,7 @@ void read_rows(Imf::InputFile& file, Picture& picture) {
     if (window.max.x - window.min.x + 1 != picture.width ||
         window.max.y - window.min.y + 1 != picture.height ||
         names.size() != static_cast<std::size_t>(picture.channels)) {
-        throw std::runtime_error("its header gives two sizes");
+        throw std::runtime_error("its headers disagree on the size");
     }
     constexpr std::size_t band_values = std::size_t{1} << 24;
     const int most_rows = static_cast<int>(std::clamp<std::size_t>(band_values / row, 16, 256));

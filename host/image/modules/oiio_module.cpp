@@ -47,7 +47,7 @@ std::vector<std::byte> encode(const EncodeRequest& request) {
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto output = OIIO::ImageOutput::create(format);
     if (!output) fail(OIIO::geterror(), "unknown reason");
-    if (!output->set_ioproxy(&memory)) fail("", "no writing to memory in this format");
+    if (!output->set_ioproxy(&memory)) fail("", "this format cannot be written to memory");
     const bool written = output->open("memory." + format, make_spec(request, type)) &&
                          output->write_image(type, pixels);
     const bool closed = output->close();
