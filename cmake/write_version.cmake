@@ -11,7 +11,7 @@ if(NOT revision)
 elseif(differs EQUAL 1)
     string(APPEND revision -dirty)
 endif()
-set(text "#include \"host/version.h\"\n
+set(text "#include \"host/base/version.h\"\n
 namespace rt {
 const char* const version = \"${VERSION}\";
 const char* const git_revision = \"${revision}\";

@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "host/console.h"
-#include "host/error.h"
-#include "host/exit_status.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
 #include "host/opencl/icd_files.h"
 #include "host/options/options.h"
 #include "host/picture/render_stats.h"
 #include "host/pocl/pocl_environment.h"
-#include "host/stop_signal.h"
+#include "host/process/exit_status.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/verbs.h"
-#include "host/worker.h"
 
 namespace {
 

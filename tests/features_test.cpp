@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_program.h"
 #include "host/opencl/render_kernels.h"

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/journal/journal_reader.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_file.h"
 #include "host/scene/mistakes.h"

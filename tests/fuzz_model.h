@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/film.h"
 #include "host/render/picture_loop.h"

@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <string_view>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/film.h"
 #include "host/render/picture_loop.h"

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/image/png_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/picture/crew.h"
 
 namespace rt {

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/journal/journal_keeper.h"
 #include "host/journal/merge.h"
 #include "host/picture/render_picture.h"

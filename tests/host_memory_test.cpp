@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "host/huge_pages.h"
-#include "host/memory_limit.h"
+#include "host/base/huge_pages.h"
+#include "host/base/memory_limit.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 

@@ -13,11 +13,11 @@
 #include <limits>
 #include <set>
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/image/image_error.h"
 #include "host/opencl/device_spec.h"
 #include "host/opencl/gpu_nodes.h"
-#include "host/parallel.h"
 #include "host/render/adaptive.h"
 #include "host/render/film.h"
 #include "host/render/launch_pacer.h"

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "host/error.h"
-#include "host/printable.h"
+#include "host/base/error.h"
+#include "host/base/printable.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/json_file.h"
 #include "host/scene/json_plain.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/print/stress_json.h"
 #include "host/print/stress_text.h"
 #include "host/report/sections.h"

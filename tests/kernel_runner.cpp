@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/opencl/cl_program.h"
 #include "host/opencl/device_spec.h"
 #include "tests/native_bits.h"

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 namespace rt {
 

@@ -19,8 +19,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/parallel.h"
 #include "host/flatten/bvh_split.h"
-#include "host/parallel.h"
 
 namespace rt {
 

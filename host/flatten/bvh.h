@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <span>
 
+#include "host/base/huge_pages.h"
 #include "host/flatten/flat_types.h"
-#include "host/huge_pages.h"
 
 namespace rt {
 

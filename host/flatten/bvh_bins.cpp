@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/parallel.h"
+#include "host/base/parallel.h"
 
 namespace rt::bvh {
 

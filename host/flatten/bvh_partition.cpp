@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "host/parallel.h"
+#include "host/base/parallel.h"
 
 namespace rt::bvh {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 
+#include "host/base/parallel.h"
 #include "host/flatten/bvh.h"
 #include "host/flatten/bvh_range.h"
-#include "host/parallel.h"
 
 namespace rt {
 

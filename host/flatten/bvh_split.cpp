@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/parallel.h"
 #include "host/flatten/bvh_bins.h"
 #include "host/flatten/bvh_few.h"
 #include "host/flatten/bvh_partition.h"
-#include "host/parallel.h"
 
 namespace rt::bvh {
 

@@ -8,15 +8,15 @@
 #include <chrono>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/memory_limit.h"
+#include "host/base/parallel.h"
 #include "host/flatten/boxes.h"
 #include "host/flatten/casters.h"
 #include "host/flatten/flat_materials.h"
 #include "host/flatten/flat_params.h"
 #include "host/flatten/flat_shapes.h"
 #include "host/flatten/view_frame.h"
-#include "host/memory_limit.h"
-#include "host/parallel.h"
 
 namespace rt {
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 namespace rt {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
-#include "host/parallel.h"
+#include "host/base/parallel.h"
 
 namespace rt {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "host/base/named.h"
 #include "host/image/picture.h"
-#include "host/named.h"
 
 namespace rt {
 

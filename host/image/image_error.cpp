@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 namespace rt {
 

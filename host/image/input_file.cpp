@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "host/error.h"
-#include "host/memory_limit.h"
+#include "host/base/error.h"
+#include "host/base/memory_limit.h"
 
 namespace rt {
 

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "host/module_file.h"
+#include "host/base/module_file.h"
 
 namespace rt {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/image/picture_format.h"
 #include "host/image/picture_module.h"
 

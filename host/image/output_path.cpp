@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "host/error.h"
-#include "host/usage_error.h"
+#include "host/base/error.h"
+#include "host/base/usage_error.h"
 
 namespace rt {
 namespace {

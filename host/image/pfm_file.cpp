@@ -9,9 +9,9 @@
 #include <optional>
 #include <span>
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/number.h"
 #include "host/image/atomic_file.h"
-#include "host/number.h"
 
 namespace rt {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <limits>
 
-#include "host/lower.h"
-#include "host/usage_error.h"
+#include "host/base/lower.h"
+#include "host/base/usage_error.h"
 
 namespace rt {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/image/input_file.h"
 #include "host/image/module_loader.h"
 #include "host/image/pfm_file.h"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/image/atomic_file.h"
 #include "host/image/module_loader.h"
 #include "host/image/output_path.h"

@@ -15,8 +15,8 @@
 #include <thread>
 #include <utility>
 
-#include "host/error.h"
-#include "host/printable.h"
+#include "host/base/error.h"
+#include "host/base/printable.h"
 
 namespace rt {
 

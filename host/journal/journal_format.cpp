@@ -9,7 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 static_assert(std::endian::native == std::endian::little, "journals are little-endian");
 

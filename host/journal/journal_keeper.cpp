@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 namespace rt {
 

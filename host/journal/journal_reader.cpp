@@ -5,8 +5,8 @@
 #include <cstring>
 #include <utility>
 
-#include "host/error.h"
-#include "host/memory_limit.h"
+#include "host/base/error.h"
+#include "host/base/memory_limit.h"
 
 namespace rt {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/journal/journal_format.h"
 #include "host/render/film.h"
 #include "host/render/picture_loop.h"

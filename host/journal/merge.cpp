@@ -9,12 +9,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "host/counted.h"
-#include "host/error.h"
-#include "host/hash.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
+#include "host/base/hash.h"
+#include "host/base/printable.h"
 #include "host/image/input_file.h"
 #include "host/journal/journal_reader.h"
-#include "host/printable.h"
 
 namespace rt {
 

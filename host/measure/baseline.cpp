@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/measure/bench.h"
 #include "host/scene/text_file.h"
 

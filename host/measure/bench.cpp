@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "host/base/named.h"
 #include "host/measure/amdahl.h"
-#include "host/named.h"
 
 namespace rt {
 

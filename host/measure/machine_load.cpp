@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "host/counted.h"
-#include "host/parallel.h"
+#include "host/base/counted.h"
+#include "host/base/parallel.h"
 
 namespace rt {
 

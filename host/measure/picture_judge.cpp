@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/counted.h"
+#include "host/base/counted.h"
 
 namespace rt {
 

@@ -8,9 +8,9 @@
 #include <thread>
 #include <type_traits>
 
-#include "host/error.h"
-#include "host/module_file.h"
-#include "host/usage_error.h"
+#include "host/base/error.h"
+#include "host/base/module_file.h"
+#include "host/base/usage_error.h"
 
 namespace rt {
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "host/base/printable.h"
 #include "host/opencl/opencl.h"
-#include "host/printable.h"
 
 namespace rt {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/opencl/kept_programs.h"
 #include "host/opencl/opencl.h"
 #include "host/pocl/pocl_build.h"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/opencl/cl_buffer.h"
 #include "host/opencl/cl_film.h"
 #include "host/opencl/cl_program.h"

@@ -8,12 +8,12 @@
 #include <optional>
 #include <system_error>
 
-#include "host/error.h"
-#include "host/lower.h"
-#include "host/number.h"
+#include "host/base/error.h"
+#include "host/base/lower.h"
+#include "host/base/number.h"
+#include "host/base/usage_error.h"
 #include "host/opencl/gpu_nodes.h"
 #include "host/pocl/pocl_environment.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

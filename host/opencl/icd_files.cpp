@@ -20,7 +20,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host/printable.h"
+#include "host/base/printable.h"
 
 namespace rt {
 

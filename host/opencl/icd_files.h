@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "host/base/temporary_folder.h"
 #include "host/opencl/cl_device.h"
-#include "host/temporary_folder.h"
 
 namespace rt {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <string>
 
+#include "host/base/usage_error.h"
 #include "host/image/output_path.h"
 #include "host/options/command_line.h"
 #include "host/options/parse.h"
 #include "host/options/render_options.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/named.h"
+#include "host/base/named.h"
 
 namespace rt {
 

@@ -6,10 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "host/base/printable.h"
+#include "host/base/usage_error.h"
 #include "host/options/verb_texts.h"
-#include "host/printable.h"
 #include "host/scene/words.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "host/base/version.h"
 #include "host/options/parse.h"
 #include "host/options/verb_options.h"
-#include "host/version.h"
 
 namespace rt {
 

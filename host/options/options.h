@@ -72,7 +72,7 @@ struct Options {
                stress.quiet;
     }
 
-    std::string worker_link;  ///< not empty: this process may be a worker (host/worker.h)
+    std::string worker_link;  ///< not empty: this process may be a worker (host/process/worker.h)
     std::string text;         ///< help or version, to be printed instead of doing anything
 };
 

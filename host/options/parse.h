@@ -11,8 +11,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "host/named.h"
-#include "host/number.h"
+#include "host/base/named.h"
+#include "host/base/number.h"
 #include "host/options/command_line.h"
 #include "host/options/render_options.h"
 

@@ -3,9 +3,9 @@
 
 #include <unistd.h>
 
+#include "host/base/usage_error.h"
 #include "host/image/output_path.h"
 #include "host/options/parse.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

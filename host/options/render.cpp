@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/opencl/device_spec.h"
 #include "host/options/lists.h"
 #include "host/options/picture_output.h"

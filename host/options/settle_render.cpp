@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/usage_error.h"
 #include "host/image/output_path.h"
 #include "host/options/aov.h"
 #include "host/options/frame_number.h"
 #include "host/options/picture_output.h"
 #include "host/scene/scene_file.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

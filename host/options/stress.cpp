@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/base/usage_error.h"
 #include "host/options/lists.h"
 #include "host/options/verb_options.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

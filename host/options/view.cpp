@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "host/lower.h"
+#include "host/base/lower.h"
 #include "host/options/parse.h"
 #include "host/options/verb_options.h"
 

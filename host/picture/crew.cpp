@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
-#include "host/error.h"
-#include "host/low_priority.h"
+#include "host/base/error.h"
+#include "host/base/low_priority.h"
 #include "host/picture/pixel_runs.h"
 #include "host/render/stopwatch.h"
 

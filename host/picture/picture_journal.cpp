@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/counted.h"
-#include "host/error.h"
-#include "host/hash.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
+#include "host/base/hash.h"
+#include "host/base/version.h"
 #include "host/opencl/render_kernels.h"
-#include "host/version.h"
 
 namespace rt {
 

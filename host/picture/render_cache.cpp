@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/render_cache.h"
 
-#include "host/hash.h"
+#include "host/base/hash.h"
 #include "host/opencl/cl_options.h"
 
 namespace rt {

@@ -11,9 +11,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/memory_limit.h"
+#include "host/base/usage_error.h"
 #include "host/flatten/flat_scene.h"
-#include "host/memory_limit.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/picture/crew_members.h"
 #include "host/picture/device_stats.h"
@@ -24,7 +25,6 @@
 #include "host/render/picture_loop.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_hash.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/named.h"
-#include "host/processor_time.h"
+#include "host/base/named.h"
+#include "host/base/processor_time.h"
 
 namespace rt {
 

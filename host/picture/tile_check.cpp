@@ -9,7 +9,7 @@
 #include <numeric>
 #include <random>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 

@@ -5,11 +5,11 @@
 
 #include <map>
 
+#include "host/base/named.h"
+#include "host/base/printable.h"
 #include "host/measure/bench.h"
 #include "host/measure/machine_load.h"
-#include "host/named.h"
 #include "host/print/rounds_text.h"
-#include "host/printable.h"
 
 namespace rt {
 

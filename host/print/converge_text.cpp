@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
-#include "host/counted.h"
+#include "host/base/counted.h"
+#include "host/base/named.h"
+#include "host/base/printable.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
-#include "host/named.h"
 #include "host/print/rounds_text.h"
-#include "host/printable.h"
 
 namespace rt {
 

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "host/parallel.h"
-#include "host/version.h"
+#include "host/base/parallel.h"
+#include "host/base/version.h"
 
 namespace rt {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/printable.h"
+#include "host/base/printable.h"
 
 namespace rt {
 

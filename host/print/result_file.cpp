@@ -5,8 +5,8 @@
 #include <fstream>
 #include <span>
 
-#include "host/console.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
 #include "host/image/atomic_file.h"
 #include "host/image/output_path.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/counted.h"
+#include "host/base/counted.h"
 
 namespace rt {
 

@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "host/named.h"
+#include "host/base/named.h"
+#include "host/base/printable.h"
+#include "host/base/version.h"
 #include "host/print/environment_json.h"
-#include "host/printable.h"
-#include "host/version.h"
 
 namespace rt {
 

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "host/named.h"
+#include "host/base/named.h"
+#include "host/base/printable.h"
 #include "host/print/environment_json.h"
 #include "host/print/error_json.h"
 #include "host/print/flatten_text.h"
-#include "host/printable.h"
 
 namespace rt {
 

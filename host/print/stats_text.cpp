@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "host/counted.h"
-#include "host/named.h"
+#include "host/base/counted.h"
+#include "host/base/named.h"
 #include "host/print/flatten_text.h"
 
 namespace rt {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/named.h"
+#include "host/base/named.h"
 #include "host/picture/render_stats.h"
 #include "host/print/run_json.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "host/named.h"
+#include "host/base/named.h"
 
 namespace rt {
 

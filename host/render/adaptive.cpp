@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "host/parallel.h"
+#include "host/base/parallel.h"
 
 namespace rt {
 

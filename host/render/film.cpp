@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "host/hash.h"
+#include "host/base/hash.h"
 
 namespace rt {
 

@@ -8,8 +8,8 @@
 #include <array>
 #include <span>
 
-#include "host/error.h"
-#include "host/usage_error.h"
+#include "host/base/error.h"
+#include "host/base/usage_error.h"
 #include "native_table.h"
 
 // The entry points of every variant, as native.cl declares them.

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "host/base/parallel.h"
 #include "host/flatten/view_frame.h"
-#include "host/parallel.h"
 #include "host/render/explain.h"
 #include "host/render/native_kernels.h"
 #include "host/render/packet_shape.h"

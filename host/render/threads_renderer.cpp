@@ -5,8 +5,8 @@
 #include <array>
 #include <atomic>
 
-#include "host/memory_limit.h"
-#include "host/parallel.h"
+#include "host/base/memory_limit.h"
+#include "host/base/parallel.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "host/base64.h"
-#include "host/utf8.h"
+#include "host/base/base64.h"
+#include "host/base/utf8.h"
 
 namespace rt {
 

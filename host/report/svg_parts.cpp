@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/utf8.h"
 #include "host/report/html.h"
-#include "host/utf8.h"
 
 namespace rt {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/number.h"
+#include "host/base/number.h"
 
 namespace rt {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/named.h"
+#include "host/base/named.h"
 
 namespace rt {
 

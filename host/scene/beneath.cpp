@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/scene/words.h"
 
 namespace rt {

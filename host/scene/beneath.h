@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "host/file_descriptor.h"
+#include "host/base/file_descriptor.h"
 
 namespace rt {
 

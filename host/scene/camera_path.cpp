@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/scene/geometry_checks.h"
 
 namespace rt {

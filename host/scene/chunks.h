@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/parallel.h"
+#include "host/base/parallel.h"
 
 namespace rt {
 

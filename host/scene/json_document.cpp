@@ -8,11 +8,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/utf8.h"
 #include "host/scene/json_plain.h"
 #include "host/scene/json_syntax.h"
 #include "host/scene/words.h"
-#include "host/utf8.h"
 
 namespace rt {
 namespace {

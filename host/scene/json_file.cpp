@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "host/printable.h"
+#include "host/base/printable.h"
 #include "host/scene/json_camera.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_meshes.h"

@@ -8,8 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "host/base/utf8.h"
 #include "host/scene/json_syntax.h"
-#include "host/utf8.h"
 
 namespace rt {
 namespace {

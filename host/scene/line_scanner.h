@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "host/base/utf8.h"
 #include "host/scene/mistakes.h"
-#include "host/utf8.h"
 
 namespace rt {
 

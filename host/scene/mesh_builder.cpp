@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "host/counted.h"
+#include "host/base/counted.h"
 
 namespace rt {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "host/parallel.h"
+#include "host/base/parallel.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/scene_limits.h"
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/error.h"
-#include "host/printable.h"
-#include "host/utf8.h"
+#include "host/base/error.h"
+#include "host/base/printable.h"
+#include "host/base/utf8.h"
 
 namespace rt {
 

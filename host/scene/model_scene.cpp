@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "host/error.h"
-#include "host/parallel.h"
-#include "host/printable.h"
+#include "host/base/error.h"
+#include "host/base/parallel.h"
+#include "host/base/printable.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/model_file.h"
 #include "host/scene/obj_materials.h"

@@ -8,8 +8,8 @@
 #include <optional>
 #include <unordered_map>
 
-#include "host/counted.h"
-#include "host/printable.h"
+#include "host/base/counted.h"
+#include "host/base/printable.h"
 #include "host/scene/line_scanner.h"
 #include "host/scene/scene_limits.h"
 #include "host/scene/words.h"

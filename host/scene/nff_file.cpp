@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "host/error.h"
-#include "host/printable.h"
+#include "host/base/error.h"
+#include "host/base/printable.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/nff_fill.h"
 #include "host/scene/nff_polygon.h"

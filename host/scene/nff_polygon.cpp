@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/scene/geometry_checks.h"
 
 namespace rt {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <system_error>
 
+#include "host/base/utf8.h"
 #include "host/scene/scene_limits.h"
 #include "host/scene/words.h"
-#include "host/utf8.h"
 
 namespace rt {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "host/counted.h"
-#include "host/printable.h"
+#include "host/base/counted.h"
+#include "host/base/printable.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/obj_corner.h"
 #include "host/scene/words.h"

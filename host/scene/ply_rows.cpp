@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/counted.h"
+#include "host/base/counted.h"
 #include "host/scene/words.h"
 
 namespace rt {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene_file.h"
 
-#include "host/lower.h"
+#include "host/base/lower.h"
 #include "host/scene/json_file.h"
 #include "host/scene/model_file.h"
 #include "host/scene/nff_file.h"

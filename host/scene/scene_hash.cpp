@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene_hash.h"
 
-#include "host/hash.h"
+#include "host/base/hash.h"
 
 namespace rt {
 

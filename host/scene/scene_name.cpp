@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "host/printable.h"
+#include "host/base/printable.h"
 
 namespace rt {
 

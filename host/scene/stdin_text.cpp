@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/scene/json_document.h"
 
 namespace rt {

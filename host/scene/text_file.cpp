@@ -10,9 +10,9 @@
 #include <cstring>
 #include <vector>
 
-#include "host/error.h"
-#include "host/parallel.h"
-#include "host/printable.h"
+#include "host/base/error.h"
+#include "host/base/parallel.h"
+#include "host/base/printable.h"
 
 namespace rt {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "host/printable.h"
-#include "host/utf8.h"
+#include "host/base/printable.h"
+#include "host/base/utf8.h"
 
 namespace rt {
 namespace {

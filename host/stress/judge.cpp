@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/counted.h"
+#include "host/base/counted.h"
 
 namespace rt {
 

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "host/parallel.h"
+#include "host/base/parallel.h"
 #include "host/render/ray_tracer.h"
 #include "host/stress/stress_case.h"
 #include "host/stress/wide_real.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/parallel.h"
+#include "host/base/parallel.h"
 
 namespace rt {
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "host/base/usage_error.h"
 #include "host/stress/families.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "host/console.h"
+#include "host/base/console.h"
 #include "host/image/false_color.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
+#include "host/process/stop_signal.h"
 #include "host/render/pixel_facts.h"
-#include "host/stop_signal.h"
 
 namespace rt {
 

@@ -14,12 +14,12 @@
 #include <iomanip>
 #include <sstream>
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/usage_error.h"
 #include "host/image/output_path.h"
 #include "host/options/frame_number.h"
+#include "host/process/stop_signal.h"
 #include "host/scene/scene_file.h"
-#include "host/stop_signal.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

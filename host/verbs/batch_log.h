@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "host/file_descriptor.h"
+#include "host/base/file_descriptor.h"
 
 namespace rt {
 

@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
-#include "host/console.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/image/output_path.h"
 #include "host/measure/baseline.h"
-#include "host/parallel.h"
 #include "host/print/bench_csv.h"
 #include "host/print/bench_json.h"
 #include "host/print/bench_text.h"
@@ -20,11 +20,11 @@
 #include "host/print/run_csv.h"
 #include "host/print/run_json.h"
 #include "host/print/stats_json.h"
+#include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
 #include "host/render/threads_renderer.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
-#include "host/stop_signal.h"
 #include "host/verbs/ablation.h"
 #include "host/verbs/default_scene.h"
 #include "host/verbs/device_list.h"

@@ -6,9 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "host/console.h"
-#include "host/counted.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
+#include "host/base/printable.h"
+#include "host/base/usage_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/measure/flip.h"
@@ -18,8 +20,6 @@
 #include "host/print/result_file.h"
 #include "host/print/run_json.h"
 #include "host/print/stats_json.h"
-#include "host/printable.h"
-#include "host/usage_error.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {

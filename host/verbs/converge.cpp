@@ -10,8 +10,8 @@
 #include <tuple>
 #include <utility>
 
-#include "host/console.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
 #include "host/image/output_path.h"
 #include "host/measure/bench.h"
 #include "host/print/converge_csv.h"
@@ -21,10 +21,10 @@
 #include "host/print/run_csv.h"
 #include "host/print/run_json.h"
 #include "host/print/stats_json.h"
+#include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
-#include "host/stop_signal.h"
 #include "host/verbs/converge_reference.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/measure.h"

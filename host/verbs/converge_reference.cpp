@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "host/console.h"
-#include "host/error.h"
-#include "host/hash.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/image/atomic_file.h"
 #include "host/image/image_error.h"
 #include "host/image/pfm_file.h"

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "host/console.h"
+#include "host/base/console.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/opencl/device_spec.h"
 #include "host/pocl/pocl_environment.h"
-#include "host/worker.h"
+#include "host/process/worker.h"
 
 namespace rt {
 

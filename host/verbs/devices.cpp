@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/console.h"
-#include "host/counted.h"
+#include "host/base/console.h"
+#include "host/base/counted.h"
+#include "host/base/parallel.h"
 #include "host/measure/machine_load.h"
 #include "host/opencl/cl_device.h"
 #include "host/opencl/icd_files.h"
-#include "host/parallel.h"
 #include "host/pocl/pocl_environment.h"
 #include "host/print/stats_json.h"
 #include "host/render/native_kernels.h"

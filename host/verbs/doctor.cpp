@@ -4,25 +4,25 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/console.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/base/named.h"
+#include "host/base/temporary_folder.h"
+#include "host/base/version.h"
 #include "host/image/picture_io.h"
 #include "host/mpi/ranks.h"
-#include "host/named.h"
 #include "host/opencl/icd_files.h"
 #include "host/picture/render_picture.h"
 #include "host/pocl/pocl_cache.h"
 #include "host/pocl/pocl_environment.h"
 #include "host/print/stats_json.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/render/native_kernels.h"
 #include "host/render/stopwatch.h"
-#include "host/stop_signal.h"
-#include "host/temporary_folder.h"
 #include "host/verbs/default_scene.h"
 #include "host/verbs/verbs.h"
-#include "host/version.h"
 #include "host/view/sdl.h"
-#include "host/worker.h"
 
 namespace rt {
 

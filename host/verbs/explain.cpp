@@ -3,16 +3,16 @@
 
 #include <cmath>
 
-#include "host/console.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/base/printable.h"
+#include "host/base/usage_error.h"
 #include "host/measure/ray_tree.h"
 #include "host/picture/render_stats.h"
 #include "host/print/ray_tree_text.h"
 #include "host/print/stats_json.h"
-#include "host/printable.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
-#include "host/usage_error.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {

@@ -13,18 +13,18 @@
 #include <utility>
 #include <vector>
 
-#include "host/console.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/base/temporary_folder.h"
 #include "host/opencl/device_spec.h"
 #include "host/opencl/icd_files.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/stdin_text.h"
-#include "host/stop_signal.h"
-#include "host/temporary_folder.h"
 #include "host/verbs/batch_log.h"
 #include "host/verbs/render_steps.h"
-#include "host/worker.h"
 
 namespace rt {
 

@@ -5,16 +5,16 @@
 
 #include <vector>
 
-#include "host/console.h"
-#include "host/counted.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
+#include "host/base/printable.h"
+#include "host/base/temporary_folder.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/picture/render_stats.h"
-#include "host/printable.h"
-#include "host/stop_signal.h"
-#include "host/temporary_folder.h"
+#include "host/process/stop_signal.h"
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
 #include "host/verbs/verify_parts.h"

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <thread>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/journal/share_queue.h"
+#include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
-#include "host/stop_signal.h"
 #include "host/verbs/share_renderer.h"
 
 namespace rt {

@@ -13,11 +13,11 @@
 #include <thread>
 #include <vector>
 
-#include "host/console.h"
+#include "host/base/console.h"
+#include "host/base/printable.h"
 #include "host/journal/share_queue.h"
-#include "host/printable.h"
+#include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
-#include "host/stop_signal.h"
 #include "host/verbs/share_renderer.h"
 #include "host/verbs/verbs.h"
 

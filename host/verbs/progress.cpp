@@ -8,7 +8,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "host/console.h"
+#include "host/base/console.h"
 #include "host/view/terminal.h"
 
 namespace rt {

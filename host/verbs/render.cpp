@@ -6,15 +6,16 @@
 #include <utility>
 #include <vector>
 
-#include "host/console.h"
-#include "host/counted.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
-#include "host/stop_signal.h"
 #include "host/verbs/aov.h"
 #include "host/verbs/isolated_render.h"
 #include "host/verbs/render_batch.h"
@@ -22,7 +23,6 @@
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
 #include "host/verbs/watch.h"
-#include "host/worker.h"
 
 namespace rt {
 

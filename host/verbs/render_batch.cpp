@@ -11,24 +11,24 @@
 #include <utility>
 #include <vector>
 
-#include "host/console.h"
-#include "host/counted.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
+#include "host/base/usage_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/opencl/device_spec.h"
 #include "host/options/frame_number.h"
 #include "host/picture/render_cache.h"
 #include "host/print/stats_json.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/camera_path.h"
 #include "host/scene/scene_hash.h"
-#include "host/stop_signal.h"
-#include "host/usage_error.h"
 #include "host/verbs/batch_list.h"
 #include "host/verbs/batch_log.h"
 #include "host/verbs/render_steps.h"
-#include "host/worker.h"
 
 namespace rt {
 

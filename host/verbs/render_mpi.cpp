@@ -3,11 +3,11 @@
 
 #include <set>
 
-#include "host/exit_status.h"
 #include "host/image/picture_io.h"
 #include "host/mpi/ranks.h"
+#include "host/process/exit_status.h"
+#include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
-#include "host/stop_signal.h"
 #include "host/verbs/mpi_guest.h"
 #include "host/verbs/mpi_host.h"
 

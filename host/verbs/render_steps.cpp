@@ -8,20 +8,20 @@
 #include <filesystem>
 #include <utility>
 
-#include "host/console.h"
-#include "host/counted.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
+#include "host/base/version.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/journal/journal_file.h"
 #include "host/print/stats_json.h"
 #include "host/print/stats_text.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/scene/scene_file.h"
-#include "host/stop_signal.h"
-#include "host/version.h"
 #include "host/view/make_viewers.h"
-#include "host/worker.h"
 
 namespace rt {
 

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <span>
 
-#include "host/console.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
 #include "host/image/atomic_file.h"
 #include "host/measure/bench.h"
 #include "host/print/bench_json.h"
 #include "host/print/converge_json.h"
 #include "host/print/environment_json.h"
 #include "host/print/result_file.h"
+#include "host/process/stop_signal.h"
 #include "host/report/report_page.h"
 #include "host/scene/scene_file.h"
-#include "host/stop_signal.h"
 #include "host/verbs/converge_reference.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/measure.h"

@@ -4,14 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/console.h"
-#include "host/counted.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
+#include "host/base/printable.h"
 #include "host/flatten/flat_scene.h"
 #include "host/picture/render_stats.h"
 #include "host/print/flatten_text.h"
 #include "host/print/stats_json.h"
-#include "host/printable.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/scene/scene_warnings.h"

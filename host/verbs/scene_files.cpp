@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/scene/json_document.h"
 #include "host/scene/line_scanner.h"
 #include "host/scene/model_file.h"

@@ -9,9 +9,9 @@
 #include <system_error>
 
 #include "host/image/output_path.h"
-#include "host/stop_signal.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/verbs/render_steps.h"
-#include "host/worker.h"
 
 namespace rt {
 

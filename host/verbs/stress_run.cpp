@@ -7,17 +7,17 @@
 #include <map>
 #include <set>
 
-#include "host/console.h"
-#include "host/counted.h"
-#include "host/error.h"
-#include "host/hash.h"
-#include "host/named.h"
+#include "host/base/console.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
+#include "host/base/hash.h"
+#include "host/base/named.h"
 #include "host/opencl/cl_ray_tracer.h"
 #include "host/opencl/device_spec.h"
 #include "host/picture/render_picture.h"
+#include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/json_file.h"
-#include "host/stop_signal.h"
 #include "host/stress/ray_trials.h"
 #include "host/verbs/device_list.h"
 #include "host/verbs/stress_pictures.h"

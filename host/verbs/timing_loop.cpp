@@ -6,14 +6,14 @@
 
 #include <cmath>
 
-#include "host/console.h"
-#include "host/counted.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/counted.h"
+#include "host/base/error.h"
 #include "host/measure/machine_load.h"
 #include "host/measure/statistics.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/render/stopwatch.h"
-#include "host/stop_signal.h"
-#include "host/worker.h"
 
 namespace rt {
 

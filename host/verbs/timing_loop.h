@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "host/base/temporary_folder.h"
 #include "host/image/picture.h"
 #include "host/measure/bench_result.h"
 #include "host/measure/picture_judge.h"
 #include "host/options/options.h"
 #include "host/picture/render_picture.h"
 #include "host/scene/scene.h"
-#include "host/temporary_folder.h"
 
 namespace rt {
 

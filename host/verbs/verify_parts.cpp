@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/usage_error.h"
 #include "host/journal/shares.h"
 #include "host/picture/render_picture.h"
+#include "host/process/stop_signal.h"
 #include "host/scene/scene_file.h"
-#include "host/stop_signal.h"
-#include "host/usage_error.h"
 
 namespace rt {
 

@@ -9,11 +9,11 @@
 #include <tuple>
 #include <vector>
 
-#include "host/console.h"
-#include "host/error.h"
-#include "host/stop_signal.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/verbs/scene_files.h"
-#include "host/worker.h"
 
 namespace rt {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <iterator>
 
-#include "host/base64.h"
+#include "host/base/base64.h"
 
 namespace rt {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/file_descriptor.h"
+#include "host/base/file_descriptor.h"
 #include "host/view/view_settings.h"
 #include "host/view/viewer.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/low_priority.h"
+#include "host/base/low_priority.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/stop_signal.h"
+#include "host/process/stop_signal.h"
 
 // OpenCL drivers crash and hang, taking the process that loaded them with them. So the program
 // starts itself again as a worker process that loads them, and watches it through a pipe.

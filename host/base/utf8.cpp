@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/utf8.h"
+#include "host/base/utf8.h"
 
 #include <cstdint>
 #include <cstring>

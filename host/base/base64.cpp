@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base64.h"
+#include "host/base/base64.h"
 
 #include <algorithm>
 #include <cstdint>

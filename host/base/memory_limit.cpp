@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/memory_limit.h"
+#include "host/base/memory_limit.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 namespace rt {
 

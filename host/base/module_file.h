@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 namespace rt {
 

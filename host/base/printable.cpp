@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/printable.h"
+#include "host/base/printable.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "host/utf8.h"
+#include "host/base/utf8.h"
 
 namespace rt {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/file_descriptor.h"
+#include "host/base/file_descriptor.h"
 
 namespace rt {
 

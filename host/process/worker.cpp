@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/worker.h"
+#include "host/process/worker.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -23,9 +23,9 @@
 #include <system_error>
 #include <utility>
 
-#include "host/file_descriptor.h"
+#include "host/base/file_descriptor.h"
+#include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
-#include "host/stop_signal.h"
 
 namespace rt {
 

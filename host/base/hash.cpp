@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/hash.h"
+#include "host/base/hash.h"
 
 #include <cstring>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/stop_signal.h"
+#include "host/process/stop_signal.h"
 
 #include <sys/time.h>
 #include <unistd.h>
@@ -12,8 +12,8 @@
 #include <ctime>
 #include <string_view>
 
-#include "host/console.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
 #include "host/image/temporary_file.h"
 
 namespace rt {

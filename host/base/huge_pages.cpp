@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/huge_pages.h"
+#include "host/base/huge_pages.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

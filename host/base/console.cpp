@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/console.h"
+#include "host/base/console.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,8 +10,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "host/error.h"
-#include "host/printable.h"
+#include "host/base/error.h"
+#include "host/base/printable.h"
 
 namespace rt {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/exit_status.h"
+#include "host/process/exit_status.h"
 
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <system_error>
 
-#include "host/console.h"
-#include "host/error.h"
+#include "host/base/console.h"
+#include "host/base/error.h"
 
 namespace rt {
 

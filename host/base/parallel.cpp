@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/parallel.h"
+#include "host/base/parallel.h"
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -11,7 +11,7 @@
 #include <exception>
 #include <vector>
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 namespace rt {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/module_file.h"
+#include "host/base/module_file.h"
 
 #include <dlfcn.h>
 #include <signal.h>
