@@ -72,8 +72,8 @@ int watch_scene(const std::string& scene, bool is_quiet, const std::function<int
             print_error(error.what());
         }
         if (stop_flag() != 0 || is_over()) break;
-        if (!is_quiet) print_note("waiting for " + scene + " to change");
         const bool was_quiet = stop_quietly(true);  // nothing is left to save
+        if (!is_quiet) print_note("waiting for " + scene + " to change");
         await_change(files, before, is_over);
         stop_quietly(was_quiet);
     }
