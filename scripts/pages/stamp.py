@@ -28,9 +28,11 @@ def revision_stamp():
 def stamp(program, has_times=True):
     """One line of Markdown; scripts/bench's own for the scripts it runs, whose load is its work. A busy
     machine matters where there are times."""
+    busy = "; **the machine was busy**"
     if BENCH_STAMP in os.environ:
-        return os.environ[BENCH_STAMP]
+        where = os.environ[BENCH_STAMP]
+        return where if has_times else where.replace(busy, "")
     machine = environment(program)
-    busy = "; **the machine was busy**" if has_times and machine["busy"] else ""
     return (f"*{datetime.date.today()}, {machine['cpu']}, {machine['cores']} cores, "
-            f"{machine['os']}; {machine['program']}, revision {machine['git_revision']}{busy}.*")
+            f"{machine['os']}; {machine['program']}, revision {machine['git_revision']}"
+            f"{busy if has_times and machine['busy'] else ''}.*")
