@@ -9,7 +9,7 @@ ROOT = SOURCES.parent.parent
 COMPILER = ["g++", "-std=c++20", "-O3", "-march=native", "-mprefer-vector-width=512",
             "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-Wall", "-Wextra",
             "-Wno-maybe-uninitialized", "-Wno-psabi", "-Wno-unknown-pragmas"]
-LIBRARIES = ["threads", "scene", "memory"]
+LIBRARIES = ["threads", "scene", "base"]
 
 
 def run(command):
