@@ -59,7 +59,7 @@ bool has_opencl(const Devices& devices) {
                        [](const DeviceChoice& choice) { return !choice.use_threads; });
 }
 
-/// Until users are told what they are waiting for.
+/// Before users learn what they are waiting for.
 constexpr std::chrono::seconds compile_patience(1);
 
 /// Tile size in pixels for checking a picture that was not rendered in this run.

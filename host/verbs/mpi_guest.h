@@ -6,7 +6,7 @@
 
 namespace rt {
 
-/// Every other rank: renders the shares that rank 0 hands out, until told to end.
+/// Every other rank: renders the shares that rank 0 hands out, until rank 0 says stop.
 /// Failures are reported to rank 0. Returns the exit status.
 int serve_rank_0(const RenderOptions& options, Ranks& ranks);
 
