@@ -29,9 +29,7 @@ int isolated(const rt::RenderOptions& options, double seconds_before_main,
     if (has_failed() && end.task == rt::listing_devices) {
         const rt::IcdFiles files = rt::try_icd_files(options.drivers);
         const rt::UsableIcdFiles usable(files);
-        for (const std::string& problem : files.problems) {
-            rt::print_note(problem);
-        }
+        rt::print_notes(files.problems);
         if (files.any_dangerous && !files.usable.empty() && !usable.place().empty()) {
             end = rt::run_worker(options.command, {"OCL_ICD_VENDORS=" + usable.place()},
                                  options.deadline, seconds_before_main);

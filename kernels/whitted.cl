@@ -132,9 +132,9 @@ void scatter(const SceneView* scene, const Surface* surface, const Materials* ma
     Indices from = prim;
     Reals eta = inside ? material->ior : (Reals)1 / material->ior;
     Ray refracted = refracted_ray(surface, path->ray.dir, eta, prim, &total);
-    if (any_lane(glassy & (surface->back > (Reals)0))) {
+    Mask moved = glassy & (surface->back > (Reals)0);
+    if (any_lane(moved)) {
         note_crossed(scene, surface, path->ray.dir, inside, prim, &refracted);
-        Mask moved = glassy & (surface->back > (Reals)0);
         moved &= surface->signed_diameter != (Reals)0;
         from = moved ? (Indices)RT_NONE : prim;  // the chord no longer starts at the origin
         refracted.from = from;

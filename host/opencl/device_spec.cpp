@@ -73,19 +73,6 @@ Test test_for(const std::string& spec) {
 
 constexpr std::string_view all_devices = "all";
 
-std::vector<std::string> specs_of(const std::string& list) {
-    std::vector<std::string> specs;
-    for (std::size_t at = 0; at <= list.size();) {
-        const std::size_t end = std::min(list.find(',', at), list.size());
-        specs.push_back(list.substr(at, end - at));
-        at = end + 1;
-    }
-    if (specs.size() > 1 && std::find(specs.begin(), specs.end(), "") != specs.end()) {
-        usage_error("--device '{}': an item of the list is empty", list);
-    }
-    return specs;
-}
-
 /// Resolves a list of specs, listing devices at most once.
 class DeviceFinder {
    public:
@@ -208,6 +195,19 @@ bool names_threads(const std::string& spec, DeviceChoice& choice) {
     }
     choice.threads = *count;
     return true;
+}
+
+std::vector<std::string> specs_of(const std::string& list) {
+    std::vector<std::string> specs;
+    for (std::size_t at = 0; at <= list.size();) {
+        const std::size_t end = std::min(list.find(',', at), list.size());
+        specs.push_back(list.substr(at, end - at));
+        at = end + 1;
+    }
+    if (specs.size() > 1 && std::find(specs.begin(), specs.end(), "") != specs.end()) {
+        usage_error("--device '{}': an item of the list is empty", list);
+    }
+    return specs;
 }
 
 bool needs_opencl(const std::string& list) {

@@ -35,6 +35,9 @@ bool is_auto(const std::string& spec);
 /// automatic and this machine shows no GPU. Throws like names_threads.
 std::optional<DeviceChoice> choose_without_opencl(const std::string& spec);
 
+/// The specs of a comma-separated list. Throws Error (ExitCode::usage) if one of several is empty.
+std::vector<std::string> specs_of(const std::string& list);
+
 /// Whether finding the devices of a list needs OpenCL. Throws like names_threads.
 bool needs_opencl(const std::string& list);
 

@@ -24,6 +24,14 @@
 
 namespace rt {
 
+using Json = nlohmann::json;
+
+/// What a child process says of a device; all but icd_file, which it cannot know.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClDevice, index, platform_index, device_index, name, vendor,
+                                   driver, version, platform, is_cpu, is_gpu, compute_units,
+                                   float_lanes, double_lanes, memory_bytes, max_buffer_bytes,
+                                   has_double, rounds_correctly, keeps_subnormals, unusable)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,30 +157,6 @@ Attempt try_driver(const fs::path& file) {
     return {end.how(is_loaded ? "listing its devices" : "loading"), true};
 }
 
-using Json = nlohmann::json;
-
-Json to_json(const ClDevice& device) {
-    return {device.index,        device.platform_index,   device.device_index,
-            device.name,         device.vendor,           device.driver,
-            device.version,      device.platform,         device.is_cpu,
-            device.is_gpu,       device.compute_units,    device.float_lanes,
-            device.double_lanes, device.memory_bytes,     device.max_buffer_bytes,
-            device.has_double,   device.rounds_correctly, device.keeps_subnormals,
-            device.unusable};
-}
-
-ClDevice device_of(const Json& json) {
-    ClDevice device;
-    std::size_t at = 0;
-    const auto take = [&](auto&... fields) { (json.at(at++).get_to(fields), ...); };
-    take(device.index, device.platform_index, device.device_index, device.name, device.vendor,
-         device.driver, device.version, device.platform, device.is_cpu, device.is_gpu,
-         device.compute_units, device.float_lanes, device.double_lanes, device.memory_bytes,
-         device.max_buffer_bytes, device.has_double, device.rounds_correctly,
-         device.keeps_subnormals, device.unusable);
-    return device;
-}
-
 /// What the loader lists in a child process.
 struct Listing {
     std::vector<ClDevice> devices;
@@ -184,12 +168,9 @@ struct Listing {
 Listing list_in_child(const std::string& file) {
     const ChildEnd end = run_in_child([&](int answer) {
         if (!file.empty()) setenv("OCL_ICD_VENDORS", file.c_str(), 1);
-        Json json{Json::array(), Json::array()};
         std::vector<std::string> problems;
-        for (const ClDevice& device : list_cl_devices(problems)) {
-            json[0].push_back(to_json(device));
-        }
-        for (const std::string& problem : problems) json[1].push_back(problem);
+        const Json devices = list_cl_devices(problems);
+        const Json json = Json::array({devices, problems});
         say(answer, json.dump(-1, ' ', false, Json::error_handler_t::replace));
     });
     Listing listing;
@@ -198,8 +179,8 @@ Listing list_in_child(const std::string& file) {
         listing.failure = end.how("listing their devices");
         return listing;
     }
-    for (const Json& device : json[0]) listing.devices.push_back(device_of(device));
-    listing.problems = json[1].get<std::vector<std::string>>();
+    json.at(0).get_to(listing.devices);
+    json.at(1).get_to(listing.problems);
     return listing;
 }
 

@@ -9,13 +9,13 @@
 
 namespace rt {
 
-using TakeText = std::function<void(const std::string&)>;
 /// Why the value of an option, or a part of it, is refused. CommandLine adds the option's name.
 struct BadValue {
     std::string value, reason;
     ExitCode exit_code = ExitCode::usage;
 };
 
+using TakeText = std::function<void(const std::string&)>;
 using AcceptsText = std::function<bool(const std::string&)>;
 
 struct CommandLineParser;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "host/base/counted.h"
 #include "host/report/html.h"
 #include "host/report/plot_axis.h"
 #include "host/report/sections.h"
@@ -32,8 +33,8 @@ std::string value_text(const std::string& key, const Json& value) {
 }
 
 std::string device_text(const DeviceStats& device) {
-    return fmt::format("{}, {}, driver {}, per {}, {} lane{}", device.name, device.platform,
-                       device.driver, device.launch, device.lanes, device.lanes == 1 ? "" : "s");
+    return fmt::format("{}, {}, driver {}, per {}, {}", device.name, device.platform, device.driver,
+                       device.launch, counted(device.lanes, "lane"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "host/base/named.h"
 #include "host/flatten/features.h"
 #include "host/measure/statistics.h"
 #include "host/print/flatten_text.h"
@@ -92,7 +93,7 @@ std::string features_section(const ReportScene& scene, std::size_t index) {
         "<p>The flattened scene is {} bytes in {}. A feature left out is not "
         "compiled, and its array is not allocated: it is a null argument of the "
         "kernel.</p>\n",
-        stats.scene.bytes, stats.double_precision ? "double" : "float");
+        stats.scene.bytes, precision_name(stats.double_precision));
     if (names_of(stats.features, false).empty()) {
         html +=
             "<p>This scene needs everything, so there is nothing to leave out: both rows below use "

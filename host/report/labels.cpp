@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/base/counted.h"
 #include "host/report/plot_axis.h"
 
 namespace rt {
@@ -18,7 +19,7 @@ std::string opencl_label(const std::string& platform, const std::string& name) {
 std::string device_label(const BenchRow& row) {
     const BenchCase& asked = row.asked;
     if (asked.uses_threads) {
-        return fmt::format("{} thread{}{}", asked.threads, asked.threads == 1 ? "" : "s",
+        return fmt::format("{}{}", counted(asked.threads, "thread"),
                            asked.schedule == "buffers"  ? ", sample buffers"
                            : asked.schedule == "scalar" ? ", one ray at a time"
                                                         : "");

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "host/base/named.h"
 #include "host/report/bars.h"
 #include "host/report/device_colors.h"
 #include "host/report/html.h"
@@ -47,7 +48,7 @@ bool built_cold(const BenchRow& row) {
 std::string cold_label(const BenchRow& row) {
     return fmt::format("{}, {} pixels, {}, {}", device_label(row),
                        size_text(row.asked.width, row.asked.height), to_string(row.asked.aa),
-                       row.asked.double_precision ? "double" : "float");
+                       precision_name(row.asked.double_precision));
 }
 
 std::string bars_figure(const std::string& title, const std::vector<Bar>& bars,

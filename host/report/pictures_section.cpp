@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host/base/named.h"
 #include "host/image/picture_io.h"
 #include "host/measure/heatmap.h"
 #include "host/measure/picture_judge.h"
@@ -100,7 +101,7 @@ std::string made_text(const RenderStats& stats, const BenchResult& bench) {
     const auto seconds = trace_median(bench, stats);
     return fmt::format("{}, {}{}, {}", sampling_text(stats.aa),
                        seconds ? "traced in " + duration_text(*seconds) + " on " : "on ",
-                       device_label(stats), stats.double_precision ? "double" : "float");
+                       device_label(stats), precision_name(stats.double_precision));
 }
 
 std::string color_scale() {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "host/base/named.h"
 #include "host/print/stress_text.h"
 #include "host/report/html.h"
 #include "host/report/labels.h"
@@ -135,7 +136,7 @@ Plot family_plot(const StressFamilyResult& family, std::size_t index) {
     for (std::size_t row = 0; row < rows.size(); ++row) {
         if (rows[row].device != rows.front().device) continue;
         PlotCurve curve = error_curve(family, index, row);
-        curve.label = rows[row].double_precision ? "double" : "float";
+        curve.label = precision_name(rows[row].double_precision);
         curve.color = DeviceColors::no_device;
         curve.dash = curve.marker = rows[row].double_precision ? 1 : 0;
         for (const PlotPoint& point : curve.points) values.push_back(point.x);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "host/base/named.h"
 #include "host/report/html.h"
 #include "host/report/labels.h"
 #include "host/report/plot_axis.h"
@@ -15,10 +16,6 @@ namespace rt {
 
 namespace {
 
-std::string precision_text(const BenchCase& asked) {
-    return asked.double_precision ? "double" : "float";
-}
-
 /// Cell text for a row without figures.
 std::string verdict_text(const BenchRow& row) { return to_string(row.verdict); }
 
@@ -28,7 +25,7 @@ HtmlTable paper_table(const std::vector<PlacedRow>& rows) {
     const BenchCase& first = rows.front().row->asked;
     const std::string sampling = sampling_text(first.aa);
     table.caption = fmt::format("Ray trace, {}, {}: milliseconds, medians; fastest in bold",
-                                sampling, precision_text(first));
+                                sampling, precision_name(first.double_precision));
     table.heads = {"pixels"};
     for (const PlacedRow& placed : rows) {
         const std::string label = device_label(*placed.row);
@@ -92,7 +89,7 @@ std::vector<HtmlCell> full_row(const PlacedRow& placed) {
     const BenchCase& asked = placed.row->asked;
     std::vector<HtmlCell> cells{{size_text(asked.width, asked.height), placed.source},
                                 {to_string(asked.aa), ""},
-                                {precision_text(asked), ""},
+                                {precision_name(asked.double_precision), ""},
                                 {device_label(*placed.row), ""}};
     if (!placed.figures) {
         cells.push_back({fmt::format("{}: {}", verdict_text(*placed.row), placed.row->why), ""});

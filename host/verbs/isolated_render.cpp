@@ -126,14 +126,7 @@ class IsolatedRender {
 
     /// Without one OpenCL device of a list after the other.
     WorkerEnd try_fewer(WorkerEnd end) const {
-        std::vector<std::string> specs(1);
-        for (const char letter : options_.device) {
-            if (letter == ',') {
-                specs.emplace_back();
-            } else {
-                specs.back() += letter;
-            }
-        }
+        const std::vector<std::string> specs = specs_of(options_.device);
         if (std::count_if(specs.begin(), specs.end(), needs_opencl) < 2) return end;
         for (const std::string& left_out : specs) {
             if (!needs_opencl(left_out) || !has_crashed(end)) continue;

@@ -199,8 +199,7 @@ int run_report(const ReportOptions& options) {
     report.load_before = load_average();
     measure(options, report);
     if (report.scenes.empty()) {
-        print_message(fmt::format(
-            "mirrorball: {} before any picture was finished; no page written\n", stop_reason()));
+        print_note(stop_reason() + " before any picture was finished; no page written");
         return 128 + stop_flag();
     }
     report.environment = environment_json();
