@@ -5,6 +5,7 @@
 #include "host/flatten/bvh_partition.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "host/base/parallel.h"

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "host/base/printable.h"
 #include "host/opencl/opencl.h"
 

@@ -11,6 +11,8 @@
 #include <CL/opencl.hpp>
 #pragma GCC diagnostic pop
 
+#include <string>
+
 namespace rt {
 
 /// The name of an OpenCL status, such as "CL_OUT_OF_RESOURCES (-5)".

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "host/scene/line_scanner.h"
 #include "host/scene/words.h"

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <thread>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "host/base/console.h"

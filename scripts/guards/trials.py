@@ -31,7 +31,7 @@ class Tree:
         for file in files.splitlines():
             self.copy(ROOT / file, self.root / file)
         self.must("cmake", "-S", ".", "-B", self.build_folder, "-G", "Ninja",
-                  "-DMIRRORBALL_TESTS=ON", *one_isa())
+                  "-DMIRRORBALL_TESTS=ON", "-DCMAKE_UNITY_BUILD=OFF", *one_isa())
 
     @staticmethod
     def copy(source, copy):
