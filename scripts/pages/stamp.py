@@ -18,11 +18,18 @@ def environment(program):
     return json.loads(result.stdout)["environment"]
 
 
+def processor():
+    """As the program names it."""
+    lines = pathlib.Path("/proc/cpuinfo").read_text().partition("\n\n")[0].splitlines()
+    about = dict(map(str.strip, line.partition(":")[::2]) for line in lines)
+    return f"{about['model name']} (family {about['cpu family']}, model {about['model']})"
+
+
 def revision_stamp():
-    """One line of Markdown for results that do not depend on the machine: date and revision."""
+    """One line of Markdown for results of the source alone, without a program: date, processor, revision."""
     revision = subprocess.run(["git", "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"],
                               check=True, capture_output=True, text=True, cwd=ROOT).stdout.strip()
-    return f"*{datetime.date.today()}, revision {revision}.*"
+    return f"*{datetime.date.today()}, {processor()}, revision {revision}.*"
 
 
 def stamp(program, has_times=True):
