@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the commands of README.md and docs/tutorial.md as they are printed; reads those of all pages.
+"""Runs the commands of README.md, docs/tutorial.md and docs/kernels.md as they are printed; reads those
+of all pages.
 
 usage: docs_test.py BUILD_DIR REPO_ROOT
 
@@ -23,6 +24,8 @@ BUILD, REPO = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 NAMES = {"mirrorball", "build/release/mirrorball"}
 PAGES = [REPO / "README.md", REPO / "CONTRIBUTING.md", REPO / "python/README.md",
          *sorted((REPO / "docs").glob("*.md"))]
+# Of other programs, of scripts, and of an earlier revision.
+OTHERS_OPTIONS = {"--bind-to", "--enable-recovery", "--sshlogin", "--corners", "--naive"}
 
 
 def steps_of(page):
@@ -67,6 +70,36 @@ class Code(unittest.TestCase):
         for page, words in commands:
             for word in words:
                 self.assertRegex(word, r"^(\.{0,2}/.*|[^/]*)$", page)
+
+
+def help_of(*verb):
+    return subprocess.run([BUILD / "mirrorball", *verb, "--help"], capture_output=True, text=True,
+                          check=True).stdout
+
+
+def options_of(*verb):
+    return set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", help_of(*verb), re.M))
+
+
+class Options(unittest.TestCase):
+    def test_that_pages_name_are_there(self):
+        verbs = re.findall(r"^  (\w+) ", help_of().partition("Subcommands:")[2], re.M)
+        of_verb = {verb: options_of(verb) for verb in verbs}
+        of_verb["scene"] = options_of("scene", "info") | options_of("scene", "check")
+        of_any = set().union(options_of(), *of_verb.values())
+        found = 0
+        for page in PAGES:
+            for line in "\n".join(code_of(page)).splitlines():
+                words = line.partition("#")[0].split()
+                if words and words[0] in NAMES:
+                    words = words[1:]
+                if not words or not (words[0] in verbs or words[0].startswith("--")):
+                    continue
+                options = set(re.findall(r"(?<!\S)--[a-z][\w-]*", " ".join(words)))
+                found += len(options)
+                unknown = options - OTHERS_OPTIONS - of_verb.get(words[0], of_any)
+                self.assertFalse(unknown, f"{page}: {line}")
+        self.assertGreater(found, 100)
 
 
 class Pages(unittest.TestCase):
