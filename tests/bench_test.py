@@ -181,7 +181,8 @@ class Bench(FiguresTest):
         for text in ["", "[]", "{}", good[:-9]]:
             path.write_text(text, encoding="utf-8")
             result = run("bench", SCENE, "--sizes", "16", "--baseline", str(path), code=3)
-            self.assertIn("damaged.json", result.stderr)
+            self.assertIn("damaged.json: is not ", result.stderr)
+            self.assertNotIn("exception", result.stderr)
             self.assertEqual((result.stdout, result.stderr.count("\n")), ("", 1))
 
     def test_a_scene_is_never_replaced_by_results(self):

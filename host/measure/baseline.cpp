@@ -15,15 +15,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* remedy = "; write one with 'bench --json FILE'";
 constexpr std::size_t max_baseline_bytes = std::size_t{1} << 28;
 
 Spread spread_of_json(const Json& json) {
     return {json.at("median"), json.at("mad"), json.at("min"), json.at("max")};
 }
 
-Baseline read_rows(const Json& json) {
+Baseline read_rows(const Json& json, const std::string& path) {
     if (json.at("format") != "mirrorball-bench" || json.at("version") != 1) {
-        throw Error(ExitCode::input, "expected mirrorball-bench, version 1");
+        throw Error(ExitCode::input,
+                    path + ": is not of format mirrorball-bench, version 1" + remedy);
     }
     Baseline baseline;
     for (const Json& row : json.at("rows")) {
@@ -40,13 +42,9 @@ Baseline read_rows(const Json& json) {
 Baseline load_baseline(const std::string& path) {
     const FileText text = read_text_file(path, max_baseline_bytes);
     try {
-        return read_rows(Json::parse(text.view()));
-    } catch (const std::exception& error) {
-        throw Error(
-            ExitCode::input,
-            fmt::format("{}: is not a result of mirrorball bench ({}); write one with 'bench "
-                        "--json FILE'",
-                        path, error.what()));
+        return read_rows(Json::parse(text.view()), path);
+    } catch (const Json::exception&) {
+        throw Error(ExitCode::input, path + ": is not a result of mirrorball bench" + remedy);
     }
 }
 

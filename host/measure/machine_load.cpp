@@ -14,9 +14,9 @@ MachineLoad load_of(double average) { return {average, available_cores()}; }
 
 std::string busy_text(const MachineLoad& load) {
     if (!load.busy()) return "";
-    return fmt::format(
-        "busy machine (load {:.1f} on {}, {:.2f} per core): do not quote the timings", load.average,
-        counted(static_cast<std::size_t>(load.cores), "core"), load.per_core());
+    return fmt::format("busy machine (load {:.1f} on {}, {:.2f} per core): do not quote timings",
+                       load.average, counted(static_cast<std::size_t>(load.cores), "core"),
+                       load.per_core());
 }
 
 Json machine_load_json(const MachineLoad& load) {

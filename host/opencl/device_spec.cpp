@@ -66,7 +66,7 @@ Test test_for(const std::string& spec) {
         }
     }
     usage_error(
-        "--device '{}': expected an index, platform:device, pocl, name:TEXT, cpu, gpu, "
+        "device '{}': expected an index, platform:device, pocl, name:TEXT, cpu, gpu, "
         "threads[:N], all or auto, or several of them separated by commas",
         spec);
 }
@@ -191,7 +191,7 @@ bool names_threads(const std::string& spec, DeviceChoice& choice) {
     if (spec == "threads") return true;
     const auto count = parse_number<int>(std::string_view(spec).substr(8));
     if (!count || *count < 1 || *count > most_threads_asked) {
-        usage_error("--device '{}': expected 1 to {} threads", spec, most_threads_asked);
+        usage_error("device '{}': expected 1 to {} threads", spec, most_threads_asked);
     }
     choice.threads = *count;
     return true;
@@ -205,7 +205,7 @@ std::vector<std::string> specs_of(const std::string& list) {
         at = end + 1;
     }
     if (specs.size() > 1 && std::find(specs.begin(), specs.end(), "") != specs.end()) {
-        usage_error("--device '{}': an item of the list is empty", list);
+        usage_error("device '{}': an item of the list is empty", list);
     }
     return specs;
 }
@@ -241,11 +241,11 @@ DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>&
     std::copy_if(devices.begin(), devices.end(), std::back_inserter(fitting), test_for(spec));
     if (fitting.empty()) {
         throw Error(ExitCode::device,
-                    fmt::format("--device '{}' matches no OpenCL device; available:{}", spec,
+                    fmt::format("device '{}' matches no OpenCL device; available:{}", spec,
                                 describe_all(devices, problems)));
     }
     if (fitting.size() > 1) {
-        usage_error("--device '{}' matches several devices; choose one by its index:{}", spec,
+        usage_error("device '{}' matches several devices; choose one by its index:{}", spec,
                     describe_all(fitting));
     }
     if (!fitting.front().unusable.empty()) {

@@ -29,6 +29,7 @@ VerbText text_of(const CLI::App& verb) {
         for (const std::string& name : option->get_snames()) one.names.push_back("-" + name);
         for (const std::string& name : option->get_lnames()) one.names.push_back("--" + name);
         one.is_word = one.names.empty();
+        one.is_required = option->get_required();
         const bool may_repeat = option->get_items_expected_max() > 1;
         if (one.is_word) one.names.push_back(option->get_name() + (may_repeat ? "..." : ""));
         if (!one.is_word && option->get_items_expected_max() > 0)
@@ -86,6 +87,7 @@ struct CommandLineParser {
             place += " " + words[at];
             verb = verb->get_subcommand(words[at++]);
         }
+        if (at == words.size() && !verbs_of(*verb).empty()) refuse_line("a verb is required");
         return *verb;
     }
 
@@ -162,6 +164,8 @@ struct CommandLineParser {
             const bool is_twice = what.find(": At Most 1") != what.npos;
             refuse_line(what.substr(0, what.find(':')) +
                         (is_twice ? " is given twice" : " requires a value"));
+        } catch (const CLI::ExtrasError&) {
+            refuse_line("unexpected argument '" + app.remaining(true).front() + "'");
         } catch (const CLI::ParseError& error) {
             refuse_line(error.what());
         }

@@ -13,8 +13,8 @@ void add_doctor(const CommandLine& program, Options& options) {
     verb.value("--device", "SPEC", doctor.device, parse_device,
                "check only this device, in this process");
     verb.value("--deadline", "S", doctor.deadline, seconds_from(0.5),
-               "seconds without progress, or a tenth of a test's time, after which a device counts "
-               "as hung (default: 30)");
+               "seconds without progress after which a device counts as hung; its test may take "
+               "ten times as long (default: 30)");
     verb.when_chosen([&options] { options.verb = Verb::doctor; });
 }
 

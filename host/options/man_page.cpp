@@ -38,7 +38,9 @@ std::string synopsis(const std::string& name, const VerbText& verb) {
     std::string text = fmt::format(".B {}\n", roff(name));
     text += "[\\fIoptions\\fR]";
     for (const OptionText& option : verb.options) {
-        if (option.is_word) text += " \\fI" + roff(option.names.front()) + "\\fR";
+        if (!option.is_word) continue;
+        const std::string word = "\\fI" + roff(option.names.front()) + "\\fR";
+        text += option.is_required ? " " + word : " [" + word + "]";
     }
     return text + "\n.br\n";
 }
@@ -117,8 +119,8 @@ a tutorial, and descriptions of scenes, results and numerics
 }  // namespace
 
 std::string man_page(const VerbText& program, const std::string& version) {
-    std::string text = fmt::format(".TH MIRRORBALL 1 \"\" \"{} {}\" \"User Commands\"\n",
-                                   roff(program.name), roff(version));
+    std::string text =
+        fmt::format(".TH MIRRORBALL 1 \"\" \"{}\" \"User Commands\"\n", roff(version));
     text += ".ad l\n";
     text += fmt::format(".SH NAME\n{} \\- {}\n", roff(program.name), roff(program.help));
     text += ".SH SYNOPSIS\n" + synopses(program.name, program);

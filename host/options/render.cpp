@@ -166,7 +166,7 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
     add_choice(verb, "--caster-lists", render.caster_lists, switch_choices,
                "list the triangles that can cast shadows, if there are few (default: on)");
     add_choice(verb, "--isolate", render.isolate, isolate_choices,
-               "load OpenCL drivers in a separate process (default: auto, yes)");
+               "auto (default): load OpenCL drivers in a separate process; never: in this one");
     verb.value("--deadline", "S", render.deadline, seconds_from(0.5),
                "seconds without progress after which a driver counts as hung (default: 10)");
     verb.flag("--no-fallback", render.no_fallback,

@@ -12,6 +12,7 @@ struct OptionText {
     std::string type;                ///< of its value: "FILE", "float|double"; empty: no value
     std::string help;
     bool is_word = false;
+    bool is_required = false;
 };
 
 /// The help on the program or a verb.
@@ -21,7 +22,7 @@ struct VerbText {
     std::vector<VerbText> verbs;
 };
 
-/// The manual page of section 1, in roff.
+/// The manual page of section 1, in roff. `version` begins with the program's name.
 std::string man_page(const VerbText& program, const std::string& version);
 
 /// The script that completes verbs, options and their values in "bash", "zsh" or "fish". Empty for

@@ -66,7 +66,7 @@ void check_header(const PlyHeader& header, Mistakes& mistakes) {
     if (!vertex) mistakes.add(0, "the header declares no element 'vertex'; use a mesh");
     if (!face && !strips) {
         mistakes.add(0,
-                     "the header declares no element 'face'; points alone cannot be drawn, use a "
+                     "the header declares no element 'face'; points alone cannot be drawn; use a "
                      "mesh");
     }
     if (vertex) check_vertex(*vertex, mistakes);

@@ -98,7 +98,7 @@ class Choice(CliTest):
     def refused(self, spec, code, *says, lines=1, env=None):
         result = self.run_cli("render", scene_path("empty"), "--size", "4", "-o", "out.png",
                               "--device", spec, env=env)
-        self.assert_refused(result, code, "--device", f"'{spec}'", *says, lines=lines)
+        self.assert_refused(result, code, "device", f"'{spec}'", *says, lines=lines)
         self.assertEqual(self.files(), [])
 
     def test_garbage(self):
@@ -199,7 +199,7 @@ class EnvironmentDefault(CliTest):
 
     def test_mistake_in_it_names_the_variable(self):
         result = self.run_cli("render", scene_path("empty"), env={"MIRRORBALL_DEVICE": "rubbish"})
-        self.assert_refused(result, 2, "rubbish", "MIRRORBALL_DEVICE")
+        self.assert_refused(result, 2, "in $MIRRORBALL_DEVICE: device 'rubbish': ")
 
 
 class Unusable:

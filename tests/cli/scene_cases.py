@@ -41,6 +41,11 @@ class Unreadable(CliTest):
         (self.folder / "noise.json").write_bytes(bytes(range(256)) * 16)
         self.assert_scene_refused("noise.json", "noise.json:1:1")
 
+    def test_format_that_is_unknown(self):
+        self.assert_scene_refused(self.write_text("ball.stl", "solid ball\n"), "unknown extension '.stl'")
+        shutil.copy(scene_path("empty"), self.folder / "ball.txt")
+        self.assertEqual(self.run_cli("scene", "check", "ball.txt").returncode, 0)
+
     def test_symbolic_link_to_itself(self):
         os.symlink("loop.json", self.folder / "loop.json")
         self.assert_scene_refused("loop.json")

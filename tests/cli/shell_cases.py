@@ -52,6 +52,12 @@ class Shell(CliTest):
                                     text=True, capture_output=True, check=False)
             self.assertEqual(result.stderr, "", more)
 
+    def test_manual_says_which_arguments_may_be_left_out(self):
+        lines = self.text("--man").replace("\\fI", "").replace("\\fR", "").splitlines()
+        for verb, arguments in [("render", "[SCENE...]"), ("merge", "PART..."), ("compare", "A B")]:
+            at = lines.index(f".B mirrorball {verb}")
+            self.assertEqual(lines[at + 1], f"[options] {arguments}")
+
     def test_manual_names_the_files_that_are_installed(self):
         self.assertIn("share/mirrorball/scenes", self.text("--man").split(".SH FILES")[1])
 

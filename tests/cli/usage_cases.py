@@ -38,7 +38,7 @@ class Help(CliTest):
 
 class WrongCommand(CliTest):
     def test_no_verb(self):
-        self.assert_refused(self.run_cli(), 2, "--help")
+        self.assert_refused(self.run_cli(), 2, "a verb is required", "--help")
 
     def test_unknown_verb_is_named(self):
         self.assert_refused(self.run_cli("rendr"), 2, "rendr")
@@ -47,7 +47,11 @@ class WrongCommand(CliTest):
         self.assert_refused(self.run_cli("render"), 2, "SCENE")
 
     def test_scene_without_action(self):
-        self.assert_refused(self.run_cli("scene"), 2, "--help")
+        self.assert_refused(self.run_cli("scene"), 2, "a verb is required", "scene --help")
+
+    def test_unexpected_argument_is_named(self):
+        self.assert_refused(self.run_cli("devices", "a", "b"), 2, "unexpected argument 'a'",
+                            "devices --help")
 
 
 class WrongOption(CliTest):
