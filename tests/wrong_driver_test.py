@@ -257,14 +257,17 @@ class Dies(WrongDriver):
         self.assertEqual(stats["image"]["hash"], self.right)
 
     def test_leaves_the_picture_to_other_devices(self):
-        result = self.run_with({"CL_SHIM_DIE_IN": "clCreateContext", "CL_SHIM_DIE_BY": "abort",
-                                "CL_SHIM_DIE_AT": "2", "POCL_DEVICES": "pthread pthread"},
-                               *self.ARGUMENTS[:4], "--device", "0,1", "--stats=json")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("trying again without --device 0", result.stderr)
-        stats = json.loads(result.stdout)
-        self.assertIn("pthread", stats["device"]["name"])
-        self.assertEqual(stats["image"]["hash"], self.right)
+        picture = ["render", SCENE, "--size", "120", "--aa", "grid:40", "--threads", "1", "--stats=json"]
+        right = json.loads(self.run_with({}, *picture, "--device", "threads").stdout)["image"]["hash"]
+        for devices in ["0,1", "all"]:
+            result = self.run_with({"CL_SHIM_DIE_IN": "clCreateContext", "CL_SHIM_DIE_BY": "abort",
+                                    "CL_SHIM_DIE_AT": "2", "POCL_DEVICES": "pthread pthread"},
+                                   *picture, "--device", devices)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("trying again without --device 0", result.stderr)
+            stats = json.loads(result.stdout)
+            self.assertIn("pthread", json.dumps(stats.get("devices", stats["device"])))
+            self.assertEqual(stats["image"]["hash"], right)
 
     def test_stats_say_whom_threads_stand_in_for(self):
         stats = json.loads(self.die("clFinish", "segfault", "--stats=json").stdout)

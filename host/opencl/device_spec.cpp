@@ -71,8 +71,6 @@ Test test_for(const std::string& spec) {
         spec);
 }
 
-constexpr std::string_view all_devices = "all";
-
 /// Resolves a list of specs, listing devices at most once.
 class DeviceFinder {
    public:

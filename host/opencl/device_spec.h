@@ -5,6 +5,7 @@
 #include <future>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/opencl/cl_device.h"
@@ -24,6 +25,9 @@ struct DeviceChoice {
 /// Whether the text names the pthreads baseline ("threads" or "threads:N"), which needs no OpenCL.
 /// Throws Error (ExitCode::usage) for threads:0 and the like.
 bool names_threads(const std::string& spec, DeviceChoice& choice);
+
+/// The spec that names threads and every usable device.
+inline constexpr std::string_view all_devices = "all";
 
 /// As many threads as there are cores, or as settings say.
 DeviceChoice threads_choice();
@@ -45,7 +49,7 @@ bool needs_opencl(const std::string& list);
 /// whether or not such devices exist.
 void check_device_list(const std::string& list);
 
-/// The devices that a comma-separated list of specs names; "all": threads and every usable device.
+/// The devices that a comma-separated list of specs names.
 /// Another thread searches: drivers take time to load (PoCL 0.03 s), and a scene can be read
 /// meanwhile. `threads`: for threads and for PoCL; 0: all cores. That thread calls `loaded` after
 /// loading drivers. get() throws Error on failure; destroying the future waits until the drivers

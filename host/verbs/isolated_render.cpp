@@ -76,6 +76,10 @@ class IsolatedRender {
     static bool has_failed(const WorkerEnd& end) { return !end.is_regular && end.stop_signal == 0; }
     static bool has_crashed(const WorkerEnd& end) { return has_failed(end) && !end.is_hung; }
 
+    static bool lacks_device(const WorkerEnd& end) {
+        return end.is_regular && end.status == static_cast<int>(ExitCode::device);
+    }
+
     using JournalState = std::pair<std::filesystem::file_time_type, std::uintmax_t>;
 
     JournalState state_of_journal() const {
@@ -119,23 +123,41 @@ class IsolatedRender {
         if (files.usable.empty()) return first;
         say(first, "retrying with the other drivers");
         const WorkerEnd second = work({"OCL_ICD_VENDORS=" + usable.place()});
-        const bool lacks_device =
-            second.is_regular && second.status == static_cast<int>(ExitCode::device);
-        return lacks_device ? first : second;
+        return lacks_device(second) ? first : second;
     }
 
-    /// Without one OpenCL device of a list after the other.
+    /// Without one of several OpenCL devices after the other.
     WorkerEnd try_fewer(WorkerEnd end) const {
-        const std::vector<std::string> specs = specs_of(options_.device);
+        IcdFiles files = try_icd_files(options_.drivers);
+        const UsableIcdFiles usable(files);
+        const std::vector<std::string> specs = specs_one_by_one(files, usable);
         if (std::count_if(specs.begin(), specs.end(), needs_opencl) < 2) return end;
         for (const std::string& left_out : specs) {
             if (!needs_opencl(left_out) || !has_crashed(end)) continue;
             std::vector<std::string> others = specs;
             std::erase(others, left_out);
             say(end, "trying again without --device " + left_out);
-            end = work({fmt::format("MIRRORBALL_DEVICES={}", fmt::join(others, ","))});
+            const WorkerEnd next =
+                work({fmt::format("MIRRORBALL_DEVICES={}", fmt::join(others, ","))});
+            if (!lacks_device(next)) end = next;
         }
         return end;
+    }
+
+    /// What --device lists, with each device that "all" stands for.
+    std::vector<std::string> specs_one_by_one(IcdFiles& files, const UsableIcdFiles& usable) const {
+        std::vector<std::string> specs;
+        for (const std::string& spec : specs_of(options_.device)) {
+            if (spec != all_devices) {
+                specs.push_back(spec);
+                continue;
+            }
+            specs.emplace_back("threads");
+            for (const ClDevice& device : list_devices_of(files, usable)) {
+                if (device.unusable.empty()) specs.push_back(std::to_string(device.index));
+            }
+        }
+        return specs;
     }
 
     void say(const WorkerEnd& end, const std::string& then) const {
