@@ -374,11 +374,16 @@ class Dies(WrongDriver):
         self.assertEqual(result.returncode, 5, result.stderr)
         self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its test process did not end in time")
 
-    def test_by_hanging_ends_what_is_measured(self):
-        result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "hang"},
-                               *Bench.ARGUMENTS)
+    def check_hanging_ends(self, *command):
+        result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "hang"}, *command)
         self.assertEqual(result.returncode, 5, result.stderr)
         self.assertRegex(result.stderr, r"pthread.*: the worker process made no progress for")
+
+    def test_by_hanging_ends_bench(self):
+        self.check_hanging_ends(*Bench.ARGUMENTS)
+
+    def test_by_hanging_ends_ray_trials(self):
+        self.check_hanging_ends("stress", "-q", "--quick", "--case", "sphere-rays", "--device", "pocl")
 
     @unittest.skipUnless(shutil.which("mpirun"), "needs openmpi-bin")
     def test_does_not_take_an_mpi_job_along(self):

@@ -308,6 +308,13 @@ void note_worker_progress() {
     if (last.exchange(now) != now) tell({&progressed, 1});
 }
 
+WorkerTask::WorkerTask(const std::string& task, bool is_driver) {
+    note_worker_task(task);
+    watch_worker(is_driver);
+}
+
+WorkerTask::~WorkerTask() { watch_worker(false); }
+
 void note_worker_end(int status) {
     const char bytes[2] = {ended, static_cast<char>(status)};
     tell({bytes, 2});

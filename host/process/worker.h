@@ -48,4 +48,13 @@ void note_worker_task(const std::string& task);
 void note_worker_progress();
 void note_worker_end(int status);  ///< just before it exits
 
+/// Names the task of a worker and, if a driver does it, has it watched, until destroyed.
+class WorkerTask {
+   public:
+    WorkerTask(const std::string& task, bool is_driver);
+    WorkerTask(const WorkerTask&) = delete;
+    WorkerTask& operator=(const WorkerTask&) = delete;
+    ~WorkerTask();
+};
+
 }  // namespace rt

@@ -47,10 +47,8 @@ class ClDevices {
     const std::vector<ClDevice>& list() {
         if (!listed_) {
             prepare_pocl(0);
-            note_worker_task(listing_devices);
-            watch_worker(true);
+            const WorkerTask task(listing_devices, true);
             devices_ = list_cl_devices(problems_);
-            watch_worker(false);
         }
         listed_ = true;
         return devices_;

@@ -16,6 +16,7 @@
 #include "host/opencl/device_spec.h"
 #include "host/picture/render_picture.h"
 #include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/json_file.h"
 #include "host/stress/ray_trials.h"
@@ -43,8 +44,13 @@ RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
 RayCaster ray_caster(const DeviceChoice& choice) {
     if (choice.use_threads) return threads_ray_caster();
     const ClDevice device = choice.device;
-    return {[=](const auto& scene) { return make_cl_ray_tracer<float>(scene, device, {}); },
-            [=](const auto& scene) { return make_cl_ray_tracer<double>(scene, device, {}); }};
+    const auto make = [=](const auto& scene) {
+        return [tracer = make_cl_ray_tracer(scene, device, {})](auto queries, auto answers) {
+            tracer(queries, answers);
+            note_worker_progress();
+        };
+    };
+    return {make, make};
 }
 
 /// The first image hash of each group of pictures that must agree in every bit.
@@ -213,7 +219,9 @@ class Runner {
             if (stop_flag() != 0) return;
             const Stopwatch watch;
             try {
-                const RayCaster caster = ray_caster(device_of(row));
+                const DeviceChoice& device = device_of(row);
+                const WorkerTask task(row.renderer, !device.use_threads);
+                const RayCaster caster = ray_caster(device);
                 row.rays = row.double_precision ? trial.in_double(rays, caster)
                                                 : trial.in_float(rays, caster);
                 row.why = exceeded_tolerance(*row.rays, one.tolerance);

@@ -92,12 +92,8 @@ RenderedPicture render_quietly(const Scene& scene, const RenderSettings& setting
     events.started = [](const TileQueue&) { install_stop_signals(); };
     events.driver_loaded = restore_stop_signals;
     if (is_worker()) events.progressed = note_worker_progress;
-    note_worker_task(device.use_threads ? "threads" : device.device.name);
-    watch_worker(!device.use_threads);
-    RenderedPicture rendered =
-        render_picture(scene, settings, std::vector{device}, events, stop_flag());
-    watch_worker(false);
-    return rendered;
+    const WorkerTask task(device.use_threads ? "threads" : device.device.name, !device.use_threads);
+    return render_picture(scene, settings, std::vector{device}, events, stop_flag());
 }
 
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
