@@ -30,9 +30,9 @@ int isolated(const rt::RenderOptions& options, double seconds_before_main,
         const rt::IcdFiles files = rt::try_icd_files(options.drivers);
         const rt::UsableIcdFiles usable(files);
         rt::print_notes(files.problems);
-        if (files.any_dangerous && !files.usable.empty() && !usable.place().empty()) {
-            end = rt::run_worker(options.command, {"OCL_ICD_VENDORS=" + usable.place()},
-                                 options.deadline, seconds_before_main);
+        if (!usable.change().empty()) {
+            end = rt::run_worker(options.command, usable.change(), options.deadline,
+                                 seconds_before_main);
         }
     }
     if (end.stop_signal != 0) rt::end_by_stop_signal(end.stop_signal);

@@ -8,6 +8,7 @@
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
 //   CL_SHIM_FAIL_READ          if not empty, reads and maps fail once a launch has failed
 //   CL_SHIM_INEXACT            if not empty, devices do not promise to round correctly
+//   CL_SHIM_NO_FORK            if not empty, no child process can be started
 //   CL_SHIM_DIE_IN             the function whose call fails
 //   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error; or delay: by two
 //   seconds CL_SHIM_DIE_AT             the first call that may fail, counted from 1
@@ -22,6 +23,7 @@
 #include <CL/cl.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -105,6 +107,12 @@ bool die_in(const char* function) {
 }
 
 }  // namespace
+
+extern "C" pid_t fork() {
+    if (setting("CL_SHIM_NO_FORK").empty()) return real<decltype(fork)>("fork")();
+    errno = EAGAIN;
+    return -1;
+}
 
 extern "C" cl_int clGetPlatformIDs(cl_uint size, cl_platform_id* platforms, cl_uint* count) {
     if (die_in("clGetPlatformIDs")) return CL_OUT_OF_HOST_MEMORY;

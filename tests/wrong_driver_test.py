@@ -415,6 +415,11 @@ class Dies(WrongDriver):
             self.assertEqual(ended, "mirrorball: listing OpenCL devices: the worker process was "
                              "killed by SIGABRT; test each driver with 'mirrorball doctor'")
 
+    def test_devices_says_that_it_could_try_none(self):
+        result = self.run_with({"CL_SHIM_NO_FORK": "1"}, "devices")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("could not be started", result.stdout)
+
     def test_devices_survives(self):
         result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort"},
                                "devices", "--json")

@@ -70,6 +70,7 @@ struct ChildEnd {
 
     /// "crashes while loading (Aborted)".
     std::string how(const char* doing) const {
+        if (!is_started) return "could not be started";
         if (!WIFSIGNALED(status)) {
             return fmt::format("ends the process while {} (exit code {})", doing,
                                WEXITSTATUS(status));
@@ -202,12 +203,18 @@ IcdFiles try_icd_files(const std::string& place) {
     return files;
 }
 
-UsableIcdFiles::UsableIcdFiles(const IcdFiles& files) {
+UsableIcdFiles::UsableIcdFiles(const IcdFiles& files)
+    : leaves_out_(files.any_dangerous && !files.usable.empty() && !folder_.name().empty()) {
     for (std::size_t i = 0; i < files.usable.size() && !place().empty(); ++i) {
         std::error_code error;
         fs::create_symlink(fs::absolute(files.usable[i]), fmt::format("{}/{:04}.icd", place(), i),
                            error);
     }
+}
+
+std::vector<std::string> UsableIcdFiles::change() const {
+    if (!leaves_out_) return {};
+    return {"OCL_ICD_VENDORS=" + place()};
 }
 
 std::vector<ClDevice> list_devices_of(IcdFiles& files, const UsableIcdFiles& usable) {

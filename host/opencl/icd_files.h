@@ -25,10 +25,17 @@ IcdFiles try_icd_files(const std::string& place);
 class UsableIcdFiles {
    public:
     explicit UsableIcdFiles(const IcdFiles& files);
+
+    /// Its name; empty if it could not be created.
     const std::string& place() const { return folder_.name(); }
+
+    /// The environment change ("NAME=value") that leaves dangerous drivers out; empty if there are
+    /// none, or only such.
+    std::vector<std::string> change() const;
 
    private:
     TemporaryFolder folder_;
+    bool leaves_out_;
 };
 
 /// The devices of all drivers, listed in a child process; if one is dangerous, only of the usable

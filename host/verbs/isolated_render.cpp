@@ -115,14 +115,13 @@ class IsolatedRender {
         const IcdFiles files = try_icd_files(options_.drivers);
         const TemporaryFolder cache;
         const UsableIcdFiles usable(files);
-        if (cache.name().empty() || usable.place().empty()) return first;
-        if (!files.any_dangerous) {
+        if (!files.any_dangerous && !cache.name().empty()) {
             say(first, "retrying with an empty kernel cache");
             return work({"POCL_CACHE_DIR=" + cache.name()});
         }
-        if (files.usable.empty()) return first;
+        if (usable.change().empty()) return first;
         say(first, "retrying with the other drivers");
-        const WorkerEnd second = work({"OCL_ICD_VENDORS=" + usable.place()});
+        const WorkerEnd second = work(usable.change());
         return lacks_device(second) ? first : second;
     }
 
