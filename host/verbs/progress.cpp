@@ -36,8 +36,10 @@ ProgressMode progress_mode_for_stderr(const RenderOptions& options) {
 
 std::string progress_line(double fraction, double seconds, const RayCounts& rays) {
     const double rate = seconds > 0 ? static_cast<double>(rays.total()) / seconds * 1e-6 : 0;
+    // OpenCL devices count rays only at the end.
+    const std::string rate_text = rate > 0 ? fmt::format("  {:.1f} Mrays/s", rate) : "";
     // Rounded down: 100 % means complete.
-    return fmt::format("{:3.0f} %  {:.1f} Mrays/s{}", std::floor(100 * fraction), rate,
+    return fmt::format("{:3.0f} %{}{}", std::floor(100 * fraction), rate_text,
                        fraction < 1 ? "  ETA " + eta_text(fraction, seconds) : "");
 }
 
