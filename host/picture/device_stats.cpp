@@ -2,6 +2,7 @@
 #include "host/picture/device_stats.h"
 
 #include "host/opencl/cl_tiles.h"
+#include "host/picture/crew_members.h"
 
 namespace rt {
 
@@ -20,13 +21,21 @@ DeviceStats threads_stats(const FlatScene<T>& scene, const AaMode& aa,
 }
 
 template <typename T>
-DeviceStats device_stats(const ClDevice& device, const RenderSettings& settings) {
+DeviceStats stats_of(const std::vector<DeviceChoice>& devices, const FlatScene<T>& scene,
+                     const AaMode& aa, const RenderSettings& settings) {
     DeviceStats stats;
-    stats.name = device.name;
+    stats.name = joined_names(devices);
+    if (devices.size() > 1) return stats;
+    if (devices.front().use_threads) {
+        return threads_stats(scene, aa, threads_options(settings, devices.front().threads));
+    }
+    const ClDevice& device = devices.front().device;
     stats.platform = device.platform;
     stats.driver = device.driver;
     stats.launch = launches_samples(settings.launch, device) ? "sample" : "pixel";
     stats.lanes = packet_lanes<T>(settings.lanes, device);
+    stats.kernels =
+        settings.all_features ? Features{} : either_of(scene.features, settings.also_features);
     return stats;
 }
 
@@ -77,7 +86,9 @@ void say_ignored_settings(const DeviceChoice& choice, const RenderSettings& sett
 
 template DeviceStats threads_stats(const FlatScene<float>&, const AaMode&, const ThreadsOptions&);
 template DeviceStats threads_stats(const FlatScene<double>&, const AaMode&, const ThreadsOptions&);
-template DeviceStats device_stats<float>(const ClDevice&, const RenderSettings&);
-template DeviceStats device_stats<double>(const ClDevice&, const RenderSettings&);
+template DeviceStats stats_of(const std::vector<DeviceChoice>&, const FlatScene<float>&,
+                              const AaMode&, const RenderSettings&);
+template DeviceStats stats_of(const std::vector<DeviceChoice>&, const FlatScene<double>&,
+                              const AaMode&, const RenderSettings&);
 
 }  // namespace rt

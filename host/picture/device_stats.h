@@ -18,8 +18,10 @@ template <typename T>
 DeviceStats threads_stats(const FlatScene<T>& scene, const AaMode& aa,
                           const ThreadsOptions& options);
 
+/// Of several devices, only their names.
 template <typename T>
-DeviceStats device_stats(const ClDevice& device, const RenderSettings& settings);
+DeviceStats stats_of(const std::vector<DeviceChoice>& devices, const FlatScene<T>& scene,
+                     const AaMode& aa, const RenderSettings& settings);
 
 /// "threads + NVIDIA H100".
 std::string joined_names(const std::vector<DeviceChoice>& devices);

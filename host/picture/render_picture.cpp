@@ -77,15 +77,18 @@ class Job {
           cache_(cache),
           region_(chosen_region(scene, settings)),
           rendered_(region_to_render(scene.aa, region_, scene.width, scene.height)) {
+        FlattenOptions options;
+        options.hierarchies = settings.hierarchies;
+        options.caster_lists = settings.caster_lists;
         const Stopwatch watch;
         if (cache == nullptr) {
             auto figures = std::async(scene_stats, std::cref(scene));
-            scene_ = flattened(scene, nullptr);
+            scene_ = std::make_shared<const FlatScene<T>>(flatten<T>(scene, options));
             stats_.phases.flatten = watch.seconds();
             stats_.scene = figures.get();
         } else {
             stats_.scene = scene_stats(scene);
-            scene_ = kept_or_flattened(scene);
+            scene_ = flattened_scene<T>(scene, stats_.scene.hash, options, *cache);
             stats_.phases.flatten = watch.seconds();
         }
         stats_.scene.triangles = scene_->triangles.size();
@@ -172,25 +175,6 @@ class Job {
                          [&] { events_.compiling(joined_names(devices) + ": compiling kernels"); });
         }
         crew.open();
-    }
-
-    SharedScene<T> flattened(const Scene& scene, const FlatScene<T>* same_shapes) const {
-        FlattenOptions options;
-        options.hierarchies = settings_.hierarchies;
-        options.caster_lists = settings_.caster_lists;
-        return std::make_shared<const FlatScene<T>>(flatten<T>(scene, options, same_shapes));
-    }
-
-    /// The cache's flattened scene if it is this one; else this one takes its place, and its
-    /// hierarchies if only its shapes are the same.
-    SharedScene<T> kept_or_flattened(const Scene& scene) const {
-        auto& kept = std::get<RenderCache::Flattened<T>>(cache_->scenes);
-        const std::uint64_t key = RenderCache::flat_key(scene, stats_.scene.hash);
-        if (kept.scene && kept.key == key) return kept.scene;
-        const std::uint64_t shapes = shapes_hash(scene);
-        const bool has_same_shapes = kept.scene && kept.shapes == shapes;
-        kept = {key, shapes, flattened(scene, has_same_shapes ? kept.scene.get() : nullptr)};
-        return kept.scene;
     }
 
     void say(const std::string& line) const {
@@ -321,17 +305,7 @@ class Job {
     }
 
     void note_devices(const Devices& devices) {
-        if (devices.size() > 1) {
-            stats_.device.name = joined_names(devices);
-        } else if (devices.front().use_threads) {
-            stats_.device = threads_stats<T>(*scene_, stats_.aa,
-                                             threads_options(settings_, devices.front().threads));
-        } else {
-            stats_.device = device_stats<T>(devices.front().device, settings_);
-            stats_.device.kernels = settings_.all_features
-                                        ? Features{}
-                                        : either_of(scene_->features, settings_.also_features);
-        }
+        stats_.device = stats_of(devices, *scene_, stats_.aa, settings_);
     }
 
     /// What is wrong with the devices' results: their ray count, or, if requested, a sample of the
