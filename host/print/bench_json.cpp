@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/bench_json.h"
-
 #include "host/base/named.h"
 #include "host/base/printable.h"
 #include "host/measure/bench.h"
-#include "host/print/run_json.h"
+#include "host/print/bench.h"
+#include "host/print/run.h"
 
 namespace rt {
 

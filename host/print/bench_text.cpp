@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/bench_text.h"
-
 #include <fmt/format.h>
 
 #include <map>
@@ -9,6 +7,7 @@
 #include "host/base/printable.h"
 #include "host/measure/bench.h"
 #include "host/measure/machine_load.h"
+#include "host/print/bench.h"
 #include "host/print/rounds_text.h"
 
 namespace rt {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/converge_csv.h"
-
 #include "host/measure/bench.h"
-#include "host/print/run_csv.h"
+#include "host/print/converge.h"
+#include "host/print/run.h"
 
 namespace rt {
 

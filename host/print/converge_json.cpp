@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/converge_json.h"
-
 #include "host/base/named.h"
 #include "host/base/printable.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
-#include "host/print/run_json.h"
+#include "host/print/converge.h"
+#include "host/print/run.h"
 
 namespace rt {
 

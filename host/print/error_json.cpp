@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/error_json.h"
+#include "host/print/image_error.h"
 
 namespace rt {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/error_text.h"
-
 #include <fmt/format.h>
 
 #include "host/base/counted.h"
+#include "host/print/image_error.h"
 
 namespace rt {
 

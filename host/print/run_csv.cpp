@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/run_csv.h"
-
 #include <fmt/format.h>
 
 #include <vector>
@@ -9,6 +7,7 @@
 #include "host/base/printable.h"
 #include "host/base/version.h"
 #include "host/print/environment_json.h"
+#include "host/print/run.h"
 
 namespace rt {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/run_json.h"
-
 #include "host/measure/machine_load.h"
 #include "host/print/environment_json.h"
-#include "host/print/stats_json.h"
+#include "host/print/run.h"
+#include "host/print/stats.h"
 
 namespace rt {
 

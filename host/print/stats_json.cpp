@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/stats_json.h"
-
 #include <string>
 
 #include "host/base/named.h"
 #include "host/base/printable.h"
 #include "host/print/environment_json.h"
-#include "host/print/error_json.h"
 #include "host/print/flatten_text.h"
+#include "host/print/image_error.h"
+#include "host/print/stats.h"
 
 namespace rt {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/stats_text.h"
-
 #include <fmt/format.h>
 
 #include "host/base/counted.h"
 #include "host/base/named.h"
 #include "host/print/flatten_text.h"
+#include "host/print/stats.h"
 
 namespace rt {
 

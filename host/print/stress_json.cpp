@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/stress_json.h"
-
 #include <cmath>
 #include <limits>
 
 #include "host/base/named.h"
 #include "host/picture/render_stats.h"
-#include "host/print/run_json.h"
+#include "host/print/run.h"
+#include "host/print/stress.h"
 
 namespace rt {
 

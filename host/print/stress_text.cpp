@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/stress_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 
 #include "host/base/named.h"
+#include "host/print/stress.h"
 
 namespace rt {
 

@@ -16,11 +16,10 @@
 #include "host/image/picture_io.h"
 #include "host/measure/flip.h"
 #include "host/measure/heatmap.h"
-#include "host/print/error_json.h"
-#include "host/print/error_text.h"
+#include "host/print/image_error.h"
 #include "host/print/result_file.h"
-#include "host/print/run_json.h"
-#include "host/print/stats_json.h"
+#include "host/print/run.h"
+#include "host/print/stats.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {

@@ -10,7 +10,7 @@
 #include "host/measure/ray_tree.h"
 #include "host/picture/render_stats.h"
 #include "host/print/ray_tree_text.h"
-#include "host/print/stats_json.h"
+#include "host/print/stats.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/verbs/verbs.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,8 @@ std::string tolerance_text(const StressTolerance& tolerance);
 
 /// The loosest tolerance of a family's cases.
 StressTolerance loosest_tolerance(const StressFamilyResult& family);
+
+/// Format "mirrorball-stress", version 1 (docs/stress.schema.json).
+nlohmann::ordered_json stress_json(const StressResult& result);
 
 }  // namespace rt

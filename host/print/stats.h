@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "host/flatten/features.h"
@@ -26,5 +27,12 @@ std::string driver_time_text(const RenderStats& stats);
 /// The table of --stats: phases as in the paper (set-up, ray trace, resolve and write, total), rays
 /// by kind, and what the scene needed and did not need.
 std::string stats_text(const RenderStats& stats);
+
+/// A JSON value as indented text with a newline; invalid UTF-8 (a file name may hold it) becomes
+/// replacement characters.
+std::string json_text(const nlohmann::ordered_json& json);
+
+/// One rendering in format "mirrorball-render", version 1 (docs/results-format.md).
+nlohmann::ordered_json stats_json(const RenderStats& stats);
 
 }  // namespace rt
