@@ -185,6 +185,14 @@ class Bench(FiguresTest):
             self.assertNotIn("exception", result.stderr)
             self.assertEqual((result.stdout, result.stderr.count("\n")), ("", 1))
 
+    def test_baseline_of_other_rows(self):
+        """Refused before anything is measured."""
+        path = pathlib.Path(CACHE.name) / "old.json"
+        path.write_text(json.dumps(self.result), encoding="utf-8")
+        result = run("bench", SCENE, "--sizes", "17", "--devices", "threads:1", "--baseline", str(path), code=3)
+        self.assertIn("matches the baseline", result.stderr)
+        self.assertNotIn("warm-up", result.stderr)
+
     def test_a_scene_is_never_replaced_by_results(self):
         before = pathlib.Path(SCENE).read_bytes()
         self.assertIn("choose another name", run("bench", "--json=" + SCENE, code=2).stderr)

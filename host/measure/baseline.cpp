@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.h"
@@ -61,27 +62,30 @@ std::string to_string(const Regression& regression) {
                        before.median > 0 ? 100 * (now.median / before.median - 1) : 0);
 }
 
+void check_baseline(const std::vector<BenchCase>& rows, const Baseline& baseline) {
+    const bool any_in_common = std::any_of(rows.begin(), rows.end(), [&](const BenchCase& row) {
+        return baseline.contains(key_of(row));
+    });
+    if (any_in_common) return;
+    throw Error(ExitCode::input,
+                "no row matches the baseline; use the same scenes, sizes, AA modes and "
+                "devices");
+}
+
 std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,
                                     double max_regress) {
     std::vector<Regression> slower;
-    bool any_in_common = false;
     for (const BenchRow& row : result.rows) {
         const std::string key = key_of(row.asked);
         const auto before = baseline.find(key);
         const auto now = figures_of(result, row);
         if (before == baseline.end() || !now) continue;
-        any_in_common = true;
         const BaselineRow& old = before->second;
         if (is_slower(old.total, now->total, max_regress)) {
             slower.push_back({key, "total", old.total, now->total});
         } else if (is_slower(old.trace, now->trace, max_regress)) {
             slower.push_back({key, "trace", old.trace, now->trace});
         }
-    }
-    if (!any_in_common) {
-        throw Error(ExitCode::input,
-                    "no correct row matches the baseline; use the same scenes, sizes, AA modes and "
-                    "devices");
     }
     return slower;
 }

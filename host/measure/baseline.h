@@ -35,8 +35,10 @@ struct Regression {
 /// One line: what, from, to, and the noise.
 std::string to_string(const Regression& regression);
 
+/// Throws Error (ExitCode::input) if none of the rows to be measured is in the baseline.
+void check_baseline(const std::vector<BenchCase>& rows, const Baseline& baseline);
+
 /// The rows of the result that are in the baseline and slower now, in total or else in trace.
-/// Throws Error (ExitCode::input) if they have no row in common.
 std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,
                                     double max_regress);
 

@@ -238,7 +238,7 @@ bool has_regressed(const BenchResult& result, const Baseline& baseline, double m
 
 }  // namespace
 
-BenchResult measure_bench(const BenchOptions& options) {
+BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline) {
     BenchResult result;
     result.repeats_asked = options.repeats;
     result.load_before = load_average();
@@ -246,7 +246,12 @@ BenchResult measure_bench(const BenchOptions& options) {
     say_busy(options.quiet);
     result.interrupted = !plan.make(result);
     std::vector<TimedCase> cases;
-    for (const PlannedRow& row : plan.rows) cases.push_back(row.timed);
+    std::vector<BenchCase> asked;
+    for (const PlannedRow& row : plan.rows) {
+        cases.push_back(row.timed);
+        asked.push_back(row.asked);
+    }
+    if (baseline != nullptr && !result.interrupted) check_baseline(asked, *baseline);
     if (!result.interrupted) {
         result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
     }
@@ -267,7 +272,8 @@ int run_bench(const BenchOptions& options) {
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
     const FreshKernelCache kernels;
-    const BenchResult result = measure_bench(options);
+    const BenchResult result =
+        measure_bench(options, options.baseline.empty() ? nullptr : &baseline);
     if (!options.results.take_stdout()) print_result(bench_text(result));
     write_result(options.results.json, json_text(bench_json(result)));
     write_result(options.results.csv, bench_csv(result));

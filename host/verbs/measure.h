@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/measure/baseline.h"
 #include "host/measure/bench_result.h"
 #include "host/measure/converge_result.h"
 #include "host/options/options.h"
@@ -8,8 +9,9 @@
 
 namespace rt {
 
-// The measurements of bench and converge, also used by report. Throw Error.
-BenchResult measure_bench(const BenchOptions& options);
+// The measurements of bench and converge, also used by report. Throw Error; bench also if no row
+// is in the baseline, if there is one.
+BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline = nullptr);
 ConvergeResult measure_converge(const ConvergeOptions& options);
 
 /// The measurements of stress, also used by report. Throws Error.
