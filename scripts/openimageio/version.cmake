@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: Apache-2.0
+# Makes oiioversion.h from its template: cmake -DVERSION=3.2.2.0 -DHEADERS=FOLDER -P version.cmake
+if(NOT VERSION MATCHES "^([0-9]+)\\.([0-9]+)\\.([0-9]+)\\.([0-9]+)$")
+    message(FATAL_ERROR "'${VERSION}' is not a version of OpenImageIO")
+endif()
+set(PROJECT_VERSION_MAJOR ${CMAKE_MATCH_1})
+set(PROJECT_VERSION_MINOR ${CMAKE_MATCH_2})
+set(PROJECT_VERSION_PATCH ${CMAKE_MATCH_3})
+set(PROJECT_VERSION_TWEAK ${CMAKE_MATCH_4})
+set(PROJ_NAMESPACE OpenImageIO)
+set(PROJ_VERSION_NAMESPACE v${CMAKE_MATCH_1}_${CMAKE_MATCH_2})
+set(OIIO_USE_COMPILED_FMT_VALUE 0)
+set(Imath_VERSION_MAJOR 3)
+set(Imath_VERSION_MINOR 1)
+set(CMAKE_CXX_STANDARD 17)
+configure_file(${HEADERS}/oiioversion.h.in ${HEADERS}/oiioversion.h @ONLY)
