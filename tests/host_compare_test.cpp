@@ -11,7 +11,7 @@
 #include "host/image/image_error.h"
 #include "host/measure/flip.h"
 #include "host/measure/heatmap.h"
-#include "host/print/image_error.h"
+#include "host/print/print_image_error.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "host/base/processor_time.h"
 #include "host/image/picture_io.h"
 #include "host/picture/render_stats.h"
-#include "host/print/stats.h"
+#include "host/print/print_stats.h"
 #include "host/report/bars.h"
 #include "host/report/device_colors.h"
 #include "host/report/html.h"

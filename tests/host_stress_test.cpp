@@ -6,7 +6,7 @@
 #include <set>
 
 #include "host/base/error.h"
-#include "host/print/stress.h"
+#include "host/print/print_stress.h"
 #include "host/report/sections.h"
 #include "host/stress/judge.h"
 #include "host/stress/meshes.h"

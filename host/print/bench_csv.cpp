@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/bench.h"
-#include "host/print/bench.h"
-#include "host/print/run.h"
+#include "host/print/print_bench.h"
+#include "host/print/print_run.h"
 
 namespace rt {
 

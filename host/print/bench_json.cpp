@@ -2,8 +2,8 @@
 #include "host/base/named.h"
 #include "host/base/printable.h"
 #include "host/measure/bench.h"
-#include "host/print/bench.h"
-#include "host/print/run.h"
+#include "host/print/print_bench.h"
+#include "host/print/print_run.h"
 
 namespace rt {
 

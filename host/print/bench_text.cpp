@@ -7,7 +7,7 @@
 #include "host/base/printable.h"
 #include "host/measure/bench.h"
 #include "host/measure/machine_load.h"
-#include "host/print/bench.h"
+#include "host/print/print_bench.h"
 #include "host/print/rounds_text.h"
 
 namespace rt {

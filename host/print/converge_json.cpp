@@ -3,8 +3,8 @@
 #include "host/base/printable.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
-#include "host/print/converge.h"
-#include "host/print/run.h"
+#include "host/print/print_converge.h"
+#include "host/print/print_run.h"
 
 namespace rt {
 

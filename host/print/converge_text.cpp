@@ -9,7 +9,7 @@
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
-#include "host/print/converge.h"
+#include "host/print/print_converge.h"
 #include "host/print/rounds_text.h"
 
 namespace rt {

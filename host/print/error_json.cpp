@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/image_error.h"
+#include "host/print/print_image_error.h"
 
 namespace rt {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "host/base/counted.h"
-#include "host/print/image_error.h"
+#include "host/print/print_image_error.h"
 
 namespace rt {
 

@@ -7,7 +7,7 @@
 #include "host/base/printable.h"
 #include "host/base/version.h"
 #include "host/print/environment_json.h"
-#include "host/print/run.h"
+#include "host/print/print_run.h"
 
 namespace rt {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/machine_load.h"
 #include "host/print/environment_json.h"
-#include "host/print/run.h"
-#include "host/print/stats.h"
+#include "host/print/print_run.h"
+#include "host/print/print_stats.h"
 
 namespace rt {
 

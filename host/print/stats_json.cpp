@@ -5,8 +5,8 @@
 #include "host/base/printable.h"
 #include "host/print/environment_json.h"
 #include "host/print/flatten_text.h"
-#include "host/print/image_error.h"
-#include "host/print/stats.h"
+#include "host/print/print_image_error.h"
+#include "host/print/print_stats.h"
 
 namespace rt {
 

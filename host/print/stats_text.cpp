@@ -4,7 +4,7 @@
 #include "host/base/counted.h"
 #include "host/base/named.h"
 #include "host/print/flatten_text.h"
-#include "host/print/stats.h"
+#include "host/print/print_stats.h"
 
 namespace rt {
 

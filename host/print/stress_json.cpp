@@ -4,8 +4,8 @@
 
 #include "host/base/named.h"
 #include "host/picture/render_stats.h"
-#include "host/print/run.h"
-#include "host/print/stress.h"
+#include "host/print/print_run.h"
+#include "host/print/print_stress.h"
 
 namespace rt {
 

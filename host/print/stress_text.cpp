@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "host/base/named.h"
-#include "host/print/stress.h"
+#include "host/print/print_stress.h"
 
 namespace rt {
 

@@ -7,7 +7,7 @@
 #include "host/flatten/features.h"
 #include "host/measure/statistics.h"
 #include "host/print/flatten_text.h"
-#include "host/print/stats.h"
+#include "host/print/print_stats.h"
 #include "host/report/html.h"
 #include "host/report/labels.h"
 #include "host/report/plot_axis.h"

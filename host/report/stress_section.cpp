@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "host/base/named.h"
-#include "host/print/stress.h"
+#include "host/print/print_stress.h"
 #include "host/report/html.h"
 #include "host/report/labels.h"
 #include "host/report/plots.h"

@@ -16,10 +16,10 @@
 #include "host/image/picture_io.h"
 #include "host/measure/flip.h"
 #include "host/measure/heatmap.h"
-#include "host/print/image_error.h"
+#include "host/print/print_image_error.h"
+#include "host/print/print_run.h"
+#include "host/print/print_stats.h"
 #include "host/print/result_file.h"
-#include "host/print/run.h"
-#include "host/print/stats.h"
 #include "host/verbs/verbs.h"
 
 namespace rt {

@@ -11,7 +11,7 @@
 #include "host/opencl/cl_device.h"
 #include "host/opencl/icd_files.h"
 #include "host/pocl/pocl_environment.h"
-#include "host/print/stats.h"
+#include "host/print/print_stats.h"
 #include "host/render/native_kernels.h"
 #include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"

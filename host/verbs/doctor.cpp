@@ -15,7 +15,7 @@
 #include "host/picture/render_picture.h"
 #include "host/pocl/pocl_cache.h"
 #include "host/pocl/pocl_environment.h"
-#include "host/print/stats.h"
+#include "host/print/print_stats.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/native_kernels.h"

@@ -20,7 +20,7 @@
 #include "host/opencl/device_spec.h"
 #include "host/options/frame_number.h"
 #include "host/picture/render_cache.h"
-#include "host/print/stats.h"
+#include "host/print/print_stats.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"

@@ -16,7 +16,7 @@
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/journal/journal_file.h"
-#include "host/print/stats.h"
+#include "host/print/print_stats.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/scene/scene_file.h"

@@ -11,7 +11,7 @@
 #include "host/flatten/flat_scene.h"
 #include "host/picture/render_stats.h"
 #include "host/print/flatten_text.h"
-#include "host/print/stats.h"
+#include "host/print/print_stats.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
 #include "host/scene/scene_warnings.h"

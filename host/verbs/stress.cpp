@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include "host/print/stress.h"
-
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/image/output_path.h"
+#include "host/print/print_run.h"
+#include "host/print/print_stats.h"
+#include "host/print/print_stress.h"
 #include "host/print/result_file.h"
-#include "host/print/run.h"
-#include "host/print/stats.h"
 #include "host/process/stop_signal.h"
 #include "host/verbs/measure.h"
 #include "host/verbs/stress_run.h"
