@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A driver ends its process, or hangs."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+from driver_case import BUILD, SCENE, WrongDriver
+from hang_limit import HANG_LIMIT
+from measure_cases import Bench
+
+
+class Dies(WrongDriver):
+    """A driver that ends its process, or does nothing any more: the picture is whole all the same."""
+
+    ARGUMENTS = ["render", SCENE, "--size", "120", "--device", "pocl", "--deadline", "1"]
+    LATE = ["render", SCENE, "--size", "190", "--device", "pocl", "--aa", "grid:64", "--progress", "none"]
+    PLACES = {"clGetPlatformIDs": 1, "clGetDeviceIDs": 1, "clCreateContext": 1, "clBuildProgram": 1,
+              "clEnqueueNDRangeKernel": 2, "clFinish": 2}
+
+    @classmethod
+    def setUpClass(cls):
+        right = subprocess.run([str(BUILD / "mirrorball"), *cls.ARGUMENTS[:4], "--device",
+                                "threads"], text=True, capture_output=True, check=True)
+        cls.right = right.stderr.split()[-1]
+
+    def die(self, place, by, *arguments, render=ARGUMENTS, **shim):
+        if "-o" not in arguments:
+            arguments += ("-o", str(self.folder / "out.png"))
+        return self.run_with({"CL_SHIM_DIE_IN": place, "CL_SHIM_DIE_BY": by, **shim},
+                             *render, *arguments)
+
+    def die_late(self, *arguments):
+        """In the middle of a picture of three seconds, of which a journal is kept."""
+        return self.die("clEnqueueNDRangeKernel", "abort", *arguments, "--tile", "16", "--threads", "1",
+                        render=self.LATE, CL_SHIM_DIE_AT="4", CL_SHIM_DIE_AFTER="1.5")
+
+    def test_costs_time_and_not_the_picture(self):
+        words = {"abort": "was killed by SIGABRT", "segfault": "was killed by SIGSEGV",
+                 "exit": "ended with exit code 1", "hang": "made no progress for 1 s"}
+        for place, call in self.PLACES.items():
+            for by, word in words.items():
+                if call > 1 and by in ["segfault", "exit"]:
+                    continue
+                with self.subTest(place=place, by=by):
+                    result = self.die(place, by, CL_SHIM_DIE_AT=str(call))
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    lines = result.stderr.splitlines()
+                    self.assertEqual(lines[-1].split()[-1], self.right)
+                    is_listing = place in ["clGetPlatformIDs", "clGetDeviceIDs"]
+                    self.assertEqual(len(lines), 2 if by == "hang" or is_listing else 3,
+                                     result.stderr)
+                    for line in lines[:-1]:
+                        self.assertIn(word, line)
+                    self.assertIn("rendering on threads instead", lines[-2])
+
+    def test_by_returning_an_error(self):
+        for place, call in self.PLACES.items():
+            with self.subTest(place=place):
+                result = self.die(place, "error", "--stats=json", CL_SHIM_DIE_AT=str(call))
+                self.assertEqual(result.returncode, 0, result.stderr)
+                lines = result.stderr.splitlines()
+                self.assertEqual(len(lines), 2, result.stderr)
+                self.assertIn("CL_OUT_OF_HOST_MEMORY", lines[0])
+                self.assertIn("rendering on threads instead", lines[1])
+                stats = json.loads(result.stdout)
+                self.assertEqual(stats["image"]["hash"], self.right)
+                self.assertIn("CL_OUT_OF_HOST_MEMORY", stats["devices"][0]["failure"])
+                result = self.die(place, "error", "--no-fallback", CL_SHIM_DIE_AT=str(call))
+                self.assertEqual(result.returncode, 5, result.stderr)
+
+    def test_by_returning_an_error_beside_others(self):
+        for devices, other in [("pocl,threads", "threads"), ("auto", None)]:
+            result = self.run_with({"CL_SHIM_DIE_IN": "clGetDeviceIDs", "CL_SHIM_DIE_BY": "error"},
+                                   *self.ARGUMENTS[:4], "--stats=json", "--device", devices)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            stats = json.loads(result.stdout)
+            self.assertEqual(stats["image"]["hash"], self.right)
+            if other:
+                self.assertIn("CL_OUT_OF_HOST_MEMORY", stats["devices"][0]["failure"])
+                self.assertIn("continuing without it", result.stderr)
+
+    def test_once_is_tried_once_more(self):
+        once = str(self.folder / "died")
+        result = self.die("clBuildProgram", "abort", "--stats=json", CL_SHIM_DIE_ONCE=once)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("with an empty kernel cache", result.stderr)
+        stats = json.loads(result.stdout)
+        self.assertIn("pthread", stats["device"]["name"])
+        self.assertEqual(stats["image"]["hash"], self.right)
+
+    def test_leaves_the_picture_to_other_devices(self):
+        picture = ["render", SCENE, "--size", "120", "--aa", "grid:40", "--threads", "1", "--stats=json"]
+        right = json.loads(self.run_with({}, *picture, "--device", "threads").stdout)["image"]["hash"]
+        for devices in ["0,1", "all"]:
+            result = self.run_with({"CL_SHIM_DIE_IN": "clCreateContext", "CL_SHIM_DIE_BY": "abort",
+                                    "CL_SHIM_DIE_AT": "2", "POCL_DEVICES": "pthread pthread"},
+                                   *picture, "--device", devices)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("trying again without --device 0", result.stderr)
+            stats = json.loads(result.stdout)
+            self.assertIn("pthread", json.dumps(stats.get("devices", stats["device"])))
+            self.assertEqual(stats["image"]["hash"], right)
+
+    def test_stats_say_whom_threads_stand_in_for(self):
+        stats = json.loads(self.die("clFinish", "segfault", "--stats=json").stdout)
+        self.assertEqual(stats["device"]["name"], "threads")
+        self.assertEqual(stats["device"]["fallback_from"], "--device pocl")
+        device, threads = stats["devices"]
+        self.assertEqual((device["name"], device["failure"]),
+                         ("--device pocl", "the driver process was killed by SIGSEGV"))
+        self.assertEqual((threads["name"], threads["pixels"]), ("threads", 120 * 120))
+        picture = (self.folder / "out.png").read_bytes()
+        self.assertIn(b"the driver process was killed by SIGSEGV", picture)
+        self.assertIn("was killed by SIGSEGV", self.die("clFinish", "segfault", "--stats").stdout)
+
+    def test_late_is_gone_on_with(self):
+        """What it had finished is in the journal."""
+        picture = str(self.folder / "out.png")
+        result = self.die_late("-o", picture, "--resume")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"resuming from .*out\.png\.mbj, which has [1-9]\d* %")
+        right = subprocess.run([str(BUILD / "mirrorball"), *self.LATE[:4], *self.LATE[6:], "-o", picture,
+                                "--device", "threads"], text=True, capture_output=True, check=True)
+        self.assertEqual(result.stderr.split()[-1], right.stderr.split()[-1])
+
+    def test_late_is_gone_on_with_though_it_began_anew(self):
+        result = self.die_late("--shard", "0/1", "--fresh", "-o", str(self.folder / "part.mbj"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"resuming from .*part\.mbj, which has [1-9]\d* %")
+
+    def test_busy_for_ever_it_ends_at_the_timeout(self):
+        self.run_with({}, *self.ARGUMENTS)  # compiles
+        result = self.die("clEnqueueNDRangeKernel", "spin", "--timeout", "2", CL_SHIM_DIE_AT="6")
+        self.assertIn(result.returncode, [0, 8], result.stderr)  # so small a picture may be whole
+        self.assertIn("did not end in time", result.stderr)
+
+    def test_busy_for_ever_costs_time_and_not_the_picture(self):
+        picture = ["--aa", "grid:64", "--progress", "none", "--tile", "16"]
+        shim = {"CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "spin",
+                "CL_SHIM_DIE_AT": "4", "CL_SHIM_DIE_AFTER": "0.5"}
+        result = self.run_with(shim, *self.ARGUMENTS[:-1], "0.5", *picture)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("made no progress for", result.stderr)
+        self.assertIn("rendering on threads instead", result.stderr)
+        right = subprocess.run([str(BUILD / "mirrorball"), *self.ARGUMENTS[:4], *picture,
+                                "--device", "threads"], text=True, capture_output=True, check=True)
+        self.assertEqual(result.stderr.split()[-1], right.stderr.split()[-1])
+
+    def test_is_an_error_without_fallback(self):
+        result = self.die("clBuildProgram", "abort", "--no-fallback")
+        self.assertEqual(result.returncode, 5)
+        self.assertIn("was killed by SIGABRT", result.stderr.splitlines()[-1])
+
+    def test_takes_the_program_along_where_nobody_isolates_it(self):
+        self.assertEqual(self.die("clBuildProgram", "abort", "--isolate", "never").returncode, -6)
+
+    def test_doctor_names_it(self):
+        result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "segfault"},
+                               "doctor")
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its test process was killed by SIGSEGV")
+        self.assertRegex(result.stdout, r"ok +threads: ")
+
+    def drivers(self, *names):
+        """A folder of .icd files, each of PoCL."""
+        folder = self.folder / "drivers"
+        folder.mkdir()
+        for name in names:
+            shutil.copy("/etc/OpenCL/vendors/pocl.icd", folder / name)
+        return {"OCL_ICD_VENDORS": str(folder)}
+
+    def test_beside_another_one_is_listed_alone(self):
+        shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
+                "CL_SHIM_DIE_WITH": "a.icd b.icd", **self.drivers("a.icd", "b.icd")}
+        result = self.run_with(shim, "devices", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        answer = json.loads(result.stdout)
+        self.assertEqual([pathlib.Path(device["icd_file"]).name for device in answer["devices"]],
+                         ["a.icd", "b.icd"])
+        self.assertRegex(answer["problems"][0], r"a process that loads the drivers of .*a\.icd and "
+                         r".*b\.icd crashes while listing their devices \(Aborted\)")
+        self.assertRegex(self.run_with(shim, "devices").stdout,
+                         r"only with OCL_ICD_VENDORS=.*b\.icd, as --device 0")
+        result = self.run_with(shim, "doctor")
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertEqual(result.stdout.count("renders the right picture"), 3, result.stdout)
+        self.assertRegex(result.stdout, r"BROKEN +OpenCL: a process that loads the drivers of")
+
+    def test_is_left_out_of_what_is_measured(self):
+        shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
+                "CL_SHIM_DIE_WITH": "bad.icd", **self.drivers("bad.icd", "good.icd")}
+        result = self.run_with(shim, *Bench.ARGUMENTS)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"bad\.icd: its driver crashes while listing its devices")
+        self.assertEqual({row["verdict"] for row in json.loads(result.stdout)["rows"]
+                          if row["device_name"] != "threads"}, {"right"})
+
+    def test_by_computing_for_ever_does_not_hold_up_devices_and_doctor(self):
+        shim = {"CL_SHIM_DIE_IN": "clGetDeviceIDs", "CL_SHIM_DIE_BY": "spin"}
+        result = self.run_with(shim, "devices", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("hangs: still listing its devices after 10 s",
+                      json.loads(result.stdout)["problems"][0])
+        shim["CL_SHIM_DIE_IN"] = "clBuildProgram"
+        result = self.run_with(shim, "doctor", "--deadline", "0.5")
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: its test process did not end in time")
+
+    def check_hanging_ends(self, *command):
+        result = self.run_with({"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "hang"}, *command)
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertRegex(result.stderr, r"pthread.*: the worker process made no progress for")
+
+    def test_by_hanging_ends_bench(self):
+        self.check_hanging_ends(*Bench.ARGUMENTS)
+
+    def test_by_hanging_ends_ray_trials(self):
+        self.check_hanging_ends("stress", "-q", "--quick", "--case", "sphere-rays", "--device", "pocl")
+
+    @unittest.skipUnless(shutil.which("mpirun"), "needs openmpi-bin")
+    def test_does_not_take_an_mpi_job_along(self):
+        out, right = self.folder / "out.png", self.folder / "right.png"
+        self.run_with({}, *self.ARGUMENTS[:4], "--device", "threads", "-o", str(right))
+        for place in ["", "clGetPlatformIDs", "clBuildProgram"]:
+            result = subprocess.run(
+                ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", "2", "-x",
+                 "LD_PRELOAD=" + str(BUILD / "libcl_shim.so"),
+                 str(BUILD / "mirrorball"), *self.ARGUMENTS, "--mpi", "-o", str(out)],
+                env=dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                         CL_SHIM_DIE_IN=place, CL_SHIM_DIE_BY="abort",
+                         POCL_CACHE_DIR=str(BUILD / "wrong-driver-cache")),
+                text=True, capture_output=True, timeout=HANG_LIMIT, check=False)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(place != "", "the driver process was killed by SIGABRT; rendering on "
+                             "threads instead" in result.stderr, result.stderr)
+            self.assertEqual(out.read_bytes(), right.read_bytes())
+            out.unlink()
+
+    def test_measuring_names_it(self):
+        for verb in [["bench", SCENE], ["converge", SCENE], ["stress", "--quick"],
+                     ["report", SCENE, "-o", str(self.folder / "report.html")]]:
+            result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs",
+                                    "CL_SHIM_DIE_BY": "abort"}, *verb, "-q")
+            self.assertEqual(result.returncode, 5, result.stderr)
+            named, ended = result.stderr.splitlines()
+            self.assertIn("its driver crashes while listing its devices (Aborted)", named)
+            self.assertEqual(ended, "mirrorball: listing OpenCL devices: the worker process was "
+                             "killed by SIGABRT; test each driver with 'mirrorball doctor'")
+
+    def test_devices_says_that_it_could_try_none(self):
+        result = self.run_with({"CL_SHIM_NO_FORK": "1"}, "devices")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("could not be started", result.stdout)
+
+    def test_devices_survives(self):
+        result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort"},
+                               "devices", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        answer = json.loads(result.stdout)
+        self.assertEqual(answer["devices"], [])
+        self.assertIn("crashes while listing its devices (Aborted)", answer["problems"][0])
+
+
+class IsNotAsked(WrongDriver):
+    def test_by_what_needs_no_opencl(self):
+        """A driver that would end the process when asked for its platforms."""
+        picture = str(self.folder / "out.png")
+        for arguments in [["--help"], ["--version"], ["render", "--help"], ["scene", "info", SCENE],
+                          ["scene", "check", SCENE], ["explain", SCENE, "--pixel", "5,5"],
+                          ["render", SCENE, "--size", "20", "--device", "threads", "--isolate", "never",
+                           "-o", picture], ["compare", picture, picture]]:
+            with self.subTest(arguments=arguments):
+                result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs",
+                                        "CL_SHIM_DIE_BY": "abort"}, *arguments)
+                self.assertEqual(result.returncode, 0, result.stderr)

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A device returns errors in the middle of a picture."""
+import json
+
+from driver_case import SCENE, WrongDriver
+
+
+class Fails(WrongDriver):
+    """A device that fails in the middle leaves what it finished, and threads do the rest."""
+    ARGUMENTS = ["render", SCENE, "--stats=json", "-q", "--size", "300", "--device"]
+    TILES = ["--tile", "100x10", "--aa", "grid:4"]  # several launches
+
+    def figures(self, shim, device, *arguments):
+        result = self.run_with(shim, *self.ARGUMENTS, device, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def check_fails_at(self, launch, *arguments, **shim):
+        """The pixels that the device had finished."""
+        right = self.figures({}, "threads", *arguments)
+        got = self.figures(dict({"CL_SHIM_FAIL_LAUNCH": str(launch)}, **shim), "pocl", *arguments)
+        self.assertEqual(got["image"]["hash"], right["image"]["hash"])
+        self.assertEqual(got["rays"], right["rays"])
+        self.assertEqual(got["device"]["name"], "threads")
+        device, threads = got["devices"]
+        self.assertEqual(got["device"]["fallback_from"], device["name"])
+        self.assertIn("CL_OUT_OF_RESOURCES", device["failure"])
+        self.assertEqual(device["pixels"] + threads["pixels"], 300 * 300)
+        return device["pixels"]
+
+    def test_at_any_launch(self):
+        # The first is of nothing, the next four are the self-test's.
+        finished = [self.check_fails_at(launch, *self.TILES) for launch in [1, 2, 5, 6, 7, 8]]
+        self.assertEqual(finished[:4], [0, 0, 0, 0])
+        self.assertGreater(finished[4], 0)
+        self.assertGreater(finished[5], finished[4])
+
+    def test_samples_as_work_items(self):
+        for launch in [8, 9, 10, 11, 12]:
+            self.check_fails_at(launch, "--launch", "sample", *self.TILES)
+
+    def test_when_what_was_finished_cannot_be_read(self):
+        self.assertEqual(self.check_fails_at(8, *self.TILES, CL_SHIM_FAIL_READ="1"), 0)
+
+    def test_while_refining(self):
+        for launch in [11, 12]:
+            self.check_fails_at(launch, "--aa", "adaptive:0.01")
+
+    def test_beside_others(self):
+        picture = ["--aa", "grid:64", "--tile", "100x10"]
+        right = self.figures({}, "threads", *picture)
+        got = self.figures({"CL_SHIM_FAIL_LAUNCH": "7"}, "pocl,threads", *picture)
+        self.assertEqual(got["image"]["hash"], right["image"]["hash"])
+        self.assertEqual(got["rays"], right["rays"])
+        self.assertIn("CL_OUT_OF_RESOURCES", got["devices"][0]["failure"])
+
+    def test_in_a_batch_it_is_not_asked_again(self):
+        right = self.figures({}, "threads", *self.TILES)
+        result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "7"}, *self.ARGUMENTS, "pocl", SCENE,
+                               *self.TILES)
+        first, second = map(json.loads, result.stdout.splitlines())
+        for got in (first, second):
+            self.assertEqual(got["image"]["hash"], right["image"]["hash"])
+            self.assertEqual(got["device"]["name"], "threads")
+        self.assertIn("fallback_from", first["device"])
+        self.assertNotIn("fallback_from", second["device"])
+
+    def test_is_an_error_without_fallback(self):
+        result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "7"}, *self.ARGUMENTS, "pocl", "--no-fallback")
+        self.assertEqual(result.returncode, 5, result.stderr)

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""bench, converge and stress notice wrong pictures; what --math asks for reaches the driver."""
+import json
+
+from driver_case import SCENE, WrongDriver, brighter
+
+
+class Bench(WrongDriver):
+    ARGUMENTS = ["bench", SCENE, "--sizes", "32", "--aa", "none", "--precision", "float",
+                 "--devices", "threads:1,pocl", "--repeats", "3", "-q", "--json"]
+
+    def verdicts(self, shim, code):
+        result = self.run_with(shim, *self.ARGUMENTS)
+        self.assertEqual(result.returncode, code, result.stderr)
+        rows = json.loads(result.stdout)["rows"]
+        return ({row["verdict"] for row in rows if row["device_name"] == "threads"},
+                [(row["verdict"], row["why"]) for row in rows if row["device_name"] != "threads"],
+                result.stderr)
+
+    def test_a_right_driver_passes(self):
+        threads, device, _ = self.verdicts({}, 0)
+        self.assertEqual(threads, {"right"})
+        self.assertEqual(device, [("right", "")])
+
+    def test_a_picture_far_from_the_reference_is_wrong(self):
+        threads, [(verdict, why)], said = self.verdicts(brighter("1.5"), 1)
+        self.assertEqual((threads, verdict), ({"right"}, "wrong"))
+        self.assertIn("off by more than 1/255", why)  # the judge's word, which comes before the bits'
+        self.assertIn(why, said)
+
+    def test_a_picture_that_is_off_in_a_bit_is_wrong(self):
+        threads, [(verdict, why)], _ = self.verdicts(brighter("1.000001"), 1)
+        self.assertEqual((threads, verdict), ({"right"}, "wrong"))
+        self.assertIn("but threads produce", why)
+
+    def test_a_picture_that_changes_between_repeats_is_wrong(self):
+        shim = dict(brighter("1.000001"), CL_SHIM_FROM="3")
+        threads, [(verdict, why)], _ = self.verdicts(shim, 1)
+        self.assertEqual((threads, verdict), ({"right"}, "wrong"))
+        self.assertIn("changes from run to run", why)
+
+
+class Converge(WrongDriver):
+    ARGUMENTS = ["converge", SCENE, "--size", "24", "--aa", "none,grid:2", "--precision", "float",
+                 "--devices", "pocl", "--repeats", "5", "--reference-samples", "16", "-q"]
+
+    def test_a_picture_that_is_off_in_a_bit_is_wrong(self):
+        self.assertEqual(self.run_with({}, *self.ARGUMENTS).returncode, 0)
+        result = self.run_with(brighter("1.000001"), *self.ARGUMENTS)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("but threads produce", result.stderr)
+
+
+class Stress(WrongDriver):
+    def stress(self, shim, code, *arguments):
+        result = self.run_with(shim, "stress", "-q", *arguments)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        return result.stdout
+
+    def test_devices_that_disagree_in_a_bit_fail(self):
+        case = ["--case", "scale-2/2^0", "--device", "threads,pocl"]
+        self.stress({}, 0, *case)
+        self.assertRegex(self.stress(brighter("1.000001"), 1, *case),
+                         "devices give 2 different pictures in (float|double)")
+
+    def test_cases_that_should_have_the_same_bits_and_do_not_fail(self):
+        case = ["--case", "scale-2/2^0,scale-2/2^20", "--device", "pocl"]
+        self.stress({}, 0, *case)
+        shim = dict(brighter("1.000001"), CL_SHIM_FROM="3")  # the first case has two precisions
+        self.assertIn("bits differ from", self.stress(shim, 1, *case))
+
+
+class Math(WrongDriver):
+    def options(self, *arguments):
+        log = self.folder / "options"
+        log.unlink(missing_ok=True)
+        result = self.run_with({"CL_SHIM_LOG": str(log)}, "render", SCENE, "--size", "8",
+                               "--device", "pocl", "--no-fallback", "-q", "-o",
+                               str(self.folder / "a.pfm"), *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return log.read_text()
+
+    def test_fast_lets_the_compiler_contract(self):
+        fast = self.options("--math", "fast")
+        self.assertIn(" -DRT_FAST_MATH=1", fast)
+        self.assertIn(" -cl-mad-enable", fast)
+
+    def test_strict_does_not(self):
+        strict = self.options()
+        self.assertNotIn("FAST_MATH", strict)
+        self.assertNotIn("-cl-mad-enable", strict)
+        self.assertIn("-cl-fp32-correctly-rounded-divide-sqrt", strict)

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A device computes other bits."""
+import json
+import os
+
+from driver_case import SCENE, WrongDriver, brighter
+
+
+class Wrong(WrongDriver):
+    """A device that computes other bits is found out."""
+
+    def render(self, shim, code, *arguments):
+        result = self.run_with(shim, "render", SCENE, "--size", "100", "--device", "pocl",
+                               "--stats=json", *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result
+
+    def right_hash(self):
+        return json.loads(self.render({}, 0).stdout)["image"]["hash"]
+
+    def test_by_the_doctor(self):
+        result = self.run_with(brighter("1.000001"), "doctor")
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertRegex(result.stdout, r"BROKEN +device 0, .*: renders a wrong picture")
+
+    def test_by_its_self_test(self):
+        result = self.render(brighter("1.000001"), 0)
+        self.assertIn("fails its self-test", result.stderr)
+        figures = json.loads(result.stdout)
+        self.assertEqual(figures["image"]["hash"], self.right_hash())
+        self.assertIn("fallback_from", figures["device"])
+
+    def test_its_self_test_is_an_error_without_fallback(self):
+        self.render(brighter("1.000001"), 5, "--no-fallback")
+
+    def test_a_right_one_is_not(self):
+        figures = json.loads(self.render({}, 0, "--check", "100%").stdout)
+        self.assertNotIn("fallback_from", figures["device"])
+        self.assertGreater(figures["tiles_checked"], 1)
+        self.assertGreater(figures["seconds"]["self_test"], 0)
+        for share, tiles in [("1%", 1), ("20%", 5), ("21%", 6)]:
+            result = self.render({}, 0, "--check", share, "--tile", "20")
+            self.assertEqual(json.loads(result.stdout)["tiles_checked"], tiles)
+
+    def test_by_its_self_test_wherever_it_is(self):
+        for where in ["x >= 99", "y < 25"]:
+            shim = {"CL_SHIM_OLD": self.CORNERS["CL_SHIM_OLD"], "CL_SHIM_NEW":
+                    f"RT_TO_REALS(x) + ({where} ? (Reals)0.25f : offset.x)"}
+            self.assertIn("fails its self-test", self.render(shim, 0).stderr)
+
+    def test_by_its_self_test_when_it_refines(self):
+        shim = {"CL_SHIM_OLD": "store_lanes(colors, color, live ? number.all",
+                "CL_SHIM_NEW": "store_lanes(colors, scale3((Reals)0.5f, color), live ? number.all"}
+        self.assertNotIn("self-test", self.render({}, 0, "--aa", "adaptive:0.1").stderr)
+        result = self.render(shim, 0, "--aa", "adaptive:0.1")
+        self.assertIn("fails its self-test", result.stderr)
+
+    # A fault in the left corners alone, where the self-test does not look.
+    CORNERS = {"CL_SHIM_OLD": "RT_TO_REALS(x) + offset.x",
+               "CL_SHIM_NEW": "RT_TO_REALS(x) + (x < 3 & (y < 8 | y > 92) ? (Reals)0.25f : offset.x)"}
+
+    def test_by_tracing_tiles_again(self):
+        arguments = ["--check", "100%", "--tile", "20"]
+        result = self.render(self.CORNERS, 0, *arguments)
+        self.assertIn("tiles differ when traced again on threads", result.stderr)
+        self.assertEqual(json.loads(result.stdout)["image"]["hash"], self.right_hash())
+        self.render(self.CORNERS, 5, "--no-fallback", *arguments)
+
+    def hash_of(self, code, *arguments, shim=None):
+        result = self.run_with(shim or {}, *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result.stderr.split()[-1], result.stderr
+
+    def test_leaves_nothing_in_the_journal(self):
+        part = str(self.folder / "part.mbj")
+        share = ["render", SCENE, "--size", "100", "--shard", "0/1", "-o", part]
+        for more in [[], ["--aa", "adaptive:0.05"]]:
+            _, said = self.hash_of(5, *share, *more, "--device", "pocl", "--check", "100%", "--fresh",
+                                   "--no-fallback", shim=self.CORNERS)
+            self.assertIn("differ", said)
+            self.assertEqual(os.path.getsize(part), 0)
+            self.hash_of(0, *share, *more, "--device", "pocl")
+            right, _ = self.hash_of(0, "render", SCENE, "--size", "100", *more, "--device", "threads")
+            self.assertEqual(self.hash_of(0, "merge", part)[0], right)
+
+    def test_in_a_share_is_found_when_merged(self):
+        bad, good = str(self.folder / "bad.mbj"), str(self.folder / "good.mbj")
+        share = ["render", SCENE, "--size", "100", "--device", "pocl", "--aa", "adaptive:0.05",
+                 "--precision", "double"]
+        self.hash_of(0, *share, "--shard", "0,1/3", "-o", bad, shim=self.CORNERS)
+        self.hash_of(0, *share, "--shard", "2/3", "-o", good)
+        out = self.folder / "out.png"
+        merge = ["merge", good, bad, "-o", str(out)]
+        _, said = self.hash_of(1, *merge, "--verify", "100%")
+        for words in ["bad.mbj (", "threads on ", "differ in"]:
+            self.assertIn(words, said)
+        self.assertFalse(out.exists())
+        self.hash_of(0, *merge)
+
+    def test_is_replaced_in_a_finished_share(self):
+        part = str(self.folder / "part.mbj")
+        share = ["render", SCENE, "--size", "100", "--shard", "0/1", "-o", part]
+        self.hash_of(0, *share, "--device", "pocl", shim=self.CORNERS)
+        _, said = self.hash_of(0, *share, "--device", "threads", "--check", "100%")
+        self.assertIn("the journal: ", said)
+        self.assertEqual(self.hash_of(0, "merge", part)[0], self.right_hash())
+
+    def test_by_tracing_the_journals_tiles_again(self):
+        journal, picture = str(self.folder / "out.png.mbj"), str(self.folder / "out.png")
+        right = self.right_hash()
+        for device, code in [("threads", 0), ("pocl", 0)]:
+            self.hash_of(0, "render", SCENE, "--size", "100", "--shard", "0/1", "-o", journal,
+                         "--device", "pocl", shim=self.CORNERS)
+            found, said = self.hash_of(code, "render", SCENE, "--size", "100", "--device", device,
+                                       "-o", picture, "--check", "100%")
+            self.assertIn("the journal: ", said)
+            self.assertEqual(found, right)
+            self.assertFalse(os.path.exists(journal))
+
+    TILES = ["--size", "100", "--tile", "100x5", "--aa", "grid:16"]  # several launches
+
+    def test_leaves_no_tiles_among_those_of_threads(self):
+        """Threads finish only what has their bits."""
+        right, _ = self.hash_of(0, "render", SCENE, *self.TILES, "--device", "threads")
+        for shim, launch, arguments in [(dict(self.CORNERS, CL_SHIM_INEXACT="1"), "8", []),
+                                        (brighter("1.000001"), "4", ["--math", "fast"])]:
+            render = ["render", SCENE, *self.TILES, *arguments, "--device"]
+            shim = dict(shim, CL_SHIM_FAIL_LAUNCH=launch)
+            for device in ["pocl", "pocl,0"]:
+                found, said = self.hash_of(0, *render, device, shim=shim)
+                self.assertIn("rendering all of it on threads", said)
+                self.assertEqual(found, right)
+            figures = json.loads(self.run_with(shim, *render, "pocl", "--stats=json").stdout)
+            self.assertGreater(figures["devices"][0]["pixels"], 0)
+            self.assertEqual(figures["devices"][1]["pixels"], 100 * 100)
+            self.hash_of(5, *render, "pocl", "--no-fallback", shim=shim)
+            _, said = self.hash_of(0, *render, "pocl,threads", shim=dict(shim, CL_SHIM_FAIL_LAUNCH=""))
+            self.assertIn("may round differently, and share this picture", said)
+
+    def test_of_other_bits_leaves_a_share_to_threads(self):
+        part = str(self.folder / "part.mbj")
+        right, _ = self.hash_of(0, "render", SCENE, *self.TILES, "--device", "threads")
+        _, said = self.hash_of(0, "render", SCENE, *self.TILES, "--device", "pocl", "--shard", "0/1",
+                               "-o", part, shim={"CL_SHIM_INEXACT": "1", "CL_SHIM_DIE_AT": "7",
+                                                 "CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel",
+                                                 "CL_SHIM_DIE_BY": "abort"})
+        self.assertIn("may round differently; starting over", said)
+        self.assertEqual(self.hash_of(0, "merge", part)[0], right)
+
+    def test_by_rays_that_cannot_be(self):
+        shim = {"CL_SHIM_OLD": "counts->shadow += lit & 1;", "CL_SHIM_NEW": "counts->shadow += 9;"}
+        result = self.render(shim, 0)
+        self.assertIn("reports an impossible number of rays", result.stderr)
+        figures = json.loads(result.stdout)
+        self.assertEqual(figures["rays"], json.loads(self.render({}, 0).stdout)["rays"])
+        self.render(shim, 5, "--no-fallback")
