@@ -147,6 +147,7 @@ def rmse(row):
 
 def setUpModule():
     global FOLDER, TEXT, PAGE
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in a shell's background jobs
     FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="mirrorball-report-"))
     unittest.addModuleCleanup(shutil.rmtree, FOLDER, ignore_errors=True)
     scene = (ROOT / "scenes" / "cornell-box.json").read_text(encoding="utf-8")
@@ -405,7 +406,7 @@ class Stopped(unittest.TestCase):
     def report_stopped_at(self, step):
         page = FOLDER / f"stopped-{step}.html"
         command = [str(BUILD / "mirrorball"), "report", "scene.json", "-o", str(page), "--size",
-                   "64", "--devices", "threads", "--repeats", "9"]
+                   "64", "--devices", "threads", "--repeats", "30"]
         environment = dict(os.environ, XDG_CACHE_HOME=str(FOLDER / "cache"))
         with subprocess.Popen(command, cwd=FOLDER, env=environment, stderr=subprocess.PIPE,
                               text=True) as process:

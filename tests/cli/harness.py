@@ -20,9 +20,19 @@ CAMERA = {"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}
 GRAY = {"ambient": 1, "diffuse": 1}
 
 
+def unwritable_folder(parent):
+    """One that takes no file, not even from root."""
+    if os.geteuid() == 0:
+        return "/proc/sys"
+    folder = parent / "unwritable"
+    folder.mkdir(mode=0o500)
+    return str(folder)
+
+
 @contextlib.contextmanager
 def environment(build, repo):
     """The program, the scenes, and an OpenCL kernel cache that all tests share."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in a shell's background jobs
     SETTINGS["program"] = str((build / "mirrorball").resolve())
     SETTINGS["shim"] = str((build / "libcl_shim.so").resolve())
     SETTINGS["scenes"] = (repo / "scenes").resolve()
