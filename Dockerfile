@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # mirrorball with PoCL:  docker build -t mirrorball:0.1.0 .
-#   docker run --rm -v "$PWD:/work" mirrorball:0.1.0 render scenes/cornell-box.json -o out.png
+#   docker run --rm --user "$(id -u):$(id -g)" -v "$PWD:/work" mirrorball:0.1.0 render scenes/cornell-box.json -o out.png
 FROM debian:12 AS build
 COPY . /source
 WORKDIR /source
