@@ -54,8 +54,7 @@ class IsolatedRender {
             end = work({});
         }
         keep_journal(journal);
-        if (has_crashed(end)) end = try_again(end);
-        if (has_crashed(end)) end = try_fewer(end);
+        if (has_crashed(end)) end = try_otherwise(end);
         if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
         if (end.is_regular) return end.status;
         if (options_.no_fallback) {
@@ -110,11 +109,17 @@ class IsolatedRender {
                           longest);
     }
 
-    /// Without drivers that crash when listing their devices, else with an empty kernel cache.
-    WorkerEnd try_again(const WorkerEnd& first) const {
-        const IcdFiles files = try_icd_files(options_.drivers);
-        const TemporaryFolder cache;
+    WorkerEnd try_otherwise(const WorkerEnd& first) const {
+        IcdFiles files = try_icd_files(options_.drivers);
         const UsableIcdFiles usable(files);
+        const WorkerEnd second = try_again(first, files, usable);
+        return has_crashed(second) ? try_fewer(second, files, usable) : second;
+    }
+
+    /// Without drivers that crash when listing their devices, else with an empty kernel cache.
+    WorkerEnd try_again(const WorkerEnd& first, const IcdFiles& files,
+                        const UsableIcdFiles& usable) const {
+        const TemporaryFolder cache;
         if (!files.any_dangerous && !cache.name().empty()) {
             say(first, "retrying with an empty kernel cache");
             return work({"POCL_CACHE_DIR=" + cache.name()});
@@ -126,9 +131,7 @@ class IsolatedRender {
     }
 
     /// Without one of several OpenCL devices after the other.
-    WorkerEnd try_fewer(WorkerEnd end) const {
-        IcdFiles files = try_icd_files(options_.drivers);
-        const UsableIcdFiles usable(files);
+    WorkerEnd try_fewer(WorkerEnd end, IcdFiles& files, const UsableIcdFiles& usable) const {
         const std::vector<std::string> specs = specs_one_by_one(files, usable);
         if (std::count_if(specs.begin(), specs.end(), needs_opencl) < 2) return end;
         for (const std::string& left_out : specs) {

@@ -232,7 +232,7 @@ MUTANTS = [
          "part_of(film, region, tile), part_of(film"),
     ], [("wrong_driver_test.py", "Wrong.test_by_tracing_tiles_again")]),
     Mutant("a driver that crashes is not tried again", [
-        (V + "isolated_render.cpp", "if (has_crashed(end)) end = try_again(end);", ""),
+        (V + "isolated_render.cpp", "if (has_crashed(end)) end = try_otherwise(end);", ""),
     ], [("wrong_driver_test.py", "Dies.test_once_is_tried_once_more")]),
     Mutant("NaN in a picture is no error", [
         (V + "render_steps.cpp", "non_finite ? ExitCode::non_finite : ExitCode::done",
