@@ -147,7 +147,6 @@ def rmse(row):
 
 def setUpModule():
     global FOLDER, TEXT, PAGE
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in a shell's background jobs
     FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="mirrorball-report-"))
     unittest.addModuleCleanup(shutil.rmtree, FOLDER, ignore_errors=True)
     scene = (ROOT / "scenes" / "cornell-box.json").read_text(encoding="utf-8")

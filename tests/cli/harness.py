@@ -32,7 +32,6 @@ def unwritable_folder(parent):
 @contextlib.contextmanager
 def environment(build, repo):
     """The program, the scenes, and an OpenCL kernel cache that all tests share."""
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in a shell's background jobs
     SETTINGS["program"] = str((build / "mirrorball").resolve())
     SETTINGS["shim"] = str((build / "libcl_shim.so").resolve())
     SETTINGS["scenes"] = (repo / "scenes").resolve()
