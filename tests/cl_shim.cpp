@@ -10,8 +10,8 @@
 //   CL_SHIM_INEXACT            if not empty, devices do not promise to round correctly
 //   CL_SHIM_NO_FORK            if not empty, no child process can be started
 //   CL_SHIM_DIE_IN             the function whose call fails
-//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error; or delay: by two
-//   seconds CL_SHIM_DIE_AT             the first call that may fail, counted from 1
+//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error, or delay (2 s)
+//   CL_SHIM_DIE_AT             the first call that may fail, counted from 1
 //   CL_SHIM_DIE_AFTER          seconds since that call before which none fails
 //   CL_SHIM_DIE_WITH           .icd files, separated by blanks, all of which must be in use
 //   CL_SHIM_DIE_ONCE           a file made on failure; if it exists, nothing fails

@@ -36,9 +36,9 @@ class IncludesTest(unittest.TestCase):
     def test_every_name_has_its_header(self):
         missing = []
         for path in sorted((ROOT / "host").rglob("*.[ch]*")):
-            file = str(path.relative_to(ROOT))
+            file, text = str(path.relative_to(ROOT)), path.read_text()
             for header, names in HEADERS.items():
-                if re.search(rf"\b{names}\b", path.read_text()) and not any(
+                if re.search(rf"\b{names}\b", text) and not any(
                         (name + "/").startswith(header + "/") for name in included(file)):
                     missing.append(f"{file}: <{header}>")
         self.assertFalse(missing, "without:\n" + "\n".join(missing))

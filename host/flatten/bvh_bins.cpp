@@ -46,8 +46,8 @@ template <typename T>
     bins.boxes[z][2] += 1;
 }
 
-/// Long runs fill two sets of bins in turn: neighbors often fall into the same bin, and the second
-/// would wait for the first.
+/// Long runs fill two sets of bins alternately: neighbors often fall into the same bin, and the
+/// second would wait for the first.
 template <typename T>
 void fill_run(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, Bins<T>& bins) {
     clear(bins, binning.count);
