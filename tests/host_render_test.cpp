@@ -15,6 +15,7 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
+#include "host/flatten/flat_scene.h"
 #include "host/image/image_error.h"
 #include "host/opencl/device_spec.h"
 #include "host/opencl/gpu_nodes.h"
@@ -160,6 +161,16 @@ TEST(ThreadCount, BuffersNeverUseMoreThreadsThanSamples) {
     EXPECT_EQ(thread_count({9, Schedule::buffers}, 4), 4);
     EXPECT_EQ(thread_count({9, Schedule::tiles}, 4), 9);
     EXPECT_EQ(thread_count({0, Schedule::tiles}, 4), available_cores());
+}
+
+TEST(ThreadsRenderer, NumbersTheBuffersOfATileInAnIndex) {
+    Scene scene;
+    scene.aa = grid_aa(64);
+    const FlatScene<float> flat = flatten<float>(scene);
+    const auto renderer = make_threads_renderer(flat, {1, Schedule::buffers});
+    const std::int64_t most = renderer->most_tile_pixels();
+    EXPECT_LE(3 * 64 * 64 * most, std::numeric_limits<int>::max());
+    EXPECT_GE(most, renderer->tile_size(500).pixels());
 }
 
 ClDevice device(int index, int platform_index, const char* name, const char* platform, bool gpu) {

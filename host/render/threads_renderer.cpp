@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <limits>
 
 #include "host/base/memory_limit.h"
 #include "host/base/parallel.h"
@@ -32,6 +33,12 @@ class ThreadsRenderer : public Renderer<T> {
           view_(native_view(scene)) {}
 
     Rect tile_size(int) const override { return {0, 0, 32, 32}; }
+
+    /// Kernels count the numbers in a tile's sample buffers in an Index.
+    std::int64_t most_tile_pixels() const override {
+        if (options_.schedule == Schedule::tiles) return Renderer<T>::most_tile_pixels();
+        return std::numeric_limits<Index>::max() / (3 * samples());
+    }
 
     void render(TileQueue& queue, const Rect& region, Film<T>& film) override {
         if (options_.schedule == Schedule::buffers) {
