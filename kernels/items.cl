@@ -65,17 +65,22 @@ void resolve_item(__global Real* film, __global const Real* samples, const Launc
     TileLanes lanes = tile_lanes(tile, &packet, item);
     if (!any_lane(lanes.live)) return;
     Indices y = picture_y(params, tile, lanes.row);
-    real3 sum = make3((Reals)0, (Reals)0, (Reals)0);
-    Reals total = (Reals)0;
+    Sum sum = empty_sum(), whole = sum;
     for (Index k = 0; k < params->samples; ++k) {
+        if (k % RT_PARTIAL_SUM == 0) {
+            whole = add_sums(whole, sum);
+            sum = empty_sum();
+        }
         Reals weight = sample_weight(params, tile->x + lanes.column, y, (Indices)k);
         Indices places = (k * tile->height + lanes.row) * tile->width + lanes.column;
         real3 color = load_lanes(samples, lanes.live ? places : (Indices)0);
-        sum = add_scaled(sum, weight, color);
-        total += weight;
+        sum.color = add_scaled(sum.color, weight, color);
+        sum.weight += weight;
     }
+    whole = add_sums(whole, sum);
     Indices places = tile->first + lanes.row * tile->film_width + lanes.column;
-    store_lanes(film, divide3(sum, total), lanes.live ? places : (Indices)-1, RT_LANES);
+    store_lanes(film, divide3(whole.color, whole.weight), lanes.live ? places : (Indices)-1,
+                RT_LANES);
 }
 
 // Traces tile->width chosen pixels: pixels[i] is an index into a film of tile->film_width columns

@@ -107,25 +107,49 @@ void count_lanes(RayCounts* counts, const PacketCounts* used) {
     counts->transmitted += (RT_COUNT)sum_lanes(used->transmitted);
 }
 
+// A pixel's weighted colors and its weights, added up. In one sum of thousands, equal samples would
+// all be rounded the same way and lose ten bits, so sums of RT_PARTIAL_SUM samples are added.
+#define RT_PARTIAL_SUM 256
+
+typedef struct {
+    real3 color;
+    Reals weight;
+} Sum;
+
+Sum empty_sum(void) {
+    Sum sum = {make3((Reals)0, (Reals)0, (Reals)0), (Reals)0};
+    return sum;
+}
+
+Sum add_sums(Sum a, Sum b) {
+    Sum sum = {add3(a.color, b.color), a.weight + b.weight};
+    return sum;
+}
+
 // The colors of a packet's pixels (x, y), in its first lanes: weighted means of their samples.
 real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indices y, Mask live,
                    RayCounts* counts) {
-    real3 sum = make3((Reals)0, (Reals)0, (Reals)0);
-    Reals total = (Reals)0;
+    Sum sum = empty_sum(), whole = sum;
     for (Index first = 0; first < scene->params.samples; first += packet->samples) {
+        if (first % RT_PARTIAL_SUM == 0) {
+            whole = add_sums(whole, sum);
+            sum = empty_sum();
+        }
         Indices k = first + packet->sample;
         PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
         real3 color = trace_sample(scene, x, y, k, live, &used);
         Reals weight = sample_weight(&scene->params, x, y, k);
-        sum.x = add_samples(sum.x, weight, color.x, packet->samples);
-        sum.y = add_samples(sum.y, weight, color.y, packet->samples);
-        sum.z = add_samples(sum.z, weight, color.z, packet->samples);
-        total = add_samples(total, weight, (Reals)1, packet->samples);
+        sum.color.x = add_samples(sum.color.x, weight, color.x, packet->samples);
+        sum.color.y = add_samples(sum.color.y, weight, color.y, packet->samples);
+        sum.color.z = add_samples(sum.color.z, weight, color.z, packet->samples);
+        sum.weight = add_samples(sum.weight, weight, (Reals)1, packet->samples);
         count_lanes(counts, &used);
     }
+    whole = add_sums(whole, sum);
     Index samples = packet->samples;
-    return make3(average(sum.x, total, samples), average(sum.y, total, samples),
-                 average(sum.z, total, samples));
+    return make3(average(whole.color.x, whole.weight, samples),
+                 average(whole.color.y, whole.weight, samples),
+                 average(whole.color.z, whole.weight, samples));
 }
 
 #endif

@@ -231,6 +231,22 @@ TYPED_TEST(TracePixel, IsTheWeighedMeanOfItsSamples) {
     }
 }
 
+TYPED_TEST(TracePixel, DoesNotDriftOverManySamples) {
+    using T = TypeParam;
+    FlatScene<T> scene{};
+    scene.params = mirror_crowd<T>().params;
+    scene.params.sphere_count = scene.params.triangle_count = scene.params.light_count = 0;
+    scene.params.grid = 64;
+    scene.params.samples = 4096;
+    for (const double gray : {0.0123, 0.1, 0.3, 0.7, 0.9876}) {
+        scene.params.background = round_to<T>(glm::dvec3(gray));
+        const std::vector<Index<T>> pixels(16, 3);
+        for (const auto& color : run<T, Packed3<T>>("trace_pixel", 16, scene, pixels, pixels)) {
+            ASSERT_NEAR(double(color.x), gray, 80 * double(Flat<T>::roundoff) * gray);
+        }
+    }
+}
+
 }  // namespace
 
 }  // namespace rt

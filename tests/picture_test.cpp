@@ -93,6 +93,7 @@ TEST_P(EveryAaMode, HasTheSameBitsFromEveryRenderer) {
 INSTANTIATE_TEST_SUITE_P(AaModes, EveryAaMode,
                          testing::Values(std::make_tuple("grid:3", Filter::box),
                                          std::make_tuple("sobol:7", Filter::box),
+                                         std::make_tuple("sobol:258", Filter::box),
                                          std::make_tuple("adaptive:0.05", Filter::box),
                                          std::make_tuple("grid:3", Filter::tent),
                                          std::make_tuple("sobol:16", Filter::gaussian),
