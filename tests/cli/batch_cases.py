@@ -23,9 +23,8 @@ class SeveralScenes(BatchTest):
             self.assertEqual(self.run_cli("render", scene_path(scene), "-o", f"alone-{scene}.png",
                                           *SMALL).returncode, 0)
         for device in ["threads", "pocl"]:
-            result = self.run_cli("render", *map(scene_path, scenes[:3]), "-o", f"{device}-%s.png",
+            result = self.succeed("render", *map(scene_path, scenes[:3]), "-o", f"{device}-%s.png",
                                   "--size", "32", "--device", device)
-            self.assertEqual(result.returncode, 0, result.stderr)
             self.assertEqual(len(result.stderr.splitlines()), 3)
             for scene in scenes[:3]:
                 self.assertEqual(self.bytes_of(f"{device}-{scene}.png"),
@@ -41,11 +40,9 @@ class SeveralScenes(BatchTest):
             scene.update({"image": {"width": 32, "height": 24, "aa": "grid:2", **image},
                           "max_bounces": max_bounces})
             names.append(self.write_text(f"{i}.json", json.dumps(scene)))
-        result = self.run_cli("render", *names, "-o", "%s.png", "--device", "threads")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.succeed("render", *names, "-o", "%s.png", "--device", "threads")
         for name in names:
-            alone = self.run_cli("render", name, "-o", "alone.png", "--device", "threads")
-            self.assertEqual(alone.returncode, 0, alone.stderr)
+            alone = self.succeed("render", name, "-o", "alone.png", "--device", "threads")
             self.assertEqual(self.bytes_of("alone.png"),
                              self.bytes_of(pathlib.Path(name).stem + ".png"), name)
 
@@ -114,8 +111,7 @@ class List(BatchTest):
 
     def test_list_of_a_windows_editor(self):
         self.write_text("list", f"\ufeff{scene_path('cones')} 1.png\r\n{scene_path('cones')} 2.png\r\n")
-        result = self.run_cli("render", "--batch", "list", *SMALL)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.succeed("render", "--batch", "list", *SMALL)
         self.assertEqual(self.files(), ["1.png", "2.png", "list"])
 
     def test_lines_that_cannot_be_read_are_named(self):

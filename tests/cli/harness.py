@@ -88,6 +88,12 @@ class CliTest(unittest.TestCase):
             stderr=stderr, stdin=subprocess.DEVNULL, env=clean_environment(env or {}),
             timeout=HANG_LIMIT, text=True, check=False, **more)
 
+    def succeed(self, *arguments, **more):
+        """A run that must exit with 0."""
+        result = self.run_cli(*arguments, **more)
+        self.assertEqual(result.returncode, 0, f"{result.stdout}{result.stderr}")
+        return result
+
     def run_shell(self, command, **env):
         """Runs a shell line with $MIRRORBALL and $SCENE (the single sphere) set."""
         return subprocess.run(
@@ -114,9 +120,7 @@ class CliTest(unittest.TestCase):
     def render(self, scene, *arguments, **more):
         """A rendering that must succeed; scene is a name in scenes/ or a path."""
         path = scene_path(scene) if not os.sep in str(scene) else scene
-        result = self.run_cli("render", path, *arguments, **more)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result
+        return self.succeed("render", path, *arguments, **more)
 
     def small_disk(self, options, name="disk"):
         """A small file system of its own; the test is skipped where that is not allowed."""

@@ -66,9 +66,8 @@ class WrongName(CliTest):
     def test_picture_to_stdout_is_a_whole_pfm(self):
         os.symlink("/dev/stdout", self.folder / "out.pfm")
         with open(self.folder / "caught", "wb") as file:
-            result = self.run_cli("render", scene_path(SCENE), "--size", "8", "--device",
-                                  "threads", "-o", "out.pfm", stdout=file)
-        self.assertEqual(result.returncode, 0, result.stderr)
+            self.succeed("render", scene_path(SCENE), "--size", "8", "--device",
+                         "threads", "-o", "out.pfm", stdout=file)
         self.assertEqual((self.folder / "caught").stat().st_size, len("PF\n8 8\n-1.0\n") + 8 * 96)
 
     def test_openimageio_writes_other_formats(self):
@@ -81,8 +80,7 @@ class WrongName(CliTest):
                 self.assertTrue((self.folder / name).read_bytes().startswith(start))
         self.assert_refused(self.render_to("out.pgm"), 2, "no color")
         self.render_to("out.exr")
-        result = self.run_cli("compare", "out.tif", "out.exr", "--max-abs", "0")
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.succeed("compare", "out.tif", "out.exr", "--max-abs", "0")
 
     def test_larger_than_the_format_can_hold(self):
         for name, most in [("out.webp", 16383), ("out.jpg", 65500), ("out.tga", 65535)]:
@@ -155,8 +153,7 @@ class OverInputs(CliTest):
                             "is not such a result file")
         self.assertEqual((self.folder / "notes.txt").read_text(), "mine")
         for _ in range(2):
-            result = self.run_cli("compare", "a.png", "a.png", "--json=a.json")
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.succeed("compare", "a.png", "a.png", "--json=a.json")
 
     def test_baseline_of_bench(self):
         self.write_text("old.json", '{\n  "format": "mirrorball-bench"')
@@ -204,8 +201,7 @@ class Libraries(CliTest):
     """What loads slowly is loaded by those who need it."""
 
     def libraries(self, *arguments):
-        result = self.run_cli(*arguments, env={"LD_DEBUG": "files"})
-        self.assertEqual(result.returncode, 0)
+        result = self.succeed(*arguments, env={"LD_DEBUG": "files"})
         return result.stderr
 
     def test_pictures_load_what_their_format_needs(self):
@@ -229,13 +225,11 @@ class Libraries(CliTest):
         """Two threads for a user: enough to trace on one, too few for OpenEXR's."""
         self.folder.chmod(0o777)
         for name in ["out.png", "out.exr", "out.pfm"]:
-            result = self.run_cli(
+            self.succeed(
                 "render", scene_path(SCENE), "--size", "256", "--device", "threads:1",
                 "--progress", "none", "-o", name, user=65534, group=65534, extra_groups=[],
                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NPROC, (2, 2)))
-            self.assertEqual(result.returncode, 0, result.stderr)
-        compared = self.run_cli("compare", "out.exr", "out.pfm", "--max-abs", "0")
-        self.assertEqual(compared.returncode, 0, compared.stderr)
+        self.succeed("compare", "out.exr", "out.pfm", "--max-abs", "0")
 
 
 class NoRoom(CliTest):

@@ -42,8 +42,7 @@ class JsonStats(CliTest):
     def test_scene_path_that_is_not_utf_8(self):
         path = self.folder / b"latin-\xe9.json".decode("utf-8", "surrogateescape")
         path.write_text('{"camera": {"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}}')
-        result = self.run_cli("render", path, "--size", "4", "--stats=json", "-o", "out.png")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.succeed("render", path, "--size", "4", "--stats=json", "-o", "out.png")
         json.loads(result.stdout)
 
 
@@ -121,8 +120,7 @@ class TextStats(CliTest):
                       result.stdout)
 
     def test_option_before_the_scene(self):
-        result = self.run_cli("render", "--stats", scene_path("empty"), "--size", "4")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.succeed("render", "--stats", scene_path("empty"), "--size", "4")
         self.assertIn("ray trace", result.stdout)
 
     def test_features_all_is_said(self):

@@ -71,8 +71,7 @@ class HostileNames(CliTest):
                           [*converge, "--json=-"], render, [*render, "json"], compare,
                           [*compare, "--json=-"]]:
             with self.subTest(arguments=arguments):
-                result = self.run_cli(*arguments, env={"XDG_CACHE_HOME": str(self.folder)})
-                self.assertEqual(result.returncode, 0, result.stderr)
+                result = self.succeed(*arguments, env={"XDG_CACHE_HOME": str(self.folder)})
                 self.assertNotRegex(result.stdout + result.stderr,
                                     "[\x00-\x09\x0b-\x1f\x7f-\x9f\u202e]|\na\n")
 

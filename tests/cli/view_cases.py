@@ -327,8 +327,7 @@ class Tev(CliTest):
     def test_an_address_needs_no_port(self):
         scene = self.write_text("scene", pathlib.Path(scene_path("single-sphere")).read_text())
         for words in [["localhost:1", scene], ["localhost", scene], [scene], ["scene"]]:
-            result = self.run_cli("render", "--size", "8", "--tev", *words)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = self.succeed("render", "--size", "8", "--tev", *words)
             self.assertEqual(result.stderr.count("8x8"), 1, result.stderr)
         for missing in ["missing.json", "./missing", "MISSING.OBJ"]:
             self.assert_refused(self.run_cli("render", "--tev", missing), 3, f"{missing}: ")

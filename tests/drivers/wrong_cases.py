@@ -11,16 +11,14 @@ class Wrong(WrongDriver):
 
     def render(self, shim, code, *arguments):
         result = self.run_with(shim, "render", SCENE, "--size", "100", "--device", "pocl",
-                               "--stats=json", *arguments)
-        self.assertEqual(result.returncode, code, result.stderr)
+                               "--stats=json", *arguments, code=code)
         return result
 
     def right_hash(self):
         return json.loads(self.render({}, 0).stdout)["image"]["hash"]
 
     def test_by_the_doctor(self):
-        result = self.run_with(brighter("1.000001"), "doctor")
-        self.assertEqual(result.returncode, 5, result.stderr)
+        result = self.run_with(brighter("1.000001"), "doctor", code=5)
         self.assertRegex(result.stdout, r"BROKEN +device 0, .*: renders a wrong picture")
 
     def test_by_its_self_test(self):
@@ -67,8 +65,7 @@ class Wrong(WrongDriver):
         self.render(self.CORNERS, 5, "--no-fallback", *arguments)
 
     def hash_of(self, code, *arguments, shim=None):
-        result = self.run_with(shim or {}, *arguments)
-        self.assertEqual(result.returncode, code, result.stderr)
+        result = self.run_with(shim or {}, *arguments, code=code)
         return result.stderr.split()[-1], result.stderr
 
     def test_leaves_nothing_in_the_journal(self):
