@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The kernels as clang compiles them for GPUs: not run, but read.
+
+usage: gpu_code_test.py BUILD_DIR REPO_ROOT CLANG
+"""
+import functools
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CLANG = sys.argv.pop()
+ROOT = pathlib.Path(sys.argv.pop()).resolve()
+BUILD = pathlib.Path(sys.argv.pop()).resolve()
+GPUS = {"nvptx64": ["-target", "nvptx64-nvidia-cuda", "-Xclang", "-target-cpu", "-Xclang", "sm_70"],
+        "amdgcn": ["-target", "amdgcn-amd-amdhsa", "-mcpu=gfx1030"]}
+STRICT = "-cl-fp32-correctly-rounded-divide-sqrt"
+PRECISIONS = {"f32": [STRICT], "f64": [STRICT, "-DRT_DOUBLE=1"]}
+
+
+def targets():
+    return set(re.findall(r"^ +(\w+) ", subprocess.run([CLANG, "--print-targets"], check=True, text=True,
+                                                       capture_output=True).stdout, re.M))
+
+
+@functools.cache
+def compiled(gpu, *options):
+    """The assembly of kernels/render.cl, for one ray at a time, as GPUs run it."""
+    return subprocess.run(
+        [CLANG, "-x", "cl", *GPUS[gpu], "-cl-std=CL1.2", "-Xclang", "-finclude-default-header", "-nogpulib", "-O3",
+         "-Wall", "-Werror", "-I.", *options, "-S", "kernels/render.cl", "-o", "-"],
+        cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
+
+
+def left_out(scene):
+    """The build options for what a scene does not need."""
+    macros = dict(re.findall(r'"([\w ]+)", "(RT_HAS_\w+)"', (ROOT / "host/flatten/features.h").read_text()))
+    with tempfile.TemporaryDirectory() as folder:
+        stats = json.loads(subprocess.run(
+            [BUILD / "mirrorball", "render", ROOT / "scenes" / scene, "--size", "8", "--device", "threads",
+             "--stats=json", "-o", pathlib.Path(folder, "out.pfm")], check=True, text=True, stdout=subprocess.PIPE).stdout)
+    return [f"-D{macros[name]}=0" for name in stats["scene"]["features_left_out"]]
+
+
+def arithmetic(ptx):
+    """The kinds of instructions that round, with their modifiers."""
+    return set(re.findall(r"\s((?:add|sub|mul|div|rcp|sqrt|fma|mad)\.[\w.]*f(?:32|64))\s", ptx))
+
+
+class GpuCode(unittest.TestCase):
+    def setUp(self):
+        if missing := GPUS.keys() - targets():
+            self.skipTest(f"{CLANG} cannot compile for {', '.join(missing)}")
+
+    def test_compiles_without_warnings(self):
+        for gpu in GPUS:
+            for options in PRECISIONS.values():
+                for entry in "render_pixels", "render_samples", "render_list", "resolve_samples", "trace_rays":
+                    self.assertRegex(compiled(gpu, *options), rf"\b{entry}\b")
+
+    def test_rounds_as_written(self):
+        """Nothing is fused or approximated, and no subnormal is flushed; fma() is a call here."""
+        for kind, options in PRECISIONS.items():
+            self.assertEqual(arithmetic(compiled("nvptx64", *options)),
+                             {f"{name}.rn.{kind}" for name in ["add", "sub", "mul", "div", "rcp"]})
+
+    def test_fast_math_fuses(self):
+        self.assertIn("fma.rn.f32", arithmetic(compiled("nvptx64", "-DRT_FAST_MATH=1", "-cl-mad-enable")))
+
+    def test_calls_only_what_opencl_rounds_correctly(self):
+        """The rest of OpenCL's functions differ from vendor to vendor."""
+        for options in PRECISIONS.values():
+            mangled = re.findall(r"\b_Z(\d+)(\w+)", compiled("nvptx64", *options))
+            called = {name[:int(length)] for length, name in mangled}
+            self.assertEqual({name for name in called if not name.startswith("convert_")},
+                             {"fabs", "fma", "sqrt", "get_global_id"})
+
+    def test_the_papers_scene_lives_in_registers(self):
+        """Without glass and hierarchies no kernel has a stack, which GPUs keep in their slow memory."""
+        self.assertIn(".local ", compiled("nvptx64", STRICT))
+        self.assertNotIn(".local ", compiled("nvptx64", STRICT, *left_out("cornell-box.json")))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
