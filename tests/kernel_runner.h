@@ -76,15 +76,9 @@ void add_inputs(std::vector<ProbeInput>& inputs, const std::vector<X, Allocator>
 /// A scene is ten arguments, the PROBE_SCENE of probes.cl.
 template <typename T>
 void add_inputs(std::vector<ProbeInput>& inputs, const FlatScene<T>& scene) {
-    add_inputs(inputs, scene.spheres);
-    add_inputs(inputs, scene.cones);
-    add_inputs(inputs, scene.triangles);
-    add_inputs(inputs, scene.vertex_normals);
-    add_inputs(inputs, scene.materials);
-    add_inputs(inputs, scene.lights);
-    add_inputs(inputs, scene.nodes);
-    add_inputs(inputs, scene.order);
-    add_inputs(inputs, scene.casters);
+#define RT_PROBE_ARRAY(type, name, what) add_inputs(inputs, scene.name);
+    RT_SCENE_ARRAYS(RT_PROBE_ARRAY)
+#undef RT_PROBE_ARRAY
     inputs.push_back({&scene.params, sizeof(scene.params)});
 }
 

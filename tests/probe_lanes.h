@@ -18,6 +18,13 @@
 #define THIS_ITEM lane_item(at, count, lane)
 #define THIS_LANE ((Mask)(RT_LANE_NUMBERS == lane))
 
+// What is in memory for each kind of value in lanes.
+#define PROBE_REALS Real
+#define PROBE_REAL3 Packed3
+#define PROBE_INDICES Index
+#define PROBE_MASK Index
+#define PROBE_UINTS uint
+
 // Arrays of numbers, and members of arrays of structs.
 #define REALS(array) get_reals(array, 1, at, count)
 #define INDICES(array) get_indices(array, 1, at, count)
@@ -26,6 +33,7 @@
 #define STEP(array) (sizeof(*(array)) / sizeof(Real))
 #define REALS_OF(array, member) get_reals(&(array)->member, STEP(array), at, count)
 #define INDICES_OF(array, member) get_indices(&(array)->member, STEP(array), at, count)
+#define MASK_OF(array, member) (INDICES_OF(array, member) != 0)
 #define REAL3_OF(array, member) get3(&(array)->member.x, STEP(array), at, count)
 
 #define PUT_REALS(array, v) put_reals(array, 1, v, at, count)
@@ -35,6 +43,7 @@
 #define PUT_REAL3(array, v) put3(&(array)->x, 3, v, at, count)
 #define PUT_REALS_OF(array, member, v) put_reals(&(array)->member, STEP(array), v, at, count)
 #define PUT_INDICES_OF(array, member, v) put_indices(&(array)->member, STEP(array), v, at, count)
+#define PUT_MASK_OF(array, member, v) PUT_INDICES_OF(array, member, (v)&1)
 #define PUT_REAL3_OF(array, member, v) put3(&(array)->member.x, STEP(array), v, at, count)
 
 typedef union {

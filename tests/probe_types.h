@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/flatten/flat_types.h"
+#include "tests/probe_fields.h"
 
 // The structs passed between the kernel tests and the probes besides the shared ones
 // (tests/probe_structs.h), and short ways to make them.
@@ -18,31 +19,29 @@ using Packed3 = typename Flat<T>::Packed3;
 template <typename T>
 using Index = typename Flat<T>::Index;
 
+/// What is in memory for each kind of value of the probes.
+template <typename T>
+struct ProbeKind {
+    using REALS = T;
+    using REAL3 = Packed3<T>;
+    using INDICES = Index<T>;
+    using MASK = Index<T>;
+};
+
+#define PROBE_MEMBER(kind, name) typename ProbeKind<T>::kind name{};
 template <typename T>
 struct ProbeRay {
-    Packed3<T> origin;
-    T t_max;
-    Packed3<T> dir;
-    Index<T> from;
-    T self_hit;
-    Packed3<T> dir_low{}, origin_low{};
+    PROBE_RAY(PROBE_MEMBER)
 };
 
 template <typename T>
 struct ProbeSurface {
-    Packed3<T> point;
-    T offset;
-    Packed3<T> normal;
-    Index<T> material;
-    Packed3<T> geometric;
-    T diameter;
-    Packed3<T> point_low{};
+    PROBE_SURFACE(PROBE_MEMBER)
 };
 
 template <typename T>
 struct ProbeHit {
-    T t, u, v;
-    Index<T> prim, tied;
+    PROBE_HIT(PROBE_MEMBER)
 };
 
 template <typename T>
@@ -54,13 +53,8 @@ Packed3<T> round_to(const glm::dvec3& v) {
 template <typename T>
 ProbeRay<T> make_ray(const glm::dvec3& origin, const glm::dvec3& dir) {
     const double size = std::sqrt(dir.x * dir.x + dir.y * dir.y + dir.z * dir.z);
-    return {round_to<T>(origin),
-            std::numeric_limits<T>::infinity(),
-            round_to<T>(dir / size),
-            Flat<T>::none,
-            0,
-            {},
-            {}};
+    return {round_to<T>(origin), std::numeric_limits<T>::infinity(), round_to<T>(dir / size),
+            Flat<T>::none};
 }
 
 /// `count` values from make().

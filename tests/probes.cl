@@ -10,14 +10,38 @@
 #include "kernels/render.cl"
 #include "tests/probe_structs.h"
 
-#define PROBE_SCENE                                                                                \
-    __global const Sphere *spheres, __global const Cone *cones,                                    \
-        __global const Triangle *triangles, __global const VertexNormals *vertex_normals,          \
-        __global const Material *materials, __global const Light *lights,                          \
-        __global const BvhNode *nodes, __global const Index *order, __global const Index *casters, \
-        __global const LaunchParams *params
-#define PROBE_SCENE_VIEW \
-    { spheres, cones, triangles, vertex_normals, materials, lights, nodes, order, casters, *params }
+#define PROBE_SCENE RT_SCENE_ARRAYS(RT_SCENE_PASSED) __global const LaunchParams* params
+#define PROBE_SCENE_PACKET \
+    PROBE_PACKET;          \
+    SceneView scene = {RT_SCENE_ARRAYS(RT_SCENE_NAME) * params}
+
+// PROBE2(dot3, REALS, REAL3, REAL3): the entry point of dot3, whose result is one number for each
+// lane, from two arguments of three. The kinds are those of probe_lanes.h.
+#define PROBE_IN(kind, name) __global const PROBE_##kind* name
+#define PROBE_OUT(kind) __global PROBE_##kind* out
+#define PROBE1(function, result, A)                                                  \
+    __kernel void probe_##function(PROBE_ITEMS, PROBE_IN(A, a), PROBE_OUT(result)) { \
+        PROBE_PACKET;                                                                \
+        PUT_##result(out, function(A(a)));                                           \
+    }
+#define PROBE2(function, result, A, B)                                          \
+    __kernel void probe_##function(PROBE_ITEMS, PROBE_IN(A, a), PROBE_IN(B, b), \
+                                   PROBE_OUT(result)) {                         \
+        PROBE_PACKET;                                                           \
+        PUT_##result(out, function(A(a), B(b)));                                \
+    }
+#define PROBE3(function, result, A, B, C)                                                       \
+    __kernel void probe_##function(PROBE_ITEMS, PROBE_IN(A, a), PROBE_IN(B, b), PROBE_IN(C, c), \
+                                   PROBE_OUT(result)) {                                         \
+        PROBE_PACKET;                                                                           \
+        PUT_##result(out, function(A(a), B(b), C(c)));                                          \
+    }
+#define PROBE4(function, result, A, B, C, D)                                                    \
+    __kernel void probe_##function(PROBE_ITEMS, PROBE_IN(A, a), PROBE_IN(B, b), PROBE_IN(C, c), \
+                                   PROBE_IN(D, d), PROBE_OUT(result)) {                         \
+        PROBE_PACKET;                                                                           \
+        PUT_##result(out, function(A(a), B(b), C(c), D(d)));                                    \
+    }
 
 // The materials of the surfaces of a probe's scene.
 Materials probe_materials(const SceneView* scene, const Surface* surface) {
@@ -45,46 +69,19 @@ __kernel void probe_layout(PROBE_ITEMS, __global ProbeField* out) {
     }
 }
 
-// One number in, one out
-
-#define PROBE_UNARY(function)                                                                 \
-    __kernel void probe_##function(PROBE_ITEMS, __global const Real* x, __global Real* out) { \
-        PROBE_PACKET;                                                                         \
-        PUT_REALS(out, function(REALS(x)));                                                   \
-    }
-PROBE_UNARY(log2_tail)
-PROBE_UNARY(log2_series)
-PROBE_UNARY(exp2_series)
-
 // bits.cl, power.cl
 
-__kernel void probe_one_ulp_towards(PROBE_ITEMS, __global const Real* x,
-                                    __global const Real* direction, __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, one_ulp_towards(REALS(x), REALS(direction)));
-}
-
-__kernel void probe_log2_cosine(PROBE_ITEMS, __global const Real* along,
-                                __global const Real* across, __global const Real* squared,
-                                __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, log2_cosine(REALS(along), REALS(across), REALS(squared)));
-}
-
-__kernel void probe_exp2_of_product(PROBE_ITEMS, __global const Real* a, __global const Real* b,
-                                    __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, exp2_of_product(REALS(a), REALS(b)));
-}
-
-__kernel void probe_blinn_lobe(PROBE_ITEMS, __global const Real* along, __global const Real* across,
-                               __global const Real* squared, __global const Real* exponent,
-                               __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, blinn_lobe(REALS(along), REALS(across), REALS(squared), REALS(exponent)));
-}
+PROBE1(log2_tail, REALS, REALS)
+PROBE1(log2_series, REALS, REALS)
+PROBE1(exp2_series, REALS, REALS)
+PROBE2(one_ulp_towards, REALS, REALS, REALS)
+PROBE3(log2_cosine, REALS, REALS, REALS, REALS)
+PROBE2(exp2_of_product, REALS, REALS, REALS)
+PROBE4(blinn_lobe, REALS, REALS, REALS, REALS, REALS)
 
 // math.cl
+
+Reals multiply_add(Reals a, Reals b, Reals c) { return a * b + c; }
 
 __kernel void probe_load3(PROBE_ITEMS, __global const Packed3* a, __global Packed3* out) {
     PROBE_PACKET;
@@ -93,69 +90,21 @@ __kernel void probe_load3(PROBE_ITEMS, __global const Packed3* a, __global Packe
     PUT_REAL3(out, loaded);
 }
 
-__kernel void probe_dot3(PROBE_ITEMS, __global const Packed3* a, __global const Packed3* b,
-                         __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, dot3(REAL3(a), REAL3(b)));
-}
-
-__kernel void probe_add_scaled(PROBE_ITEMS, __global const Packed3* a, __global const Real* s,
-                               __global const Packed3* b, __global Packed3* out) {
-    PROBE_PACKET;
-    PUT_REAL3(out, add_scaled(REAL3(a), REALS(s), REAL3(b)));
-}
-
-__kernel void probe_multiply_add(PROBE_ITEMS, __global const Real* a, __global const Real* b,
-                                 __global const Real* c, __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, REALS(a) * REALS(b) + REALS(c));
-}
-
-__kernel void probe_length3(PROBE_ITEMS, __global const Packed3* a, __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, length3(REAL3(a)));
-}
-
-#define PROBE_UNARY3(function)                                             \
-    __kernel void probe_##function(PROBE_ITEMS, __global const Packed3* a, \
-                                   __global Packed3* out) {                \
-        PROBE_PACKET;                                                      \
-        PUT_REAL3(out, function(REAL3(a)));                                \
-    }
-PROBE_UNARY3(abs3)
-PROBE_UNARY3(negate3)
-PROBE_UNARY3(normalize3)
-
-#define PROBE_BINARY3(function)                                                        \
-    __kernel void probe_##function(PROBE_ITEMS, __global const Packed3* a,             \
-                                   __global const Packed3* b, __global Packed3* out) { \
-        PROBE_PACKET;                                                                  \
-        PUT_REAL3(out, function(REAL3(a), REAL3(b)));                                  \
-    }
-PROBE_BINARY3(add3)
-PROBE_BINARY3(sub3)
-PROBE_BINARY3(mul3)
-PROBE_BINARY3(reflect3)
-PROBE_BINARY3(cross3)
-
-__kernel void probe_scale3(PROBE_ITEMS, __global const Real* s, __global const Packed3* v,
-                           __global Packed3* out) {
-    PROBE_PACKET;
-    PUT_REAL3(out, scale3(REALS(s), REAL3(v)));
-}
-
-__kernel void probe_divide3(PROBE_ITEMS, __global const Packed3* v, __global const Real* s,
-                            __global Packed3* out) {
-    PROBE_PACKET;
-    PUT_REAL3(out, divide3(REAL3(v), REALS(s)));
-}
-
-__kernel void probe_difference_of_products(PROBE_ITEMS, __global const Real* a,
-                                           __global const Real* b, __global const Real* c,
-                                           __global const Real* d, __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, difference_of_products(REALS(a), REALS(b), REALS(c), REALS(d)));
-}
+PROBE2(dot3, REALS, REAL3, REAL3)
+PROBE3(add_scaled, REAL3, REAL3, REALS, REAL3)
+PROBE3(multiply_add, REALS, REALS, REALS, REALS)
+PROBE1(length3, REALS, REAL3)
+PROBE1(abs3, REAL3, REAL3)
+PROBE1(negate3, REAL3, REAL3)
+PROBE1(normalize3, REAL3, REAL3)
+PROBE2(add3, REAL3, REAL3, REAL3)
+PROBE2(sub3, REAL3, REAL3, REAL3)
+PROBE2(mul3, REAL3, REAL3, REAL3)
+PROBE2(reflect3, REAL3, REAL3, REAL3)
+PROBE2(cross3, REAL3, REAL3, REAL3)
+PROBE2(scale3, REAL3, REALS, REAL3)
+PROBE2(divide3, REAL3, REAL3, REALS)
+PROBE4(difference_of_products, REALS, REALS, REALS, REALS, REALS)
 
 // camera.cl, intersect.cl, cone.cl
 
@@ -195,11 +144,7 @@ __kernel void probe_intersect_cone(PROBE_ITEMS, __global const ProbeRay* rays,
     PUT_REALS(out, found);
 }
 
-__kernel void probe_component3(PROBE_ITEMS, __global const Packed3* v, __global const Index* k,
-                               __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, component3(REAL3(v), INDICES(k)));
-}
+PROBE2(component3, REALS, REAL3, INDICES)
 
 __kernel void probe_make_shear(PROBE_ITEMS, __global const ProbeRay* rays,
                                __global ProbeShear* out) {
@@ -292,8 +237,7 @@ __kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const
 
 __kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                 __global ProbeHit* out) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     Ray ray = RAYS(rays);
     PUT_HIT(out, closest_hit(&scene, &ray, RT_ALL_LANES));
 }
@@ -301,38 +245,28 @@ __kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRa
 // Towards light 0.
 __kernel void probe_any_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                             __global Index* out) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     Ray ray = RAYS(rays);
     PUT_MASK(out, any_hit(&scene, &ray, RT_TOUCHES_FIRST_LIGHT, 0, params->triangle_count));
 }
 
 // surface.cl, hit_surface.cl
 
-__kernel void probe_sphere_surface(PROBE_ITEMS, __global const ProbeRay* rays,
-                                   __global const Real* t, __global const Sphere* spheres,
-                                   __global ProbeSurface* out) {
-    PROBE_PACKET;
-    Ray ray = RAYS(rays);
-    Surface surface = no_surface();
-    PROBE_EACH_LANE {
-        Surface met = sphere_surface(&ray, REALS(t), &spheres[THIS_ITEM]);
-        surface = select_surface(THIS_LANE, met, surface);
+#define PROBE_SURFACE_OF(function, Primitive)                                                    \
+    __kernel void probe_##function(PROBE_ITEMS, __global const ProbeRay* rays,                   \
+                                   __global const Real* t, __global const Primitive* primitives, \
+                                   __global ProbeSurface* out) {                                 \
+        PROBE_PACKET;                                                                            \
+        Ray ray = RAYS(rays);                                                                    \
+        Surface surface = no_surface();                                                          \
+        PROBE_EACH_LANE {                                                                        \
+            Surface met = function(&ray, REALS(t), &primitives[THIS_ITEM]);                      \
+            surface = select_surface(THIS_LANE, met, surface);                                   \
+        }                                                                                        \
+        PUT_SURFACE(out, surface);                                                               \
     }
-    PUT_SURFACE(out, surface);
-}
-
-__kernel void probe_cone_surface(PROBE_ITEMS, __global const ProbeRay* rays, __global const Real* t,
-                                 __global const Cone* cones, __global ProbeSurface* out) {
-    PROBE_PACKET;
-    Ray ray = RAYS(rays);
-    Surface surface = no_surface();
-    PROBE_EACH_LANE {
-        Surface met = cone_surface(&ray, REALS(t), &cones[THIS_ITEM]);
-        surface = select_surface(THIS_LANE, met, surface);
-    }
-    PUT_SURFACE(out, surface);
-}
+PROBE_SURFACE_OF(sphere_surface, Sphere)
+PROBE_SURFACE_OF(cone_surface, Cone)
 
 __kernel void probe_blended_normal(PROBE_ITEMS, __global const VertexNormals* normals,
                                    __global const Packed3* faces, __global const Real* u,
@@ -364,8 +298,7 @@ __kernel void probe_triangle_surface(PROBE_ITEMS, __global const ProbeRay* rays,
 
 __kernel void probe_primitive_surface(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                       __global const ProbeHit* hits, __global ProbeSurface* out) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     Ray ray = RAYS(rays);
     Hit hit = HITS(hits);
     Surface surface = no_surface();
@@ -378,16 +311,14 @@ __kernel void probe_primitive_surface(PROBE_ITEMS, PROBE_SCENE, __global const P
 
 __kernel void probe_is_on_edge(PROBE_ITEMS, PROBE_SCENE, __global const ProbeHit* hits,
                                __global Index* out) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     Hit hit = HITS(hits);
     PUT_MASK(out, is_on_edge(&scene, &hit));
 }
 
 __kernel void probe_surface_at(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                __global const ProbeHit* hits, __global ProbeSurface* out) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     Ray ray = RAYS(rays);
     Hit hit = HITS(hits);
     PUT_SURFACE(out, surface_at(&scene, &ray, &hit, RT_ALL_LANES));
@@ -410,17 +341,8 @@ __kernel void probe_spawn_ray(PROBE_ITEMS, __global const ProbeSurface* surfaces
 
 // material.cl, shade.cl
 
-__kernel void probe_is_black(PROBE_ITEMS, __global const Packed3* colors, __global Index* out) {
-    PROBE_PACKET;
-    PUT_MASK(out, is_black(REAL3(colors)));
-}
-
-__kernel void probe_specular_lobe(PROBE_ITEMS, __global const Packed3* normals,
-                                  __global const Packed3* to_light, __global const Packed3* to_eye,
-                                  __global const Real* shininess, __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, specular_lobe(REAL3(normals), REAL3(to_light), REAL3(to_eye), REALS(shininess)));
-}
+PROBE1(is_black, MASK, REAL3)
+PROBE4(specular_lobe, REALS, REAL3, REAL3, REAL3, REALS)
 
 // Light 0 of the scene; the surface gives the material and, if it is on one, the primitive.
 __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
@@ -428,8 +350,7 @@ __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
                                        __global const Packed3* origins,
                                        __global const Packed3* to_eye, __global const Index* prims,
                                        __global Packed3* out, __global RayCounts* counts) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     Surface surface = SURFACES(surfaces);
     Materials material = probe_materials(&scene, &surface);
     PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
@@ -441,8 +362,7 @@ __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
 __kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface* surfaces,
                           __global const Packed3* to_eye, __global const Index* prims,
                           __global Packed3* out, __global RayCounts* counts) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     Surface surface = SURFACES(surfaces);
     Materials material = probe_materials(&scene, &surface);
     PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
@@ -474,8 +394,7 @@ __kernel void probe_refracted_ray(PROBE_ITEMS, __global const ProbeSurface* surf
 
 __kernel void probe_trace_path(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                __global Packed3* out, __global RayCounts* counts) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
     PUT_REAL3(out, trace_path(&scene, RAYS(rays), RT_ALL_LANES, &used));
     PUT_COUNTS(counts, used);
@@ -484,8 +403,7 @@ __kernel void probe_trace_path(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay
 __kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
                                  __global const Index* y, __global const Index* k,
                                  __global Packed3* out, __global RayCounts* counts) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
     PUT_REAL3(out, trace_sample(&scene, INDICES(x), INDICES(y), INDICES(k), RT_ALL_LANES, &used));
     PUT_COUNTS(counts, used);
@@ -496,8 +414,7 @@ __kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index*
 // Pixels anywhere, as many at a time as a packet holds.
 __kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
                                 __global const Index* y, __global Packed3* out) {
-    PROBE_PACKET;
-    SceneView scene = PROBE_SCENE_VIEW;
+    PROBE_SCENE_PACKET;
     Packet packet = make_packet(params->samples, RT_SAMPLES_TOGETHER);
     for (Index done = 0; done < RT_LANES; done += packet.pixels) {
         IndexLanes pixel, column, row;
@@ -533,37 +450,12 @@ __kernel void probe_add_counts(PROBE_ITEMS, __global const RayCounts* a,
 
 // sampling.cl
 
-__kernel void probe_reverse_bits(PROBE_ITEMS, __global const uint* v, __global uint* out) {
-    PROBE_PACKET;
-    PUT_UINTS(out, reverse_bits(UINTS(v)));
-}
-
-__kernel void probe_swap_bits(PROBE_ITEMS, __global const uint* v, __global const uint* mask,
-                              __global const uint* shift, __global uint* out) {
-    PROBE_PACKET;
-    PUT_UINTS(out, swap_bits(UINTS(v), UINTS(mask), UINTS(shift)));
-}
-
-__kernel void probe_hash_bits(PROBE_ITEMS, __global const uint* v, __global uint* out) {
-    PROBE_PACKET;
-    PUT_UINTS(out, hash_bits(UINTS(v)));
-}
-
-__kernel void probe_owen_scramble(PROBE_ITEMS, __global const uint* v, __global const uint* seed,
-                                  __global uint* out) {
-    PROBE_PACKET;
-    PUT_UINTS(out, owen_scramble(UINTS(v), UINTS(seed)));
-}
-
-__kernel void probe_sobol_second(PROBE_ITEMS, __global const uint* index, __global uint* out) {
-    PROBE_PACKET;
-    PUT_UINTS(out, sobol_second(UINTS(index)));
-}
-
-__kernel void probe_unit_from_bits(PROBE_ITEMS, __global const uint* bits, __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, unit_from_bits(UINTS(bits)));
-}
+PROBE1(reverse_bits, UINTS, UINTS)
+PROBE3(swap_bits, UINTS, UINTS, UINTS, UINTS)
+PROBE1(hash_bits, UINTS, UINTS)
+PROBE2(owen_scramble, UINTS, UINTS, UINTS)
+PROBE1(sobol_second, UINTS, UINTS)
+PROBE1(unit_from_bits, REALS, UINTS)
 
 __kernel void probe_sobol_position(PROBE_ITEMS, __global const uint* seed, __global const uint* k,
                                    __global Real* x, __global Real* y) {
@@ -591,10 +483,7 @@ __kernel void probe_filter_radius(PROBE_ITEMS, __global const Index* filter, __g
     PROBE_EACH_ITEM out[i] = filter_radius(filter[i]);
 }
 
-__kernel void probe_mitchell_weight(PROBE_ITEMS, __global const Real* d, __global Real* out) {
-    PROBE_PACKET;
-    PUT_REALS(out, mitchell_weight(REALS(d)));
-}
+PROBE1(mitchell_weight, REALS, REALS)
 
 __kernel void probe_filter_weight(PROBE_ITEMS, __global const Index* filter, __global const Real* d,
                                   __global Real* out) {
