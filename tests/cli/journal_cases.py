@@ -268,7 +268,7 @@ class Resume(JournalTest):
 
     def test_a_full_disk_costs_the_journal_alone(self):
         result = self.run_shell('ulimit -f 40; "$MIRRORBALL" render "$SCENE" --size 300 --aa '
-                                'grid:64 --device threads --resume -o out.png')
+                                'grid:64 --device threads:1 --resume -o out.png')
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stderr, r"out\.png\.mbj: cannot write: .*; no more tiles are saved")
         self.assertEqual(self.files(), ["out.png"])
