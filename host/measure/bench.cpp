@@ -20,8 +20,8 @@ bool same_picture(const BenchCase& a, const BenchCase& b) {
 const BenchRow* one_thread_row(const BenchResult& result, const BenchCase& asked,
                                const std::string& schedule) {
     const auto row = std::find_if(result.rows.begin(), result.rows.end(), [&](const BenchRow& r) {
-        return r.verdict == Verdict::right && !r.repeats.empty() && r.asked.uses_threads &&
-               r.asked.threads == 1 && r.asked.schedule == schedule && same_picture(r.asked, asked);
+        return r.has_figures() && r.asked.uses_threads && r.asked.threads == 1 &&
+               r.asked.schedule == schedule && same_picture(r.asked, asked);
     });
     return row == result.rows.end() ? nullptr : &*row;
 }
@@ -34,22 +34,8 @@ const BenchRow* base_of(const BenchResult& result, const BenchCase& asked) {
 
 }  // namespace
 
-const char* to_string(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::right:
-            return "right";
-        case Verdict::wrong:
-            return "wrong";
-        case Verdict::failed:
-            return "failed";
-        case Verdict::unfinished:
-            return "unfinished";
-    }
-    return "unfinished";
-}
-
 std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow& row) {
-    if (row.verdict != Verdict::right || row.repeats.empty()) return std::nullopt;
+    if (!row.has_figures()) return std::nullopt;
     BenchFigures figures;
     figures.trace = spread_of(row.repeats, trace_seconds);
     figures.total = spread_of(row.repeats, timed_total);
@@ -79,9 +65,7 @@ const BenchRow& usual_row(const BenchResult& result, const BenchRow& row) {
 
 std::optional<AblationFigures> ablation_figures(const BenchResult& result, const BenchRow& row) {
     const BenchRow& usual = usual_row(result, row);
-    for (const BenchRow* one : {&row, &usual}) {
-        if (one->verdict != Verdict::right || one->repeats.empty()) return std::nullopt;
-    }
+    if (!row.has_figures() || !usual.has_figures()) return std::nullopt;
     AblationFigures figures;
     figures.trace = spread_of(row.repeats, trace_seconds);
     if (!row.warm_up.empty()) figures.first_build = row.warm_up.front().phases.renderer.build;
@@ -93,7 +77,7 @@ std::optional<AblationFigures> ablation_figures(const BenchResult& result, const
 void judge_ablation(BenchResult& result) {
     for (BenchRow& row : result.ablation) {
         const BenchRow& usual = usual_row(result, row);
-        if (row.verdict != Verdict::right || row.repeats.empty() || usual.repeats.empty()) continue;
+        if (!row.has_figures() || usual.repeats.empty()) continue;
         const std::uint64_t found = row.repeats.front().image_hash;
         const std::uint64_t expected = usual.repeats.front().image_hash;
         if (found == expected) continue;

@@ -9,8 +9,6 @@
 
 namespace rt {
 
-const char* to_string(Verdict verdict);
-
 /// Figures of a right row, each computed from medians over its repeats.
 struct BenchFigures {
     Spread trace, total;         ///< seconds

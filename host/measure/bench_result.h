@@ -4,16 +4,34 @@
 #include <string>
 #include <vector>
 
+#include "host/base/named.h"
 #include "host/picture/render_stats.h"
 
 namespace rt {
 
-/// Outcome of a row.
+/// Outcome of a case.
 enum class Verdict {
     right,       ///< every picture agrees with the reference
     wrong,       ///< a picture does not: no timing is given
     failed,      ///< the device could not render it
     unfinished,  ///< stopped before the first repeat was done
+};
+
+inline constexpr Named<Verdict> verdict_names[] = {{"right", Verdict::right},
+                                                   {"wrong", Verdict::wrong},
+                                                   {"failed", Verdict::failed},
+                                                   {"unfinished", Verdict::unfinished}};
+
+inline const char* to_string(Verdict verdict) { return name_of(verdict_names, verdict); }
+
+/// Every run of a case, and their outcome.
+struct TimedRuns {
+    std::vector<RenderStats> warm_up;  ///< the first round, kept separately; not used in any figure
+    std::vector<RenderStats> repeats;  ///< one per round, in order
+    Verdict verdict = Verdict::unfinished;
+    std::string why;  ///< what is wrong or what failed; empty when right
+
+    bool has_figures() const { return verdict == Verdict::right && !repeats.empty(); }
 };
 
 /// What a row of `mirrorball bench` asks for.
@@ -32,14 +50,10 @@ struct BenchCase {
     std::string change;         ///< in an ablation: what differs from the usual; empty: nothing
 };
 
-/// A row: one case, with every run kept. RenderStats::error is against the double reference, on
+/// A row: one case and its runs. RenderStats::error is against the double reference, on
 /// values clamped to [0,1]. RenderStats::phases.start and .write are 0, .total is timed_total().
-struct BenchRow {
+struct BenchRow : TimedRuns {
     BenchCase asked;
-    std::vector<RenderStats> warm_up;  ///< the first round, kept separately; not used in any figure
-    std::vector<RenderStats> repeats;  ///< one per round, in order
-    Verdict verdict = Verdict::unfinished;
-    std::string why;  ///< what is wrong or what failed; empty when right
 };
 
 /// All results of `mirrorball bench`. Figures are computed from it (bench.h).

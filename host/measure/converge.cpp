@@ -55,7 +55,7 @@ TargetTime target_time(const ConvergeResult& result, const ConvergeCase& of, dou
 }  // namespace
 
 std::optional<PointFigures> figures_of(const ConvergeResult& result, const ConvergePoint& point) {
-    if (point.verdict != Verdict::right || point.repeats.empty()) return std::nullopt;
+    if (!point.has_figures()) return std::nullopt;
     PointFigures figures;
     figures.seconds = spread_of(point.repeats, picture_seconds);
     figures.rmse = spread_of(point.repeats, rmse_of).median;

@@ -18,14 +18,10 @@ struct ConvergeCase {
     int max_bounces = 0;
 };
 
-/// A point of the error-time plane, with every run kept. RenderStats::error is against the
+/// A point of the error-time plane and its runs. RenderStats::error is against the
 /// converged reference, on values clamped to [0,1].
-struct ConvergePoint {
+struct ConvergePoint : TimedRuns {
     ConvergeCase asked;
-    std::vector<RenderStats> warm_up;  ///< the first round, kept separately
-    std::vector<RenderStats> repeats;  ///< one per round, in order
-    Verdict verdict = Verdict::unfinished;
-    std::string why;  ///< what is wrong or what failed; empty when right
 };
 
 /// The converged picture: the mean of two independent halves, in double with strict arithmetic.

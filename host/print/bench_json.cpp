@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/named.h"
-#include "host/base/printable.h"
 #include "host/measure/bench.h"
 #include "host/print/print_bench.h"
 #include "host/print/print_run.h"
@@ -28,29 +27,20 @@ Json figures_json(const BenchResult& result, const BenchRow& row) {
             {"over_amdahl", optional_json(figures->over_amdahl)}};
 }
 
-Json scene_json(const BenchCase& asked) {
-    return {{"path", printable(asked.scene_path)},
-            {"name", asked.scene_name},
-            {"hash", hash_text(asked.scene_hash)}};
-}
-
-Json row_json(const BenchResult& result, const BenchRow& row) {
+Json row_json(const BenchRow& row, Json figures) {
     const BenchCase& asked = row.asked;
-    return {{"key", key_of(asked)},
-            {"scene", scene_json(asked)},
-            {"width", asked.width},
-            {"height", asked.height},
-            {"aa", to_string(asked.aa)},
-            {"precision", precision_name(asked.double_precision)},
-            {"device", asked.device},
-            {"device_name", asked.device_name},
-            {"threads", asked.threads},
-            {"schedule", asked.schedule},
-            {"verdict", to_string(row.verdict)},
-            {"why", row.why},
-            {"figures", figures_json(result, row)},
-            {"warm_up", runs_json(row.warm_up)},
-            {"repeats", runs_json(row.repeats)}};
+    Json json{{"key", key_of(asked)},
+              {"scene", scene_json(asked.scene_path, asked.scene_name, asked.scene_hash)},
+              {"width", asked.width},
+              {"height", asked.height},
+              {"aa", to_string(asked.aa)},
+              {"precision", precision_name(asked.double_precision)},
+              {"device", asked.device},
+              {"device_name", asked.device_name},
+              {"threads", asked.threads},
+              {"schedule", asked.schedule}};
+    add_runs(json, row, std::move(figures));
+    return json;
 }
 
 /// Null unless the row and the usual one are right.
@@ -63,17 +53,13 @@ Json ablation_figures_json(const BenchResult& result, const BenchRow& row) {
 }
 
 Json ablation_json(const BenchResult& result, const BenchRow& row) {
-    Json json = row_json(result, row);
+    Json json = row_json(row, ablation_figures_json(result, row));
     json["change"] = row.asked.change;
-    json["figures"] = ablation_figures_json(result, row);
     return json;
 }
 
 Json reference_json(const RenderStats& run) {
-    Json json{{"scene",
-               {{"path", printable(run.scene.path)},
-                {"name", run.scene.name},
-                {"hash", hash_text(run.scene.hash)}}}};
+    Json json{{"scene", scene_json(run.scene.path, run.scene.name, run.scene.hash)}};
     json.update(run_json(run));
     return json;
 }
@@ -83,7 +69,9 @@ Json reference_json(const RenderStats& run) {
 Json bench_json(const BenchResult& result) {
     Json references = Json::array(), rows = Json::array();
     for (const RenderStats& run : result.references) references.push_back(reference_json(run));
-    for (const BenchRow& row : result.rows) rows.push_back(row_json(result, row));
+    for (const BenchRow& row : result.rows) {
+        rows.push_back(row_json(row, figures_json(result, row)));
+    }
     Json ablation = Json::array();
     for (const BenchRow& row : result.ablation) ablation.push_back(ablation_json(result, row));
     return {{"format", "mirrorball-bench"},

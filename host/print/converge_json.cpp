@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/named.h"
-#include "host/base/printable.h"
-#include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/print/print_converge.h"
 #include "host/print/print_run.h"
@@ -45,11 +43,7 @@ Json point_json(const ConvergeResult& result, const ConvergePoint& point) {
     Json json = build_json(point.asked);
     json["max_bounces"] = point.asked.max_bounces;
     json["aa"] = to_string(point.asked.aa);
-    json["verdict"] = to_string(point.verdict);
-    json["why"] = point.why;
-    json["figures"] = figures_json(result, point);
-    json["warm_up"] = runs_json(point.warm_up);
-    json["repeats"] = runs_json(point.repeats);
+    add_runs(json, point, figures_json(result, point));
     return json;
 }
 
@@ -100,10 +94,7 @@ Json converge_json(const ConvergeResult& result) {
     return {{"format", "mirrorball-converge"},
             {"version", 1},
             {"environment", bench_environment_json(result.load_before)},
-            {"scene",
-             {{"path", printable(result.scene_path)},
-              {"name", result.scene_name},
-              {"hash", hash_text(result.scene_hash)}}},
+            {"scene", scene_json(result.scene_path, result.scene_name, result.scene_hash)},
             {"width", result.width},
             {"height", result.height},
             {"repeats", result.repeats_asked},

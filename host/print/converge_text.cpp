@@ -6,7 +6,6 @@
 #include "host/base/counted.h"
 #include "host/base/named.h"
 #include "host/base/printable.h"
-#include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
 #include "host/print/print_converge.h"

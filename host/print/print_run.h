@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "host/measure/bench_result.h"
 #include "host/measure/statistics.h"
 #include "host/picture/render_stats.h"
 
@@ -19,6 +20,13 @@ nlohmann::ordered_json run_json(const RenderStats& run);
 
 nlohmann::ordered_json runs_json(std::span<const RenderStats> runs);
 
+/// Adds verdict, why, `figures`, warm-up and repeats.
+void add_runs(nlohmann::ordered_json& json, const TimedRuns& runs, nlohmann::ordered_json figures);
+
+/// {"path", "name", "hash"}
+nlohmann::ordered_json scene_json(const std::string& path, const std::string& name,
+                                  std::uint64_t hash);
+
 /// {"median", "mad", "min", "max"}
 nlohmann::ordered_json spread_json(const Spread& spread);
 
@@ -29,14 +37,8 @@ nlohmann::ordered_json bench_environment_json(double load_before);
 /// The first line of the CSV of bench and converge, without its newline.
 std::string run_csv_header();
 
-/// What a CSV line holds besides the run itself.
-struct RunPlace {
-    std::string device;   ///< spec
-    std::string verdict;  ///< of the row or point
-    int round = 0;        ///< 0: warm-up; repeats from 1
-};
-
-/// One run as a line with its newline; text with a comma or a quote in it is quoted (RFC 4180).
-std::string run_csv_line(const RenderStats& run, const RunPlace& place);
+/// A line for each run, warm-up (round 0) and repeats; text with a comma or a quote in it is quoted
+/// (RFC 4180). `device`: spec.
+std::string runs_csv(const TimedRuns& runs, const std::string& device);
 
 }  // namespace rt

@@ -20,6 +20,12 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
+/// What a line holds besides the run itself.
+struct RunPlace {
+    std::string device, verdict;
+    int round = 0;  ///< 0: warm-up; repeats from 1
+};
+
 std::vector<std::string> what_cells(const RenderStats& run, const RunPlace& place) {
     return {quoted(printable(run.scene.path)),
             hash_text(run.scene.hash),
@@ -65,6 +71,15 @@ std::vector<std::string> maker_cells(const RenderStats& run) {
             fmt::format("{} ({})", version, git_revision)};
 }
 
+std::string line_of(const RenderStats& run, const RunPlace& place) {
+    std::string line;
+    for (const auto& cells : {what_cells(run, place), figure_cells(run), maker_cells(run)}) {
+        for (const std::string& cell : cells) line += cell + ",";
+    }
+    line.back() = '\n';
+    return line;
+}
+
 }  // namespace
 
 std::string run_csv_header() {
@@ -75,13 +90,15 @@ std::string run_csv_header() {
            "image_hash,rmse,max_error,non_finite,machine,driver,version";
 }
 
-std::string run_csv_line(const RenderStats& run, const RunPlace& place) {
-    std::string line;
-    for (const std::string& cell : what_cells(run, place)) line += cell + ",";
-    for (const std::string& cell : figure_cells(run)) line += cell + ",";
-    for (const std::string& cell : maker_cells(run)) line += cell + ",";
-    line.back() = '\n';
-    return line;
+std::string runs_csv(const TimedRuns& runs, const std::string& device) {
+    RunPlace place{device, to_string(runs.verdict)};
+    std::string text;
+    for (const RenderStats& run : runs.warm_up) text += line_of(run, place);
+    for (const RenderStats& run : runs.repeats) {
+        ++place.round;
+        text += line_of(run, place);
+    }
+    return text;
 }
 
 }  // namespace rt

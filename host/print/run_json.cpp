@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/base/printable.h"
 #include "host/measure/machine_load.h"
 #include "host/print/environment_json.h"
 #include "host/print/print_run.h"
@@ -25,6 +26,18 @@ Json runs_json(std::span<const RenderStats> runs) {
     Json json = Json::array();
     for (const RenderStats& run : runs) json.push_back(run_json(run));
     return json;
+}
+
+void add_runs(Json& json, const TimedRuns& runs, Json figures) {
+    json["verdict"] = to_string(runs.verdict);
+    json["why"] = runs.why;
+    json["figures"] = std::move(figures);
+    json["warm_up"] = runs_json(runs.warm_up);
+    json["repeats"] = runs_json(runs.repeats);
+}
+
+Json scene_json(const std::string& path, const std::string& name, std::uint64_t hash) {
+    return {{"path", printable(path)}, {"name", name}, {"hash", hash_text(hash)}};
 }
 
 Json spread_json(const Spread& spread) {

@@ -21,7 +21,7 @@ std::string correctness_text(const BenchResult& bench) {
     for (const BenchRow& row : bench.rows) {
         wrong += row.verdict == Verdict::wrong ? 1 : 0;
         failed += row.verdict == Verdict::failed ? 1 : 0;
-        if (row.verdict != Verdict::right || row.repeats.empty()) continue;
+        if (!row.has_figures()) continue;
         ++timed;
         const auto& error = row.repeats.front().error;
         if (error && !row.asked.double_precision) rounding = std::max(rounding, error->rmse);

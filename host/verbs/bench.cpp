@@ -39,12 +39,6 @@ struct LoadedScene {
     double load_seconds = 0;
 };
 
-/// A row with what it takes to time it.
-struct PlannedRow {
-    BenchCase asked;
-    TimedCase timed;
-};
-
 /// The rows of one bench, and the scenes and references they point to.
 class Plan {
    public:
@@ -80,7 +74,8 @@ class Plan {
         return true;
     }
 
-    std::vector<PlannedRow> rows;
+    std::vector<BenchCase> asked;  ///< the rows
+    std::vector<TimedCase> cases;  ///< what it takes to time each
 
    private:
     void say(const std::string& line) const {
@@ -181,32 +176,31 @@ class Plan {
 
     void add_row(const LoadedScene& loaded, const RenderSettings& picture,
                  const ListedDevice& device, const std::string& change = "") {
-        PlannedRow row;
-        BenchCase& asked = row.asked;
-        asked.scene_path = loaded.path;
-        asked.scene_name = loaded.scene.name;
-        asked.scene_hash = scene_hash(loaded.scene);
-        asked.width = picture.size->width;
-        asked.height = picture.size->height;
-        asked.aa = *picture.aa;
-        asked.double_precision = picture.precision == Precision::float64;
-        asked.uses_threads = device.is_threads;
-        asked.device = device.spec;
-        asked.device_name = device.name;
-        asked.threads = device.threads;
-        asked.change = change;
+        BenchCase& row = asked.emplace_back();
+        row.scene_path = loaded.path;
+        row.scene_name = loaded.scene.name;
+        row.scene_hash = scene_hash(loaded.scene);
+        row.width = picture.size->width;
+        row.height = picture.size->height;
+        row.aa = *picture.aa;
+        row.double_precision = picture.precision == Precision::float64;
+        row.uses_threads = device.is_threads;
+        row.device = device.spec;
+        row.device_name = device.name;
+        row.threads = device.threads;
+        row.change = change;
         if (device.is_threads) {
-            asked.schedule =
+            row.schedule =
                 picture.lanes == 1 ? "scalar" : name_of(schedule_names, picture.schedule);
         }
-        row.timed.scene = &loaded.scene;
-        row.timed.reference = &references_.back();
-        row.timed.path = loaded.path;
-        row.timed.device = device.choice;
-        row.timed.settings = picture;
-        row.timed.expected_hash = hashes_.at(picture.precision);
-        row.timed.load_seconds = loaded.load_seconds;
-        rows.push_back(std::move(row));
+        TimedCase& timed = cases.emplace_back();
+        timed.scene = &loaded.scene;
+        timed.reference = &references_.back();
+        timed.path = loaded.path;
+        timed.device = device.choice;
+        timed.settings = picture;
+        timed.expected_hash = hashes_.at(picture.precision);
+        timed.load_seconds = loaded.load_seconds;
     }
 
     const BenchOptions& options_;
@@ -245,20 +239,13 @@ BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline)
     Plan plan(options);
     say_busy(options.quiet);
     result.interrupted = !plan.make(result);
-    std::vector<TimedCase> cases;
-    std::vector<BenchCase> asked;
-    for (const PlannedRow& row : plan.rows) {
-        cases.push_back(row.timed);
-        asked.push_back(row.asked);
-    }
-    if (baseline != nullptr && !result.interrupted) check_baseline(asked, *baseline);
+    if (baseline != nullptr && !result.interrupted) check_baseline(plan.asked, *baseline);
     if (!result.interrupted) {
-        result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
+        result.interrupted = !run_rounds(plan.cases, options.repeats, options.quiet);
     }
     std::vector<BenchRow>& rows = options.ablate ? result.ablation : result.rows;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        rows.push_back({plan.rows[i].asked, std::move(cases[i].warm_up),
-                        std::move(cases[i].repeats), cases[i].verdict, cases[i].why});
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
+        rows.push_back({std::move(plan.cases[i]), plan.asked[i]});
     }
     judge_ablation(result);
     return result;

@@ -13,7 +13,6 @@
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/image/output_path.h"
-#include "host/measure/bench.h"
 #include "host/print/print_converge.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stats.h"
@@ -143,11 +142,7 @@ void time_points(const Scene& scene, double load_seconds, const ConvergedPicture
     }
     result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        ConvergePoint& point = result.points[i];
-        point.warm_up = std::move(cases[i].warm_up);
-        point.repeats = std::move(cases[i].repeats);
-        point.verdict = cases[i].verdict;
-        point.why = cases[i].why;
+        static_cast<TimedRuns&>(result.points[i]) = std::move(cases[i]);
     }
 }
 

@@ -16,8 +16,8 @@
 
 namespace rt {
 
-/// One way to render one picture, to be timed.
-struct TimedCase {
+/// One way to render one picture, to be timed, and the runs once it is.
+struct TimedCase : TimedRuns {
     const Scene* scene = nullptr;        ///< as loaded; options override
     const Picture* reference = nullptr;  ///< what `judge` compares with
     std::string path;                    ///< of the scene's file
@@ -26,11 +26,6 @@ struct TimedCase {
     Judgement (*judge)(const Picture& picture, const Picture& reference) = judge_picture;
     std::optional<std::uint64_t> expected_hash;  ///< of the picture, in strict arithmetic
     double load_seconds = 0;                     ///< of the scene file, noted in every run
-
-    // Results.
-    std::vector<RenderStats> warm_up, repeats;
-    Verdict verdict = Verdict::unfinished;
-    std::string why;  ///< what is wrong or what failed
 };
 
 /// Settings for a benchmark's renders, which fail if their device fails and are judged by the
