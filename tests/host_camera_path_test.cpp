@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "host/base/error.h"
@@ -67,6 +68,38 @@ TEST(CameraPath, FieldOfViewDoesNotOvershoot) {
         const double degrees = camera_at(scene, frame).field_of_view.amount;
         EXPECT_GE(degrees, 1) << frame;
         EXPECT_LE(degrees, 179) << frame;
+    }
+}
+
+TEST(CameraPath, FieldOfViewIsNotRoundedUpTo180Degrees) {
+    const Scene scene = scene_with(
+        R"({"interpolation": "linear", "keys": [{"frame": 0, "fov_degrees": 179.99999999999997},
+            {"frame": 100, "fov_degrees": 179.99999999999997}]})");
+    for (int frame = 0; frame <= 100; ++frame) {
+        EXPECT_LT(camera_at(scene, frame).field_of_view.amount, 180) << frame;
+    }
+}
+
+TEST(CameraPath, StandsStillBetweenEqualKeys) {
+    for (const char* kind : {"linear", "catmull-rom"}) {
+        const Scene scene = scene_with(
+            std::string(R"({"interpolation": ")") + kind +
+            R"(", "keys": [{"frame": 1, "from": [0.1, 0.7, 1e9]}, {"frame": 90, "from": [0.1, 0.7, 1e9]}]})");
+        for (int frame = 1; frame <= 90; ++frame) {
+            EXPECT_EQ(camera_at(scene, frame).from, glm::dvec3(0.1, 0.7, 1e9)) << frame;
+            EXPECT_EQ(camera_at(scene, frame).up, glm::dvec3(0, 1, 0)) << frame;
+        }
+    }
+}
+
+TEST(CameraPath, MayHaveKeysAnyTimeApart) {
+    for (const double gap : {1e-323, 1e-300, 1e-20, 1e20, 1e30}) {
+        const Scene scene = scene_with(fmt::format(
+            R"({{"keys": [{{"frame": {}, "from": [0, 1e-300, 5]}},
+                          {{"frame": {}, "from": [2, 3e-300, 5]}}]}})",
+            -gap, gap));
+        EXPECT_EQ(camera_at(scene, 0).from.x, 1) << gap;
+        EXPECT_DOUBLE_EQ(camera_at(scene, 0).from.y, 2e-300) << gap;
     }
 }
 

@@ -43,29 +43,27 @@ CameraNumbers operator+(CameraNumbers a, const CameraNumbers& b) { return a += b
 CameraNumbers operator*(double factor, CameraNumbers view) { return view *= factor; }
 CameraNumbers operator-(const CameraNumbers& a, const CameraNumbers& b) { return a + -1.0 * b; }
 
-CameraNumbers linear(const Key& a, const Key& b, double share) {
-    return (1 - share) * CameraNumbers(a.camera) + share * CameraNumbers(b.camera);
-}
-
-/// The tangent at keys[i], per frame: Catmull and Rom 1974, for unequal key spacing.
-CameraNumbers slope(const std::vector<Key>& keys, std::size_t i) {
+/// The tangent at keys[i] times `frames`: Catmull and Rom 1974, for unequal key spacing.
+CameraNumbers tangent(const std::vector<Key>& keys, std::size_t i, double frames) {
     const Key& before = keys[i == 0 ? 0 : i - 1];
     const Key& after = keys[std::min(i + 1, keys.size() - 1)];
-    return 1 / (after.frame - before.frame) *
+    return frames / (after.frame - before.frame) *
            (CameraNumbers(after.camera) - CameraNumbers(before.camera));
 }
 
-/// The cubic Hermite curve from keys[i] to the next.
-CameraNumbers smooth(const std::vector<Key>& keys, std::size_t i, double share) {
+/// Between keys[i] and the next: a straight line, or a cubic Hermite curve. Where the camera stands
+/// still it is the same to the last bit.
+CameraNumbers between(const std::vector<Key>& keys, std::size_t i, double share, bool is_smooth) {
     const double frames = keys[i + 1].frame - keys[i].frame;
     const double s = share, rest = 1 - share;
-    CameraNumbers view = (1 + 2 * s) * rest * rest * CameraNumbers(keys[i].camera) +
-                         s * s * (3 - 2 * s) * CameraNumbers(keys[i + 1].camera) +
-                         s * rest * rest * frames * slope(keys, i) -
-                         s * s * rest * frames * slope(keys, i + 1);
-    // Splines overshoot; the field of view must not.
-    const auto [low, high] =
-        std::minmax(keys[i].camera.field_of_view.amount, keys[i + 1].camera.field_of_view.amount);
+    const CameraNumbers start(keys[i].camera), end(keys[i + 1].camera);
+    CameraNumbers view = start + (is_smooth ? s * s * (3 - 2 * s) : s) * (end - start);
+    if (is_smooth) {
+        view += s * rest * rest * tangent(keys, i, frames);
+        view += -s * s * rest * tangent(keys, i + 1, frames);
+    }
+    // Splines and rounding overshoot; the field of view must not.
+    const auto [low, high] = std::minmax(start.amount, end.amount);
     view.amount = std::clamp(view.amount, low, high);
     return view;
 }
@@ -86,8 +84,7 @@ Scene::Camera camera_at(const Scene& scene, double frame) {
     const auto i = static_cast<std::size_t>(next - keys.begin()) - 1;
     const double share = (frame - keys[i].frame) / (next->frame - keys[i].frame);
     if (share == 0) return keys[i].camera;
-    const CameraNumbers view =
-        scene.path.is_smooth ? smooth(keys, i, share) : linear(keys[i], *next, share);
+    const CameraNumbers view = between(keys, i, share, scene.path.is_smooth);
     Scene::Camera camera = scene.camera;
     camera.from = view.from;
     camera.at = view.at;
