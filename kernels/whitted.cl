@@ -116,11 +116,15 @@ void scatter(const SceneView* scene, const Surface* surface, const Materials* ma
     real3 reflected = limit3(mul3(throughput, material->mirror));
     Mask glassy = RT_NO_LANES;
     if (RT_HAS_GLASS) glassy = path->live & !is_black(material->transmission);
+    // Where the point has moved, a chord no longer starts there; mirror rays outside meet none.
+    Mask moved = (glassy | inside) & (surface->back > (Reals)0);
+    moved &= surface->signed_diameter != (Reals)0;
+    Indices from = moved ? (Indices)RT_NONE : prim;
     if (!RT_HAS_GLASS || !any_lane(glassy)) {
         path->throughput = reflected;
         path->live &= !is_black(reflected);
         if (!any_lane(path->live)) return;
-        path->ray = mirror_ray(surface, path->ray.dir, prim);
+        path->ray = mirror_ray(surface, path->ray.dir, from);
         path->bounce += 1;
         counts->mirror += path->live & 1;
         RT_EXPLAIN(path->live, RT_EVENT_MIRROR, 0, path->bounce, (Reals)0, reflected,
@@ -129,14 +133,10 @@ void scatter(const SceneView* scene, const Surface* surface, const Materials* ma
     }
     real3 transmitted = limit3(mul3(throughput, material->transmission));
     Mask total;
-    Indices from = prim;
     Reals eta = inside ? material->ior : (Reals)1 / material->ior;
     Ray refracted = refracted_ray(surface, path->ray.dir, eta, prim, &total);
-    Mask moved = glassy & (surface->back > (Reals)0);
-    if (any_lane(moved)) {
+    if (any_lane(glassy & (surface->back > (Reals)0))) {
         note_crossed(scene, surface, path->ray.dir, inside, prim, &refracted);
-        moved &= surface->signed_diameter != (Reals)0;
-        from = moved ? (Indices)RT_NONE : prim;  // the chord no longer starts at the origin
         refracted.from = from;
     }
     total &= glassy;

@@ -7,10 +7,12 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "tests/hit_scenes.h"
+#include "tests/test_random.h"
 
 namespace rt {
 namespace {
@@ -62,9 +64,9 @@ Scene::Material matte(double ambient, double diffuse) {
 }
 
 template <typename T>
-Film<T> picture(const Scene& scene, int lanes) {
+Film<T> picture(const Scene& scene, int lanes, const FlattenOptions& flattening = {}) {
     static const StopFlag never_stop = 0;
-    const FlatScene<T> flat = flatten<T>(scene);
+    const FlatScene<T> flat = flatten<T>(scene, flattening);
     ThreadsOptions options;
     options.lanes = lanes;
     const auto renderer = make_threads_renderer(flat, options);
@@ -205,6 +207,36 @@ TYPED_TEST(Touching, HeadOnRaysPassGlassOfAnyIndex) {
         scene.materials = {glass(0.9, ior)};
         add_slab(scene, 1, -0.5, 0.5, 0);
         expect_square<TypeParam>(scene, 0.9, [](const auto&) { return 0.9 * 0.9; });
+    }
+}
+
+/// Mirrors so far away that they are one surface for most rays, which meet many from inside.
+TYPED_TEST(Touching, ShapesSmallerThanRoundingLookTheSameWithAndWithoutHierarchies) {
+    using T = TypeParam;
+    Random random(5);
+    Scene scene = front_view();
+    scene.camera.projection = Scene::Projection::perspective;
+    const double distance = 1 / double(Flat<T>::roundoff);
+    scene.camera.from = {0, 0, distance};
+    scene.camera.field_of_view = {Scene::FieldOfView::Fixed::vertical,
+                                  300 / (std::numbers::pi * distance)};
+    set_image_size(scene, 64, 64);
+    scene.background = {0.25, 0.5, 0.75};
+    scene.ambient_light = glm::dvec3(0.25);
+    Scene::Material mirror = matte(1, 0);
+    mirror.mirror = glm::dvec3(0.75);
+    scene.materials = {mirror};
+    Scene tubes = scene;
+    for (int i = 0; i < 40; ++i) {
+        const glm::dvec3 place = random.in_cube(1);
+        scene.spheres.push_back({place, random.uniform(0.05, 0.25), 0});
+        tubes.cones.push_back({place, place + 0.2 * random.unit_vector(), 0.2, 0.1, 0});
+    }
+    FlattenOptions with, without;
+    with.hierarchies = true;
+    without.hierarchies = false;
+    for (const Scene& one : {scene, tubes}) {
+        EXPECT_EQ(hash_of(picture<T>(one, 0, with)), hash_of(picture<T>(one, 0, without)));
     }
 }
 
