@@ -9,39 +9,22 @@
 #include <string>
 
 #include "host/flatten/flat_types.h"
+#include "host/stress/wide_real.h"
 
-// The reference arithmetic of the kernel tests: 113 bits, enough for exact products of two doubles
-// and for any formula here with 2^-50 of a double's error to spare. Independent of the renderer.
+// The reference arithmetic of the kernel tests, as of the stress suite: 113 bits, enough for exact
+// products of two doubles and for any formula here with 2^-50 of a double's error to spare.
+// Independent of the renderer.
 namespace rt {
 
-using Quad = __float128;
-
-struct Quad3 {
-    Quad x, y, z;
-};
+using stress::magnitude;
+using stress::Quad;
+using stress::square_root;
+using Quad3 = stress::Wide3<Quad>;
 
 template <typename P>
 Quad3 exact(const P& p) {
     return {Quad(p.x), Quad(p.y), Quad(p.z)};
 }
-
-inline Quad3 operator+(Quad3 a, Quad3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Quad3 operator-(Quad3 a, Quad3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Quad3 operator*(Quad s, Quad3 a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Quad dot(Quad3 a, Quad3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Quad3 cross(Quad3 a, Quad3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Quad magnitude(Quad x) { return x < 0 ? -x : x; }
-
-/// One Newton step from the long double root: 64 bits become 128.
-inline Quad square_root(Quad x) {
-    if (!(x > 0)) return 0;
-    const Quad root = std::sqrt(static_cast<long double>(x));
-    return (root + x / root) / 2;
-}
-inline Quad length(Quad3 a) { return square_root(dot(a, a)); }
-inline Quad3 unit(Quad3 a) { return (Quad(1) / length(a)) * a; }
 
 /// |value - exact| as a multiple of T's roundoff and of `scale`; infinite for a NaN.
 template <typename T>

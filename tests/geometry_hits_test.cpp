@@ -35,7 +35,7 @@ std::vector<Query<T>> some_queries(const FlatScene<T>& scene, std::size_t count)
     Random random(1);
     return many(count, [&] {
         Query<T> query = query_of(some_ray(scene, random));
-        if (random.coin()) query.next = round_to<T>(random.unit_vector());
+        if (random.coin()) query.next = pack<T>(random.unit_vector());
         return query;
     });
 }

@@ -116,8 +116,8 @@ ProbeRay<T> some_ray(const FlatScene<T>& scene, Random& random) {
         origin = in_double(cone.base) + height * axis +
                  (double(cone.base_radius) + double(cone.slope) * height) * across;
     }
-    ray.origin = round_to<T>(origin);
-    ray.dir = round_to<T>(glm::normalize(dir));
+    ray.origin = pack<T>(origin);
+    ray.dir = pack<T>(glm::normalize(dir));
     ray.t_max = static_cast<T>(random.uniform(0.1, 4));
     return ray;
 }

@@ -24,15 +24,15 @@ LaunchParams<T> any_params(Random& random, bool orthographic, int grid) {
     params.width = 200;
     params.height = 130;
     params.grid = grid;
-    params.direction = round_to<T>(forward);
+    params.direction = pack<T>(forward);
     const auto some_rounding = [&](double size) {
-        return round_to<T>(0.3 * Flat<T>::roundoff * size * random.unit_vector());
+        return pack<T>(0.3 * Flat<T>::roundoff * size * random.unit_vector());
     };
     params.direction_low = some_rounding(1);
     if (!orthographic) params.direction_dx_low = some_rounding(3e-3);
     if (!orthographic) params.direction_dy_low = some_rounding(4e-3);
-    (orthographic ? params.origin_dx : params.direction_dx) = round_to<T>(3e-3 * right);
-    (orthographic ? params.origin_dy : params.direction_dy) = round_to<T>(4e-3 * up);
+    (orthographic ? params.origin_dx : params.direction_dx) = pack<T>(3e-3 * right);
+    (orthographic ? params.origin_dy : params.direction_dy) = pack<T>(4e-3 * up);
     return params;
 }
 

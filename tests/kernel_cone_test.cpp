@@ -273,8 +273,8 @@ TYPED_TEST(Cross3, KeepsItsDigits) {
     std::vector<Packed3<TypeParam>> a, b;
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec3 v = random.unit_vector();
-        a.push_back(round_to<TypeParam>(v));
-        b.push_back(round_to<TypeParam>(v + random.log_uniform(1e-7, 1) * random.unit_vector()));
+        a.push_back(pack<TypeParam>(v));
+        b.push_back(pack<TypeParam>(v + random.log_uniform(1e-7, 1) * random.unit_vector()));
     }
     const auto c = run<TypeParam, Packed3<TypeParam>>("cross3", count, a, b);
     WorstError worst;

@@ -26,8 +26,8 @@ struct Meetings {
     std::vector<Index<T>> prims;
 
     void add(const glm::dvec3& normal, const glm::dvec3& face, const glm::dvec3& dir, double n) {
-        surfaces.push_back({{}, T(0x1p-18), round_to<T>(normal), 0, round_to<T>(face), 0});
-        dirs.push_back(round_to<T>(dir));
+        surfaces.push_back({{}, T(0x1p-18), pack<T>(normal), 0, pack<T>(face), 0});
+        dirs.push_back(pack<T>(dir));
         eta.push_back(static_cast<T>(n));
         prims.push_back(static_cast<Index<T>>(prims.size()));
     }
@@ -253,10 +253,10 @@ template <typename T>
 FlatScene<T> glass_crowd() {
     Random random(6);
     auto scene = crowd<T>(random);
-    const auto color = [&] { return round_to<T>(0.5 * random.in_cube(0.5) + glm::dvec3(0.3)); };
+    const auto color = [&] { return pack<T>(0.5 * random.in_cube(0.5) + glm::dvec3(0.3)); };
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 way = random.unit_vector();
-        scene.cones.push_back({round_to<T>(random.in_cube(2)), T(0.4), round_to<T>(way), T(0.9),
+        scene.cones.push_back({pack<T>(random.in_cube(2)), T(0.4), pack<T>(way), T(0.9),
                                T(0.3 * random.index(3) - 0.3), 0, 0, 0});
     }
     for (Index<T> i = 0; i < 6; ++i) {
@@ -264,9 +264,9 @@ FlatScene<T> glass_crowd() {
         const auto shiny = i == 2 ? Packed3<T>{} : color();
         scene.materials.push_back({color(), T(5 << i), color(), i % 2, color(),
                                    T(random.uniform(0.6, 2)), shiny, 0, clear, 0});
-        scene.vertex_normals.push_back({round_to<T>(random.unit_vector()), 0,
-                                        round_to<T>(random.unit_vector()), 0,
-                                        round_to<T>(random.unit_vector()), 0});
+        scene.vertex_normals.push_back({pack<T>(random.unit_vector()), 0,
+                                        pack<T>(random.unit_vector()), 0,
+                                        pack<T>(random.unit_vector()), 0});
         scene.triangles[static_cast<std::size_t>(i)].smooth = i;
     }
     for (auto& sphere : scene.spheres) sphere.material = random.index(6);

@@ -251,7 +251,7 @@ TYPED_TEST(MakeShear, PutsPointsOfTheRayOnTheAxis) {
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec3 origin = random.in_cube(1), dir = random.unit_vector();
         rays.push_back(make_ray<TypeParam>(origin, dir));
-        points.push_back(round_to<TypeParam>(origin + random.uniform(0, 4) * dir));
+        points.push_back(pack<TypeParam>(origin + random.uniform(0, 4) * dir));
     }
     const auto sheared = run<TypeParam, Packed3<TypeParam>>("shear_vertex", count, rays, points);
     WorstError worst;

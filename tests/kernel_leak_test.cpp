@@ -71,7 +71,7 @@ std::size_t leaks(const FlatScene<T>& flat, bool at_vertices, std::size_t rays) 
         const double share = at_vertices ? 0 : random.uniform(0, 1);
         const glm::dvec3 target =
             corners[first] + share * (corners[(first + 1) % 3] - corners[first]);
-        const auto origin = in_double(round_to<T>(middle + 0.15 * reach * random.in_cube(1)));
+        const auto origin = in_double(pack<T>(middle + 0.15 * reach * random.in_cube(1)));
         return make_ray<T>(origin, target - origin);
     };
     std::size_t out = 0;

@@ -16,9 +16,8 @@ constexpr std::size_t count = 60000;
 /// Vectors with components of any sign and exponents within +-12.
 template <typename T>
 std::vector<Packed3<T>> ordinary_vectors(Random& random) {
-    return many(count, [&] {
-        return round_to<T>(random.log_uniform(0x1p-12, 0x1p12) * random.unit_vector());
-    });
+    return many(
+        count, [&] { return pack<T>(random.log_uniform(0x1p-12, 0x1p12) * random.unit_vector()); });
 }
 template <typename T>
 std::vector<Packed3<T>> any_vectors(Random& random) {
@@ -30,7 +29,7 @@ std::vector<T> any_numbers(Random& random) {
 }
 template <typename T>
 std::vector<Packed3<T>> unit_vectors(Random& random) {
-    return many(count, [&] { return round_to<T>(random.unit_vector()); });
+    return many(count, [&] { return pack<T>(random.unit_vector()); });
 }
 
 KERNEL_SUITE(Load3);

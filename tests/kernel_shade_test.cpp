@@ -21,7 +21,7 @@ using Results = std::tuple<std::vector<Packed3<T>>, std::vector<Counts<T>>>;
 
 template <typename T>
 typename Flat<T>::Material any_material(Random& random, double shininess) {
-    const auto color = [&] { return round_to<T>(random.in_cube(0.5) + glm::dvec3(0.5)); };
+    const auto color = [&] { return pack<T>(random.in_cube(0.5) + glm::dvec3(0.5)); };
     typename Flat<T>::Material material{};
     material.ambient = color();
     material.diffuse = color();
@@ -50,9 +50,9 @@ struct Surfaces {
             const glm::dvec3 e =
                 glm::normalize(mirrored + random.log_uniform(1e-5, 2) * random.unit_vector());
             const auto material = static_cast<Index<T>>(random.index(int(std::size(powers))));
-            const auto normal = round_to<T>(n);
-            surfaces.push_back({round_to<T>(p), T(0x1p-20), normal, material, normal, 0});
-            to_eye.push_back(round_to<T>(e));
+            const auto normal = pack<T>(n);
+            surfaces.push_back({pack<T>(p), T(0x1p-20), normal, material, normal, 0});
+            to_eye.push_back(pack<T>(e));
         }
     }
 };
@@ -63,7 +63,7 @@ FlatScene<T> lights_alone(Random& random, const std::vector<glm::dvec3>& positio
     FlatScene<T> scene{};
     for (const double power : powers) scene.materials.push_back(any_material<T>(random, power));
     for (const glm::dvec3& p : positions) {
-        scene.lights.push_back({round_to<T>(p), 0, round_to<T>({0.9, 0.5, 0.3}), 0});
+        scene.lights.push_back({pack<T>(p), 0, pack<T>({0.9, 0.5, 0.3}), 0});
     }
     scene.params.ambient_light = {T(0.25), T(0.5), 1};
     count_primitives(scene);
@@ -116,7 +116,7 @@ TYPED_TEST(SpecularLobe, IsThePowerOfTheHalfAngle) {
     const auto n = for_each_item(count, [&](std::size_t i) { return given.surfaces[i].normal; });
     const auto l = for_each_item(count, [&](std::size_t i) {
         const glm::dvec3 away = given.light - in_double(given.surfaces[i].point);
-        return round_to<TypeParam>(glm::normalize(away));
+        return pack<TypeParam>(glm::normalize(away));
     });
     for (const double power : powers) {
         const std::vector<TypeParam> shininess(count, static_cast<TypeParam>(power));

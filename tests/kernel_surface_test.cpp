@@ -75,16 +75,16 @@ struct BallHits {
                const glm::dvec3& center, double r) {
         constexpr double low = 0.4 * Flat<T>::roundoff;
         auto ray = make_ray<T>(origin, target - origin);
-        ray.dir_low = round_to<T>(low * random.unit_vector());
-        ray.origin_low = round_to<T>(low * glm::length(origin) * random.unit_vector());
+        ray.dir_low = pack<T>(low * random.unit_vector());
+        ray.origin_low = pack<T>(low * glm::length(origin) * random.unit_vector());
         auto sphere = make_sphere<T>(center, r);
-        sphere.center_low = round_to<T>(low * center * random.unit_vector());
+        sphere.center_low = pack<T>(low * center * random.unit_vector());
         const T distance = ball_distance(ray, sphere);
         if (!(distance > 0)) return;
         rays.push_back(ray);
         spheres.push_back(sphere);
         t.push_back(distance);
-        sides.push_back(round_to<T>(random.unit_vector()));
+        sides.push_back(pack<T>(random.unit_vector()));
     }
     std::vector<ProbeSurface<T>> surfaces() const {
         return run<T, ProbeSurface<T>>("sphere_surface", count, rays, t, spheres);
@@ -180,11 +180,11 @@ TYPED_TEST(OffsetOrigin, MovesEvenWhereTheOffsetIsRoundedAway) {
     std::vector<Packed3<TypeParam>> sides;
     for (std::size_t i = 0; i < count; ++i) {
         ProbeSurface<TypeParam> surface{};
-        surface.point = round_to<TypeParam>(random.in_cube(1));
-        surface.geometric = round_to<TypeParam>(random.unit_vector());
+        surface.point = pack<TypeParam>(random.in_cube(1));
+        surface.geometric = pack<TypeParam>(random.unit_vector());
         surface.offset = Flat<TypeParam>::roundoff * TypeParam(1e-6);
         surfaces.push_back(surface);
-        sides.push_back(round_to<TypeParam>(random.unit_vector()));
+        sides.push_back(pack<TypeParam>(random.unit_vector()));
     }
     const auto origins = offset_origins<TypeParam>(surfaces, sides);
     for (std::size_t i = 0; i < count; ++i) {
@@ -220,7 +220,7 @@ struct TriangleHits {
             rays.push_back(ray);
             hits.push_back(hit);
             triangles.push_back(triangle);
-            sides.push_back(round_to<T>(random.unit_vector()));
+            sides.push_back(pack<T>(random.unit_vector()));
         }
     }
     std::vector<ProbeSurface<T>> surfaces(const std::vector<VertexNormals<T>>& normals) const {
@@ -280,7 +280,7 @@ TYPED_TEST(TriangleSurface, TakesTheFacesNormalOrTheBlendAndItsSide) {
     std::vector<VertexNormals<TypeParam>> normals;
     for (std::size_t i = 0; i < count; i += 2) {
         cases.triangles[i].smooth = static_cast<Index<TypeParam>>(normals.size());
-        const auto any = [&] { return round_to<TypeParam>(random.unit_vector()); };
+        const auto any = [&] { return pack<TypeParam>(random.unit_vector()); };
         normals.push_back({any(), 0, any(), 0, any(), 0});
     }
     const auto surfaces = cases.surfaces(normals);
@@ -297,7 +297,7 @@ TYPED_TEST(TriangleSurface, TakesTheFacesNormalOrTheBlendAndItsSide) {
 KERNEL_SUITE(BlendedNormal);
 TYPED_TEST(BlendedNormal, IsTheUnitBlendOfTheVertices) {
     Random random(6);
-    const auto any = [&] { return round_to<TypeParam>(random.unit_vector()); };
+    const auto any = [&] { return pack<TypeParam>(random.unit_vector()); };
     const auto normals =
         many(count, [&]() -> VertexNormals<TypeParam> { return {any(), 0, any(), 0, any(), 0}; });
     const auto faces = many(count, any);

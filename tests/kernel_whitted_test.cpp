@@ -26,9 +26,9 @@ struct Meetings {
             const glm::dvec3 face = random.unit_vector();
             glm::dvec3 lean = i < count / 2 ? face : face + 1.2 * random.unit_vector();
             if (glm::dot(lean, face) < 0) lean = -lean;
-            surfaces.push_back({round_to<T>(random.in_cube(1)), T(0x1p-18),
-                                round_to<T>(glm::normalize(lean)), 0, round_to<T>(face), 0});
-            dirs.push_back(round_to<T>(random.unit_vector()));
+            surfaces.push_back({pack<T>(random.in_cube(1)), T(0x1p-18),
+                                pack<T>(glm::normalize(lean)), 0, pack<T>(face), 0});
+            dirs.push_back(pack<T>(random.unit_vector()));
             prims.push_back(static_cast<Index<T>>(i));
         }
     }
@@ -138,8 +138,8 @@ template <typename T>
 FlatScene<T> mirror_crowd() {
     Random random(3);
     auto scene = crowd<T>(random);
-    const auto any = [&] { return round_to<T>(random.unit_vector()); };
-    const auto color = [&] { return round_to<T>(random.in_cube(0.5) + glm::dvec3(0.5)); };
+    const auto any = [&] { return pack<T>(random.unit_vector()); };
+    const auto color = [&] { return pack<T>(random.in_cube(0.5) + glm::dvec3(0.5)); };
     for (Index<T> i = 0; i < 5; ++i) {
         scene.materials.push_back(
             {color(), T(5 << i), color(), i % 2, color(), 1, color(), 0, {}, 0});
@@ -239,7 +239,7 @@ TYPED_TEST(TracePixel, DoesNotDriftOverManySamples) {
     scene.params.grid = 64;
     scene.params.samples = 4096;
     for (const double gray : {0.0123, 0.1, 0.3, 0.7, 0.9876}) {
-        scene.params.background = round_to<T>(glm::dvec3(gray));
+        scene.params.background = pack<T>(glm::dvec3(gray));
         const std::vector<Index<T>> pixels(16, 3);
         for (const auto& color : run<T, Packed3<T>>("trace_pixel", 16, scene, pixels, pixels)) {
             ASSERT_NEAR(double(color.x), gray, 80 * double(Flat<T>::roundoff) * gray);

@@ -44,16 +44,11 @@ struct ProbeHit {
     PROBE_HIT(PROBE_MEMBER)
 };
 
-template <typename T>
-Packed3<T> round_to(const glm::dvec3& v) {
-    return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
-}
-
 /// An unbounded ray that leaves no surface; its direction is normalized in double and rounded.
 template <typename T>
 ProbeRay<T> make_ray(const glm::dvec3& origin, const glm::dvec3& dir) {
     const double size = std::sqrt(dir.x * dir.x + dir.y * dir.y + dir.z * dir.z);
-    return {round_to<T>(origin), std::numeric_limits<T>::infinity(), round_to<T>(dir / size),
+    return {pack<T>(origin), std::numeric_limits<T>::infinity(), pack<T>(dir / size),
             Flat<T>::none};
 }
 

@@ -13,7 +13,7 @@ namespace rt {
 template <typename T>
 typename Flat<T>::Sphere make_sphere(const glm::dvec3& center, double radius, int material = 0) {
     typename Flat<T>::Sphere sphere{};
-    sphere.center = round_to<T>(center);
+    sphere.center = pack<T>(center);
     sphere.radius = static_cast<T>(radius);
     sphere.material = material;
     return sphere;
@@ -24,18 +24,13 @@ typename Flat<T>::Cone make_cone(const glm::dvec3& base, double base_radius, con
                                  double apex_radius) {
     const double length = glm::length(apex - base);
     typename Flat<T>::Cone cone{};
-    cone.base = round_to<T>(base);
+    cone.base = pack<T>(base);
     cone.base_radius = static_cast<T>(base_radius);
-    cone.axis = round_to<T>((apex - base) / length);
+    cone.axis = pack<T>((apex - base) / length);
     cone.length = static_cast<T>(length);
     cone.slope = static_cast<T>((apex_radius - base_radius) / length);
     cone.apex_radius = static_cast<T>(apex_radius);
     return cone;
-}
-
-template <typename P>
-glm::dvec3 in_double(const P& p) {
-    return {double(p.x), double(p.y), double(p.z)};
 }
 
 inline Quad3 exact_normal(const glm::dvec3& p0, const glm::dvec3& p1, const glm::dvec3& p2) {
@@ -47,9 +42,9 @@ template <typename T>
 typename Flat<T>::Triangle make_triangle(const glm::dvec3& p0, const glm::dvec3& p1,
                                          const glm::dvec3& p2, int material = 0) {
     typename Flat<T>::Triangle triangle{};
-    triangle.p0 = round_to<T>(p0);
-    triangle.p1 = round_to<T>(p1);
-    triangle.p2 = round_to<T>(p2);
+    triangle.p0 = pack<T>(p0);
+    triangle.p1 = pack<T>(p1);
+    triangle.p2 = pack<T>(p2);
     triangle.material = material;
     triangle.smooth = Flat<T>::none;
     const Quad3 normal = exact_normal(p0, p1, p2);

@@ -12,11 +12,6 @@
 // rounding to T comes last.
 namespace rt {
 
-template <typename T>
-typename Flat<T>::Packed3 pack(const glm::dvec3& v) {
-    return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
-}
-
 /// The part of v that pack() loses by rounding; 0 in double.
 template <typename T>
 typename Flat<T>::Packed3 pack_low(const glm::dvec3& v) {

@@ -45,50 +45,43 @@ namespace rt {
 template <typename T>
 struct Flat;
 
-/// The shared structs in the precision of T, float or double.
-template <>
-struct Flat<float> {
-    using Index = f32::Index;
-    using Packed3 = f32::Packed3;
-    using Sphere = f32::Sphere;
-    using Cone = f32::Cone;
-    using Triangle = f32::Triangle;
-    using VertexNormals = f32::VertexNormals;
-    using Material = f32::Material;
-    using Light = f32::Light;
-    using BvhNode = f32::BvhNode;
-    using LaunchParams = f32::LaunchParams;
-    using Tile = f32::Tile;
-    using RayCounts = f32::RayCounts;
-    using RayQuery = f32::RayQuery;
-    using RayAnswer = f32::RayAnswer;
-    static constexpr Index none = f32::RT_NONE;
-    static constexpr Index eye = f32::RT_EYE;
-    static constexpr float roundoff = 0x1p-24f;  ///< half an ulp of 1
-};
-
-template <>
-struct Flat<double> {
-    using Index = f64::Index;
-    using Packed3 = f64::Packed3;
-    using Sphere = f64::Sphere;
-    using Cone = f64::Cone;
-    using Triangle = f64::Triangle;
-    using VertexNormals = f64::VertexNormals;
-    using Material = f64::Material;
-    using Light = f64::Light;
-    using BvhNode = f64::BvhNode;
-    using LaunchParams = f64::LaunchParams;
-    using Tile = f64::Tile;
-    using RayCounts = f64::RayCounts;
-    using RayQuery = f64::RayQuery;
-    using RayAnswer = f64::RayAnswer;
-    static constexpr Index none = f64::RT_NONE;
-    static constexpr Index eye = f64::RT_EYE;
-    static constexpr double roundoff = 0x1p-53;
-};
+/// The shared structs in the precision of T, float or double; roundoff: half an ulp of 1.
+#define RT_FLAT(T, of, half_ulp)                   \
+    template <>                                    \
+    struct Flat<T> {                               \
+        using Index = of::Index;                   \
+        using Packed3 = of::Packed3;               \
+        using Sphere = of::Sphere;                 \
+        using Cone = of::Cone;                     \
+        using Triangle = of::Triangle;             \
+        using VertexNormals = of::VertexNormals;   \
+        using Material = of::Material;             \
+        using Light = of::Light;                   \
+        using BvhNode = of::BvhNode;               \
+        using LaunchParams = of::LaunchParams;     \
+        using Tile = of::Tile;                     \
+        using RayCounts = of::RayCounts;           \
+        using RayQuery = of::RayQuery;             \
+        using RayAnswer = of::RayAnswer;           \
+        static constexpr Index none = of::RT_NONE; \
+        static constexpr Index eye = of::RT_EYE;   \
+        static constexpr T roundoff = half_ulp;    \
+    }
+RT_FLAT(float, f32, 0x1p-24f);
+RT_FLAT(double, f64, 0x1p-53);
+#undef RT_FLAT
 
 template <typename T>
 using Vec3 = glm::vec<3, T, glm::defaultp>;
+
+template <typename T>
+typename Flat<T>::Packed3 pack(const glm::dvec3& v) {
+    return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
+}
+
+template <typename P>
+glm::dvec3 in_double(const P& p) {
+    return {double(p.x), double(p.y), double(p.z)};
+}
 
 }  // namespace rt

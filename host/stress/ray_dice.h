@@ -41,20 +41,10 @@ class Dice {
     std::mt19937_64 engine_;
 };
 
-template <typename P>
-glm::dvec3 in_double(const P& p) {
-    return {double(p.x), double(p.y), double(p.z)};
-}
-
-template <typename T>
-typename Flat<T>::Packed3 rounded(const glm::dvec3& v) {
-    return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
-}
-
 /// `dir`, of any length, normalized, rounded to T and normalized again in T.
 template <typename T>
 typename Flat<T>::Packed3 rounded_unit(const glm::dvec3& dir) {
-    const auto d = rounded<T>(dir / glm::length(dir));
+    const auto d = pack<T>(dir / glm::length(dir));
     const T inverse = T(1) / std::sqrt(std::fma(d.z, d.z, std::fma(d.y, d.y, d.x * d.x)));
     return {inverse * d.x, inverse * d.y, inverse * d.z};
 }
@@ -63,7 +53,7 @@ typename Flat<T>::Packed3 rounded_unit(const glm::dvec3& dir) {
 template <typename T>
 typename Flat<T>::RayQuery ray_query(const glm::dvec3& origin, const glm::dvec3& dir) {
     typename Flat<T>::RayQuery query{};
-    query.origin = rounded<T>(origin);
+    query.origin = pack<T>(origin);
     query.dir = rounded_unit<T>(dir);
     query.t_max = std::numeric_limits<T>::infinity();
     query.from = Flat<T>::none;

@@ -75,7 +75,7 @@ RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays, const 
         const glm::dvec3 target =
             corners[first] + share * (corners[(first + 1) % 3] - corners[first]);
         const double spread = 0.15 * bounds.radius * dice.uniform(0, 1);
-        const glm::dvec3 origin = in_double(rounded<T>(bounds.middle + spread * dice.direction()));
+        const glm::dvec3 origin = in_double(pack<T>(bounds.middle + spread * dice.direction()));
         return ray_query<T>(origin, target - origin);
     };
     return many_rays<T>(caster.tracer(flat), rays, make, nullptr,

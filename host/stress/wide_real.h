@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/vec3.hpp>
+#include <type_traits>
 
 // Vectors of wide reals for the reference: __float128 (113 bits) or long double (64 bits), both
 // with 15 bits of exponent. Nothing here is shared with the renderers.
@@ -33,7 +34,7 @@ Wide3<R> operator-(const Wide3<R>& a) {
     return {-a.x, -a.y, -a.z};
 }
 template <typename R>
-Wide3<R> operator*(R s, const Wide3<R>& a) {
+Wide3<R> operator*(std::type_identity_t<R> s, const Wide3<R>& a) {
     return {s * a.x, s * a.y, s * a.z};
 }
 /// Component by component.
