@@ -43,7 +43,7 @@ Reals cone_reach(__global const Cone* cone) {
 Reals cone_shift(const Ray* ray, real3 w, Reals goal, __global const Cone* cone) {
     Reals reach = cone_reach(cone);
     real3 axis = load3(cone->axis);
-    Reals middle = -dot3(add_scaled(w, (Reals)-0.5 * (Reals)cone->length, axis), ray->dir);
+    Reals middle = -dot3(add_scaled(w, (Reals)-0.5f * (Reals)cone->length, axis), ray->dir);
     return max_of(middle - reach, min_of(goal, middle + reach));
 }
 
@@ -75,7 +75,7 @@ ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving) {
     bool flat = is_flat(cone);
     Reals rise = dot3(ray->dir, axis);
     Reals start = dot3(w, axis);
-    Reals middle = (Reals)0.5 * (Reals)cone->length;
+    Reals middle = (Reals)0.5f * (Reals)cone->length;
     Reals goal = flat ? (middle - start) / rise : -(dot3(g, c) / dot3(c, c));
     Reals shift = leaving ? (Reals)0 : cone_shift(ray, w, goal, cone);
     g = add_scaled(g, shift, c);
@@ -85,7 +85,7 @@ ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving) {
     Reals unit = (Reals)1;  // of distances from here on: a flat cone's m may be huge
     Mask misses = RT_NO_LANES;
     if (flat) {
-        Real mean = (Real)0.5 * (cone->base_radius + cone->apex_radius);
+        Real mean = (Real)0.5f * (cone->base_radius + cone->apex_radius);
         Real width = fabs(cone->base_radius - cone->apex_radius);
         Mask is_there = shift == goal;
         misses = !(leaving | is_there | (fabs(radius - (Reals)mean) <= (Reals)width));

@@ -97,7 +97,7 @@ Reals log2_cosine(Reals along, Reals across, Reals squared) {
     Reals sum = near ? fma((Reals)2, squared, -across) : scaled + squared;
     Reals k = RT_TO_REALS(binades);
     k = low ? k - (Reals)RT_LIFTED_BINADES : k;
-    const Real half_binade = (Real)0.5 / (Real)RT_BINADE;
+    const Real half_binade = (Real)0.5f / (Real)RT_BINADE;
     return min_of((Reals)0, fma(k, (Reals)half_binade, log2_series(difference / sum)));
 }
 

@@ -70,7 +70,7 @@ typedef struct {
 
 // The leading 12 bits as a number in (0, 1): the middle of its 4096th.
 Reals unit_from_bits(Uints bits) {
-    return (RT_TO_REALS(bits >> 20) + (Reals)0.5) * (Reals)0x1p-12f;
+    return (RT_TO_REALS(bits >> 20) + (Reals)0.5f) * (Reals)0x1p-12f;
 }
 
 Position sobol_position(Uints seed, Uints k) {
@@ -85,10 +85,10 @@ Position sobol_position(Uints seed, Uints k) {
 // (tests/kernel_sampling_test.cpp); integer division would be slow.
 Position grid_position(Index grid, Indices k) {
     Reals step = (Reals)((Real)1 / (Real)grid);
-    Indices row = RT_TO_INDICES((RT_TO_REALS(k) + (Reals)0.5) * step);
+    Indices row = RT_TO_INDICES((RT_TO_REALS(k) + (Reals)0.5f) * step);
     Position position;
-    position.x = (RT_TO_REALS(k - row * grid) + (Reals)0.5) * step;
-    position.y = (RT_TO_REALS(row) + (Reals)0.5) * step;
+    position.x = (RT_TO_REALS(k - row * grid) + (Reals)0.5f) * step;
+    position.y = (RT_TO_REALS(row) + (Reals)0.5f) * step;
     return position;
 }
 

@@ -107,7 +107,7 @@ real3 blended_normal(__global const VertexNormals* normals, real3 face, Reals u,
     blend = add_scaled(blend, u, load3(normals->n1));
     blend = add_scaled(blend, v, load3(normals->n2));
     Reals squared = dot3(blend, blend);
-    return select3(squared > (Reals)1e-12, scale3((Reals)1 / sqrt(squared), blend), face);
+    return select3(squared > (Reals)0x1p-40f, scale3((Reals)1 / sqrt(squared), blend), face);
 }
 
 // Not fmax, which PoCL compiles to many instructions.
