@@ -11,55 +11,43 @@
 namespace rt {
 namespace {
 
-struct FormatNames {
+struct Format {
     PictureFormat format;
     std::string_view name;
     const char* module_name;
     std::array<std::string_view, 3> extensions;
+    bool stores_floats = false;
+    std::uintmax_t values_per_byte = 0;
+    int longest_side = std::numeric_limits<int>::max();
 };
 
-constexpr FormatNames formats[] = {
+constexpr Format formats[] = {
     {PictureFormat::png, "PNG", "png", {".png"}},
-    {PictureFormat::exr, "EXR", "openexr", {".exr"}},
-    {PictureFormat::pfm, "PFM", "pfm", {".pfm"}},
-    {PictureFormat::tiff, "TIFF", "tiff", {".tif", ".tiff"}},
-    {PictureFormat::jpeg, "JPEG", "jpeg", {".jpg", ".jpeg"}},
-    {PictureFormat::webp, "WebP", "webp", {".webp"}},
-    {PictureFormat::hdr, "HDR", "hdr", {".hdr"}},
-    {PictureFormat::tga, "TGA", "targa", {".tga"}},
-    {PictureFormat::bmp, "BMP", "bmp", {".bmp"}},
-    {PictureFormat::pnm, "PNM", "pnm", {".ppm", ".pgm", ".pnm"}},
-    {PictureFormat::dpx, "DPX", "dpx", {".dpx"}},
+    {PictureFormat::exr, "EXR", "openexr", {".exr"}, true},
+    {PictureFormat::pfm, "PFM", "pfm", {".pfm"}, true},
+    {PictureFormat::tiff, "TIFF", "tiff", {".tif", ".tiff"}, true, 8 * 1032},  // bits, deflated
+    // Blocks of 64, runs of empty ones; libjpeg ends the process beyond its longest side.
+    {PictureFormat::jpeg, "JPEG", "jpeg", {".jpg", ".jpeg"}, false, 64 * 32, 65500},
+    {PictureFormat::webp, "WebP", "webp", {".webp"}, false, 0, 16383},
+    // Runs of pixels, two bytes each.
+    {PictureFormat::hdr, "HDR", "hdr", {".hdr"}, true, 4 * 128},
+    {PictureFormat::tga, "TGA", "targa", {".tga"}, false, 4 * 128, 65535},
+    {PictureFormat::bmp, "BMP", "bmp", {".bmp"}, false, 4 * 128},
+    {PictureFormat::pnm, "PNM", "pnm", {".ppm", ".pgm", ".pnm"}, false, 8},  // one bit each
+    {PictureFormat::dpx, "DPX", "dpx", {".dpx"}, false, 4 * 128},
 };
 
-const FormatNames& names_of(PictureFormat format) {
-    return *std::find_if(std::begin(formats), std::end(formats),
-                         [format](const FormatNames& names) { return names.format == format; });
+const Format& entry_of(PictureFormat format) {
+    return *std::ranges::find(formats, format, &Format::format);
 }
 
 }  // namespace
 
-std::string_view to_string(PictureFormat format) { return names_of(format).name; }
-
-const char* module_name(PictureFormat format) { return names_of(format).module_name; }
-
-bool stores_floats(PictureFormat format) {
-    return format == PictureFormat::exr || format == PictureFormat::pfm ||
-           format == PictureFormat::tiff || format == PictureFormat::hdr;
-}
-
-int longest_side(PictureFormat format) {
-    switch (format) {
-        case PictureFormat::jpeg:
-            return 65500;  // libjpeg's; it ends the process beyond
-        case PictureFormat::webp:
-            return 16383;
-        case PictureFormat::tga:
-            return 65535;
-        default:
-            return std::numeric_limits<int>::max();
-    }
-}
+std::string_view to_string(PictureFormat format) { return entry_of(format).name; }
+const char* module_name(PictureFormat format) { return entry_of(format).module_name; }
+bool stores_floats(PictureFormat format) { return entry_of(format).stores_floats; }
+int longest_side(PictureFormat format) { return entry_of(format).longest_side; }
+std::uintmax_t values_per_byte(PictureFormat format) { return entry_of(format).values_per_byte; }
 
 bool needs_module(PictureFormat format) {
     return format != PictureFormat::png && format != PictureFormat::pfm;
@@ -68,11 +56,8 @@ bool needs_module(PictureFormat format) {
 std::optional<PictureFormat> known_picture_format(const std::string& path) {
     const std::string extension = lower_extension(path);
     if (extension.empty()) return std::nullopt;
-    for (const FormatNames& names : formats) {
-        const auto& extensions = names.extensions;
-        if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) {
-            return names.format;
-        }
+    for (const Format& one : formats) {
+        if (std::ranges::count(one.extensions, extension) > 0) return one.format;
     }
     return std::nullopt;
 }

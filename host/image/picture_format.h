@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,9 @@ bool stores_floats(PictureFormat format);
 
 /// The most pixels that a side may have, as far as the format or its library limits it.
 int longest_side(PictureFormat format);
+
+/// The most values that a byte of a file can hold; 0: no limit. Generous where it is not exact.
+std::uintmax_t values_per_byte(PictureFormat format);
 
 /// Whether reading and writing it takes a module (module_loader.h).
 bool needs_module(PictureFormat format);

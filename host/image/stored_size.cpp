@@ -4,28 +4,6 @@
 #include <iterator>
 
 namespace rt {
-namespace {
-
-/// The most values that a byte of a file can hold; 0: no limit. Generous where it is not exact.
-std::uintmax_t values_per_byte(PictureFormat format) {
-    switch (format) {
-        case PictureFormat::tiff:
-            return 8 * 1032;  // one bit each, deflated
-        case PictureFormat::jpeg:
-            return 64 * 32;  // blocks of 64, runs of empty ones
-        case PictureFormat::hdr:
-        case PictureFormat::tga:
-        case PictureFormat::bmp:
-        case PictureFormat::dpx:
-            return 4 * 128;  // runs of pixels, two bytes each
-        case PictureFormat::pnm:
-            return 8;  // one bit each
-        default:
-            return 0;
-    }
-}
-
-}  // namespace
 
 void check_stored_values(const std::string& path, PictureFormat format, std::uintmax_t values,
                          std::uintmax_t file_size) {

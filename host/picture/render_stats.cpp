@@ -54,17 +54,11 @@ std::string settings_text(const RenderStats& stats) {
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 const char* to_string(BuildCache cache) {
-    switch (cache) {
-        case BuildCache::none:
-            return "none";
-        case BuildCache::cold:
-            return "cold";
-        case BuildCache::warm:
-            return "warm";
-        case BuildCache::unknown:
-            return "unknown";
-    }
-    return "unknown";
+    static constexpr Named<BuildCache> names[] = {{"none", BuildCache::none},
+                                                  {"cold", BuildCache::cold},
+                                                  {"warm", BuildCache::warm},
+                                                  {"unknown", BuildCache::unknown}};
+    return name_of(names, cache);
 }
 
 }  // namespace rt

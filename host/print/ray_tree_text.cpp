@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/base/named.h"
 #include "host/base/printable.h"
 
 namespace rt {
@@ -11,29 +12,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* kind_of(const RayNode& ray) {
-    switch (ray.kind) {
-        case RayNode::Kind::eye:
-            return "eye";
-        case RayNode::Kind::mirror:
-            return "mirror";
-        case RayNode::Kind::refracted:
-            return "refracted";
-    }
-    return "";
-}
+using Kind = RayNode::Kind;
+using State = LightAtHit::State;
 
-const char* state_of(const LightAtHit& light) {
-    switch (light.state) {
-        case LightAtHit::State::behind:
-            return "behind";
-        case LightAtHit::State::shadowed:
-            return "shadowed";
-        case LightAtHit::State::lit:
-            return "lit";
-    }
-    return "";
-}
+constexpr Named<Kind> ray_kinds[] = {
+    {"eye", Kind::eye}, {"mirror", Kind::mirror}, {"refracted", Kind::refracted}};
+constexpr Named<State> light_states[] = {
+    {"behind", State::behind}, {"shadowed", State::shadowed}, {"lit", State::lit}};
 
 std::string color_text(const glm::dvec3& v) {
     return fmt::format("{:.5f} {:.5f} {:.5f}", v.x, v.y, v.z);
@@ -44,25 +29,18 @@ std::string point_text(const glm::dvec3& v) {
 }
 
 std::string light_text(const LightAtHit& light) {
-    switch (light.state) {
-        case LightAtHit::State::behind:
-            return "behind the surface";
-        case LightAtHit::State::shadowed:
-            return "in shadow";
-        case LightAtHit::State::lit:
-            return color_text(light.color);
-    }
-    return "";
+    if (light.state == State::lit) return color_text(light.color);
+    return light.state == State::behind ? "behind the surface" : "in shadow";
 }
 
 void add_ray(const RayNode& ray, std::string& text) {
     const std::string indent(static_cast<std::size_t>(2 + 4 * ray.bounce), ' ');
     if (ray.hit) {
         text += fmt::format("{}{} ray hits {} ({}) at {}, {:.6g} away, normal {}\n", indent,
-                            kind_of(ray), ray.object, printable(ray.material),
+                            name_of(ray_kinds, ray.kind), ray.object, printable(ray.material),
                             point_text(ray.point), ray.distance, point_text(ray.normal));
     } else {
-        text += fmt::format("{}{} ray hits nothing\n", indent, kind_of(ray));
+        text += fmt::format("{}{} ray hits nothing\n", indent, name_of(ray_kinds, ray.kind));
     }
     if (ray.hit) {
         text += fmt::format("{}    ambient     {}\n", indent, color_text(ray.ambient));
@@ -81,19 +59,15 @@ void add_ray(const RayNode& ray, std::string& text) {
 Json triple_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 Json ray_json(const RayNode& ray) {
-    Json json{{"kind", kind_of(ray)},
-              {"bounce", ray.bounce},
-              {"weight", triple_json(ray.weight)},
-              {"origin", triple_json(ray.origin)},
-              {"direction", triple_json(ray.direction)},
-              {"hit", nullptr},
-              {"color", triple_json(ray.color)},
-              {"children", Json::array()}};
+    Json json{{"kind", name_of(ray_kinds, ray.kind)},    {"bounce", ray.bounce},
+              {"weight", triple_json(ray.weight)},       {"origin", triple_json(ray.origin)},
+              {"direction", triple_json(ray.direction)}, {"hit", nullptr},
+              {"color", triple_json(ray.color)},         {"children", Json::array()}};
     if (ray.hit) {
         Json lights = Json::array();
         for (const LightAtHit& light : ray.lights) {
             lights.push_back({{"light", light.light + 1},
-                              {"state", state_of(light)},
+                              {"state", name_of(light_states, light.state)},
                               {"color", triple_json(light.color)}});
         }
         json["hit"] = {{"object", ray.object},

@@ -37,23 +37,14 @@ constexpr double longest_test = 10;
 
 enum class State { fine, missing, broken };
 
+constexpr Named<State> state_words[] = {
+    {"ok", State::fine}, {"missing", State::missing}, {"BROKEN", State::broken}};
+
 struct Finding {
     State state = State::fine;
     std::string what;     ///< "device 0"
     std::string verdict;  ///< what is wrong, and what to do
 };
-
-const char* word_of(State state) {
-    switch (state) {
-        case State::fine:
-            return "ok";
-        case State::missing:
-            return "missing";
-        case State::broken:
-            break;
-    }
-    return "BROKEN";
-}
 
 /// Throws Error: ExitCode::different if the bits are wrong, else what rendering throws.
 void render_known_picture(const DeviceChoice& device, Precision precision) {
@@ -200,8 +191,8 @@ std::vector<Finding> examine(const DoctorOptions& options) {
 void print_findings(const std::vector<Finding>& findings, bool is_well) {
     std::string text = fmt::format("mirrorball {} ({})\n", version, git_revision);
     for (const Finding& finding : findings) {
-        text +=
-            fmt::format("{:<8} {}: {}\n", word_of(finding.state), finding.what, finding.verdict);
+        text += fmt::format("{:<8} {}: {}\n", name_of(state_words, finding.state), finding.what,
+                            finding.verdict);
     }
     print_result(text + (is_well ? "everything installed works\n" : "something is broken\n"));
 }
@@ -210,7 +201,8 @@ void print_findings_json(const std::vector<Finding>& findings, bool is_well) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Finding& finding : findings) {
         list.push_back(
-            {{"state", finding.state == State::broken ? "broken" : word_of(finding.state)},
+            {{"state",
+              finding.state == State::broken ? "broken" : name_of(state_words, finding.state)},
              {"what", finding.what},
              {"verdict", finding.verdict}});
     }
