@@ -36,6 +36,21 @@ const JsonValue::Array* read_triple(const JsonValue& value, std::string_view nam
     return items;
 }
 
+/// The three items, each read by read_one(item, name, mistakes).
+template <typename Read>
+std::optional<glm::dvec3> read_items(const JsonValue::Array* items, std::string_view name,
+                                     Mistakes& mistakes, Read read_one) {
+    if (!items) return std::nullopt;
+    glm::dvec3 result{0};
+    bool good = true;
+    for (int i = 0; i < 3; ++i) {
+        const auto number = read_one((*items)[static_cast<std::size_t>(i)], name, mistakes);
+        good = good && number;
+        if (number) result[i] = *number;
+    }
+    return good ? std::optional(result) : std::nullopt;
+}
+
 glm::dvec3 gray(double level) { return glm::dvec3(level, level, level); }
 
 }  // namespace
@@ -118,16 +133,7 @@ std::optional<bool> read_choice(const JsonValue& value, std::string_view name,
 std::optional<glm::dvec3> read_vec3(const JsonValue& value, std::string_view name,
                                     Mistakes& mistakes) {
     const auto* items = read_triple(value, name, "three numbers, [x, y, z]", mistakes);
-    if (!items) return std::nullopt;
-    glm::dvec3 result{0};
-    bool good = true;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto number = read_number((*items)[axis], name, mistakes);
-        good = good && number;
-        if (number) result[axis] = *number;
-    }
-    if (!good) return std::nullopt;
-    return result;
+    return read_items(items, name, mistakes, read_number);
 }
 
 std::optional<glm::dvec3> read_color(const JsonValue& value, std::string_view name,
@@ -138,16 +144,7 @@ std::optional<glm::dvec3> read_color(const JsonValue& value, std::string_view na
     }
     constexpr std::string_view wanted = "one number for a gray, or three, [r, g, b]";
     const auto* items = read_triple(value, name, wanted, mistakes);
-    if (!items) return std::nullopt;
-    glm::dvec3 result{0};
-    bool good = true;
-    for (int channel = 0; channel < 3; ++channel) {
-        const auto number = read_not_negative((*items)[channel], name, mistakes);
-        good = good && number;
-        if (number) result[channel] = *number;
-    }
-    if (!good) return std::nullopt;
-    return result;
+    return read_items(items, name, mistakes, read_not_negative);
 }
 
 std::optional<glm::dvec3> read_reflectance(const JsonValue& value, std::string_view name,
