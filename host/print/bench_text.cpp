@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 
@@ -58,11 +59,9 @@ std::string row_text(const BenchResult& result, const BenchRow& row) {
 std::string images_text(const std::map<std::string, std::vector<std::string>>& images) {
     std::string text;
     for (const auto& [hash, devices] : images) {
-        std::string names;
-        if (images.size() > 1) {
-            for (const std::string& device : devices) names += (names.empty() ? "" : ", ") + device;
-        }
-        text += fmt::format("  image {} {}\n", hash, images.size() > 1 ? names : "from all");
+        const bool is_alone = images.size() == 1;
+        text += fmt::format("  image {} {}\n", hash,
+                            is_alone ? "from all" : fmt::format("{}", fmt::join(devices, ", ")));
     }
     return text;
 }

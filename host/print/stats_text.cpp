@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/base/counted.h"
 #include "host/base/named.h"
@@ -75,11 +76,8 @@ std::string rays_text(const RenderStats& stats) {
 }  // namespace
 
 std::string names_text(const Features& features, bool used) {
-    std::string text;
-    for (const std::string& name : names_of(features, used)) {
-        text += (text.empty() ? "" : ", ") + name;
-    }
-    return text.empty() ? "nothing" : text;
+    const auto names = names_of(features, used);
+    return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string holdings_text(const RenderStats& stats) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "host/options/lists.h"
+
 namespace rt {
 
 namespace {
@@ -13,17 +15,6 @@ constexpr const char* full_sweep =
     "none,grid:2,grid:4,sobol:4,sobol:16,sobol:64,sobol:256,adaptive:0.1,adaptive:0.03";
 constexpr const char* quick_sweep = "none,grid:2,grid:3,sobol:4";
 constexpr int full_reference = 1024, quick_reference = 32;
-
-std::vector<AaMode> modes_of(std::string sweep) {
-    std::vector<AaMode> modes;
-    sweep += ',';
-    for (std::size_t at = 0; at < sweep.size();) {
-        const std::size_t end = sweep.find(',', at);
-        if (const auto mode = parse_aa_mode(sweep.substr(at, end - at))) modes.push_back(*mode);
-        at = end + 1;
-    }
-    return modes;
-}
 
 /// A word, quoted for a POSIX shell.
 std::string shell_word(const std::string& word) {
@@ -36,10 +27,9 @@ std::string shell_word(const std::string& word) {
     return quoted + "'";
 }
 
-std::string joined(const std::vector<std::string>& words, const char* separator) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-    return text;
+/// The device list, as a word for a shell.
+std::string devices_word(const ReportOptions& options) {
+    return shell_word(fmt::format("{}", fmt::join(options.devices, ",")));
 }
 
 std::string size_text(const ReportOptions& options) {
@@ -71,7 +61,7 @@ ConvergeOptions converge_settings(const ReportOptions& options, const std::strin
     ConvergeOptions converge;
     converge.scene = path;
     converge.size = PictureSize{scene.width, scene.height};
-    converge.aa = modes_of(options.quick ? quick_sweep : full_sweep);
+    converge.aa = parse_aa_list(options.quick ? quick_sweep : full_sweep);
     converge.devices = options.devices;
     converge.repeats = options.repeats;
     converge.reference_samples = options.quick ? quick_reference : full_reference;
@@ -83,8 +73,8 @@ ConvergeOptions converge_settings(const ReportOptions& options, const std::strin
 std::vector<std::string> report_commands(const ReportOptions& options) {
     std::string scenes;
     for (const std::string& scene : options.scenes) scenes += " " + shell_word(scene);
-    const std::string rest = fmt::format(" --devices {} --repeats {}",
-                                         shell_word(joined(options.devices, ",")), options.repeats);
+    const std::string rest =
+        fmt::format(" --devices {} --repeats {}", devices_word(options), options.repeats);
     const char* const quick = options.quick ? " --quick" : "";
     std::vector<std::string> commands{fmt::format("mirrorball report{} -o {}{}{}{}{}", scenes,
                                                   shell_word(options.output), size_text(options),
@@ -105,8 +95,8 @@ std::vector<std::string> report_commands(const ReportOptions& options) {
                         options.quick ? quick_reference : full_reference, rest));
     }
     if (options.stress) {
-        commands.push_back(fmt::format("mirrorball stress --device {}{} --json -",
-                                       shell_word(joined(options.devices, ",")), quick));
+        commands.push_back(
+            fmt::format("mirrorball stress --device {}{} --json -", devices_word(options), quick));
     }
     return commands;
 }
