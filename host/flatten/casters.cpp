@@ -22,8 +22,7 @@ struct Plane {
     glm::dvec3 point, normal;
 
     explicit Plane(const TriangleList::Corners& corners)
-        : point(corners[0]),
-          normal(glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]))) {}
+        : point(corners[0]), normal(unit_normal(corners)) {}
 
     double height(const glm::dvec3& p) const { return glm::dot(normal, p - point); }
     double doubt(const glm::dvec3& p) const { return rounding * (largest(p) + largest(point)); }

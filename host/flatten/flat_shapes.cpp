@@ -170,7 +170,7 @@ typename Flat<T>::Triangle flatten_triangle(const ViewFrame& view,
     const glm::dvec3 a = view.to_view(corners[0]);
     const glm::dvec3 b = view.to_view(corners[1]);
     const glm::dvec3 c = view.to_view(corners[2]);
-    const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    const glm::dvec3 normal = unit_normal({a, b, c});
     typename Flat<T>::Triangle flat{};
     flat.p0 = pack_near<T>(a, corners[0]);
     flat.p1 = pack_near<T>(b, corners[1]);

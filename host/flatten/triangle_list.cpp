@@ -2,8 +2,20 @@
 #include "host/flatten/triangle_list.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 namespace rt {
+
+namespace {
+
+/// a b - c d (Kahan).
+double difference_of_products(double a, double b, double c, double d) {
+    const double product = c * d;
+    return std::fma(a, b, -product) + std::fma(-c, d, product);
+}
+
+}  // namespace
 
 TriangleList::TriangleList(const Scene& scene) : scene_(scene), starts_{scene.triangles.size()} {
     for (const Scene::Mesh& mesh : scene.meshes) {
@@ -47,6 +59,19 @@ std::optional<TriangleList::Corners> TriangleList::normals(std::size_t index) co
     const Scene::Mesh::Face& row = at.mesh->face_normals[at.index];
     const auto& normals = at.mesh->normals;
     return Corners{normals[row[0]], normals[row[1]], normals[row[2]]};
+}
+
+/// Rounding tilts the plane of a thin triangle by u over its sine; at the far end of a long one
+/// that is more than its width.
+glm::dvec3 unit_normal(const TriangleList::Corners& corners) {
+    const glm::dvec3 a = corners[1] - corners[0], b = corners[2] - corners[0];
+    glm::dvec3 normal = glm::cross(a, b);
+    if (glm::dot(normal, normal) < 0x1p-8 * glm::dot(a, a) * glm::dot(b, b)) {
+        normal = {difference_of_products(a.y, b.z, b.y, a.z),
+                  difference_of_products(a.z, b.x, b.z, a.x),
+                  difference_of_products(a.x, b.y, b.x, a.y)};
+    }
+    return glm::normalize(normal);
 }
 
 }  // namespace rt

@@ -38,4 +38,7 @@ class TriangleList {
     std::vector<std::uint64_t> starts_;
 };
 
+/// The unit normal on the side from which the corners run counterclockwise.
+glm::dvec3 unit_normal(const TriangleList::Corners& corners);
+
 }  // namespace rt

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
 #include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/stress_scenes.h"
@@ -198,6 +202,29 @@ StressFamily huge_triangles() {
                  });
 }
 
+/// A prism with 12 sides, one end near the eye and the other far away in a slanted direction.
+Scene long_prism(double length) {
+    Scene scene = bare_scene();
+    add_floor(scene, {0, -2, 0}, 12, add_matt(scene, glm::dvec3(0.5)));
+    const int red = add_matt(scene, {0.875, 0.25, 0.125});
+    const glm::dvec3 along = length * glm::normalize(glm::dvec3(0.5, 0.25, -0.75));
+    const auto rim = [](int i) {
+        const double angle = i * std::numbers::pi / 6;
+        return glm::dvec3(std::cos(angle), std::sin(angle), 0);
+    };
+    for (int i = 0; i < 12; ++i) {
+        add_quad(scene, rim(i) + along, rim(i), rim(i + 1), rim(i + 1) + along, red);
+    }
+    set_view(scene, {-1, 2, 6}, {0.5, 0, 0}, 50);
+    return scene;
+}
+
+StressFamily long_triangles() {
+    return sweep({"long-triangle", "length of a prism",
+                  "rounding tilts the planes of long, thin triangles, along all their length"},
+                 {1e2, 1e4, 1e6, 1e8, 1e10}, {1e8}, long_prism);
+}
+
 /// A triangle whose size is half its distance.
 StressFamily far_triangles() {
     return sweep({"far-triangle", "distance of a triangle",
@@ -285,8 +312,8 @@ StressFamily crossing() {
 }  // namespace
 
 StressFamilies triangle_families() {
-    return {ties(),    coincident(),     touching(),     crossing(),
-            needles(), huge_triangles(), far_triangles()};
+    return {ties(),    coincident(),     touching(),       crossing(),
+            needles(), huge_triangles(), long_triangles(), far_triangles()};
 }
 
 }  // namespace rt
