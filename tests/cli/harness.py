@@ -94,6 +94,12 @@ class CliTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, f"{result.stdout}{result.stderr}")
         return result
 
+    def output(self, *arguments, **more):
+        """Of a run that must succeed and say nothing on stderr."""
+        result = self.succeed(*arguments, **more)
+        self.assertEqual(result.stderr, "")
+        return result.stdout
+
     def run_shell(self, command, **env):
         """Runs a shell line with $MIRRORBALL and $SCENE (the single sphere) set."""
         return subprocess.run(

@@ -175,9 +175,7 @@ class NeutralFileFormat(CliTest):
 
     def test_info(self):
         path = self.write_text("ball.NFF", self.TEXT)
-        result = self.run_cli("scene", "info", path, "--json")
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
-        info = json.loads(result.stdout)
+        info = json.loads(self.output("scene", "info", path, "--json"))
         self.assertEqual((info["name"], info["width"], info["height"]), ("ball", 32, 24))
         self.assertEqual((info["spheres"], info["cones"], info["max_bounces"]), (1, 0, 4))
 
@@ -221,15 +219,12 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 class Models(CliTest):
     def test_alone(self):
-        result = self.run_cli("scene", "info", self.write_text("a.obj", TRIANGLE), "--json")
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
-        info = json.loads(result.stdout)
+        info = json.loads(
+            self.output("scene", "info", self.write_text("a.obj", TRIANGLE), "--json"))
         self.assertEqual((info["name"], info["meshes"], info["mesh_triangles"]), ("a", 1, 1))
 
     def test_in_a_scene(self):
-        result = self.run_cli("scene", "info", scene_path("meshes"))
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
-        self.assertIn("3 of 846 triangles", result.stdout)
+        self.assertIn("3 of 846 triangles", self.output("scene", "info", scene_path("meshes")))
 
     def test_what_is_left_out_is_said(self):
         path = self.write_text("a.obj", TRIANGLE + "f 1 1 2\nl 1 2\n")
@@ -263,10 +258,7 @@ class Check(CliTest):
     def test_all_shipped_scenes_are_fine(self):
         for path in all_scenes():
             with self.subTest(scene=path.name):
-                result = self.run_cli("scene", "check", path)
-                self.assertEqual((result.returncode, result.stderr), (0, ""))
-                self.assertEqual(result.stdout, f"{path}: fine\n")
-
+                self.assertEqual(self.output("scene", "check", path), f"{path}: fine\n")
 
     def test_what_is_hardly_meant_is_a_warning(self):
         path = self.write_scene(materials={"m": {"diffuse": 1}},
@@ -276,17 +268,14 @@ class Check(CliTest):
         for words in ["no light reaches", "nothing is in view"]:
             self.assertIn(f"mirrorball: {path}: warning: {words}", result.stderr)
         for verb in ["check", "info"]:
-            result = self.run_cli("scene", verb, path, "--json")
-            self.assertEqual((result.returncode, result.stderr), (0, ""))
-            self.assertEqual(len(json.loads(result.stdout)["warnings"]), 2)
+            info = json.loads(self.output("scene", verb, path, "--json"))
+            self.assertEqual(len(info["warnings"]), 2)
         self.assertEqual(self.run_cli("scene", "info", path).stdout.count("  warning  "), 2)
 
 
 class Info(CliTest):
     def info(self, name):
-        result = self.run_cli("scene", "info", scene_path(name), "--json")
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
-        return json.loads(result.stdout)
+        return json.loads(self.output("scene", "info", scene_path(name), "--json"))
 
     def test_json_fields(self):
         info = self.info("single-sphere")
@@ -316,11 +305,9 @@ class Info(CliTest):
         self.assertEqual(*hashes)
 
     def test_text(self):
-        result = self.run_cli("scene", "info", scene_path("cornell-box"))
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        text = self.output("scene", "info", scene_path("cornell-box"))
         for word in ["cornell-box", "500x500", "triangles", "mirrors"]:
-            self.assertIn(word, result.stdout)
+            self.assertIn(word, text)
 
     def test_check_json_is_json(self):
-        result = self.succeed("scene", "check", scene_path("empty"), "--json")
-        json.loads(result.stdout)
+        json.loads(self.succeed("scene", "check", scene_path("empty"), "--json").stdout)

@@ -16,19 +16,14 @@ VERBS = [["render"], ["merge"], ["compare"], ["bench"], ["converge"], ["stress"]
 
 
 class Shell(CliTest):
-    def text(self, *arguments):
-        result = self.run_cli(*arguments)
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
-        return result.stdout
-
     def options(self, verb):
-        found = re.findall(r"^ +((?:-\w,)?--[\w-]+|-\w)\b", self.text(*verb, "--help"), re.M)
+        found = re.findall(r"^ +((?:-\w,)?--[\w-]+|-\w)\b", self.output(*verb, "--help"), re.M)
         self.assertTrue(found)
         return {name for names in found for name in names.split(",")}
 
     def sections_of_the_manual(self):
         """By verb, with roff's escapes undone."""
-        text = self.text("--man").replace("\\-", "-").replace("\\:", "").replace("\\fR", "")
+        text = self.output("--man").replace("\\-", "-").replace("\\:", "").replace("\\fR", "")
         parts = re.split(r"^\.SS mirrorball ?(.*)\n", text, flags=re.M)
         return {name: part.split("\n.SH")[0] for name, part in zip(parts[1::2], parts[2::2])}
 
@@ -48,18 +43,18 @@ class Shell(CliTest):
     @unittest.skipUnless(shutil.which("groff"), "no groff")
     def test_manual_is_right_roff(self):
         for more in [[], ["-Tutf8", "-rLL=80n"]]:  # the second as on a terminal
-            result = subprocess.run(["groff", "-man", "-ww", "-z", *more], input=self.text("--man"),
+            result = subprocess.run(["groff", "-man", "-ww", "-z", *more], input=self.output("--man"),
                                     text=True, capture_output=True, check=False)
             self.assertEqual(result.stderr, "", more)
 
     def test_manual_says_which_arguments_may_be_left_out(self):
-        lines = self.text("--man").replace("\\fI", "").replace("\\fR", "").splitlines()
+        lines = self.output("--man").replace("\\fI", "").replace("\\fR", "").splitlines()
         for verb, arguments in [("render", "[SCENE...]"), ("merge", "PART..."), ("compare", "A B")]:
             at = lines.index(f".B mirrorball {verb}")
             self.assertEqual(lines[at + 1], f"[options] {arguments}")
 
     def test_manual_names_the_files_that_are_installed(self):
-        self.assertIn("share/mirrorball/scenes", self.text("--man").split(".SH FILES")[1])
+        self.assertIn("share/mirrorball/scenes", self.output("--man").split(".SH FILES")[1])
 
     def test_bash_completes_every_option(self):
         for verb in VERBS:
@@ -73,7 +68,7 @@ class Shell(CliTest):
         self.assertEqual(self.complete("--completions", ""), ["bash", "zsh", "fish"])
 
     def test_fish_completes_every_option(self):
-        lines = self.text("--completions", "fish").splitlines()
+        lines = self.output("--completions", "fish").splitlines()
         for verb in VERBS:
             seen = "; and ".join(f"__fish_seen_subcommand_from {word}" for word in verb)
             own = [line for line in lines if f"-n '{seen}'" in line]
@@ -131,7 +126,7 @@ class Shell(CliTest):
     def test_zsh_completes_what_is_typed(self):
         """From the first Tab on: each line is typed into a shell of its own."""
         (self.folder / "site-functions").mkdir()
-        self.write_text("site-functions/_mirrorball", self.text("--completions", "zsh"))
+        self.write_text("site-functions/_mirrorball", self.output("--completions", "zsh"))
         self.write_text(".zshrc", "PS1='READY '; fpath=($ZDOTDIR/site-functions $fpath)\n"
                         "autoload -U compinit; compinit -u -D\n"
                         "mirrorball() { printf '%s\\n' \"$@\" >words; exit; }\n")
@@ -141,7 +136,7 @@ class Shell(CliTest):
     def test_zsh_completes_every_option(self):
         """Its script, with what it calls printing what it is given."""
         for verb in VERBS:
-            script = self.text("--completions", "zsh")
+            script = self.output("--completions", "zsh")
             self.write_text("run", f"words=(mirrorball {' '.join(verb)} -); CURRENT=$#words\n"
                             "_arguments() { print -rl -- \"$@\"; }\n"
                             f"complete() {{\n{script}\n}}\ncomplete\n")
