@@ -201,12 +201,25 @@ TYPED_TEST(Touching, ARingWithoutHeightIsARing) {
 }
 
 TYPED_TEST(Touching, HeadOnRaysPassGlassOfAnyIndex) {
-    for (const double ior : {1e-20, 1.0, 1e20}) {
+    for (const double ior : {5e-324, 1e-300, 1e-45, 1e-39, 1e-20, 1.0, 1e20, 1e30}) {
         Scene scene = front_view();
         scene.background = glm::dvec3(1);
         scene.materials = {glass(0.9, ior)};
         add_slab(scene, 1, -0.5, 0.5, 0);
         expect_square<TypeParam>(scene, 0.9, [](const auto&) { return 0.9 * 0.9; });
+    }
+}
+
+/// Seen from behind a sheet, a light in front of it makes no highlight, unless the exponent is 0.
+TYPED_TEST(Touching, TheSmallestExponentIsNotZero) {
+    for (const double exponent : {5e-324, 1e-300, 1e-45, 1e-20, 0.0}) {
+        Scene scene = front_view();
+        scene.materials = {matte(0, 0)};
+        scene.materials[0].specular = glm::dvec3(0.5);
+        scene.materials[0].shininess = exponent;
+        scene.lights.push_back({{3, 0, -1}, glm::dvec3(1), true});
+        add_quad(scene, {{{1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}}}, 0);
+        expect_square<TypeParam>(scene, 1, [=](const auto&) { return exponent == 0 ? 0.5 : 0; });
     }
 }
 

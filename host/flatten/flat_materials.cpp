@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/flatten/flat_materials.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "host/flatten/flat_shapes.h"
@@ -23,17 +25,23 @@ std::vector<bool> worn_materials(const Scene& scene) {
     return worn;
 }
 
+/// Rounded, but not to 0, nor to a number whose reciprocal is infinite.
+template <typename T>
+T round_positive(double x) {
+    return std::max(static_cast<T>(x), std::numeric_limits<T>::min());
+}
+
 }  // namespace
 
 template <typename T>
 typename Flat<T>::Material flatten_material(const Scene::Material& material) {
     typename Flat<T>::Material flat{};
     flat.ambient = pack<T>(material.ambient);
-    flat.shininess = static_cast<T>(material.shininess);
+    flat.shininess = material.shininess == 0 ? T(0) : round_positive<T>(material.shininess);
     flat.diffuse = pack<T>(material.diffuse);
     flat.two_sided = material.two_sided ? 1 : 0;
     flat.specular = pack<T>(material.specular);
-    flat.ior = static_cast<T>(material.ior);
+    flat.ior = round_positive<T>(material.ior);
     flat.mirror = pack<T>(material.mirror);
     flat.transmission = pack<T>(material.transmission);
     return flat;
