@@ -41,6 +41,7 @@ const Library* load(std::string& why) {
     find(library.Init, "SDL_Init");
     find(library.Quit, "SDL_Quit");
     find(library.GetError, "SDL_GetError");
+    find(library.GetCurrentVideoDriver, "SDL_GetCurrentVideoDriver");
     find(library.GetDisplayUsableBounds, "SDL_GetDisplayUsableBounds");
     find(library.CreateWindow, "SDL_CreateWindow");
     find(library.SetWindowTitle, "SDL_SetWindowTitle");

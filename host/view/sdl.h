@@ -42,6 +42,7 @@ struct Library {
     int (*Init)(std::uint32_t flags);
     void (*Quit)();
     const char* (*GetError)();
+    const char* (*GetCurrentVideoDriver)();
     int (*GetDisplayUsableBounds)(int display, Box* bounds);
     Window* (*CreateWindow)(const char* title, int x, int y, int w, int h, std::uint32_t flags);
     void (*SetWindowTitle)(Window*, const char* title);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,10 +31,17 @@ void WindowViewer::open(int width, int height) {
     if (sdl_ != nullptr) {
         call([&] { start(width, height); });
         if (was_closed_ || texture_ != nullptr) return;
-        why = sdl_->GetError();
+        why = is_offscreen() ? "there is no display; set DISPLAY or WAYLAND_DISPLAY"
+                             : sdl_->GetError();
     }
     say_("no window: " + why);
     close();
+}
+
+/// Without a display, SDL draws to memory: nobody could close that window.
+bool WindowViewer::is_offscreen() const {
+    const char* const driver = sdl_->GetCurrentVideoDriver();
+    return driver != nullptr && std::string_view(driver) == "offscreen";
 }
 
 void WindowViewer::start(int width, int height) {
@@ -41,6 +49,7 @@ void WindowViewer::start(int width, int height) {
     sdl_->SetHint("SDL_VIDEO_ALLOW_SCREENSAVER", "1");
     if (sdl_->Init(sdl::video) != 0) return;
     sdl::expect_loss();
+    if (is_offscreen()) return;
     sdl::Box screen{0, 0, 1024, 768};
     sdl_->GetDisplayUsableBounds(0, &screen);
     const double scale = std::min({1.0, 0.9 * screen.w / width, 0.9 * screen.h / height});

@@ -29,6 +29,7 @@ class WindowViewer : public Viewer {
    private:
     void call(const std::function<void()>& calls);
     void open(int width, int height);
+    bool is_offscreen() const;
     void start(int width, int height);
     void make_texture(int width, int height);
     void close();

@@ -345,3 +345,13 @@ class Tev(CliTest):
                              f"127.0.0.1:{port}")
         self.assertIn("cannot reach tev", result.stderr)
         self.assertTrue(pathlib.Path(self.folder / "out.png").exists())
+
+
+class Window(CliTest):
+    """scripts/try-window looks at one."""
+
+    def test_none_without_a_display(self):
+        result = self.render("single-sphere", "--size", "8", "-o", "out.png", "--show",
+                             env={"SDL_VIDEODRIVER": "offscreen"})
+        self.assertIn("no window: ", result.stderr)
+        self.assertIn("out.png", self.files())
