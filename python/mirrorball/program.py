@@ -87,31 +87,40 @@ def _stop(process: subprocess.Popen[str]) -> None:
         process.wait()
 
 
-def _listen(stream: Iterable[str], progress: Optional[Progress], said: list[str]) -> None:
-    """Takes the lines of stderr: shares of progress, and everything else."""
-    for line in stream:
+def _listen(process: subprocess.Popen[str], progress: Optional[Progress], said: list[str],
+            raised: list[BaseException]) -> None:
+    """Takes the lines of stderr: shares of progress, and everything else. What `progress` raises
+    stops the program, which must not wait for a reader of its messages."""
+    assert process.stderr is not None
+    for line in process.stderr:
         try:
             fraction = float(json.loads(line)["fraction"])
         except (ValueError, TypeError, KeyError):
             said.append(line)
             continue
-        if progress is not None:
+        if progress is None or raised:
+            continue
+        try:
             progress(fraction)
+        except BaseException as error:
+            raised.append(error)
+            process.send_signal(signal.SIGINT)
 
 
 def run(words: Iterable[Any], progress: Optional[Progress] = None,
         accepted: Iterable[int] = (0,)) -> str:
     """What the program prints on stdout.
 
-    Raises Error if its exit code is not among the accepted. An interrupt first stops the program and
-    is then raised again.
+    Raises Error if its exit code is not among the accepted. An interrupt, and what `progress` raises,
+    first stops the program and is then raised again.
     """
     command = [find_program(), *(_word(word) for word in words)]
     said: list[str] = []
+    raised: list[BaseException] = []
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, text=True, errors="replace") as process:
-        assert process.stdout is not None and process.stderr is not None
-        listener = threading.Thread(target=_listen, args=(process.stderr, progress, said),
+        assert process.stdout is not None
+        listener = threading.Thread(target=_listen, args=(process, progress, said, raised),
                                     daemon=True)
         listener.start()
         try:
@@ -122,6 +131,8 @@ def run(words: Iterable[Any], progress: Optional[Progress] = None,
             raise
         finally:
             listener.join(_SECONDS_TO_STOP)
+    if raised:
+        raise raised[0]
     if process.returncode not in accepted:
         raise error_of(process.returncode, "".join(said))
     return printed

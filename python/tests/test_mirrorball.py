@@ -157,6 +157,17 @@ def test_an_interrupt_stops_the_program(tmp_path, monkeypatch):
         os.kill(int(pid.read_text()), 0)
 
 
+def test_what_progress_raises_stops_the_program():
+    def fail(_):
+        raise KeyError("enough")
+
+    begun = time.monotonic()
+    with pytest.raises(KeyError, match="enough"):
+        mirrorball.render(PAPER, device="threads", size=2000, aa="sobol:4096", timeout=60,
+                          progress=fail)
+    assert time.monotonic() - begun < 30
+
+
 def test_compare_takes_arrays_and_pictures():
     picture = mirrorball.render(PAPER, **SMALL)
     assert mirrorball.compare(picture, picture)["identical"]
