@@ -29,6 +29,7 @@ struct StopSignal {
 
 StopFlag received = 0;
 std::atomic<bool> stops_quietly = false, is_working = false;
+std::atomic<int> stops_at_once = 0;
 std::atomic<pid_t> worker = 0, boss = 0;    ///< where to forward signals, and whose to handle
 std::atomic<std::int64_t> received_at = 0;  ///< ms
 void (*exit_listener)(int status) = nullptr;
@@ -47,6 +48,8 @@ const StopSignal& of_number(int number) {
     }
     return stop_signals.front();
 }
+
+constexpr std::string_view nothing_saved = "; nothing is saved";
 
 /// Async-signal-safe output, for signal handlers.
 void write_text(std::string_view text) {
@@ -103,11 +106,12 @@ void stop_setting_up(int number, siginfo_t* info, void*) {
     number = meant_number(number, info);
     if (number == 0) return;
     const StopSignal& signal = of_number(number);
-    write_line(signal.reason, "; nothing is saved");
+    write_line(signal.reason, nothing_saved);
     end_by(signal);
 }
 
-void stop_working(int number, siginfo_t* info, void*) {
+void stop_working(int number, siginfo_t* info, void* context) {
+    if (stops_at_once > 0) return stop_setting_up(number, info, context);
     number = meant_number(number, info);
     if (number == 0) return;
     const int saved = errno;
@@ -191,6 +195,16 @@ void stop_after(double seconds) {
 int exit_code_of_stop(int number) {
     return number == SIGALRM ? static_cast<int>(ExitCode::incomplete) : 128 + number;
 }
+
+StopsAtOnce::StopsAtOnce(bool at_once) : at_once_(at_once) {
+    if (!at_once) return;
+    ++stops_at_once;
+    if (received == 0) return;
+    write_line(of_number(received).reason, nothing_saved);
+    end_by(of_number(received));
+}
+
+StopsAtOnce::~StopsAtOnce() { stops_at_once -= at_once_ ? 1 : 0; }
 
 bool stop_quietly(bool quietly) { return stops_quietly.exchange(quietly); }
 

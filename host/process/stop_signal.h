@@ -39,6 +39,19 @@ void stop_after(double seconds);
 /// The exit code of a program stopped by this signal number.
 int exit_code_of_stop(int number);
 
+/// While one that is to be so exists, a stop signal ends the program at once, and so does one that
+/// has come before: for what may take for ever, such as writing to a pipe.
+class StopsAtOnce {
+   public:
+    explicit StopsAtOnce(bool at_once);
+    StopsAtOnce(const StopsAtOnce&) = delete;
+    StopsAtOnce& operator=(const StopsAtOnce&) = delete;
+    ~StopsAtOnce();
+
+   private:
+    const bool at_once_;
+};
+
 /// Whether to suppress the message at the first stop signal; returns the setting before.
 bool stop_quietly(bool quietly = true);
 

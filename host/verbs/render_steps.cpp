@@ -148,6 +148,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         path = partial_path(path);
         metadata.emplace_back("mirrorball:Partial", share_done(stats));
     }
+    const StopsAtOnce may_wait_for_a_reader(find_output_destination(path).in_place);
     const auto write = [&] {
         write_picture(path, rendered.picture, options.encoding, metadata, options.format);
     };

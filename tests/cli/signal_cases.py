@@ -238,6 +238,22 @@ class Interrupted(CliTest):
         self.assertEqual(result.returncode, 8, result.stderr)
         self.assertEqual(self.pictures(), [])
 
+    def test_a_pipe_that_nobody_reads(self):
+        os.mkfifo(self.folder / "out.png")
+        for device in ["threads", "pocl"]:
+            small = ["render", scene_path("single-sphere"), "--size", "8", "-o", "out.png",
+                     "--device", device]
+            result = self.run_cli(*small, "--timeout", "1")
+            self.assertEqual(result.returncode, 8, result.stderr)
+            self.assertIn("out of time (--timeout); nothing is saved", result.stderr)
+            process = self.start(*small, "--progress", "json")
+            for line in process.stderr:
+                if line.startswith("{") and json.loads(line)["fraction"] == 1:
+                    break
+            code, lines = self.stop(process, signal.SIGTERM)
+            self.assertEqual(code, -signal.SIGTERM, lines)
+            self.assertEqual(lines[-1], "mirrorball: terminated (SIGTERM); nothing is saved")
+
 
 class HangingDriver(CliTest):
     def test_ends_with_the_program_that_tries_it(self):
