@@ -136,11 +136,11 @@ void create_output_folder(const std::string& folder) {
     throw Error(ExitCode::output, folder + ": cannot create the folder: " + error.message());
 }
 
-std::string partial_path(const std::string& path) {
+std::string partial_path(const std::string& path, int number) {
     const fs::path name(path);
     fs::path partial(name);
     partial.replace_extension();
-    partial += ".partial";
+    partial += number == 1 ? ".partial" : ".partial-" + std::to_string(number);
     partial += name.extension();
     return partial.string();
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "host/base/console.h"
@@ -26,10 +28,31 @@ namespace rt {
 
 namespace {
 
+/// Whether an interrupted render may have left it, as far as its format tells.
+bool may_be_partial(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;
+    const auto format = known_picture_format(path);
+    if (format != PictureFormat::png && format != PictureFormat::exr) return true;
+    std::string head(1 << 16, '\0');
+    std::ifstream(path, std::ios::binary).read(head.data(), std::ssize(head));
+    return head.find("mirrorball:Partial") != std::string::npos;
+}
+
+/// Where a picture's finished part goes: not over what somebody else has put there.
+std::string free_partial_path(const std::string& output) {
+    std::string path = partial_path(output);
+    std::error_code ignored;
+    for (int n = 2; std::filesystem::exists(path, ignored) && !may_be_partial(path); ++n) {
+        path = partial_path(output, n);
+    }
+    return path;
+}
+
 /// Removes what an interrupted render of the same picture left beside it.
 void remove_partial(const std::string& output, const PictureMetadata& metadata) {
     if (output == stdout_path) return;
-    const std::string path = partial_path(output);
+    const std::string path = free_partial_path(output);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) return;
     try {
@@ -145,7 +168,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     if (!stats.complete()) {
         if (stats.tiles_finished == 0 && stats.resumed == 0) return "";
         if (path == stdout_path) return "";  // a reader of stdout wants a whole picture
-        path = partial_path(path);
+        path = free_partial_path(path);
         metadata.emplace_back("mirrorball:Partial", share_done(stats));
     }
     const StopsAtOnce may_wait_for_a_reader(find_output_destination(path).in_place);

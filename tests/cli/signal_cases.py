@@ -91,6 +91,19 @@ class Interrupted(CliTest):
         self.assertEqual((self.folder / "out.png").read_text(), "finished yesterday")
         self.assertEqual(self.pictures(), ["out.partial.png", "out.png"])
 
+    def test_a_file_of_somebody_else_is_left_alone(self):
+        for name in ["out.partial.png", "out.partial-2.png"]:
+            self.write_text(name, "somebody else's")
+        for _ in range(2):  # the second replaces what the first has left
+            process = self.start_and_wait_until_tiles_are_done("threads", "out.png")
+            code, lines = self.stop(process, signal.SIGINT)
+            self.assertEqual(code, 130, lines)
+            self.assertIn("the finished part is in out.partial-3.png", lines[-1])
+        self.assertEqual(self.pictures(),
+                         ["out.partial-2.png", "out.partial-3.png", "out.partial.png"])
+        for name in ["out.partial.png", "out.partial-2.png"]:
+            self.assertEqual((self.folder / name).read_text(), "somebody else's")
+
     def test_pocl_sigint(self):
         self.assert_stopped("pocl", signal.SIGINT, "out.pfm")
         self.assert_has_light_and_gaps("out.partial.pfm")
