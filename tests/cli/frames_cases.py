@@ -44,6 +44,12 @@ class Frames(CliTest):
         self.frames("--frames", "2,4-5,9", output="f%d.pfm")
         self.assertEqual(self.names(), ["f2.pfm", "f4.pfm", "f5.pfm", "f9.pfm"])
 
+    def test_one_frame_to_standard_output(self):
+        self.frames("--frames", "2")
+        program = "$MIRRORBALL render s.json --device threads:1 --frames 2 -q -o - --format pfm"
+        result = self.run_shell(f"{program} | cmp - f02.pfm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_resume_renders_those_that_are_missing(self):
         self.frames("--frames", "1-3")
         (self.folder / "f02.pfm").write_text("mine")
