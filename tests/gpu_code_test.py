@@ -17,7 +17,7 @@ CLANG = sys.argv.pop()
 ROOT = pathlib.Path(sys.argv.pop()).resolve()
 BUILD = pathlib.Path(sys.argv.pop()).resolve()
 GPUS = {"nvptx64": ["-target", "nvptx64-nvidia-cuda", "-Xclang", "-target-cpu", "-Xclang", "sm_70"],
-        "amdgcn": ["-target", "amdgcn-amd-amdhsa", "-mcpu=gfx1030"]}
+        "amdgcn": ["-target", "amdgcn-amd-amdhsa", "-mcpu=gfx1030", "-O1"]}
 STRICT = "-cl-fp32-correctly-rounded-divide-sqrt"
 PRECISIONS = {"f32": [STRICT], "f64": [STRICT, "-DRT_DOUBLE=1"]}
 
@@ -31,7 +31,7 @@ def targets():
 def compiled(gpu, *options):
     """The assembly of kernels/render.cl, for one ray at a time, as GPUs run it."""
     return subprocess.run(
-        [CLANG, "-x", "cl", *GPUS[gpu], "-cl-std=CL1.2", "-Xclang", "-finclude-default-header", "-nogpulib", "-O3",
+        [CLANG, "-x", "cl", "-O3", *GPUS[gpu], "-cl-std=CL1.2", "-Xclang", "-finclude-default-header", "-nogpulib",
          "-Wall", "-Werror", "-I.", *options, "-S", "kernels/render.cl", "-o", "-"],
         cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
 
