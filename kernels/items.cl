@@ -67,10 +67,7 @@ void resolve_item(__global Real* film, __global const Real* samples, const Launc
     Indices y = picture_y(params, tile, lanes.row);
     Sum sum = empty_sum(), whole = sum;
     for (Index k = 0; k < params->samples; ++k) {
-        if (k % RT_PARTIAL_SUM == 0) {
-            whole = add_sums(whole, sum);
-            sum = empty_sum();
-        }
+        begin_sample(&whole, &sum, k);
         Reals weight = sample_weight(params, tile->x + lanes.column, y, (Indices)k);
         Indices places = (k * tile->height + lanes.row) * tile->width + lanes.column;
         real3 color = load_lanes(samples, lanes.live ? places : (Indices)0);

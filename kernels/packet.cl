@@ -126,15 +126,19 @@ Sum add_sums(Sum a, Sum b) {
     return sum;
 }
 
+// Before sample k is added to `sum`.
+void begin_sample(Sum* whole, Sum* sum, Index k) {
+    if (k % RT_PARTIAL_SUM != 0) return;
+    *whole = add_sums(*whole, *sum);
+    *sum = empty_sum();
+}
+
 // The colors of a packet's pixels (x, y), in its first lanes: weighted means of their samples.
 real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indices y, Mask live,
                    RayCounts* counts) {
     Sum sum = empty_sum(), whole = sum;
     for (Index first = 0; first < scene->params.samples; first += packet->samples) {
-        if (first % RT_PARTIAL_SUM == 0) {
-            whole = add_sums(whole, sum);
-            sum = empty_sum();
-        }
+        begin_sample(&whole, &sum, first);
         Indices k = first + packet->sample;
         PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
         real3 color = trace_sample(scene, x, y, k, live, &used);
