@@ -49,8 +49,6 @@ const StopSignal& of_number(int number) {
     return stop_signals.front();
 }
 
-constexpr std::string_view nothing_saved = "; nothing is saved";
-
 /// Async-signal-safe output, for signal handlers.
 void write_text(std::string_view text) {
     while (!text.empty()) {
@@ -85,6 +83,11 @@ void write_line(std::string_view a, std::string_view b) {
     _exit(128 + signal.number);
 }
 
+[[noreturn]] void end_unsaved(const StopSignal& signal) {
+    write_line(signal.reason, "; nothing is saved");
+    end_by(signal);
+}
+
 /// Forwards stop signals to a worker, which ignores others. Unlike those it is queued: a terminal
 /// signals both processes, and two equal signals become one while the first one waits.
 int forwarding_signal() { return SIGRTMIN; }
@@ -104,10 +107,7 @@ std::int64_t milliseconds_now() {
 
 void stop_setting_up(int number, siginfo_t* info, void*) {
     number = meant_number(number, info);
-    if (number == 0) return;
-    const StopSignal& signal = of_number(number);
-    write_line(signal.reason, nothing_saved);
-    end_by(signal);
+    if (number != 0) end_unsaved(of_number(number));
 }
 
 void stop_working(int number, siginfo_t* info, void* context) {
@@ -199,9 +199,7 @@ int exit_code_of_stop(int number) {
 StopsAtOnce::StopsAtOnce(bool at_once) : at_once_(at_once) {
     if (!at_once) return;
     ++stops_at_once;
-    if (received == 0) return;
-    write_line(of_number(received).reason, nothing_saved);
-    end_by(of_number(received));
+    if (received != 0) end_unsaved(of_number(received));
 }
 
 StopsAtOnce::~StopsAtOnce() { stops_at_once -= at_once_ ? 1 : 0; }

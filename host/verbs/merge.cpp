@@ -34,7 +34,7 @@ void write_merged(const MergedPicture& merged, const MergeOptions& options) {
     PictureMetadata metadata = picture_metadata(header.scene, header.scene_hash, header.settings,
                                                 hash_text(merged.image_hash));
     if (merged.missing) {
-        metadata.emplace_back("mirrorball:Partial",
+        metadata.emplace_back(partial_mark,
                               fmt::format("without shares {}", to_string(*merged.missing)));
     }
     write_picture(options.output, merged.picture, options.encoding, metadata, options.format);

@@ -101,8 +101,9 @@ class Batch {
           log_(options.batch_log),
           list_(options, log_),
           devices_(find_devices(options.device, options.threads, restore_stop_signals).get()) {
-        if (!options.output.empty())
+        if (!options.output.empty()) {
             check_picture_path(batch_output(options.output, "scene"), options.format);
+        }
         inputs_.add(options.batch);
         for (const std::string& scene : options.scenes) inputs_.add(scene);
         for (const std::string& scene : scenes_of_list(options.batch)) inputs_.add(scene);

@@ -36,7 +36,7 @@ bool may_be_partial(const std::string& path) {
     if (format != PictureFormat::png && format != PictureFormat::exr) return true;
     std::string head(1 << 16, '\0');
     std::ifstream(path, std::ios::binary).read(head.data(), std::ssize(head));
-    return head.find("mirrorball:Partial") != std::string::npos;
+    return head.find(partial_mark) != std::string::npos;
 }
 
 /// Where a picture's finished part goes: not over what somebody else has put there.
@@ -57,7 +57,7 @@ void remove_partial(const std::string& output, const PictureMetadata& metadata) 
     if (!std::filesystem::is_regular_file(path, ignored)) return;
     try {
         const PictureMetadata partial = read_picture_file(path).metadata;
-        const bool is_ours = !text_in(partial, "mirrorball:Partial").empty();
+        const bool is_ours = !text_in(partial, partial_mark).empty();
         if (is_ours && shows_the_same(partial, metadata)) std::filesystem::remove(path, ignored);
     } catch (const Error&) {
     }
@@ -169,7 +169,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         if (stats.tiles_finished == 0 && stats.resumed == 0) return "";
         if (path == stdout_path) return "";  // a reader of stdout wants a whole picture
         path = free_partial_path(path);
-        metadata.emplace_back("mirrorball:Partial", share_done(stats));
+        metadata.emplace_back(partial_mark, share_done(stats));
     }
     const StopsAtOnce may_wait_for_a_reader(find_output_destination(path).in_place);
     const auto write = [&] {

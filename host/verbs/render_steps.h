@@ -14,6 +14,9 @@
 // Steps shared by single and batch rendering. All of them may throw Error.
 namespace rt {
 
+/// The metadata that marks an unfinished picture; its text says how much is there.
+inline constexpr const char* partial_mark = "mirrorball:Partial";
+
 /// Metadata of a picture, without anything that varies from run to run or device to device.
 PictureMetadata picture_metadata(const std::string& scene, const std::string& scene_hash,
                                  const std::string& settings, const std::string& image_hash);
