@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/huge_pages.h"
-#include "host/base/memory_limit.h"
+#include "host/base/memory.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "host/base/processor_time.h"
+#include "host/base/parallel.h"
 #include "host/image/picture_io.h"
 #include "host/picture/render_stats.h"
 #include "host/print/print_stats.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "host/base/error.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/json_file.h"
 #include "host/scene/json_plain.h"

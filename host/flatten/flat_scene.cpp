@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/memory_limit.h"
+#include "host/base/memory.h"
 #include "host/base/parallel.h"
 #include "host/flatten/boxes.h"
 #include "host/flatten/casters.h"

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "host/base/error.h"
-#include "host/base/memory_limit.h"
+#include "host/base/memory.h"
 
 namespace rt {
 

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "host/base/error.h"
-#include "host/base/usage_error.h"
 
 namespace rt {
 namespace {

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "host/base/error.h"
-#include "host/base/number.h"
+#include "host/base/text.h"
 #include "host/image/atomic_file.h"
 
 namespace rt {

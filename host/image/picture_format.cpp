@@ -5,8 +5,8 @@
 #include <array>
 #include <limits>
 
-#include "host/base/lower.h"
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
+#include "host/base/text.h"
 
 namespace rt {
 namespace {

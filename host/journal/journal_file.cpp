@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 
 namespace rt {
 

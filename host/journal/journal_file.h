@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "host/base/file_descriptor.h"
+#include "host/base/files.h"
 #include "host/journal/journal_reader.h"
 
 namespace rt {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/memory_limit.h"
+#include "host/base/memory.h"
 
 namespace rt {
 

@@ -9,10 +9,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "host/base/counted.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/image/input_file.h"
 #include "host/journal/journal_reader.h"
 

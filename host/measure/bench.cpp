@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/measure/amdahl.h"
 
 namespace rt {

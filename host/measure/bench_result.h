@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/picture/render_stats.h"
 
 namespace rt {

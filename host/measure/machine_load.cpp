@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "host/base/counted.h"
 #include "host/base/parallel.h"
+#include "host/base/text.h"
 
 namespace rt {
 

@@ -10,7 +10,6 @@
 
 #include "host/base/error.h"
 #include "host/base/module_file.h"
-#include "host/base/usage_error.h"
 
 namespace rt {
 

@@ -9,9 +9,7 @@
 #include <system_error>
 
 #include "host/base/error.h"
-#include "host/base/lower.h"
-#include "host/base/number.h"
-#include "host/base/usage_error.h"
+#include "host/base/text.h"
 #include "host/opencl/gpu_nodes.h"
 #include "host/pocl/pocl_environment.h"
 

@@ -20,7 +20,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host/base/printable.h"
+#include "host/base/text.h"
 
 namespace rt {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/temporary_folder.h"
+#include "host/base/files.h"
 #include "host/opencl/cl_device.h"
 
 namespace rt {

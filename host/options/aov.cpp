@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
 #include "host/image/output_path.h"
 #include "host/options/command_line.h"
 #include "host/options/parse.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 
 namespace rt {
 

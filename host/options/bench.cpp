@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
 #include "host/options/lists.h"
 #include "host/options/verb_options.h"
 

@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "host/base/printable.h"
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/options/verb_texts.h"
 #include "host/scene/words.h"
 

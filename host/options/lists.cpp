@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
 
 namespace rt {
 

@@ -11,8 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "host/base/named.h"
-#include "host/base/number.h"
+#include "host/base/text.h"
 #include "host/options/command_line.h"
 #include "host/options/render_options.h"
 

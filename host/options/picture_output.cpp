@@ -3,7 +3,7 @@
 
 #include <unistd.h>
 
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
 #include "host/image/output_path.h"
 #include "host/options/parse.h"
 

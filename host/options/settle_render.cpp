@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
 #include "host/image/output_path.h"
 #include "host/options/aov.h"
 #include "host/options/frame_number.h"

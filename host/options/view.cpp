@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "host/base/lower.h"
+#include "host/base/text.h"
 #include "host/options/parse.h"
 #include "host/options/verb_options.h"
 

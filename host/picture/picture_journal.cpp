@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/base/counted.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
+#include "host/base/text.h"
 #include "host/base/version.h"
 #include "host/opencl/render_kernels.h"
 

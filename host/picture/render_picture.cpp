@@ -12,8 +12,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/memory_limit.h"
-#include "host/base/usage_error.h"
+#include "host/base/memory.h"
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/picture/crew_members.h"

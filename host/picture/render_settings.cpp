@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/render_settings.h"
 
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
 
 namespace rt {
 

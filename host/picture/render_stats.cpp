@@ -9,8 +9,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/base/named.h"
-#include "host/base/processor_time.h"
+#include "host/base/parallel.h"
+#include "host/base/text.h"
 
 namespace rt {
 

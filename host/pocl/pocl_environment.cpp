@@ -14,7 +14,7 @@
 #include <string>
 #include <system_error>
 
-#include "host/base/temporary_folder.h"
+#include "host/base/files.h"
 
 namespace rt {
 

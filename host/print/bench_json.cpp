@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/measure/bench.h"
 #include "host/print/print_bench.h"
 #include "host/print/print_run.h"

@@ -4,8 +4,7 @@
 
 #include <map>
 
-#include "host/base/named.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/measure/bench.h"
 #include "host/measure/machine_load.h"
 #include "host/print/print_bench.h"

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include "host/base/counted.h"
-#include "host/base/named.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
 #include "host/print/print_converge.h"

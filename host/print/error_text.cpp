@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 #include "host/print/print_image_error.h"
 
 namespace rt {

@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/named.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 
 namespace rt {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 
 namespace rt {
 

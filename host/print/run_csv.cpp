@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "host/base/named.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/base/version.h"
 #include "host/print/environment_json.h"
 #include "host/print/print_run.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/measure/machine_load.h"
 #include "host/print/environment_json.h"
 #include "host/print/print_run.h"

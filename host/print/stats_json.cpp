@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
-#include "host/base/named.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/print/environment_json.h"
 #include "host/print/flatten_text.h"
 #include "host/print/print_image_error.h"

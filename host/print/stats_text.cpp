@@ -2,8 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/base/counted.h"
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/print/flatten_text.h"
 #include "host/print/print_stats.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/picture/render_stats.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stress.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/print/print_stress.h"
 
 namespace rt {

@@ -24,7 +24,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host/base/file_descriptor.h"
+#include "host/base/files.h"
 #include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
 

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "host/base/error.h"
-#include "host/base/usage_error.h"
 #include "native_table.h"
 
 // The entry points of every variant, as native.cl declares them.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 
 namespace rt {
 

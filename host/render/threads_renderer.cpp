@@ -6,7 +6,7 @@
 #include <atomic>
 #include <limits>
 
-#include "host/base/memory_limit.h"
+#include "host/base/memory.h"
 #include "host/base/parallel.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 #include "host/report/html.h"
 #include "host/report/plot_axis.h"
 #include "host/report/sections.h"

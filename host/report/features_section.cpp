@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/flatten/features.h"
 #include "host/measure/statistics.h"
 #include "host/print/flatten_text.h"

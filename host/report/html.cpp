@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "host/base/base64.h"
-#include "host/base/utf8.h"
+#include "host/base/text.h"
 
 namespace rt {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/report/bars.h"
 #include "host/report/device_colors.h"
 #include "host/report/html.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/image/picture_io.h"
 #include "host/measure/heatmap.h"
 #include "host/measure/picture_judge.h"

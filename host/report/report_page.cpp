@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
 #include "host/print/print_run.h"

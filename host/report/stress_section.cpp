@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/print/print_stress.h"
 #include "host/report/html.h"
 #include "host/report/labels.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/utf8.h"
+#include "host/base/text.h"
 #include "host/report/html.h"
 
 namespace rt {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/report/html.h"
 #include "host/report/labels.h"
 #include "host/report/plot_axis.h"

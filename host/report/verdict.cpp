@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 #include "host/measure/bench.h"
 #include "host/report/labels.h"
 #include "host/report/plot_axis.h"

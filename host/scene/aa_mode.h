@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 
 namespace rt {
 

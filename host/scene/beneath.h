@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "host/base/file_descriptor.h"
+#include "host/base/files.h"
 
 namespace rt {
 

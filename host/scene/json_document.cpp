@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/utf8.h"
+#include "host/base/text.h"
 #include "host/scene/json_plain.h"
 #include "host/scene/json_syntax.h"
 #include "host/scene/words.h"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/json_camera.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_meshes.h"

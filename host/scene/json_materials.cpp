@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/json_shapes.h"
 #include "host/scene/words.h"

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host/base/utf8.h"
+#include "host/base/text.h"
 #include "host/scene/json_syntax.h"
 
 namespace rt {

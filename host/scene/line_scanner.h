@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "host/base/utf8.h"
+#include "host/base/text.h"
 #include "host/scene/mistakes.h"
 
 namespace rt {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 
 namespace rt {
 namespace {

@@ -5,10 +5,8 @@
 
 #include <string_view>
 
-#include "host/base/counted.h"
 #include "host/base/error.h"
-#include "host/base/lower.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/mesh_finish.h"
 #include "host/scene/obj_file.h"
 #include "host/scene/ply_file.h"

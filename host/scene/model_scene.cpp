@@ -8,7 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/model_file.h"
 #include "host/scene/obj_materials.h"

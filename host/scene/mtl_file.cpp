@@ -8,8 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "host/base/counted.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/line_scanner.h"
 #include "host/scene/scene_limits.h"
 #include "host/scene/words.h"

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "host/base/error.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/nff_fill.h"
 #include "host/scene/nff_polygon.h"

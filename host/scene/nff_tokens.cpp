@@ -7,7 +7,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "host/base/utf8.h"
+#include "host/base/text.h"
 #include "host/scene/scene_limits.h"
 #include "host/scene/words.h"
 

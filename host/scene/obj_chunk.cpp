@@ -8,8 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "host/base/counted.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/obj_corner.h"
 #include "host/scene/words.h"

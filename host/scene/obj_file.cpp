@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/obj_chunk.h"
 #include "host/scene/obj_materials.h"

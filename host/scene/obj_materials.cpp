@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/line_scanner.h"
 #include "host/scene/mtl_file.h"
 #include "host/scene/words.h"

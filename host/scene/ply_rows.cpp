@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 #include "host/scene/words.h"
 
 namespace rt {

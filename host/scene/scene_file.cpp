@@ -6,8 +6,7 @@
 #include <string_view>
 
 #include "host/base/error.h"
-#include "host/base/lower.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_file.h"
 #include "host/scene/model_file.h"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "host/base/printable.h"
+#include "host/base/text.h"
 
 namespace rt {
 

@@ -12,7 +12,7 @@
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 
 namespace rt {
 namespace {

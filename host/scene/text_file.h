@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/base/file_descriptor.h"
+#include "host/base/files.h"
 
 namespace rt {
 

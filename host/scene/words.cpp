@@ -7,8 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "host/base/printable.h"
-#include "host/base/utf8.h"
+#include "host/base/text.h"
 
 namespace rt {
 namespace {

@@ -15,7 +15,6 @@
 #include <sstream>
 
 #include "host/base/error.h"
-#include "host/base/usage_error.h"
 #include "host/image/output_path.h"
 #include "host/options/frame_number.h"
 #include "host/process/stop_signal.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/file_descriptor.h"
+#include "host/base/files.h"
 #include "host/options/render_options.h"
 #include "host/verbs/batch_log.h"
 

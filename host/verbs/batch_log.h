@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "host/base/file_descriptor.h"
+#include "host/base/files.h"
 
 namespace rt {
 

@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "host/base/console.h"
-#include "host/base/counted.h"
 #include "host/base/error.h"
-#include "host/base/printable.h"
-#include "host/base/usage_error.h"
+#include "host/base/text.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/measure/flip.h"

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/console.h"
-#include "host/base/counted.h"
 #include "host/base/parallel.h"
+#include "host/base/text.h"
 #include "host/measure/machine_load.h"
 #include "host/opencl/cl_device.h"
 #include "host/opencl/icd_files.h"

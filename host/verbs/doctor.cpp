@@ -6,8 +6,8 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/base/named.h"
-#include "host/base/temporary_folder.h"
+#include "host/base/files.h"
+#include "host/base/text.h"
 #include "host/base/version.h"
 #include "host/image/picture_io.h"
 #include "host/mpi/ranks.h"

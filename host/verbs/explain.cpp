@@ -5,8 +5,7 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/base/printable.h"
-#include "host/base/usage_error.h"
+#include "host/base/text.h"
 #include "host/measure/ray_tree.h"
 #include "host/picture/render_stats.h"
 #include "host/print/print_stats.h"

@@ -15,7 +15,7 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/base/temporary_folder.h"
+#include "host/base/files.h"
 #include "host/opencl/device_spec.h"
 #include "host/opencl/icd_files.h"
 #include "host/process/stop_signal.h"

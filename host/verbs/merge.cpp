@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "host/base/console.h"
-#include "host/base/counted.h"
 #include "host/base/error.h"
-#include "host/base/printable.h"
-#include "host/base/temporary_folder.h"
+#include "host/base/files.h"
+#include "host/base/text.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "host/base/console.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/journal/share_queue.h"
 #include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"

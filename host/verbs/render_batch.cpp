@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "host/base/console.h"
-#include "host/base/counted.h"
 #include "host/base/error.h"
-#include "host/base/usage_error.h"
+#include "host/base/text.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/opencl/device_spec.h"

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "host/base/console.h"
-#include "host/base/counted.h"
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/base/version.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"

@@ -5,9 +5,8 @@
 #include <sstream>
 
 #include "host/base/console.h"
-#include "host/base/counted.h"
 #include "host/base/error.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/flatten/flat_scene.h"
 #include "host/picture/render_stats.h"
 #include "host/print/flatten_text.h"

@@ -8,10 +8,9 @@
 #include <set>
 
 #include "host/base/console.h"
-#include "host/base/counted.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/opencl/cl_ray_tracer.h"
 #include "host/opencl/device_spec.h"
 #include "host/picture/render_picture.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "host/base/console.h"
-#include "host/base/counted.h"
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/measure/machine_load.h"
 #include "host/measure/statistics.h"
 #include "host/process/stop_signal.h"

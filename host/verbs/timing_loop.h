@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/temporary_folder.h"
+#include "host/base/files.h"
 #include "host/image/picture.h"
 #include "host/measure/bench_result.h"
 #include "host/measure/picture_judge.h"

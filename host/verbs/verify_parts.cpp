@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "host/base/error.h"
-#include "host/base/usage_error.h"
 #include "host/journal/shares.h"
 #include "host/picture/render_picture.h"
 #include "host/process/stop_signal.h"

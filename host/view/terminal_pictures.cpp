@@ -8,7 +8,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "host/base/base64.h"
+#include "host/base/text.h"
 
 namespace rt {
 

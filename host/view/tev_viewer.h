@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/file_descriptor.h"
+#include "host/base/files.h"
 #include "host/view/view_settings.h"
 #include "host/view/viewer.h"
 

@@ -201,7 +201,7 @@ MUTANTS = [
          "static_cast<std::uint64_t>(index) <= count) return;"),
     ], [("host_ply_test", "ParsePly.BadFiles*")]),
     Mutant("buffers may exceed the free memory", [
-        ("host/base/memory_limit.cpp", "if (bytes <= free.bytes) return;",
+        ("host/base/memory.cpp", "if (bytes <= free.bytes) return;",
          "if (bytes > 0 || bytes <= free.bytes) return;"),
     ], [("host_memory_test", "CheckMemory.*")]),
     Mutant("journals without checksums", [

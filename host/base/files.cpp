@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/temporary_folder.h"
+#include "host/base/files.h"
 
 #include <fcntl.h>
 #include <stdlib.h>
