@@ -21,7 +21,6 @@ Options parse_options(int argc, const char* const* argv) {
         add_bench(program, options);
         add_converge(program, options);
         add_stress(program, options);
-        add_report(program, options);
         add_devices(program, options);
         add_doctor(program, options);
         add_explain(program, options);

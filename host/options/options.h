@@ -9,7 +9,6 @@
 #include "host/options/explain_options.h"
 #include "host/options/merge_options.h"
 #include "host/options/render_options.h"
-#include "host/options/report_options.h"
 #include "host/options/stress_options.h"
 
 namespace rt {
@@ -46,7 +45,6 @@ enum class Verb {
     devices,
     scene,
     compare,
-    report,
     stress,
     doctor,
     explain
@@ -59,7 +57,6 @@ struct Options {
     BenchOptions bench;
     ConvergeOptions converge;
     CompareOptions compare;
-    ReportOptions report;
     StressOptions stress;
     DevicesOptions devices;
     DoctorOptions doctor;
@@ -68,8 +65,7 @@ struct Options {
 
     /// -q, of whichever verb.
     bool quiet() const {
-        return render.quiet || merge.quiet || bench.quiet || converge.quiet || report.quiet ||
-               stress.quiet;
+        return render.quiet || merge.quiet || bench.quiet || converge.quiet || stress.quiet;
     }
 
     std::string worker_link;  ///< not empty: this process may be a worker (host/process/worker.h)

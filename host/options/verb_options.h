@@ -14,7 +14,6 @@ void add_compare(const CommandLine& program, Options& options);
 void add_bench(const CommandLine& program, Options& options);
 void add_converge(const CommandLine& program, Options& options);
 void add_stress(const CommandLine& program, Options& options);
-void add_report(const CommandLine& program, Options& options);
 void add_devices(const CommandLine& program, Options& options);
 void add_doctor(const CommandLine& program, Options& options);
 void add_explain(const CommandLine& program, Options& options);

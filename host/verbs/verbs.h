@@ -13,7 +13,6 @@ int run_compare(const CompareOptions& options);
 int run_bench(const BenchOptions& options);
 int run_converge(const ConvergeOptions& options);
 int run_stress(const StressOptions& options);
-int run_report(const ReportOptions& options);
 int run_devices(const DevicesOptions& options);
 int run_doctor(const DoctorOptions& options);
 int run_explain(const ExplainOptions& options);
