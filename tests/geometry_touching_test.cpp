@@ -68,7 +68,7 @@ Film<T> picture(const Scene& scene, int lanes, const FlattenOptions& flattening 
     static const StopFlag never_stop = 0;
     const FlatScene<T> flat = flatten<T>(scene, flattening);
     ThreadsOptions options;
-    options.lanes = lanes;
+    options.kernels.lanes = lanes;
     const auto renderer = make_threads_renderer(flat, options);
     const Rect region{0, 0, scene.width, scene.height};
     TileQueue queue(make_tiles(region, scene.width, scene.height), never_stop);

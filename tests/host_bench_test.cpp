@@ -4,14 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "host/measure/amdahl.h"
 #include "host/measure/baseline.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
-#include "host/measure/pareto.h"
 #include "host/measure/picture_judge.h"
-#include "host/measure/statistics.h"
-#include "host/print/rounds_text.h"
+#include "host/print/print_run.h"
 
 namespace rt {
 namespace {
@@ -166,8 +163,8 @@ TEST(Baseline, SlowerMeansBeyondTheShareAndBeyondTheNoise) {
     EXPECT_FALSE(is_slower(before, {0.50, 0.0, 1, 1}, 0.05));
 }
 
-RenderStats run_of(double trace, double build, int threads) {
-    RenderStats run;
+TimedRun run_of(double trace, double build, int threads) {
+    TimedRun run;
     run.phases.renderer.trace = trace;
     run.phases.renderer.build = build;
     run.device.threads = threads;
@@ -189,7 +186,8 @@ BenchRow threads_row(int threads, const std::vector<double>& traces) {
 TEST(Bench, SpeedUpAndAmdahlAreOfMediansWithoutTheWarmUp) {
     BenchResult result;
     result.rows = {threads_row(1, {9, 9, 20}), threads_row(2, {4.5, 4, 7})};
-    const auto figures = figures_of(result, result.rows[1]);
+    result.judge();
+    const auto& figures = result.rows[1].figures;
     ASSERT_TRUE(figures && figures->speed_up && figures->amdahl);
     EXPECT_DOUBLE_EQ(*figures->parallel_fraction, 0.9);
     EXPECT_DOUBLE_EQ(*figures->speed_up, 10 / 5.5);
@@ -202,13 +200,15 @@ TEST(Bench, WrongRowHasNoTimingAndIsNoBase) {
     BenchResult result;
     result.rows = {threads_row(1, {9}), threads_row(2, {4})};
     result.rows[0].verdict = Verdict::wrong;
-    EXPECT_FALSE(figures_of(result, result.rows[0]));
-    EXPECT_FALSE(figures_of(result, result.rows[1])->speed_up);
+    result.judge();
+    EXPECT_FALSE(result.rows[0].figures);
+    EXPECT_FALSE(result.rows[1].figures->speed_up);
 }
 
 TEST(Bench, RegressionsAreFoundByKey) {
     BenchResult result;
     result.rows = {threads_row(1, {9, 9, 9}), threads_row(2, {4, 4, 4})};
+    result.judge();
     Baseline baseline;
     baseline[key_of(result.rows[0].asked)] = {{9, 0, 9, 9}, {10, 0, 10, 10}};
     EXPECT_TRUE(regressions(result, baseline, 0.05).empty());
@@ -239,12 +239,13 @@ TEST(Converge, TargetBelowTheFloorIsNotDecided) {
         point.repeats.back().error.emplace().rmse = 1e-3;
     }
     result.points = {point};
-    const auto times = target_times(result);
+    result.summarize();
+    const auto& times = result.targets;
     ASSERT_EQ(times.size(), 4U);
-    EXPECT_DOUBLE_EQ(times[0].seconds, 0.5);
+    EXPECT_DOUBLE_EQ(times[0].seconds.value(), 0.5);
     EXPECT_FALSE(times[0].below_floor);
     EXPECT_TRUE(times[2].below_floor);
-    EXPECT_TRUE(figures_of(result, point)->below_floor);
+    EXPECT_TRUE(result.points[0].figures->below_floor);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "host/image/image_error.h"
 #include "host/measure/flip.h"
 #include "host/measure/heatmap.h"
-#include "host/print/print_image_error.h"
+#include "host/print/print_stats.h"
 
 namespace {
 
@@ -80,7 +80,7 @@ TEST(ErrorTable, SaysThatNothingCouldBeCompared) {
 }
 
 TEST(ErrorJson, HasEveryFigure) {
-    const auto json = error_json(image_error(row(1, {0.5f, 0}), row(1, {0, 0})));
+    const auto json = json_of(image_error(row(1, {0.5f, 0}), row(1, {0, 0})));
     EXPECT_EQ(json.at("max_at"), nlohmann::ordered_json({0, 0}));
     EXPECT_EQ(json.at("rel_mse"), 1250);
     EXPECT_EQ(json.at("pixels_over_2_255"), 1);

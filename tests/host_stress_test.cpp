@@ -190,7 +190,7 @@ StressResult small_result() {
         row.figures.max_error = value * 1e-5;
         row.why = value > 1 ? "off by 0.00016" : "";
         one.rows.push_back(row);
-        row.double_precision = true;
+        row.precision = Precision::float64;
         row.judged = false;
         row.figures.wrong = 123;
         one.rows.push_back(row);

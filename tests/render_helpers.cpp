@@ -99,8 +99,8 @@ Film<T> render_on_device(const Scene& scene, const ClOptions& options, Rect tile
 
 ClOptions cl_options(Launch launch, bool all_features) {
     ClOptions options;
-    options.launch = launch;
-    options.all_features = all_features;
+    options.kernels.launch = launch;
+    if (all_features) options.kernels.features = Features{};
     return options;
 }
 

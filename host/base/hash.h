@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -42,5 +45,8 @@ class Hasher {
    private:
     std::uint64_t state_ = 0xcbf29ce484222325u;
 };
+
+/// 16 hexadecimal digits.
+inline std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 }  // namespace rt

@@ -65,9 +65,8 @@ std::optional<T> value_of(const Named<T> (&table)[n], std::string_view name) {
     return std::nullopt;
 }
 
-inline const char* precision_name(bool is_double) { return is_double ? "double" : "float"; }
-
-inline const char* math_name(bool is_fast) { return is_fast ? "fast" : "strict"; }
+/// A cell of a CSV table (RFC 4180): in quotes if it holds a comma, a quote or a line break.
+std::string csv_quoted(const std::string& text);
 
 /// The byte order mark that some editors put at the start of a UTF-8 file.
 inline constexpr std::string_view utf8_byte_order_mark = "\xEF\xBB\xBF";

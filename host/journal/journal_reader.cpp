@@ -97,7 +97,7 @@ bool JournalReader::interpret(JournalRecord& record) const {
             record.rect = rect_at_start(body);
             return is_within(record.rect, header_.film);
         case RecordKind::refined: {
-            if (body.size() < 8 || !header_.refines) return false;
+            if (body.size() < 8 || !header_.picture.aa.refines()) return false;
             const auto pass = number_at<std::uint32_t>(body, 0);
             const std::size_t count = number_at<std::uint32_t>(body, 4);
             if (pass >= refine_passes || body.size() != 8 + count * (4 + pixel)) return false;

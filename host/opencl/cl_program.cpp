@@ -44,8 +44,8 @@ std::string build_log(const cl::Program& program, const ClDevice& device) {
 std::string build_options(const ClDevice& device, const ProgramOptions& options) {
     std::string text = "-cl-std=CL1.2";
     if (options.lanes != 1) text += fmt::format(" -DRT_LANES={}", options.lanes);
-    if (options.double_precision) text += " -DRT_DOUBLE=1";
-    if (options.fast_math) {
+    if (options.precision == Precision::float64) text += " -DRT_DOUBLE=1";
+    if (options.math == Math::fast) {
         text += " -DRT_FAST_MATH=1 -cl-mad-enable";
     } else if (device.rounds_correctly) {
         text += " -cl-fp32-correctly-rounded-divide-sqrt";

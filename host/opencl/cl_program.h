@@ -6,6 +6,7 @@
 #include "host/flatten/features.h"
 #include "host/opencl/cl_device.h"
 #include "host/opencl/opencl.h"
+#include "host/render/picture_spec.h"
 
 namespace rt {
 
@@ -22,8 +23,8 @@ struct EntryPoints {
 
 /// What a program is compiled for. `features` says what may be left out.
 struct ProgramOptions {
-    bool double_precision = false;
-    bool fast_math = false;            ///< let the compiler contract a * b + c
+    Precision precision = Precision::float32;
+    Math math = Math::strict;
     bool warnings_are_errors = false;  ///< for tests
     int lanes = 1;                     ///< rays of a packet: 1, 2, 4, 8 or 16
     int samples = 0;  ///< per pixel, if a packet holds them all: compiled in; 0: any number

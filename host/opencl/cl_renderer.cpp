@@ -57,8 +57,8 @@ class ClRenderer : public Renderer<T> {
           params_(scene.params),
           pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
                  device.is_cpu ? cpu_most_samples : gpu_most_samples) {
-        launch_samples_ = launches_samples(options.launch, device);
-        lanes_ = packet_lanes<T>(options.lanes, device);
+        launch_samples_ = launches_samples(options.kernels.launch, device);
+        lanes_ = packet_lanes<T>(options.kernels.lanes, device);
         group_ = lanes_ == 1 ? single_group : packet_group;
         try {
             open();
@@ -198,16 +198,17 @@ class ClRenderer : public Renderer<T> {
     /// finish compiling only then.
     void build(const FlatScene<T>& scene, const ClOptions& options) {
         ProgramOptions program_options;
-        program_options.double_precision = sizeof(T) == sizeof(double);
+        program_options.precision = precision_of<T>;
         program_options.lanes = lanes_;
-        program_options.fast_math = options.fast_math;
+        program_options.math = options.math;
         program_options.warnings_are_errors = options.warnings_are_errors;
         program_options.entries = {!launch_samples_, launch_samples_, options.will_refine, false};
-        if (!options.all_features) {
-            program_options.features = either_of(scene.features, options.also);
-            const int held = shape(samples()).samples;
-            const bool is_one_packet = !launch_samples_ && held == params_.samples;
-            if (is_one_packet && !options.any_samples) program_options.samples = held;
+        const KernelChoice& kernels = options.kernels;
+        program_options.features = either_of(scene.features, kernels.features);
+        const int held = shape(samples()).samples;
+        const bool is_one_packet = !launch_samples_ && held == params_.samples;
+        if (is_one_packet && !kernels.any_samples && !kernels.has_all()) {
+            program_options.samples = held;
         }
         const bool is_pocl = device_.platform == pocl_platform;
         const auto start = std::filesystem::file_time_type::clock::now();

@@ -28,8 +28,8 @@ std::string reference_folder() {
     return home.empty() ? "" : home + "/.cache/mirrorball/references";
 }
 
-const Named<std::vector<bool>> math_choices[] = {
-    {"strict", {false}}, {"fast", {true}}, {"both", {false, true}}};
+const Named<std::vector<Math>> math_choices[] = {
+    {"strict", {Math::strict}}, {"fast", {Math::fast}}, {"both", {Math::strict, Math::fast}}};
 
 void add_sweep(const CommandLine& verb, ConvergeOptions& converge) {
     add_size(verb, converge.size);
@@ -41,7 +41,7 @@ void add_sweep(const CommandLine& verb, ConvergeOptions& converge) {
     verb.flag("--scalar", converge.scalar,
               "also time pthreads tracing one ray at a time, without vectors (float)");
     add_precisions(verb, converge.precisions);
-    add_choice(verb, "--math", converge.fast_math, math_choices,
+    add_choice(verb, "--math", converge.math, math_choices,
                "strict (default), fast (OpenCL devices only) or both");
     verb.value("--max-bounces", "LIST", converge.max_bounces, list_of(count_in(0, most_bounces)),
                bounces_help);

@@ -19,7 +19,7 @@ struct ConvergeOptions {
     int threads = 0;      ///< of the pthreads renderer; 0: all cores
     bool scalar = false;  ///< also threads one ray at a time, in float
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
-    std::vector<bool> fast_math{false};
+    std::vector<Math> math{Math::strict};
     std::vector<int> max_bounces;  ///< empty: the scene's
     LightOverrides light;
     int repeats = 5;               ///< not counting the warm-up

@@ -15,7 +15,6 @@ namespace rt {
 
 namespace {
 
-constexpr Named<bool> math_modes[] = {{"strict", false}, {"fast", true}};
 constexpr Named<Launch> launches[] = {{"pixel", Launch::pixel}, {"sample", Launch::sample}};
 constexpr Named<int> lane_counts[] = {{"auto", 0}, {"1", 1}, {"2", 2},
                                       {"4", 4},    {"8", 8}, {"16", 16}};
@@ -84,8 +83,7 @@ std::string device_from_environment() {
 
 /// "all", "auto", or names as in --stats with hyphens for blanks.
 void parse_features(const std::string& text, RenderOptions& render) {
-    render.all_features = text == "all";
-    render.also_features = no_features();
+    render.kernels.features = text == "all" ? Features{} : no_features();
     if (text == "all" || text == "auto") return;
     for (const std::string& part : split_list(text)) {
         const FeatureName* found = nullptr;
@@ -98,7 +96,7 @@ void parse_features(const std::string& text, RenderOptions& render) {
             names.push_back(std::move(name));
         }
         if (found == nullptr) refuse_choice(part, names);
-        render.also_features.*found->flag = true;
+        render.kernels.features.*found->flag = true;
     }
 }
 
@@ -142,14 +140,14 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
         "by commas, share the picture (default: $MIRRORBALL_DEVICE, else the best available)");
     add_choice(verb, "--precision", render.precision, precision_names,
                "arithmetic precision (default: float)");
-    add_choice(verb, "--math", render.fast_math, math_modes,
+    add_choice(verb, "--math", render.math, math_names,
                "strict (default): the same bits everywhere; fast: the compiler may contract "
                "operations");
-    add_choice(verb, "--launch", render.launch, launches,
+    add_choice(verb, "--launch", render.kernels.launch, launches,
                "what each OpenCL work item renders (default: pixel on CPUs, sample elsewhere)");
-    add_choice(verb, "--lanes", render.lanes, lane_counts,
+    add_choice(verb, "--lanes", render.kernels.lanes, lane_counts,
                "rays per packet (default: a CPU's vector width; 1 on GPUs)");
-    verb.value("--isa", "NAME", render.isa, parse_isa,
+    verb.value("--isa", "NAME", render.kernels.isa, parse_isa,
                "instruction set of the pthreads kernels, as listed by 'mirrorball devices' "
                "(default: the best)");
     add_choice(verb, "--schedule", render.schedule, schedule_names,

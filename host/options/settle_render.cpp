@@ -17,7 +17,7 @@ namespace rt {
 namespace {
 
 void check_renders_parts(const RenderOptions& render, const char* option) {
-    if (!render.fast_math && render.schedule == Schedule::tiles) return;
+    if (render.math == Math::strict && render.schedule == Schedule::tiles) return;
     usage_error("{} requires --math strict and --schedule tiles, so that its parts match", option);
 }
 
@@ -33,7 +33,8 @@ void settle_journal(RenderOptions& render) {
 
 /// Threads have no fast math, so every tile would differ.
 void settle_check(const RenderOptions& render) {
-    if (render.check > 0 && render.fast_math) usage_error("--check requires --math strict");
+    if (render.check > 0 && render.math == Math::fast)
+        usage_error("--check requires --math strict");
 }
 
 void settle_watch(const RenderOptions& render) {

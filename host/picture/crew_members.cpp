@@ -11,13 +11,9 @@ namespace {
 
 ClOptions cl_options(const RenderSettings& settings, bool refines, bool is_alone) {
     ClOptions options;
-    options.launch = settings.launch;
-    options.lanes = settings.lanes;
-    options.fast_math = settings.fast_math;
+    options.kernels = settings.kernels;
+    options.math = settings.math;
     options.will_refine = refines;
-    options.all_features = settings.all_features;
-    options.also = settings.also_features;
-    options.any_samples = settings.any_samples;
     options.shares_film = !is_alone;
     return options;
 }
@@ -25,15 +21,7 @@ ClOptions cl_options(const RenderSettings& settings, bool refines, bool is_alone
 }  // namespace
 
 ThreadsOptions threads_options(const RenderSettings& settings, int threads) {
-    ThreadsOptions options;
-    options.threads = threads > 0 ? threads : settings.threads;
-    options.schedule = settings.schedule;
-    options.lanes = settings.lanes;
-    options.all_features = settings.all_features;
-    options.also = settings.also_features;
-    options.any_samples = settings.any_samples;
-    options.isa = settings.isa;
-    return options;
+    return {threads > 0 ? threads : settings.threads, settings.schedule, settings.kernels};
 }
 
 template <typename T>
@@ -62,8 +50,8 @@ CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& s
         if (loaded) loaded();
         return renderer;
     };
-    if (settings.self_test && !settings.fast_math) {
-        const std::string isa = settings.isa;
+    if (settings.self_test && settings.math == Math::strict) {
+        const std::string isa = settings.kernels.isa;
         member.test = [scene, name = device.name, isa, refines](Renderer<T>& renderer) {
             self_test(renderer, name, *scene, isa, refines);
         };

@@ -16,7 +16,7 @@ DeviceStats threads_stats(const FlatScene<T>& scene, const AaMode& aa,
     stats.kernels = kernels.features;
     stats.name = "threads";
     stats.threads = thread_count(options, aa.samples());
-    stats.schedule = name_of(schedule_names, options.schedule);
+    stats.schedule = to_string(options.schedule);
     return stats;
 }
 
@@ -32,10 +32,9 @@ DeviceStats stats_of(const std::vector<DeviceChoice>& devices, const FlatScene<T
     const ClDevice& device = devices.front().device;
     stats.platform = device.platform;
     stats.driver = device.driver;
-    stats.launch = launches_samples(settings.launch, device) ? "sample" : "pixel";
-    stats.lanes = packet_lanes<T>(settings.lanes, device);
-    stats.kernels =
-        settings.all_features ? Features{} : either_of(scene.features, settings.also_features);
+    stats.launch = launches_samples(settings.kernels.launch, device) ? "sample" : "pixel";
+    stats.lanes = packet_lanes<T>(settings.kernels.lanes, device);
+    stats.kernels = either_of(scene.features, settings.kernels.features);
     return stats;
 }
 
@@ -64,10 +63,10 @@ void say_ignored_settings(const DeviceChoice& choice, const RenderSettings& sett
         if (events.message) events.message(line);
     };
     if (choice.use_threads) {
-        if (settings.launch != Launch::automatic) {
+        if (settings.kernels.launch != Launch::automatic) {
             say("--launch has no effect on threads");
         }
-        if (settings.fast_math) say("--math fast has no effect on threads");
+        if (settings.math == Math::fast) say("--math fast has no effect on threads");
         return;
     }
     if (settings.schedule != Schedule::tiles) {
@@ -77,7 +76,7 @@ void say_ignored_settings(const DeviceChoice& choice, const RenderSettings& sett
     if (settings.threads > 0 && choice.device.platform != pocl_platform) {
         say("--threads has no effect on " + choice.device.name);
     }
-    if (!settings.fast_math && !choice.device.rounds_correctly && events.detail) {
+    if (settings.math == Math::strict && !choice.device.rounds_correctly && events.detail) {
         events.detail(choice.device.name +
                       " does not guarantee correctly rounded division and square roots, so its "
                       "pictures may differ in a few bits");

@@ -31,17 +31,6 @@ namespace {
 
 using Devices = std::vector<DeviceChoice>;
 
-Rect chosen_region(const Scene& scene, const RenderSettings& settings) {
-    const Rect whole{0, 0, scene.width, scene.height};
-    if (!settings.crop) return whole;
-    const Rect& crop = *settings.crop;
-    if (crop.x + crop.width > whole.width || crop.y + crop.height > whole.height) {
-        usage_error("--crop extends to {},{}, but the picture has {}x{} pixels",
-                    crop.x + crop.width, crop.y + crop.height, whole.width, whole.height);
-    }
-    return crop;
-}
-
 SceneStats scene_stats(const Scene& scene) {
     SceneStats stats;
     stats.name = scene.name;
@@ -74,8 +63,9 @@ class Job {
           events_(events),
           stop_(stop),
           cache_(cache),
-          region_(chosen_region(scene, settings)),
-          rendered_(region_to_render(scene.aa, region_, scene.width, scene.height)) {
+          picture_(picture_spec(scene, settings)),
+          rendered_(
+              region_to_render(picture_.aa, picture_.region, picture_.width, picture_.height)) {
         FlattenOptions options;
         options.hierarchies = settings.hierarchies;
         options.caster_lists = settings.caster_lists;
@@ -94,23 +84,15 @@ class Job {
         stats_.scene.smooth_triangles = scene_->vertex_normals.size();
         stats_.scene.bytes = scene_->bytes();
         stats_.scene.flatten = scene_->stats;
-        stats_.width = scene.width;
-        stats_.height = scene.height;
-        stats_.region = region_;
-        stats_.aa = scene.aa;
-        stats_.filter = scene.filter;
-        stats_.max_bounces = scene.max_bounces;
-        stats_.double_precision = sizeof(T) == sizeof(double);
-        stats_.fast_math = settings.fast_math;
-        stats_.features = scene_->features;
-        stats_.all_features = settings.all_features;
-        stats_.also_features = settings.also_features;
+        stats_.scene.features = stats_.scene.compiled = scene_->features;
+        stats_.picture = picture_;
+        stats_.kernels = settings.kernels;
         stats_.hierarchies = settings.hierarchies;
         stats_.caster_lists = settings.caster_lists;
     }
 
     RenderedPicture run(Devices devices, double wait_seconds) {
-        is_exact_ = !settings_.fast_math && inexact_names(devices).empty();
+        is_exact_ = settings_.math == Math::strict && inexact_names(devices).empty();
         if (!is_exact_) std::erase_if(devices, [](const auto& choice) { return choice.is_helper; });
         for (const DeviceChoice& choice : devices) {
             say_ignored_settings(choice, settings_, events_);
@@ -163,7 +145,7 @@ class Job {
         render_with(threads, "threads");
         shares.push_back(threads.shares().front());
         stats_.shares = std::move(shares);
-        stats_.device = threads_stats<T>(*scene_, stats_.aa, spare_threads());
+        stats_.device = threads_stats<T>(*scene_, picture_.aa, spare_threads());
         stats_.device.fallback_from = devices;
     }
 
@@ -185,7 +167,7 @@ class Job {
     ThreadsOptions spare_threads() const {
         ThreadsOptions options = threads_options(settings_, 0);
         options.schedule = Schedule::tiles;
-        options.lanes = 0;
+        options.kernels.lanes = 0;
         return options;
     }
 
@@ -199,7 +181,7 @@ class Job {
             }
             if (!choice.use_threads) {
                 members.push_back(device_member<T>(
-                    scene_, settings_, choice.device, stats_.aa.refines(), is_alone,
+                    scene_, settings_, choice.device, picture_.aa.refines(), is_alone,
                     cache_ == nullptr ? nullptr : cache_->devices, events_.driver_loaded));
                 continue;
             }
@@ -231,7 +213,7 @@ class Job {
         if (events_.started) events_.started(queue);
         RenderedAll rendered;
         try {
-            rendered = render_all<T>(crew, stats_.aa, queue, rendered_, film_, refine_events());
+            rendered = render_all<T>(crew, picture_.aa, queue, rendered_, film_, refine_events());
         } catch (...) {
             if (events_.ended) events_.ended();
             journal_->end(false);
@@ -296,7 +278,7 @@ class Job {
     void note_devices(const Crew<T>& crew, const Devices& devices) {
         stats_.shares = crew.shares();
         if (crew.uses_spare()) {
-            stats_.device = threads_stats<T>(*scene_, stats_.aa, spare_threads());
+            stats_.device = threads_stats<T>(*scene_, picture_.aa, spare_threads());
             stats_.device.fallback_from = stats_.shares.front().name;
         } else {
             note_devices(devices);
@@ -304,17 +286,17 @@ class Job {
     }
 
     void note_devices(const Devices& devices) {
-        stats_.device = stats_of(devices, *scene_, stats_.aa, settings_);
+        stats_.device = stats_of(devices, *scene_, picture_.aa, settings_);
     }
 
     /// What is wrong with the devices' results: their ray count, or, if requested, a sample of the
     /// tiles. Empty if nothing is.
     std::string what_is_wrong() {
         const std::string rays = impossible_rays(stats_.rays, stats_.scene.lights,
-                                                 stats_.max_bounces, scene_->features.glass);
+                                                 picture_.max_bounces, scene_->features.glass);
         if (!rays.empty()) return "reports an impossible number of rays: " + rays;
         if (settings_.check <= 0) return "";
-        const TileCheck check = check_tiles(*scene_, stats_.aa, settings_.isa,
+        const TileCheck check = check_tiles(*scene_, picture_.aa, settings_.kernels.isa,
                                             journal_->final_tiles(tile_.width, tile_.height),
                                             settings_.check, region_, film_);
         stats_.tiles_checked = check.tiles;
@@ -343,6 +325,7 @@ class Job {
     }
 
     RenderedPicture finished_picture() {
+        stats_.scene.compiled = either_of(stats_.scene.features, stats_.device.kernels);
         stats_.image_hash = hash_of(film_);
         RenderedPicture rendered;
         rendered.picture.width = film_.width;
@@ -361,10 +344,11 @@ class Job {
     const RenderSettings& settings_;
     const RenderEvents& events_;
     const StopFlag& stop_;
-    RenderCache* const cache_;  ///< may be null
-    const Rect region_;         ///< requested
-    const Rect rendered_;       ///< that, plus what refining it needs
-    bool is_exact_ = true;      ///< threads would give the same bits as the devices
+    RenderCache* const cache_;   ///< may be null
+    const PictureSpec picture_;  ///< requested
+    const Rect& region_ = picture_.region;
+    const Rect rendered_;   ///< its region and what refining that needs
+    bool is_exact_ = true;  ///< threads would give the same bits as the devices
     SharedScene<T> scene_;
     std::optional<PictureJournal<T>> journal_;
     Film<T> film_{0, 0};

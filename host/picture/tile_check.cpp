@@ -25,7 +25,7 @@ const StopFlag never_stopped = 0;
 template <typename T>
 std::unique_ptr<Renderer<T>> checking_renderer(const FlatScene<T>& scene, const std::string& isa) {
     ThreadsOptions options;
-    options.isa = isa;
+    options.kernels.isa = isa;
     return make_threads_renderer(scene, options);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -23,6 +22,6 @@ std::string tolerance_text(const StressTolerance& tolerance);
 StressTolerance loosest_tolerance(const StressFamilyResult& family);
 
 /// Format "mirrorball-stress", version 1 (docs/stress.schema.json).
-nlohmann::ordered_json stress_json(const StressResult& result);
+std::string stress_json(const StressResult& result);
 
 }  // namespace rt

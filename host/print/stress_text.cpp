@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/base/text.h"
+#include "host/print/print_run.h"
 #include "host/print/print_stress.h"
 
 namespace rt {
@@ -50,7 +51,7 @@ std::string family_bar(const StressFamilyResult& family) {
 }
 
 std::string row_name(const StressRow& row) {
-    return fmt::format("{} {}", row.renderer, precision_name(row.double_precision));
+    return fmt::format("{} {}", row.renderer, to_string(row.precision));
 }
 
 std::string row_figures(const StressRow& row) {
@@ -153,6 +154,10 @@ std::string stress_list(const std::vector<StressFamily>& families) {
         }
     }
     return text;
+}
+
+std::string stress_json(const StressResult& result) {
+    return result_json("mirrorball-stress", bench_environment_json(result.load_before), result);
 }
 
 }  // namespace rt

@@ -90,7 +90,7 @@ class PixelCounter {
    private:
     static ThreadsOptions any_samples() {
         ThreadsOptions options;
-        options.any_samples = true;
+        options.kernels.any_samples = true;
         return options;
     }
 

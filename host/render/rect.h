@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace rt {
@@ -12,5 +13,17 @@ struct Rect {
     std::int64_t pixels() const { return std::int64_t{width} * height; }
     bool operator==(const Rect&) const = default;
 };
+
+/// [x, y, width, height]
+template <typename Json>
+void to_json(Json& json, const Rect& rect) {
+    json = Json::array({rect.x, rect.y, rect.width, rect.height});
+}
+template <typename Json>
+void from_json(const Json& json, Rect& rect) {
+    std::array<int, 4> n;
+    json.get_to(n);
+    rect = {n[0], n[1], n[2], n[3]};
+}
 
 }  // namespace rt

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "host/base/text.h"
 #include "host/flatten/flat_types.h"
 #include "host/render/film.h"
 #include "host/render/tile_queue.h"
@@ -14,6 +15,13 @@ namespace rt {
 
 /// Whether the driver compiled the program or took it from its cache.
 enum class BuildCache { none, cold, warm, unknown };
+
+inline constexpr Named<BuildCache> build_cache_names[] = {{"none", BuildCache::none},
+                                                          {"cold", BuildCache::cold},
+                                                          {"warm", BuildCache::warm},
+                                                          {"unknown", BuildCache::unknown}};
+constexpr auto& enum_names(BuildCache) { return build_cache_names; }
+inline const char* to_string(BuildCache cache) { return name_of(build_cache_names, cache); }
 
 /// Where a renderer's time went, in wall-clock seconds; 0 for steps it does not have.
 struct RendererTimes {

@@ -17,12 +17,12 @@ void add_features(const Features& needed, Changes& changes) {
         if (needed.*feature.flag) continue;
         changes.push_back(
             {std::string(feature.name) + " compiled in", [&feature](RenderSettings& settings) {
-                 settings.also_features.*feature.flag = true;
+                 settings.kernels.features.*feature.flag = true;
              }});
     }
     if (changes.empty()) return;
-    changes.push_back(
-        {"everything compiled in", [](RenderSettings& settings) { settings.all_features = true; }});
+    changes.push_back({"everything compiled in",
+                       [](RenderSettings& settings) { settings.kernels.features = Features{}; }});
 }
 
 /// Whether some kind of primitive could have a hierarchy but has none.
@@ -60,11 +60,12 @@ std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& d
     if (lanes > 1) {
         const int samples = scene.aa.samples();
         if (packet_shape(lanes, samples).samples == samples) {
-            changes.push_back({"a loop over samples",
-                               [](RenderSettings& settings) { settings.any_samples = true; }});
+            changes.push_back({"a loop over samples", [](RenderSettings& settings) {
+                                   settings.kernels.any_samples = true;
+                               }});
         }
         changes.push_back({"one lane instead of " + std::to_string(lanes),
-                           [](RenderSettings& settings) { settings.lanes = 1; }});
+                           [](RenderSettings& settings) { settings.kernels.lanes = 1; }});
     }
     return changes;
 }

@@ -43,15 +43,15 @@ std::vector<std::string> aov_files(const RenderOptions& options) {
 class Aovs {
    public:
     Aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options)
-        : width_(stats.region.width), height_(stats.region.height) {
+        : width_(stats.picture.region.width), height_(stats.picture.region.height) {
         const auto needs = [&](Aov aov) { return asks_for(options, aov); };
         if (needs(Aov::depth) || needs(Aov::normal) || needs(Aov::id)) {
-            hits_ = pixel_hits(scene, stats.region, stop_flag());
+            hits_ = pixel_hits(scene, stats.picture.region, stop_flag());
         }
         if (!needs(Aov::rays) && !needs(Aov::samples)) return;
-        const PixelWork work = stats.double_precision
-                                   ? pixel_work<double>(scene, stats.region, stop_flag())
-                                   : pixel_work<float>(scene, stats.region, stop_flag());
+        const PixelWork work = stats.picture.precision == Precision::float64
+                                   ? pixel_work<double>(scene, stats.picture.region, stop_flag())
+                                   : pixel_work<float>(scene, stats.picture.region, stop_flag());
         samples_.assign(work.samples.begin(), work.samples.end());
         rays_.assign(work.rays.begin(), work.rays.end());
     }

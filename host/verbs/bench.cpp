@@ -13,7 +13,6 @@
 #include "host/base/parallel.h"
 #include "host/image/output_path.h"
 #include "host/measure/baseline.h"
-#include "host/print/print_bench.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stats.h"
 #include "host/print/result_file.h"
@@ -97,13 +96,14 @@ class Plan {
         picture.precision = Precision::float64;
         Scene scene = loaded.scene;
         apply_overrides(scene, picture);
+        spec_ = picture_spec(scene, picture);
         RenderedPicture rendered = render_quietly(scene, picture, threads_choice());
         if (!rendered.stats.complete()) return false;
         rendered.stats.scene.path = loaded.path;
         rendered.stats.phases.load = loaded.load_seconds;
         rendered.stats.phases.total = timed_total(rendered.stats);
         hashes_[Precision::float64] = rendered.stats.image_hash;
-        result.references.push_back(rendered.stats);
+        result.references.push_back({{std::move(rendered.stats), {}}});
         references_.push_back(std::move(rendered.picture));
         picture.precision = Precision::float32;
         const RenderedPicture in_float = render_quietly(scene, picture, threads_choice());
@@ -144,7 +144,7 @@ class Plan {
         }
         if (!options_.scalar) return;
         picture.schedule = Schedule::tiles;
-        picture.lanes = 1;
+        picture.kernels.lanes = 1;
         for (const int threads : std::set{first, last}) {
             add_row(loaded, picture, with_threads(device, threads));
         }
@@ -177,21 +177,16 @@ class Plan {
     void add_row(const LoadedScene& loaded, const RenderSettings& picture,
                  const ListedDevice& device, const std::string& change = "") {
         BenchCase& row = asked.emplace_back();
-        row.scene_path = loaded.path;
-        row.scene_name = loaded.scene.name;
-        row.scene_hash = scene_hash(loaded.scene);
-        row.width = picture.size->width;
-        row.height = picture.size->height;
-        row.aa = *picture.aa;
-        row.double_precision = picture.precision == Precision::float64;
+        row.scene = {loaded.path, loaded.scene.name, scene_hash(loaded.scene)};
+        row.picture = spec_;
+        row.picture.precision = picture.precision;
         row.uses_threads = device.is_threads;
         row.device = device.spec;
         row.device_name = device.name;
         row.threads = device.threads;
         row.change = change;
         if (device.is_threads) {
-            row.schedule =
-                picture.lanes == 1 ? "scalar" : name_of(schedule_names, picture.schedule);
+            row.schedule = picture.kernels.lanes == 1 ? "scalar" : to_string(picture.schedule);
         }
         TimedCase& timed = cases.emplace_back();
         timed.scene = &loaded.scene;
@@ -207,17 +202,17 @@ class Plan {
     const std::vector<ListedDevice> devices_;
     std::deque<LoadedScene> scenes_;  // deques: rows point into them
     std::deque<Picture> references_;
+    PictureSpec spec_;                           ///< of the latest reference
     std::map<Precision, std::uint64_t> hashes_;  ///< of the latest reference, and in float
 };
 
-void say_bad_rows(const BenchResult& result) {
-    for (const auto* rows : {&result.rows, &result.ablation}) {
-        for (const BenchRow& row : *rows) {
-            if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
-            print_note(fmt::format("{} ({}){}: {}: {}", key_of(row.asked), row.asked.device_name,
-                                   row.asked.change.empty() ? "" : ", " + row.asked.change,
-                                   to_string(row.verdict), row.why));
-        }
+template <typename Row>
+void say_bad_rows(const std::vector<Row>& rows) {
+    for (const Row& row : rows) {
+        if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
+        print_note(fmt::format("{} ({}){}: {}: {}", key_of(row.asked), row.asked.device_name,
+                               row.asked.change.empty() ? "" : ", " + row.asked.change,
+                               to_string(row.verdict), row.why));
     }
 }
 
@@ -243,11 +238,15 @@ BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline)
     if (!result.interrupted) {
         result.interrupted = !run_rounds(plan.cases, options.repeats, options.quiet);
     }
-    std::vector<BenchRow>& rows = options.ablate ? result.ablation : result.rows;
     for (std::size_t i = 0; i < plan.cases.size(); ++i) {
-        rows.push_back({std::move(plan.cases[i]), plan.asked[i]});
+        TimedRuns& runs = plan.cases[i];
+        if (options.ablate) {
+            result.ablation.push_back({std::move(runs), plan.asked[i], {}});
+        } else {
+            result.rows.push_back({std::move(runs), plan.asked[i], {}});
+        }
     }
-    judge_ablation(result);
+    result.judge();
     return result;
 }
 
@@ -262,14 +261,15 @@ int run_bench(const BenchOptions& options) {
     const BenchResult result =
         measure_bench(options, options.baseline.empty() ? nullptr : &baseline);
     if (!options.results.take_stdout()) print_result(bench_text(result));
-    write_result(options.results.json, json_text(bench_json(result)));
+    write_result(options.results.json, bench_json(result));
     write_result(options.results.csv, bench_csv(result));
-    say_bad_rows(result);
+    say_bad_rows(result.rows);
+    say_bad_rows(result.ablation);
     if (result.interrupted) return 128 + stop_flag();
     const bool slower =
         !options.baseline.empty() && has_regressed(result, baseline, options.max_regress);
-    if (slower || any_row(result, Verdict::wrong)) return static_cast<int>(ExitCode::different);
-    return static_cast<int>(any_row(result, Verdict::failed) ? ExitCode::device : ExitCode::done);
+    if (slower || result.has_any(Verdict::wrong)) return static_cast<int>(ExitCode::different);
+    return static_cast<int>(result.has_any(Verdict::failed) ? ExitCode::device : ExitCode::done);
 }
 
 }  // namespace rt

@@ -14,7 +14,6 @@
 #include "host/image/picture_io.h"
 #include "host/measure/flip.h"
 #include "host/measure/heatmap.h"
-#include "host/print/print_image_error.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stats.h"
 #include "host/print/result_file.h"
@@ -148,7 +147,7 @@ Json comparison_json(const Comparison& result, const CompareOptions& options) {
               {"width", result.picture.width},         {"height", result.picture.height},
               {"channels", result.picture.channels},   {"clamped", options.clamp},
               {"identical", result.identical()},       {"passed", result.breaches.empty()},
-              {"breaches", result.breaches},           {"error", error_json(result.error)}};
+              {"breaches", result.breaches},           {"error", json_of(result.error)}};
     if (result.error.non_finite == result.pixels()) json["error"] = nullptr;
     if (result.flip) {
         const FlipResult& flip = *result.flip;

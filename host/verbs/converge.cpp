@@ -13,7 +13,6 @@
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/image/output_path.h"
-#include "host/print/print_converge.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stats.h"
 #include "host/print/result_file.h"
@@ -44,38 +43,35 @@ std::vector<ListedDevice> swept_devices(const ConvergeOptions& options) {
     return devices;
 }
 
-/// The points of one device at one precision and math, in the order of the sweep.
+/// The points of one device at the precision and math of `picture`, in the order of the sweep.
 void add_points(const ConvergeOptions& options, const std::vector<int>& bounces,
-                const ListedDevice& device, const ConvergeCase& of,
+                const ListedDevice& device, PictureSpec picture,
                 std::vector<ConvergePoint>& points) {
     for (const int max_bounces : bounces) {
         for (const AaMode& aa : options.aa) {
-            ConvergePoint point;
-            point.asked = of;
-            point.asked.device = device.spec;
-            point.asked.device_name = device.name;
-            point.asked.max_bounces = max_bounces;
-            point.asked.aa = aa;
-            points.push_back(std::move(point));
+            picture.max_bounces = max_bounces;
+            picture.aa = aa;
+            points.emplace_back().asked = {device.spec, device.name, picture};
         }
     }
 }
 
 /// Omits double on devices without it and on scalar threads, which only show what vectors gain, and
 /// fast math on threads: it is an OpenCL compiler option.
-std::vector<ConvergePoint> planned_points(const ConvergeOptions& options,
+std::vector<ConvergePoint> planned_points(const ConvergeOptions& options, const Scene& scene,
                                           const std::vector<int>& bounces,
                                           const std::vector<ListedDevice>& devices) {
     std::vector<ConvergePoint> points;
     for (const ListedDevice& device : devices) {
         for (const Precision precision : options.precisions) {
-            for (const bool fast_math : options.fast_math) {
-                ConvergeCase of;
-                of.double_precision = precision == Precision::float64;
-                of.fast_math = fast_math;
-                if (of.double_precision && (!device.has_double || device.is_scalar)) continue;
-                if (fast_math && device.is_threads) continue;
-                add_points(options, bounces, device, of, points);
+            if (precision == Precision::float64 && (!device.has_double || device.is_scalar))
+                continue;
+            for (const Math math : options.math) {
+                if (math == Math::fast && device.is_threads) continue;
+                PictureSpec picture = picture_spec(scene, {});
+                picture.precision = precision;
+                picture.math = math;
+                add_points(options, bounces, device, picture, points);
             }
         }
     }
@@ -90,12 +86,8 @@ TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
         *std::find_if(devices.begin(), devices.end(),
                       [&](const ListedDevice& one) { return one.spec == asked.device; });
     timed.device = device.choice;
-    timed.settings = timed_settings();
-    if (device.is_scalar) timed.settings.lanes = 1;
-    timed.settings.aa = asked.aa;
-    timed.settings.max_bounces = asked.max_bounces;
-    timed.settings.precision = asked.double_precision ? Precision::float64 : Precision::float32;
-    timed.settings.fast_math = asked.fast_math;
+    timed.settings = timed_settings(settings_for(asked.picture));
+    if (device.is_scalar) timed.settings.kernels.lanes = 1;
     if (device.is_threads && device.threads == 0) timed.settings.threads = options.threads;
     timed.judge = judge_estimate;
     return timed;
@@ -111,7 +103,7 @@ class ThreadsHashes {
         const auto [place, is_new] = hashes_.try_emplace(
             Key{settings.precision, settings.max_bounces, to_string(*settings.aa)});
         if (is_new) {
-            settings.lanes = 0;
+            settings.kernels.lanes = 0;
             Scene scene = scene_;
             apply_overrides(scene, settings);
             const RenderStats stats = render_quietly(scene, settings, threads_choice()).stats;
@@ -137,7 +129,8 @@ void time_points(const Scene& scene, double load_seconds, const ConvergedPicture
         timed.scene = &scene;
         timed.reference = &converged.picture;
         timed.load_seconds = load_seconds;
-        if (!point.asked.fast_math) timed.expected_hash = hashes.of(timed.settings);
+        if (point.asked.picture.math == Math::strict)
+            timed.expected_hash = hashes.of(timed.settings);
         cases.push_back(std::move(timed));
     }
     result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
@@ -152,8 +145,9 @@ int verdict(const ConvergeResult& result) {
     for (const ConvergePoint& point : result.points) {
         if (point.verdict != Verdict::wrong && point.verdict != Verdict::failed) continue;
         (point.verdict == Verdict::wrong ? wrong : failed) = true;
-        print_note(fmt::format("{} {}: {}: {}", point.asked.device_name, to_string(point.asked.aa),
-                               to_string(point.verdict), point.why));
+        print_note(fmt::format("{} {}: {}: {}", point.asked.device_name,
+                               to_string(point.asked.picture.aa), to_string(point.verdict),
+                               point.why));
     }
     if (result.interrupted) return 128 + stop_flag();
     if (wrong) return static_cast<int>(ExitCode::different);
@@ -171,16 +165,14 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     const double load_seconds = watch.seconds();
     say_busy(options.quiet);
     if (options.size) set_image_size(scene, options.size->width, options.size->height);
-    result.scene_path = options.scene;
-    result.scene_name = scene.name;
+    result.scene = {options.scene, scene.name, scene_hash(scene)};
     result.notes = scene.notes;
-    result.scene_hash = scene_hash(scene);
     result.width = scene.width;
     result.height = scene.height;
     std::vector<int> bounces = options.max_bounces;
     if (bounces.empty()) bounces.push_back(scene.max_bounces);
     const std::vector<ListedDevice> devices = swept_devices(options);
-    result.points = planned_points(options, bounces, devices);
+    result.points = planned_points(options, scene, bounces, devices);
     if (result.points.empty()) {
         throw Error(
             ExitCode::usage,
@@ -194,6 +186,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     if (converged.complete) {
         time_points(scene, load_seconds, converged, options, devices, result);
     }
+    result.summarize();
     return result;
 }
 
@@ -205,7 +198,7 @@ int run_converge(const ConvergeOptions& options) {
     const ConvergeResult result = measure_converge(options);
     if (!options.quiet) print_notes(result.notes);
     if (!options.results.take_stdout()) print_result(converge_text(result));
-    write_result(options.results.json, json_text(converge_json(result)));
+    write_result(options.results.json, converge_json(result));
     write_result(options.results.csv, converge_csv(result));
     return verdict(result);
 }

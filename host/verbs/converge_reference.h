@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/image/picture.h"
-#include "host/measure/converge_result.h"
+#include "host/measure/converge.h"
 #include "host/options/converge_options.h"
 #include "host/scene/scene.h"
 

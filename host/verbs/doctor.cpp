@@ -60,7 +60,7 @@ void render_known_picture(const DeviceChoice& device, Precision precision) {
     const bool is_double = precision == Precision::float64;
     if (rendered.stats.image_hash == (is_double ? double_hash : float_hash)) return;
     throw Error(ExitCode::different,
-                fmt::format("renders a wrong picture in {} (image {})", precision_name(is_double),
+                fmt::format("renders a wrong picture in {} (image {})", to_string(precision),
                             hash_text(rendered.stats.image_hash)));
 }
 

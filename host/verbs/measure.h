@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/measure/baseline.h"
-#include "host/measure/bench_result.h"
-#include "host/measure/converge_result.h"
+#include "host/measure/bench.h"
+#include "host/measure/converge.h"
 #include "host/options/options.h"
 #include "host/stress/stress_result.h"
 

@@ -30,8 +30,8 @@ std::string missing_text(const MergedPicture& merged) {
 
 void write_merged(const MergedPicture& merged, const MergeOptions& options) {
     const JournalHeader& header = merged.header;
-    PictureMetadata metadata = picture_metadata(header.scene, header.scene_hash, header.settings,
-                                                hash_text(merged.image_hash));
+    PictureMetadata metadata = picture_metadata(
+        header.scene, header.scene_hash, to_string(header.picture), hash_text(merged.image_hash));
     if (merged.missing) {
         metadata.emplace_back(partial_mark,
                               fmt::format("without shares {}", to_string(*merged.missing)));
@@ -74,10 +74,11 @@ int run_merge(const MergeOptions& options) {
     if (!options.quiet) {
         print_message(fmt::format("{}: {} of {}, image {}\n", printable(merged.header.scene),
                                   counted(options.parts.size(), "part"),
-                                  printable(merged.header.settings), hash_text(merged.image_hash)));
+                                  printable(to_string(merged.header.picture)),
+                                  hash_text(merged.image_hash)));
     }
-    const bool is_finite =
-        !report_non_finite(merged.picture, merged.header.region, count_non_finite(merged.picture));
+    const bool is_finite = !report_non_finite(merged.picture, merged.header.picture.region,
+                                              count_non_finite(merged.picture));
     return static_cast<int>(is_finite ? ExitCode::done : ExitCode::non_finite);
 }
 

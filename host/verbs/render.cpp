@@ -86,7 +86,8 @@ int render_scene(RenderOptions options, double seconds_before_main, LivePicture*
     stats.phases.write = watch.seconds();
     stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
     if (live != nullptr) live->finish(rendered.picture);
-    const auto pixels = static_cast<std::size_t>(stats.region.width) * stats.region.height;
+    const auto pixels =
+        static_cast<std::size_t>(stats.picture.region.width) * stats.picture.region.height;
     if (reference && stats.non_finite < pixels) {
         stats.error = image_error(rendered.picture, *reference);
     }

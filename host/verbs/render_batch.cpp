@@ -42,20 +42,11 @@ struct BatchEnds : Error {
 bool may_show(const std::string& path, const Scene& scene, const RenderOptions& options) {
     const auto format = known_picture_format(path);
     if (format != PictureFormat::png && format != PictureFormat::exr) return true;
-    RenderStats stats;
-    stats.width = scene.width;
-    stats.height = scene.height;
-    stats.region = options.crop.value_or(Rect{0, 0, scene.width, scene.height});
-    stats.aa = scene.aa;
-    stats.filter = scene.filter;
-    stats.max_bounces = scene.max_bounces;
-    stats.double_precision = options.precision == Precision::float64;
-    stats.fast_math = options.fast_math;
     try {
         const PictureMetadata found = read_picture_file(path).metadata;
         return text_in(found, "mirrorball:SceneHash").empty() ||
                shows_the_same(found, picture_metadata(scene.name, hash_text(scene_hash(scene)),
-                                                      settings_text(stats), ""));
+                                                      to_string(picture_spec(scene, options)), ""));
     } catch (const Error&) {
         return false;
     }

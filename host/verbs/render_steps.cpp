@@ -154,8 +154,9 @@ Scene scene_to_render(const RenderOptions& options) {
 std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options) {
     if (options.output.empty() || options.shares) return options.output;
     const RenderStats& stats = rendered.stats;
-    PictureMetadata metadata = picture_metadata(stats.scene.name, hash_text(stats.scene.hash),
-                                                settings_text(stats), hash_text(stats.image_hash));
+    PictureMetadata metadata =
+        picture_metadata(stats.scene.name, hash_text(stats.scene.hash), to_string(stats.picture),
+                         hash_text(stats.image_hash));
     if (!stats.device.fallback_from.empty()) {
         metadata.push_back({"mirrorball:FallbackFrom", stats.device.fallback_from});
         for (const DeviceShare& share : stats.shares) {
@@ -256,7 +257,8 @@ void print_results(const RenderStats& stats, const RenderOptions& options) {
 
 int verdict(const RenderedPicture& rendered, const std::string& output) {
     const RenderStats& stats = rendered.stats;
-    const bool non_finite = report_non_finite(rendered.picture, stats.region, stats.non_finite);
+    const bool non_finite =
+        report_non_finite(rendered.picture, stats.picture.region, stats.non_finite);
     if (!stats.complete()) {
         const bool can_go_on = rendered.journal != nullptr && rendered.journal->exists() &&
                                rendered.journal->failure().empty();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "host/base/console.h"
@@ -9,7 +8,6 @@
 #include "host/base/text.h"
 #include "host/flatten/flat_scene.h"
 #include "host/picture/render_stats.h"
-#include "host/print/flatten_text.h"
 #include "host/print/print_stats.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_hash.h"
@@ -19,8 +17,6 @@
 namespace rt {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json info_json(const std::string& path, const Scene& scene, const FlatScene<float>& flat) {
     return {{"format", "mirrorball-scene-info"},
@@ -42,7 +38,7 @@ Json info_json(const std::string& path, const Scene& scene, const FlatScene<floa
             {"lights_used", flat.lights.size()},
             {"materials", scene.materials.size()},
             {"flat_bytes", flat.bytes()},
-            {"hierarchies", hierarchies_json(flat.stats)},
+            {"hierarchies", json_of(hierarchies_of(flat.stats))},
             {"hierarchy_seconds", flat.stats.bvh_seconds},
             {"shadow_casters", flat.stats.casters},
             {"lit_triangles", flat.stats.lit_triangles},
@@ -74,12 +70,10 @@ std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
         text += fmt::format("  meshes     {} of {}\n", scene.meshes.size(),
                             counted(triangle_count(scene) - scene.triangles.size(), "triangle"));
     }
-    text += fmt::format("  builds     {}\n  casters    {}\n", hierarchies_text(flat.stats),
-                        casters_text(flat.stats));
-    for (const FeatureName& feature : feature_names) {
-        const bool used = flat.features.*feature.flag;
-        text += fmt::format("  {:<10} {}\n", used ? "needs" : "leaves out", feature.name);
-    }
+    text += fmt::format("  needs      {}\n  leaves out {}\n", names_text(flat.features, true),
+                        names_text(flat.features, false));
+    std::istringstream built(flatten_text(flat.stats));
+    for (std::string line; std::getline(built, line);) text += "  " + line + "\n";
     if (flat.lights.size() < scene.lights.size()) {
         text += fmt::format("  ignores    {} that light nothing\n",
                             counted(scene.lights.size() - flat.lights.size(), "light"));

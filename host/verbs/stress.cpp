@@ -39,7 +39,7 @@ int run_stress(const StressOptions& options) {
     }
     const StressResult result = measure_stress(options);
     if (options.json != "-") print_result(stress_text(result, options.verbose));
-    write_result(options.json, options.json.empty() ? "" : json_text(stress_json(result)));
+    write_result(options.json, options.json.empty() ? "" : stress_json(result));
     if (result.interrupted) return 128 + stop_flag();
     return static_cast<int>(result.passed() ? ExitCode::done : ExitCode::different);
 }

@@ -34,8 +34,8 @@ std::string first_line(const Error& error) {
 
 RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
     RenderSettings settings = timed_settings();
-    settings.precision = row.double_precision ? Precision::float64 : Precision::float32;
-    settings.all_features = stress.quick || stress.all_features;
+    settings.precision = row.precision;
+    if (stress.quick || stress.all_features) settings.kernels.features = Features{};
     return settings;
 }
 
@@ -82,13 +82,14 @@ class Runner {
     std::vector<StressRow> planned_rows(const StressTolerance& tolerance) const {
         std::vector<StressRow> rows;
         for (const ListedDevice& device : devices_) {
-            for (const bool double_precision : {false, true}) {
-                if (double_precision && !device.has_double) continue;
+            for (const Precision precision : {Precision::float32, Precision::float64}) {
+                const bool is_double = precision == Precision::float64;
+                if (is_double && !device.has_double) continue;
                 StressRow row;
                 row.renderer = device.name;
                 row.device = device.spec;
-                row.double_precision = double_precision;
-                row.judged = double_precision || tolerance.in_float;
+                row.precision = precision;
+                row.judged = is_double || tolerance.in_float;
                 rows.push_back(std::move(row));
             }
         }
@@ -151,8 +152,8 @@ class Runner {
     /// Checks that a row has the same bits as the first of its group on this renderer.
     void check_same_bits(const PictureTrial& trial, StressRow& row) {
         if (trial.same_bits.empty() || !row.why.empty()) return;
-        const std::string key = fmt::format("{} {} {}", trial.same_bits, row.device,
-                                            precision_name(row.double_precision));
+        const std::string key =
+            fmt::format("{} {} {}", trial.same_bits, row.device, to_string(row.precision));
         const auto [first, is_new] = first_hashes_.try_emplace(key, row.hash);
         if (!is_new && first->second != row.hash) {
             row.why = "bits differ from " + trial.same_bits;
@@ -221,8 +222,8 @@ class Runner {
                 const DeviceChoice& device = device_of(row);
                 const WorkerTask task(row.renderer, !device.use_threads);
                 const RayCaster caster = ray_caster(device);
-                row.rays = row.double_precision ? trial.in_double(rays, caster)
-                                                : trial.in_float(rays, caster);
+                row.rays = row.precision == Precision::float64 ? trial.in_double(rays, caster)
+                                                               : trial.in_float(rays, caster);
                 row.why = exceeded_tolerance(*row.rays, one.tolerance);
             } catch (const Error& error) {
                 row.why = first_line(error);
@@ -234,15 +235,15 @@ class Runner {
 
     /// In strict arithmetic all devices give the same bits.
     static void compare_hashes(StressCaseResult& result) {
-        for (const bool double_precision : {false, true}) {
+        for (const Precision precision : {Precision::float32, Precision::float64}) {
             std::set<std::uint64_t> hashes;
             for (const StressRow& row : result.rows) {
-                if (row.rays || row.double_precision != double_precision) continue;
+                if (row.rays || row.precision != precision) continue;
                 hashes.insert(row.hash);
             }
             if (hashes.size() < 2) continue;
             result.disagreement = fmt::format("devices give {} different pictures in {}",
-                                              hashes.size(), precision_name(double_precision));
+                                              hashes.size(), to_string(precision));
         }
     }
 

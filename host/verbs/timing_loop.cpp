@@ -10,7 +10,6 @@
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/measure/machine_load.h"
-#include "host/measure/statistics.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
@@ -21,7 +20,7 @@ namespace {
 
 /// How the bits of a case's newest run differ from those of its earlier runs or of threads.
 std::string what_differs(const TimedCase& timed, const RenderStats& run) {
-    for (const std::vector<RenderStats>* runs : {&timed.warm_up, &timed.repeats}) {
+    for (const std::vector<TimedRun>* runs : {&timed.warm_up, &timed.repeats}) {
         if (runs->empty() || runs->front().image_hash == run.image_hash) continue;
         return fmt::format("the picture changes from run to run: {}, then {}",
                            hash_text(runs->front().image_hash), hash_text(run.image_hash));
@@ -39,16 +38,15 @@ void render_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     Scene scene = *timed.scene;
     apply_overrides(scene, timed.settings);
     RenderedPicture rendered = render_quietly(scene, timed.settings, timed.device);
-    RenderStats& run = rendered.stats;
+    TimedRun run{std::move(rendered.stats), started};
     if (!run.complete()) return;
-    run.started = started;
     run.scene.path = timed.path;
     run.phases.load = timed.load_seconds;
     run.phases.total = timed_total(run);
     const Judgement judgment = timed.judge(rendered.picture, *timed.reference);
     run.error = judgment.error;
     timed.why = judgment.why_wrong.empty() ? what_differs(timed, run) : judgment.why_wrong;
-    (warm_up ? timed.warm_up : timed.repeats).push_back(run);
+    (warm_up ? timed.warm_up : timed.repeats).push_back(std::move(run));
     if (!timed.why.empty()) {
         timed.verdict = Verdict::wrong;
     } else if (!warm_up) {
@@ -79,8 +77,7 @@ void say_round(int round, int rounds, std::size_t pictures, double seconds_befor
 
 }  // namespace
 
-RenderSettings timed_settings() {
-    RenderSettings settings;
+RenderSettings timed_settings(RenderSettings settings) {
     settings.no_fallback = true;
     settings.self_test = false;
     return settings;

@@ -8,8 +8,8 @@
 
 #include "host/base/files.h"
 #include "host/image/picture.h"
-#include "host/measure/bench_result.h"
 #include "host/measure/picture_judge.h"
+#include "host/measure/runs.h"
 #include "host/options/options.h"
 #include "host/picture/render_picture.h"
 #include "host/scene/scene.h"
@@ -28,9 +28,9 @@ struct TimedCase : TimedRuns {
     double load_seconds = 0;                     ///< of the scene file, noted in every run
 };
 
-/// Settings for a benchmark's renders, which fail if their device fails and are judged by the
+/// The settings for a benchmark's renders, which fail if their device fails and are judged by the
 /// benchmark itself.
-RenderSettings timed_settings();
+RenderSettings timed_settings(RenderSettings settings = {});
 
 /// Renders on the device silently, until a stop signal.
 RenderedPicture render_quietly(const Scene& scene, const RenderSettings& settings,

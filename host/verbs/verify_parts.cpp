@@ -27,11 +27,6 @@ std::string scene_to_load(const JournalHeader& header, const std::string& scene)
                 header.scene_file.empty() ? "" : " " + header.scene_file);
 }
 
-Filter filter_of(const JournalHeader& header) {
-    if (const auto filter = value_of(filter_names, header.filter)) return *filter;
-    throw Error(ExitCode::input, "a part's header is damaged (filter); render it again");
-}
-
 /// Shares hand out the blocks of a region at random, so that any share is a sample of it.
 Shares sample_of(const Rect& region, double share, std::uint64_t seed) {
     const auto blocks = static_cast<int>(share_blocks(region).size());
@@ -49,15 +44,9 @@ Shares sample_of(const Rect& region, double share, std::uint64_t seed) {
 bool render_part_again(const MergedPicture& merged, const std::string& scene, double share,
                        const std::string& part) {
     const JournalHeader& header = merged.header;
-    RenderSettings settings;
-    settings.size = {header.width, header.height};
-    settings.crop = header.region;
-    settings.aa = parse_aa_mode(header.aa);
-    settings.filter = filter_of(header);
-    settings.max_bounces = header.max_bounces;
-    if (header.double_precision) settings.precision = Precision::float64;
+    RenderSettings settings = settings_for(header.picture);
     settings.journal = part;
-    settings.shares = sample_of(header.region, share, merged.seed);
+    settings.shares = sample_of(header.picture.region, share, merged.seed);
     settings.light.light_scale = header.light_scale;
     if (const auto& light = header.ambient_light) {
         settings.light.ambient_light = glm::dvec3((*light)[0], (*light)[1], (*light)[2]);

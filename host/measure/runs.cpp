@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/statistics.h"
+#include "host/measure/runs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ Spread spread_of(const std::vector<double>& values) {
     return {median(values), median_absolute_deviation(values), *min, *max};
 }
 
-Spread spread_of(std::span<const RenderStats> runs,
+Spread spread_of(std::span<const TimedRun> runs,
                  const std::function<double(const RenderStats&)>& figure) {
     std::vector<double> values;
     for (const RenderStats& run : runs) values.push_back(figure(run));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/print/print_stats.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "host/base/text.h"
-#include "host/print/flatten_text.h"
-#include "host/print/print_stats.h"
+#include "host/print/environment_json.h"
 
 namespace rt {
 
@@ -72,6 +73,11 @@ std::string rays_text(const RenderStats& stats) {
         stats.rays_per_second() * 1e-6);
 }
 
+std::string count_line(const char* name, std::size_t count, std::size_t pixels) {
+    return fmt::format("  {:<12}{} ({:.2f} %)\n", name, counted(count, "pixel"),
+                       100.0 * static_cast<double>(count) / static_cast<double>(pixels));
+}
+
 }  // namespace
 
 std::string names_text(const Features& features, bool used) {
@@ -79,20 +85,31 @@ std::string names_text(const Features& features, bool used) {
     return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string holdings_text(const RenderStats& stats) {
-    return fmt::format(
-        "{}, {}, {}, {}{}{}", counted(stats.scene.spheres, "sphere"),
-        counted(stats.scene.cones, "cone"), counted(stats.scene.triangles, "triangle"),
-        counted(stats.scene.lights, "light"), stats.features.mirrors ? ", mirrors" : "",
-        stats.features.glass ? ", glass" : "");
+std::string holdings_text(const SceneStats& scene) {
+    return fmt::format("{}, {}, {}, {}{}{}", counted(scene.spheres, "sphere"),
+                       counted(scene.cones, "cone"), counted(scene.triangles, "triangle"),
+                       counted(scene.lights, "light"), scene.features.mirrors ? ", mirrors" : "",
+                       scene.features.glass ? ", glass" : "");
+}
+
+std::string flatten_text(const FlattenStats& stats) {
+    std::string built;
+    for (const HierarchyStats& one : hierarchies_of(stats)) {
+        built += fmt::format("{}{} ({} nodes, {} deep)", built.empty() ? "" : ", ", one.over,
+                             one.shape.nodes, one.shape.depth);
+    }
+    built = built.empty() ? fmt::format("none (under {} primitives)", triangle_crossover)
+                          : fmt::format("{}, built in {:.3f} s", built, stats.bvh_seconds);
+    return fmt::format("BVH: {}\nshadow casters: {} of {} light-triangle pairs\n", built,
+                       stats.casters, stats.lit_triangles);
 }
 
 std::string summary_line(const RenderStats& stats) {
     return fmt::format(
         "{}: {}x{} {} {} on {}: {:.2f} Mrays in {:.3f} s ({:.1f} Mrays/s), total "
         "{:.3f} s, image {}",
-        stats.scene.name, stats.region.width, stats.region.height, to_string(stats.aa),
-        precision_name(stats.double_precision), device_text(stats.device),
+        stats.scene.name, stats.picture.region.width, stats.picture.region.height,
+        to_string(stats.picture.aa), to_string(stats.picture.precision), device_text(stats.device),
         static_cast<double>(stats.rays.total()) * 1e-6, stats.phases.renderer.trace,
         stats.rays_per_second() * 1e-6, stats.phases.total, hash_text(stats.image_hash));
 }
@@ -105,6 +122,19 @@ std::string error_line(const ImageError& error) {
         counted(error.over_1, "pixel"), error.over_8, error.non_finite);
 }
 
+std::string error_table(const ImageError& error, std::size_t pixels) {
+    std::string text = count_line("not finite", error.non_finite, pixels);
+    if (error.non_finite == pixels) return text + "  no pixel is finite in both pictures\n";
+    text +=
+        fmt::format("  {:<12}{:.4e}\n  {:<12}{:.4e}\n  {:<12}{:.4e} at {},{}\n  {:<12}{:.2f} dB\n",
+                    "RMSE", error.rmse, "mean", error.mean, "maximum", error.max, error.max_x,
+                    error.max_y, "PSNR", error.psnr);
+    text += count_line("over 1/255", error.over_1, pixels);
+    text += count_line("over 2/255", error.over_2, pixels);
+    text += count_line("over 8/255", error.over_8, pixels);
+    return text + fmt::format("  {:<12}{:.4e}\n", "relMSE", error.rel_mse);
+}
+
 std::string driver_time_text(const RenderStats& stats) {
     return fmt::format(
         "kernels ran for only {:.3f} s of the {:.3f} s of tracing, probably because the driver was "
@@ -113,14 +143,15 @@ std::string driver_time_text(const RenderStats& stats) {
 }
 
 std::string stats_text(const RenderStats& stats) {
+    const PictureSpec& picture = stats.picture;
     std::string text = fmt::format(
         "scene   {} ({}; hash {})\n"
-        "picture {}x{}, {}, {} bounces, {}, {} math, image hash {}\n"
+        "picture {}x{}, {}, {} filter, seed {}, {} bounces, {}, {} math, image hash {}\n"
         "device  {}\n",
-        stats.scene.name, holdings_text(stats), hash_text(stats.scene.hash), stats.region.width,
-        stats.region.height, to_string(stats.aa), stats.max_bounces,
-        precision_name(stats.double_precision), math_name(stats.fast_math),
-        hash_text(stats.image_hash), device_text(stats.device));
+        stats.scene.name, holdings_text(stats.scene), hash_text(stats.scene.hash),
+        picture.region.width, picture.region.height, to_string(picture.aa),
+        to_string(picture.filter), picture.seed, picture.max_bounces, to_string(picture.precision),
+        to_string(picture.math), hash_text(stats.image_hash), device_text(stats.device));
     if (!stats.device.fallback_from.empty()) {
         text += fmt::format("        instead of {}, which failed\n", stats.device.fallback_from);
     }
@@ -135,18 +166,24 @@ std::string stats_text(const RenderStats& stats) {
         text += fmt::format("        {} traced again on threads: identical\n",
                             counted(stats.tiles_checked, "tile"));
     }
-    const Features compiled = either_of(stats.features, stats.device.kernels);
-    text += fmt::format("needs   {}\n", names_text(stats.features, true));
-    if (!(compiled == stats.features)) {
-        text += fmt::format("also has {}\n", names_text(without(compiled, stats.features), true));
+    const Features& compiled = stats.scene.compiled;
+    text += fmt::format("needs: {}\nleaves out: {}\n", names_text(stats.scene.features, true),
+                        names_text(compiled, false));
+    if (!(compiled == stats.scene.features)) {
+        text += fmt::format("compiled in but not needed: {}\n",
+                            names_text(without(compiled, stats.scene.features), true));
     }
-    text += fmt::format("leaves out {}\n", names_text(compiled, false));
-    text += fmt::format("builds  {}\ncasters {}\n", hierarchies_text(stats.scene.flatten),
-                        casters_text(stats.scene.flatten));
+    text += flatten_text(stats.scene.flatten);
     text += phases_text(stats.phases) + rays_text(stats);
     if (stats.driver_took_its_time()) text += "note    " + driver_time_text(stats) + "\n";
     if (stats.error) text += "error   " + error_line(*stats.error) + "\n";
     return text;
+}
+
+Json stats_json(const RenderStats& stats) {
+    Json json{{"format", "mirrorball-render"}, {"version", 1}, {"environment", environment_json()}};
+    json.update(json_of(stats));
+    return json;
 }
 
 }  // namespace rt
