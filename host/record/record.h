@@ -254,7 +254,7 @@ class Schema {
     }
 
     static Json type_of(const Json& json) {
-        if (json.is_null()) return Json::object();  // anything
+        if (json.is_null() || json.is_object()) return Json::object();  // anything
         if (json.is_array()) return {{"type", "array"}, {"items", type_of(json.at(0))}};
         if (json.is_number_integer()) return {{"type", "integer"}};
         return {{"type", json.type_name()}};

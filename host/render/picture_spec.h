@@ -63,7 +63,7 @@ void describe(A& a, X& x) {
     a("height", x.height, "pixels of the whole picture");
     a("region", x.region, "the rendered part: x, y of its top left pixel, width, height");
     a("aa", x.aa, "anti-aliasing mode, as for --aa");
-    a("samples", x.aa.fixed_samples(), "per pixel, unless the mode is adaptive");
+    a("samples", or_null(x.aa.fixed_samples()), "per pixel; null where they differ");
     a("filter", x.filter, "reconstruction filter");
     a("seed", x.seed, "of sobol samples");
     a("max_bounces", x.max_bounces, "mirror and refracted rays in a row after the eye ray");

@@ -31,6 +31,18 @@ struct StressRow {
     const char* verdict() const { return !judged ? "not judged" : why.empty() ? "pass" : "fail"; }
 };
 
+/// A row's picture.
+struct StressPicture {
+    PictureFigures figures;
+    std::uint64_t hash = 0;
+};
+
+template <typename A, Of<StressPicture> X>
+void describe(A& a, X& x) {
+    describe(a, x.figures);
+    a("hash", hash_text(x.hash), "of every bit");
+}
+
 template <typename A, Of<StressRow> X>
 void describe(A& a, X& x) {
     a("renderer", x.renderer, "\"threads\", or the OpenCL device's name");
@@ -40,17 +52,8 @@ void describe(A& a, X& x) {
     a("why", x.why, "what failed");
     a("seconds", x.seconds, "to trace the picture, or of the whole trial");
     a("rays", x.rays, "of a trial without a picture");
-    if (x.rays) return;
-    if (x.refused + x.rendered > 0) {
-        a.group("texts", [&](auto& inner) {
-            inner("refused", x.refused, "scene texts");
-            inner("rendered", x.rendered, "scene texts");
-        });
-    }
-    a.group("picture", [&](auto& inner) {
-        describe(inner, x.figures);
-        inner("hash", hash_text(x.hash), "of every bit");
-    });
+    a("picture", x.rays ? std::nullopt : std::optional(StressPicture{x.figures, x.hash}),
+      "of a trial with one");
 }
 
 struct StressCaseResult {
