@@ -60,16 +60,6 @@ class Output(unittest.TestCase):
         self.assertEqual(*hashes)
         self.assertEqual(len(hashes[0]), 2)
 
-    def test_povray_gets_the_suites_still_life(self):
-        case = json.loads(stress("--case", "scale-2/2^0", "--device", "threads", "-q", "--json")
-                          .stdout)["families"][0]["cases"][0]
-        with tempfile.TemporaryDirectory() as folder:
-            stats = subprocess.run(
-                [str(BUILD / "mirrorball"), "render", "scripts/povray/still-life.json", "--device",
-                 "threads", "-q", "--stats=json", "-o", f"{folder}/a.pfm"], cwd=ROOT, text=True,
-                capture_output=True, timeout=HANG_LIMIT, check=True).stdout
-        self.assertIn(case["rows"][0]["picture"]["hash"], stats)
-
     def test_table(self):
         lines = stress(*self.SMALL, "--device", "threads").stdout.splitlines()
         self.assertEqual(len(lines), 5)
