@@ -4,8 +4,8 @@
 
 usage: scripts/translate/translate.py SCENE.json (-o SCENE.dat | -o SCENE.pov) [--size WxH]
 
-The result is for timing these programs on the same geometry, lights and mirrors: highlights and ambient
-light are as close as their materials allow, not identical. Anti-aliasing is four samples per pixel in
+The result is for timing these programs on the same geometry, lights and mirrors: Tachyon's highlights and
+ambient light are as close as its materials allow, not identical. Anti-aliasing is four samples per pixel in
 both. Meshes must be binary little-endian PLY files of triangles, as scripts/generate writes them; both
 programs read only text. JSON comments are allowed on lines of their own.
 """
@@ -109,6 +109,20 @@ def vector(numbers):
     return "<" + ", ".join(f"{number:.9g}" for number in numbers) + ">"
 
 
+def povray_material(material):
+    """The pigment tints ambient and diffuse light alike, so the ambient light is divided by it. `specular`
+    is Blinn's lobe, untinted; where the highlight has a color, `metallic` tints it, and whitens it at
+    grazing angles."""
+    diffuse, specular = rgb(material.get("diffuse", 0)), rgb(material.get("specular", 0))
+    strength = max(*diffuse, 1e-6)
+    pigment = [max(part / strength, 1e-6) for part in diffuse]
+    ambient = [part / tint for part, tint in zip(rgb(material.get("ambient", 0)), pigment)]
+    metallic = " metallic" if min(specular) < max(specular) else ""
+    return (f"pigment {{ rgb {vector(pigment)} }} finish {{ ambient rgb {vector(ambient)} diffuse {strength:.9g}"
+            f" specular {max(specular):.9g}{metallic} roughness {1 / max(material.get('shininess', 1), 1):.9g}"
+            f" reflection {{ rgb {vector(rgb(material.get('mirror', 0)))} }} }}")
+
+
 def povray(scene, folder, width, height):
     camera = scene["camera"]
     forward, right, up, half = view(camera, width, height)
@@ -122,10 +136,7 @@ def povray(scene, folder, width, height):
     for light in scene["lights"]:
         lines.append(f"light_source {{ {vector(light['position'])} rgb {vector(rgb(light['intensity']))} }}")
     for name, material in scene["materials"].items():
-        lines.append(f"#declare {name}_ = texture {{ pigment {{ rgb {vector(rgb(material.get('diffuse', 0)))} }}"
-                     f" finish {{ ambient 1 diffuse 1 specular {max(rgb(material.get('specular', 0))):.9g}"
-                     f" roughness {1 / max(material.get('shininess', 1), 1):.9g}"
-                     f" reflection {{ rgb {vector(rgb(material.get('mirror', 0)))} }} }} }}")
+        lines.append(f"#declare {name}_ = texture {{ {povray_material(material)} }}")
     for sphere in scene.get("spheres", []):
         lines.append(f"sphere {{ {vector(sphere['center'])}, {sphere['radius']:.9g}"
                      f" texture {{ {sphere['material']}_ }} }}")
