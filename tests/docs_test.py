@@ -9,6 +9,7 @@ A block of a page without a language is commands: lines that begin with `mirrorb
 `build/release/mirrorball` are run, one after the other, in a folder that has the repository's scenes.
 A json block that follows "Save this as `NAME`" is written to NAME first.
 """
+import json
 import os
 import pathlib
 import re
@@ -70,6 +71,43 @@ class Code(unittest.TestCase):
         for page, words in commands:
             for word in words:
                 self.assertRegex(word, r"^(\.{0,2}/.*|[^/]*)$", page)
+
+
+    def test_names_presets_that_are_there(self):
+        presets = json.loads((REPO / "CMakePresets.json").read_text(encoding="utf-8"))
+        names = {preset["name"] for preset in presets["configurePresets"]}
+        found = [name for page in PAGES for code in code_of(page) for name in re.findall(r"--preset (\S+)", code)]
+        self.assertTrue(found)
+        self.assertLessEqual(set(found), names)
+
+    def test_tells_how_long_the_tracer_is(self):
+        page = (REPO / "docs/kernels.md").read_text(encoding="utf-8")
+        said = int(re.search(r"about ([\d,]+) lines of OpenCL C in `kernels/`", page)[1].replace(",", ""))
+        lines = sum(len(path.read_text(encoding="utf-8").splitlines())
+                    for path in (REPO / "kernels").iterdir() if path.is_file())
+        self.assertAlmostEqual(said / lines, 1, delta=0.05, msg=str(lines))
+
+
+def anchors_of(page):
+    """As GitHub makes them of headings."""
+    headings = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.M)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+class Links(unittest.TestCase):
+    def test_lead_somewhere(self):
+        found = 0
+        for page in PAGES:
+            for link in re.findall(r"\]\(([^()\s]+)\)", page.read_text(encoding="utf-8")):
+                if "://" in link:
+                    continue
+                path, _, anchor = link.partition("#")
+                target = (page.parent / path).resolve() if path else page
+                self.assertTrue(target.exists(), f"{page}: {link}")
+                if anchor:
+                    self.assertIn(anchor, anchors_of(target), f"{page}: {link}")
+                found += 1
+        self.assertGreater(found, 50)
 
 
 def help_of(*verb):
