@@ -1,15 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a scene of spheres, triangles and PLY meshes for Tachyon or POV-Ray.
+"""Scenes of spheres, triangles and PLY meshes in the languages of Tachyon and POV-Ray.
 
-usage: scripts/translate/translate.py SCENE.json (-o SCENE.dat | -o SCENE.pov) [--size WxH]
-
-The result is for timing these programs on the same geometry, lights and mirrors: Tachyon's highlights and
-ambient light are as close as its materials allow, not identical. Anti-aliasing is four samples per pixel in
-both. Meshes must be binary little-endian PLY files of triangles, as scripts/generate writes them; both
-programs read only text. JSON comments are allowed on lines of their own.
+For timing these programs on the same geometry, lights and mirrors: Tachyon's highlights and ambient light
+are as close as its materials allow, not identical. Anti-aliasing is four samples per pixel in both. Meshes
+must be binary little-endian PLY files of triangles, as scripts/generate writes them; both programs read
+only text.
 """
-import argparse
 import json
 import math
 import pathlib
@@ -153,26 +150,8 @@ def povray(scene, folder, width, height):
 FORMATS = {".dat": tachyon, ".pov": povray}
 
 
-def translate(scene_file, output, size=None):
+def translate(scene_file, output, size):
     """Writes the scene for the program that output's suffix names; size is (width, height)."""
     scene_file, output = pathlib.Path(scene_file), pathlib.Path(output)
     scene = read_scene(scene_file)
-    width, height = size or (scene["image"]["width"], scene["image"]["height"])
-    output.write_text(FORMATS[output.suffix](scene, scene_file.parent, width, height))
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scene")
-    parser.add_argument("-o", "--output", required=True, help="a file that ends in .dat or .pov")
-    parser.add_argument("--size", help="WIDTHxHEIGHT; else the scene's own")
-    arguments = parser.parse_args()
-    if pathlib.Path(arguments.output).suffix not in FORMATS:
-        parser.error("the output must end in .dat (Tachyon) or .pov (POV-Ray)")
-    size = tuple(map(int, arguments.size.split("x"))) if arguments.size else None
-    translate(arguments.scene, arguments.output, size)
-
-
-if __name__ == "__main__":
-    main()
+    output.write_text(FORMATS[output.suffix](scene, scene_file.parent, *size))
