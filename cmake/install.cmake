@@ -14,6 +14,8 @@ if(MPI_CXX_FOUND)
     install(TARGETS mirrorball_mpi LIBRARY DESTINATION ${module_folder})
 endif()
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball)
+install(DIRECTORY python/mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball/python
+    PATTERN __pycache__ EXCLUDE PATTERN program EXCLUDE)
 install(FILES docs/bench.schema.json docs/compare.schema.json docs/converge.schema.json
     docs/results.schema.json docs/stress.schema.json
     DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball/schemas)
@@ -74,6 +76,6 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
     "libc6 (>= 2.36), libgcc-s1, libstdc++6 (>= 12), libfmt9, libpng16-16, zlib1g, ocl-icd-libopencl1 | libopencl1")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenexr-3-1-30, libopenimageio2.4, pocl-opencl-icd")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenexr-3-1-30, libopenimageio2.4, pocl-opencl-icd, python3-matplotlib")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopenmpi3, libsdl2-2.0-0")
 include(CPack)

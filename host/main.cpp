@@ -63,7 +63,7 @@ int run(int argc, char** argv, double seconds_before_main) {
         case rt::Verb::stress:
             return in_worker([&] { return rt::run_stress(options.stress); });
         case rt::Verb::report:
-            return in_worker([&] { return rt::run_report(options.report); });
+            return rt::run_report(options.report);
         case rt::Verb::devices:
             return rt::run_devices(options.devices);
         case rt::Verb::doctor:

@@ -7,7 +7,6 @@
 
 #include "host/base/error.h"
 #include "host/print/print_stress.h"
-#include "host/report/sections.h"
 #include "host/stress/judge.h"
 #include "host/stress/meshes.h"
 #include "host/stress/ray_trials.h"
@@ -180,7 +179,7 @@ TEST(StressVerdict, NothingMeasuredIsNoPass) {
 StressResult small_result() {
     StressResult result;
     StressFamily family{"scale-2", "scale", "absolute epsilons", {}};
-    result.families.push_back({family.name, family.parameter, family.why, {}, {}});
+    result.families.push_back({family.name, family.parameter, family.why, {}});
     for (const double value : {1.0, 16.0}) {
         StressCaseResult one;
         one.label = std::to_string(static_cast<int>(value));
@@ -214,32 +213,6 @@ TEST(StressJson, SaysTheSame) {
     EXPECT_EQ(json["families"][0]["cases"][1]["rows"][0]["verdict"], "fail");
     EXPECT_EQ(json["families"][0]["cases"][1]["rows"][1]["verdict"], "not judged");
     EXPECT_TRUE(json["families"][0]["cases"][0]["bar"]["wrong_at_edges"].is_null());
-}
-
-TEST(StressSection, ShowsVerdictsAndCurves) {
-    const std::string html = stress_section(small_result());
-    EXPECT_NE(html.find("<strong>fail</strong>"), std::string::npos);
-    EXPECT_NE(html.find("123 wrong"), std::string::npos);
-    EXPECT_NE(html.find("stress-scale-2-title"), std::string::npos);
-    EXPECT_NE(html.find("stress#/families/0/cases/1/rows/0"), std::string::npos);
-}
-
-TEST(StressSection, ShowsTheWorstPictureAndItsErrors) {
-    StressResult result = small_result();
-    EXPECT_EQ(stress_section(result).find("<img"), std::string::npos);
-    StressShot shot{"16", {2, 1, 3, std::vector<float>(6, 0.5F)}, {}, 1};
-    shot.reference = shot.worst;
-    shot.worst.pixels[0] = std::numeric_limits<float>::quiet_NaN();
-    result.families[0].shot = shot;
-    const std::string html = stress_section(result);
-    EXPECT_NE(html.find("scale-2/16, error map"), std::string::npos);
-    EXPECT_NE(html.find("scale-2/16, reference"), std::string::npos);
-}
-
-TEST(StressSection, SaysHowLongItTook) {
-    StressResult result = small_result();
-    for (StressCaseResult& one : result.families[0].cases) one.rows[0].seconds = 1.5;
-    EXPECT_NE(stress_section(result).find("<td class=\"number\">3000</td>"), std::string::npos);
 }
 
 // Rays

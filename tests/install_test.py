@@ -37,6 +37,7 @@ class Installed(unittest.TestCase):
         for schema in ["results", "bench", "converge", "compare", "stress"]:
             self.assertTrue((prefix / f"share/mirrorball/schemas/{schema}.schema.json").is_file())
         for file in ["share/doc/mirrorball/copyright", "share/man/man1/mirrorball.1.gz",
+                     "share/mirrorball/python/mirrorball/report.css",
                      "share/bash-completion/completions/mirrorball",
                      f"share/zsh/{zsh}/_mirrorball",
                      "share/fish/vendor_completions.d/mirrorball.fish"]:

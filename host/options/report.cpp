@@ -14,6 +14,7 @@ void add_report(const CommandLine& program, Options& options) {
         return text;
     };
     verb.value("-o,--output", "FILE", report.output, parse_page, "HTML file to write", true);
+    verb.value("--plots", "DIR", report.plots, "also write each plot as SVG, PDF and PNG into DIR");
     verb.value("--size", "WxH|N", report.size, parse_size,
                "size of the largest picture in pixels (default: the scene's)");
     add_device_list(verb, "--devices", report.devices);
@@ -23,10 +24,7 @@ void add_report(const CommandLine& program, Options& options) {
     verb.flag("--stress", report.stress,
               "also run the stress suite, which takes minutes (with --quick, its quick part)");
     verb.flag("-q,--quiet", report.quiet, quiet_help);
-    verb.when_chosen([&] {
-        options.report.cache_folder = options.converge.cache_folder;
-        options.verb = Verb::report;
-    });
+    verb.when_chosen([&] { options.verb = Verb::report; });
 }
 
 }  // namespace rt

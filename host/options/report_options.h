@@ -13,12 +13,12 @@ namespace rt {
 struct ReportOptions {
     std::vector<std::string> scenes;
     std::string output;               ///< the page
+    std::string plots;                ///< the folder of its plots as files; empty: none
     std::optional<PictureSize> size;  ///< default: the scene's
     std::vector<std::string> devices{"all"};
     int repeats = 5;      ///< not counting the warm-up
     bool quick = false;   ///< fewer settings and a coarser reference: a preview, not for quoting
     bool stress = false;  ///< include the stress suite
-    std::string cache_folder;  ///< of converged references; empty: none
     bool quiet = false;
 };
 

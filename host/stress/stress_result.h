@@ -39,17 +39,9 @@ struct StressCaseResult {
     bool passed() const;
 };
 
-/// The worst picture of a case and its reference.
-struct StressShot {
-    std::string label;
-    Picture worst, reference;
-    double badness = -1;
-};
-
 struct StressFamilyResult {
     std::string name, parameter, why;
     std::vector<StressCaseResult> cases;
-    std::optional<StressShot> shot;  ///< of its worst case, if pictures are kept
 
     bool passed() const;
 };

@@ -9,12 +9,12 @@
 
 namespace rt {
 
-// The measurements of bench and converge, also used by report. Throw Error; bench also if no row
+// The measurements of bench and converge. Throw Error; bench also if no row
 // is in the baseline, if there is one.
 BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline = nullptr);
 ConvergeResult measure_converge(const ConvergeOptions& options);
 
-/// The measurements of stress, also used by report. Throws Error.
+/// The measurements of stress. Throws Error.
 StressResult measure_stress(const StressOptions& options);
 
 }  // namespace rt

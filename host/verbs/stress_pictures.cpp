@@ -45,9 +45,4 @@ void StressPictures::write() const {
                   Encoding::display);
 }
 
-std::optional<StressShot> StressPictures::shot(const std::string& label) const {
-    if (reference_ == nullptr || badness_ < 0) return std::nullopt;
-    return StressShot{label, worst_, reference_->as_picture(), badness_};
-}
-
 }  // namespace rt

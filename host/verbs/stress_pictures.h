@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "host/stress/judge.h"
-#include "host/stress/stress_result.h"
 
 namespace rt {
 
@@ -21,9 +19,6 @@ class StressPictures {
 
     /// Throws Error (ExitCode::output).
     void write() const;
-
-    /// The worst picture and its reference; empty if there is no reference.
-    std::optional<StressShot> shot(const std::string& label) const;
 
    private:
     std::string stem_;  ///< empty: nothing is written

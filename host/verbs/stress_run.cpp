@@ -65,9 +65,8 @@ class Runner {
     }
 
     StressFamilyResult run(const StressFamily& family) {
-        StressFamilyResult result{family.name, family.parameter, family.why, {}, {}};
+        StressFamilyResult result{family.name, family.parameter, family.why, {}};
         first_hashes_.clear();
-        shot_.reset();
         for (const StressCase& one : family.cases) {
             if (stop_flag() != 0) break;
             StressCaseResult done{one.label, one.value, one.tolerance, {}, "", 0};
@@ -75,7 +74,6 @@ class Runner {
             compare_hashes(done);
             result.cases.push_back(std::move(done));
         }
-        result.shot = std::move(shot_);
         return result;
     }
 
@@ -141,12 +139,6 @@ class Runner {
             result.rows.push_back(std::move(row));
         }
         pictures.write();
-        if (options_.keep_pictures) keep_worst(pictures.shot(one.label));
-    }
-
-    /// For the family being run.
-    void keep_worst(std::optional<StressShot> shot) {
-        if (shot && (!shot_ || shot->badness > shot_->badness)) shot_ = std::move(shot);
     }
 
     /// Checks that a row has the same bits as the first of its group on this renderer.
@@ -250,7 +242,6 @@ class Runner {
     const StressOptions& options_;
     const std::vector<ListedDevice> devices_;
     FirstHashes first_hashes_;
-    std::optional<StressShot> shot_;
 };
 
 }  // namespace

@@ -140,8 +140,8 @@ MUTANTS = [
         (M + "picture_judge.cpp", "if (mse < best) {", "if (mse < 0) {"),
     ], [("host_bench_test", "JudgePicture.*")]),
     Mutant("the report's trace column shows the slowest", [
-        ("host/report/timing_section.cpp", 'cells.push_back({milliseconds(figures.trace.median), ""});',
-         'cells.push_back({milliseconds(figures.trace.max), ""});'),
+        ("python/mirrorball/time_sections.py", "rows.append([*start, milliseconds(trace_seconds(row)),",
+         'rows.append([*start, milliseconds(figures["trace"]["max"]),'),
     ], [("report_test.py", "Report.test_the_table_of_every_row_shows_what_its_repeats_give")]),
     # Files
     Mutant("8 bits cut off instead of rounded", [
