@@ -15,7 +15,8 @@ from typing import Any, Callable, Iterable, Optional, Sequence
 
 import matplotlib
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedFormatter, FixedLocator, FuncFormatter, LogLocator, NullLocator
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import FixedFormatter, FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 from .texts import duration, power_of_ten, significant
 
@@ -109,7 +110,8 @@ def _set_axis(axes: Any, which: str, axis: Axis, values: list[float]) -> None:
         low, high = low - .06 * span if low < 0 or axis.unit == "near" else 0, high + .06 * span
     if axis.ticks:
         # Those that would touch their neighbors give way, the largest last.
-        width = .16 * (math.log(high / low) if axis.is_log else high - low)
+        room = axes.bbox.width * 72 / axes.figure.dpi / (1.3 * max(_text_width(name) for _, name in axis.ticks))
+        width = (math.log(high / low) if axis.is_log else high - low) / room
         place = math.log if axis.is_log else float
         shown: list[tuple[float, str]] = []
         for value, name in sorted(dict(axis.ticks).items(), reverse=True):
@@ -127,12 +129,16 @@ def _new_figure(width: float, height: float, title: str) -> tuple[Figure, Any]:
     figure = Figure(figsize=(width, height))
     axes = figure.subplots()
     figure.patch.set_alpha(0)
+    _clean(axes, title)
+    return figure, axes
+
+
+def _clean(axes: Any, title: str) -> None:
     axes.set_facecolor("none")
     axes.set_title(title, loc="left", color=color("ink"), fontsize=SIZE, fontweight="bold", pad=8)
     for side in axes.spines.values():
         side.set_visible(False)
     axes.tick_params(colors=color("soft"), length=0)
-    return figure, axes
 
 
 def spread(places: Sequence[float], gap: float, low: float, high: float) -> list[float]:
@@ -300,6 +306,34 @@ def _with_titles(svg: str, gid: str, points: Sequence[Point]) -> str:
     return head + found + re.sub(r"<use ([^>]*)/>", marker, rest, count=len(points))
 
 
+def panels_plot(name: str, title: str, groups: dict[str, list[Bar]], colors: dict[str, str]) -> Plot:
+    """Stacked bars of seconds in a panel for each group, each with an axis of its own. A part has the color of
+    its name; a bar's own color and its parts' opacity are not used."""
+    rows = [len(bars) for bars in groups.values()]
+    figure = Figure(figsize=(6.4, sum(.21 * count + .55 for count in rows) + .3))
+    figure.patch.set_alpha(0)
+    height = figure.get_figheight()
+    for axes, (group, bars) in zip(figure.subplots(len(groups), height_ratios=rows), groups.items()):
+        _clean(axes, group)
+        for i, bar in enumerate(bars):
+            left = 0.0
+            for part, value, _ in bar.parts:
+                axes.barh(i, value, .62, left, color=color(colors[part]), linewidth=0)
+                left += value
+            axes.annotate(bar.total, (left, i), (4, 0), textcoords="offset points", va="center", color=color("ink"))
+        axes.set_yticks(range(len(bars)), [bar.label for bar in bars], color=color("ink"))
+        axes.invert_yaxis()
+        axes.xaxis.set_major_locator(MaxNLocator(6))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g} s"))
+        axes.grid(True, axis="x", color=color("grid"), linewidth=.7)
+        axes.set_axisbelow(True)
+    figure.subplots_adjust(left=.2, right=.92, top=1 - .5 / height, bottom=.25 / height, hspace=.85)
+    squares = [Rectangle((0, 0), 1, 1, color=color(ink)) for ink in colors.values()]
+    figure.legend(squares, list(colors), loc="upper right", ncol=len(colors), frameon=False, handlelength=.8, handleheight=.8,
+                  labelcolor=color("ink"), bbox_to_anchor=(.94, 1))
+    return Plot(name, title, "Stacked bars of seconds, a panel for each scene.", figure, {})
+
+
 def inline_svg(plot: Plot) -> str:
     """The plot as an <svg> element: ids unique to its name, colors as CSS variables, sizes and fonts the page's."""
     out = io.StringIO()
@@ -322,9 +356,9 @@ def inline_svg(plot: Plot) -> str:
     return head + body
 
 
-def save(plot: Plot, folder: pathlib.Path) -> None:
-    """The plot as SVG, PDF and PNG, for slides and papers: light, on white, with no script or link."""
+def save(plot: Plot, folder: pathlib.Path, suffixes: Iterable[str] = ("svg", "pdf", "png")) -> None:
+    """The plot as files, for slides, papers and docs: light, on white."""
     with matplotlib.rc_context({"svg.hashsalt": plot.name}):
-        for suffix in ("svg", "pdf", "png"):
+        for suffix in suffixes:
             dated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": None}}[suffix]
             plot.figure.savefig(folder / f"{plot.name}.{suffix}", facecolor="white", dpi=200, metadata=dated)

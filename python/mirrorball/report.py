@@ -26,7 +26,7 @@ from .study import Figures, Json, Study
 from .stress_section import stress_section
 from .texts import counted, size_text
 
-_SWEEP = {False: "none,grid:2,grid:4,sobol:4,sobol:16,sobol:64,sobol:256,adaptive:0.1,adaptive:0.03",
+SWEEP = {False: "none,grid:2,grid:4,sobol:4,sobol:16,sobol:64,sobol:256,adaptive:0.1,adaptive:0.03",
           True: "none,grid:2,grid:3,sobol:4"}  # by --quick
 _REFERENCE_SAMPLES = {False: 1024, True: 32}
 _SIGNALS = {signal.SIGINT: "interrupted (Ctrl-C)", signal.SIGTERM: "terminated",
@@ -83,7 +83,7 @@ def _study(lab: Laboratory, index: int, scene: str, arguments: argparse.Namespac
 
     lab.say(f"{scene}, step 2 of 3: error against run time")
     size = ["--size", f"{width}x{height}"]
-    converge = lab.run("converge", scene, *size, "--aa", _SWEEP[arguments.quick], "--reference-samples",
+    converge = lab.run("converge", scene, *size, "--aa", SWEEP[arguments.quick], "--reference-samples",
                        str(_REFERENCE_SAMPLES[arguments.quick]), *devices, "--json")
     halves = sorted((lab.folder / "cache" / "mirrorball" / "references").glob("*.pfm"))
     reference = numpy.mean([read_pfm(half).astype(float) for half in halves], axis=0).astype(numpy.float32)
