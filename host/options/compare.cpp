@@ -44,8 +44,6 @@ void add_compare(const CommandLine& program, Options& options) {
     verb.value("--max-rmse", "X", compare.max_rmse, parse_limit, "exit 1 if the RMSE exceeds X");
     verb.value("--max-abs", "X", compare.max_abs, parse_limit,
                "exit 1 if any channel differs by more than X");
-    verb.value("--max-flip", "X", compare.max_flip, parse_limit,
-               "exit 1 if the mean FLIP error exceeds X");
     verb.value("--max-pixels", "N", compare.max_pixels,
                count_in(0, std::numeric_limits<int>::max()),
                "exit 1 if more than N pixels differ by over 1/255");
@@ -53,8 +51,6 @@ void add_compare(const CommandLine& program, Options& options) {
                "write a color map of the differences, from black to yellow");
     verb.value("--heatmap-scale", "X", compare.heatmap_scale, parse_scale,
                "difference shown as yellow (default: the largest)");
-    verb.flag("--flip", compare.flip,
-              "also compute NVIDIA's FLIP, if python3 has flip-evaluator (half a second or more)");
     verb.flag("--clamp", compare.clamp, "first clamp values to 0..1, as 8-bit files do");
     add_result_file(verb, "--json", compare.json,
                     "write JSON, to FILE or to stdout instead of the text");

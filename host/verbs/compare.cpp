@@ -14,7 +14,6 @@
 #include "host/base/usage_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
-#include "host/measure/flip.h"
 #include "host/measure/heatmap.h"
 #include "host/print/print_image_error.h"
 #include "host/print/print_run.h"
@@ -31,7 +30,6 @@ using Json = nlohmann::ordered_json;
 struct Comparison {
     Picture picture, reference;
     ImageError error;
-    std::optional<FlipResult> flip;     ///< if requested
     double heatmap_scale = 0;           ///< if there is a heat map
     std::vector<std::string> breaches;  ///< why it fails, in words
 
@@ -57,25 +55,12 @@ void check_same_shape(const Picture& a, const Picture& b, const CompareOptions& 
                             options.reference, b.width, b.height, b.channels));
 }
 
-FlipResult flip_of(const Comparison& result) {
-    if (result.error.non_finite > 0) return {{}, "some pixels are not finite"};
-    return measure_flip(result.picture, result.reference);
-}
-
 std::string non_finite_text(const char* name, const Picture& picture) {
     const std::size_t count = count_non_finite(picture);
     if (count == 0) return "";
     const auto [x, y] = first_non_finite(picture);
     return fmt::format("{} of {} not finite, the first at {},{}", counted(count, "pixel"), name, x,
                        y);
-}
-
-/// A threshold that cannot be checked is an error, not a pass.
-void check_flip(const FlipResult& flip, double limit, std::vector<std::string>& breaches) {
-    if (!flip.mean) usage_error("--max-flip: cannot measure FLIP: {}", flip.note);
-    if (!(*flip.mean <= limit)) {
-        breaches.push_back(fmt::format("FLIP {:.4g} exceeds --max-flip {:.4g}", *flip.mean, limit));
-    }
 }
 
 std::vector<std::string> breaches_of(const Comparison& result, const CompareOptions& options) {
@@ -96,9 +81,6 @@ std::vector<std::string> breaches_of(const Comparison& result, const CompareOpti
         breaches.push_back(fmt::format("{} over 1/255, exceeding --max-pixels {}",
                                        counted(error.over_1, "pixel"), *options.max_pixels));
     }
-    if (options.max_flip && error.non_finite == 0) {
-        check_flip(*result.flip, *options.max_flip, breaches);
-    }
     return breaches;
 }
 
@@ -112,7 +94,6 @@ Comparison compare_pictures(const CompareOptions& options) {
         clamp_finite(result.reference);
     }
     result.error = image_error(result.picture, result.reference);
-    if (options.flip || options.max_flip) result.flip = flip_of(result);
     result.heatmap_scale = options.heatmap_scale.value_or(result.error.max);
     result.breaches = breaches_of(result, options);
     return result;
@@ -131,12 +112,6 @@ std::string comparison_text(const Comparison& result, const CompareOptions& opti
         printable(options.reference), result.picture.width, result.picture.height,
         counted(result.picture.channels, "channel"), options.clamp ? ", clamped to 0..1" : "");
     text += error_table(result.error, result.pixels());
-    if (result.flip) {
-        text +=
-            result.flip->mean
-                ? fmt::format("  FLIP        {:.4e} ({})\n", *result.flip->mean, result.flip->note)
-                : fmt::format("  FLIP        not measured: {}\n", result.flip->note);
-    }
     if (!options.heatmap.empty()) {
         text += fmt::format("  heat map    {}: black 0, yellow {:.4e}, cyan not finite\n",
                             printable(options.heatmap), result.heatmap_scale);
@@ -152,11 +127,6 @@ Json comparison_json(const Comparison& result, const CompareOptions& options) {
               {"identical", result.identical()},       {"passed", result.breaches.empty()},
               {"breaches", result.breaches},           {"error", error_json(result.error)}};
     if (result.error.non_finite == result.pixels()) json["error"] = nullptr;
-    if (result.flip) {
-        const FlipResult& flip = *result.flip;
-        json["flip"] = {{"mean", flip.mean ? Json(*flip.mean) : Json(nullptr)},
-                        {"note", flip.note}};
-    }
     if (!options.heatmap.empty()) {
         json["heatmap"] = {{"path", printable(options.heatmap)}, {"scale", result.heatmap_scale}};
     }
