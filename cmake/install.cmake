@@ -21,6 +21,7 @@ install(FILES docs/bench.schema.json docs/compare.schema.json docs/converge.sche
     DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball/schemas)
 install(FILES cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/images DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+install(FILES docs/paper.ipynb docs/sliders.ipynb DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(FILES scripts/kubernetes/render.yaml DESTINATION ${CMAKE_INSTALL_DOCDIR}/scripts/kubernetes)
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} *.md docs/*.md python/*.md)
 list(REMOVE_ITEM pages CHANGELOG.md)

@@ -9,7 +9,8 @@ void add_merge(const CommandLine& program, Options& options) {
     MergeOptions& merge = options.merge;
     const CommandLine verb =
         program.verb("merge", "merge the parts of a picture written by render --shard");
-    verb.arguments("PART", merge.parts, "parts (.mbj) of one picture, in any order", true);
+    verb.arguments("PART", merge.parts,
+                   "parts (.mbj) of one picture, in any order; or a whole one (.pfm)", true);
     add_picture_output(verb, merge.output, merge.format,
                        "picture file: .png, .exr, .pfm, .tif, .jpg, ..., or - for standard output "
                        "(default: only check the parts)");

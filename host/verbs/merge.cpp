@@ -56,12 +56,24 @@ void verify(const MergedPicture& merged, const MergeOptions& options) {
     if (!options.quiet) print_note("the part rendered again is bit-identical");
 }
 
+/// A whole picture needs no other part: it is written in another format.
+bool is_whole(const MergeOptions& options) {
+    return options.parts.size() == 1 && options.parts.front().ends_with(".pfm");
+}
+
 }  // namespace
 
 int run_merge(const MergeOptions& options) {
     if (!options.output.empty()) {
         check_picture_path(options.output, options.format);
         check_output_is_no_input(options.output, options.parts);
+    }
+    if (is_whole(options)) {
+        const Picture picture = read_picture(options.parts.front());
+        if (!options.output.empty()) {
+            write_picture(options.output, picture, options.encoding, {}, options.format);
+        }
+        return static_cast<int>(ExitCode::done);
     }
     const MergedPicture merged = merge_journals(options.parts);
     print_notes(merged.notes);

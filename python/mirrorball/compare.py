@@ -11,10 +11,12 @@ import importlib
 import os
 import subprocess
 import sys
+import types
 from typing import Any, Union
 
 import numpy
 
+from . import measures
 from .picture import read_pfm
 from .program import find_program
 
@@ -40,6 +42,16 @@ def _pixels(evaluator: Any, picture: Union[str, Any]) -> numpy.ndarray:
     array = numpy.asarray(getattr(picture, "array", picture), numpy.float32)
     array = numpy.repeat(array, 3, axis=2) if array.shape[2] == 1 else array[..., :3]
     return numpy.ascontiguousarray(numpy.clip(array, 0, 1))
+
+
+class _Callable(types.ModuleType):
+    """This module has the name of the package's function compare(): importing it must not hide that."""
+
+    def __call__(self, *arguments: Any, **options: Any) -> dict[str, Any]:
+        return measures.compare(*arguments, **options)
+
+
+sys.modules[__name__].__class__ = _Callable
 
 
 def main() -> int:

@@ -97,6 +97,14 @@ class Shares(JournalTest):
         self.assert_refused(result, 3, "b.mbj: is not a part of the same picture as a.mbj: the settings differ")
         self.assertEqual(result.stderr.count("b.mbj"), 1)
 
+    def test_of_which_one_is_whole_are_its_picture(self):
+        for name in ["whole.pfm", "whole.png"]:
+            self.run_cli("render", scene_path("cornell-box"), *SMALL, "-o", name)
+        self.merge("whole.pfm", "-o", "again.png", "-q")
+        result = self.run_cli("compare", "again.png", "whole.png", "--max-abs", "0")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assert_refused(self.run_cli("merge", "missing.pfm", "-o", "none.png"), 3, "missing.pfm")
+
     def test_fit_together_whatever_finds_their_hits(self):
         self.run_cli("render", scene_path("mirror-hall"), *SMALL, "-o", "whole.pfm")
         self.share("0/2", "a.mbj", *SMALL, "--hierarchies", "on", scene="mirror-hall")
