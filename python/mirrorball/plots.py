@@ -228,7 +228,7 @@ def _draw_curve(axes: Any, curve: Curve, gid: str) -> None:
 
 def curves_plot(name: str, title: str, description: str, x: Axis, y: Axis, curves: list[Curve], *,
                 front: Sequence[Point] = (), floor: Optional[tuple[float, str]] = None, heights: Sequence[float] = (),
-                width: float = 4.6) -> Plot:
+                width: float = 5) -> Plot:
     """Curves with the names at their ends. front: a Pareto front; floor: y below which
     nothing is known; heights: which the y axis has at least."""
     figure, axes = _new_figure(width, .7 * width, y.label)
