@@ -80,7 +80,7 @@ class Installed(unittest.TestCase):
         self.check_advice(prefix / "bin/mirrorball", set(re.findall(r"lib[\w.-]+", depends)))
         depends += "libimath-3-1-29"  # comes with OpenEXR
         files = [prefix / "bin/mirrorball", *(prefix / "lib/mirrorball").iterdir()]
-        self.assertGreaterEqual(len(files), 3)  # 4 where MPI is installed
+        self.assertGreaterEqual(len(files), 3)  # 4 where SDL is installed
         for file in files:
             for library in re.findall(r"NEEDED\s+(\S+)", run("objdump", "-p", file)):
                 owners = re.findall(r"^([^:,\s]+):", run("dpkg", "-S", f"*/{library}"), re.M)

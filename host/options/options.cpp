@@ -30,7 +30,6 @@ Options parse_options(int argc, const char* const* argv) {
     options.worker_link = environment("MIRRORBALL_WORKER");
     if (!options.worker_link.empty()) {
         options.render.batch_log = environment("MIRRORBALL_BATCH");
-        options.render.rank_share = environment("MIRRORBALL_SHARE");
     }
     options.render.command.assign(argv, argv + argc);
     options.doctor.command = options.render.command;

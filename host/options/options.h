@@ -76,7 +76,7 @@ struct Options {
     std::string text;         ///< help or version, to be printed instead of doing anything
 };
 
-/// Reads the command line and the environment, except for what PoCL and MPI look up. Throws Error
+/// Reads the command line and the environment, except for what PoCL looks up. Throws Error
 /// (ExitCode::usage) for invalid arguments.
 Options parse_options(int argc, const char* const* argv);
 

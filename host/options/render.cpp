@@ -118,8 +118,6 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                "render frames of the scene's camera path (1-240 or 1,5,10-20), each to its own "
                "picture, -o out.%04d.png; with --shard I/N only every Nth frame, with --resume "
                "only the missing ones");
-    verb.flag("--mpi", render.mpi,
-              "render on all ranks started by mpirun, which must all see the output's folder");
     verb.value("--timeout", "S", render.timeout, seconds_from(0.001),
                "stop after S seconds and save the finished part");
     verb.flag("--watch", render.watch,

@@ -32,7 +32,6 @@ struct RenderOptions : RenderSettings {
     bool resume = false;               ///< requested explicitly
     std::vector<Aov> aovs;             ///< to be saved next to the picture
     ViewSettings view;                 ///< where to show the picture while it renders
-    bool mpi = false;                  ///< render on the ranks that mpirun started
     bool watch = false;                ///< render again when the scene's files change
     double timeout = 0;                ///< seconds until it gives up; 0: never
     bool isolate = true;               ///< OpenCL in a separate process
@@ -41,7 +40,6 @@ struct RenderOptions : RenderSettings {
     std::string device_failure;        ///< how it failed
     std::string drivers;               ///< where OpenCL finds its .icd files
     std::string batch_log;             ///< descriptor of memory shared by workers; see BatchLog
-    std::string rank_share;            ///< "I/N:FILE", in a worker of an MPI rank: what to render
     std::vector<std::string> command;  ///< the program's own, to start workers
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar

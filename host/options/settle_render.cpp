@@ -16,18 +16,15 @@ namespace rt {
 
 namespace {
 
-void check_renders_parts(const RenderOptions& render, const char* option) {
-    if (!render.fast_math && render.schedule == Schedule::tiles) return;
-    usage_error("{} requires --math strict and --schedule tiles, so that its parts match", option);
-}
-
 void settle_journal(RenderOptions& render) {
     if (render.fresh && render.resume) usage_error("--fresh cannot be combined with --resume");
     if (render.resume) render.journal_delay = 0;
     if (!render.shares) return;
     if (render.is_batch()) usage_error("--shard works only for a single scene");
     if (!render.reference.empty()) usage_error("--reference cannot be combined with --shard");
-    check_renders_parts(render, "--shard");
+    if (render.fast_math || render.schedule != Schedule::tiles) {
+        usage_error("--shard requires --math strict and --schedule tiles, so that its parts match");
+    }
     if (!render.output.ends_with(".mbj")) usage_error("--shard requires -o FILE.mbj");
 }
 
@@ -44,33 +41,6 @@ void settle_watch(const RenderOptions& render) {
     if (render.output == stdout_path || render.timeout > 0) {
         usage_error("--watch cannot be combined with -o - or --timeout");
     }
-}
-
-/// A worker of an MPI rank has the rank's command, but renders one share.
-void settle_rank_share(RenderOptions& render) {
-    const std::size_t colon = render.rank_share.find(':');
-    if (colon == std::string::npos) return;
-    render.shares = parse_shares(render.rank_share.substr(0, colon));
-    render.output = render.rank_share.substr(colon + 1);
-    render.mpi = false;
-    render.quiet = true;
-}
-
-/// --mpi merges the picture from parts, which have no figures and cannot be viewed.
-void settle_mpi(const RenderOptions& render) {
-    if (!render.mpi) return;
-    if (render.is_batch() || render.scene == stdin_scene || render.shares || render.watch) {
-        usage_error("--mpi works only for a single scene file, without --shard or --watch");
-    }
-    if (render.output.empty() || render.output == stdout_path)
-        usage_error("--mpi requires -o FILE");
-    if (render.stats != StatsFormat::summary || !render.reference.empty() || !render.aovs.empty() ||
-        render.view.any()) {
-        usage_error(
-            "--mpi cannot be combined with --stats, --reference, --aov, --show, --preview or "
-            "--tev");
-    }
-    check_renders_parts(render, "--mpi");
 }
 
 /// Rejects two uses of the same standard stream.
@@ -137,13 +107,11 @@ void settle_scenes(RenderOptions& render) {
 }  // namespace
 
 void settle_render(RenderOptions& render) {
-    settle_rank_share(render);
     settle_streams(render);
     settle_scenes(render);
     settle_journal(render);
     settle_check(render);
     settle_watch(render);
-    settle_mpi(render);
     settle_aovs(render);
 }
 

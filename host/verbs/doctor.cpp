@@ -10,7 +10,6 @@
 #include "host/base/temporary_folder.h"
 #include "host/base/version.h"
 #include "host/image/picture_io.h"
-#include "host/mpi/ranks.h"
 #include "host/opencl/icd_files.h"
 #include "host/picture/render_picture.h"
 #include "host/pocl/pocl_cache.h"
@@ -118,15 +117,6 @@ Finding test_window() {
             is_there ? "SDL 2 can be loaded" : why};
 }
 
-Finding test_mpi() {
-    try {
-        check_mpi();
-        return {State::fine, "MPI (--mpi)", "can be loaded"};
-    } catch (const Error& error) {
-        return {State::missing, "MPI (--mpi)", error.what()};
-    }
-}
-
 Finding test_kernel_cache() {
     const std::string why = why_pocl_cache_is_read_only();
     if (!why.empty()) {
@@ -184,7 +174,6 @@ std::vector<Finding> examine(const DoctorOptions& options) {
     findings.push_back(test_format("EXR pictures", ".exr"));
     findings.push_back(test_format("TIFF, JPEG and other pictures", ".tif"));
     findings.push_back(test_window());
-    findings.push_back(test_mpi());
     return findings;
 }
 

@@ -19,7 +19,6 @@
 #include "host/verbs/aov.h"
 #include "host/verbs/isolated_render.h"
 #include "host/verbs/render_batch.h"
-#include "host/verbs/render_mpi.h"
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
 #include "host/verbs/watch.h"
@@ -116,7 +115,6 @@ int render_here(const RenderOptions& options, double seconds_before_main) {
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
-    if (options.mpi) return render_mpi(options);
     if (options.isolate && !is_worker() && needs_opencl(options.device)) {
         return render_isolated(options, seconds_before_main, render_here);
     }

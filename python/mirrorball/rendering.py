@@ -13,7 +13,7 @@ from .program import Progress, option_words, run_json
 from .scenes import Scene, scene_path
 
 #: Options of `mirrorball render` that render() does not take.
-NOT_HERE = ("output", "o", "format", "stats", "q", "quiet", "batch", "frames", "shard", "mpi", "aov",
+NOT_HERE = ("output", "o", "format", "stats", "q", "quiet", "batch", "frames", "shard", "aov",
             "watch", "show", "preview")
 
 

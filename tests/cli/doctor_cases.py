@@ -17,12 +17,12 @@ class Doctor(CliTest):
     def test_finds_nothing_where_all_is_well(self):
         findings = self.findings(0)
         for name, finding in findings.items():
-            optional = name in ["windows (--show)", "MPI (--mpi)"] and finding["state"] == "missing"
+            optional = name == "windows (--show)" and finding["state"] == "missing"
             self.assertTrue(optional or finding["state"] == "ok", finding)
         devices = [name for name in findings if name.startswith("device ")]
         self.assertEqual(len(devices), 1)
         for name in ["processor", "driver", "threads", "kernel cache", "EXR pictures",
-                     "windows (--show)", "MPI (--mpi)"]:
+                     "windows (--show)"]:
             self.assertIn(name, findings)
         text = self.run_cli("doctor").stdout.splitlines()
         self.assertEqual(text[-1], "everything installed works")

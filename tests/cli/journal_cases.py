@@ -196,11 +196,7 @@ class Shares(JournalTest):
                           ["--shard", "0/2", "-o", "a.mbj", "--math", "fast"],
                           ["--shard", "0/2", "-o", "a.mbj", "--schedule", "buffers", "--device",
                            "threads"], ["--fresh", "--resume"],
-                          ["--shard", "0/2", "-o", "a.mbj", scene],
-                          ["--mpi"], ["--mpi", "-o", "-"], ["--mpi", "-o", "a.png", scene],
-                          ["--mpi", "-o", "a.mbj", "--shard", "0/2"],
-                          ["--mpi", "-o", "a.png", "--stats"],
-                          ["--mpi", "-o", "a.png", "--math", "fast"]]:
+                          ["--shard", "0/2", "-o", "a.mbj", scene]]:
             self.assert_refused(self.run_cli("render", scene, *arguments), 2)
         self.assert_refused(self.run_cli("render", scene, "--shard", "0/2", "-o", "no/a.mbj"), 4)
         self.assertEqual(self.files(), [])

@@ -204,25 +204,6 @@ class Dies(WrongDriver):
     def test_by_hanging_ends_ray_trials(self):
         self.check_hanging_ends("stress", "-q", "--quick", "--case", "sphere-rays", "--device", "pocl")
 
-    @unittest.skipUnless(shutil.which("mpirun"), "needs openmpi-bin")
-    def test_does_not_take_an_mpi_job_along(self):
-        out, right = self.folder / "out.png", self.folder / "right.png"
-        self.run_with({}, *self.ARGUMENTS[:4], "--device", "threads", "-o", str(right))
-        for place in ["", "clGetPlatformIDs", "clBuildProgram"]:
-            result = subprocess.run(
-                ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", "2", "-x",
-                 "LD_PRELOAD=" + str(BUILD / "libcl_shim.so"),
-                 str(BUILD / "mirrorball"), *self.ARGUMENTS, "--mpi", "-o", str(out)],
-                env=dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                         CL_SHIM_DIE_IN=place, CL_SHIM_DIE_BY="abort",
-                         POCL_CACHE_DIR=str(BUILD / "wrong-driver-cache")),
-                text=True, capture_output=True, timeout=HANG_LIMIT, check=False)
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertEqual(place != "", "the driver process was killed by SIGABRT; rendering on "
-                             "threads instead" in result.stderr, result.stderr)
-            self.assertEqual(out.read_bytes(), right.read_bytes())
-            out.unlink()
-
     def test_measuring_names_it(self):
         for verb in [["bench", SCENE], ["converge", SCENE], ["stress", "--quick"],
                      ["report", SCENE, "-o", str(self.folder / "report.html")]]:
