@@ -10,6 +10,9 @@ set_source_files_properties(host/base/module_file.cpp PROPERTIES
 
 install(TARGETS mirrorball RUNTIME)
 install(TARGETS mirrorball_exr mirrorball_oiio LIBRARY DESTINATION ${module_folder})
+if(SDL2_FOUND)
+    install(TARGETS mirrorball_sdl LIBRARY DESTINATION ${module_folder})
+endif()
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball)
 install(FILES docs/bench.schema.json docs/compare.schema.json docs/converge.schema.json
     docs/results.schema.json docs/stress.schema.json
@@ -54,7 +57,7 @@ install(FILES ${texts}/_mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/\${z
 install(FILES ${texts}/mirrorball.fish
     DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
-# A package for Debian 12. Dependencies by hand: OpenEXR, OpenImageIO and PoCL serve those who use them,
+# A package for Debian 12. Dependencies by hand: OpenEXR, OpenImageIO, SDL and PoCL serve those who use them,
 # where dpkg-shlibdeps would ask for the libraries of every module.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

@@ -50,7 +50,7 @@ void add_compare(const CommandLine& program, Options& options) {
                count_in(0, std::numeric_limits<int>::max()),
                "exit 1 if more than N pixels differ by over 1/255");
     verb.value("--heatmap", "FILE.png", compare.heatmap, parse_heatmap,
-               "write a color map of the differences, from black to yellow");
+               "write a color map of the differences' square roots, from black to yellow");
     verb.value("--heatmap-scale", "X", compare.heatmap_scale, parse_scale,
                "difference shown as yellow (default: the largest)");
     verb.flag("--flip", compare.flip,

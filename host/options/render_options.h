@@ -9,7 +9,7 @@
 #include "host/options/aov.h"
 #include "host/picture/render_settings.h"
 #include "host/scene/scene_file.h"
-#include "host/view/view_settings.h"
+#include "host/view/viewer.h"
 
 namespace rt {
 

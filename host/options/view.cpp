@@ -14,11 +14,6 @@ namespace rt {
 
 namespace {
 
-constexpr Named<PreviewMode> preview_modes[] = {{"auto", PreviewMode::automatic},
-                                                {"half", PreviewMode::half},
-                                                {"kitty", PreviewMode::kitty},
-                                                {"sixel", PreviewMode::sixel}};
-
 /// "HOST:PORT", "HOST", ":PORT" or "[IPv6]:PORT"; missing parts default to tev's.
 TevAddress parse_tev_address(const std::string& text) {
     TevAddress address;
@@ -51,10 +46,7 @@ void add_view_options(const CommandLine& verb, ViewSettings& view) {
     view.terminal.kind = environment("TERM");
     view.terminal.colors = environment("COLORTERM");
     view.terminal.without_colors = !environment("NO_COLOR").empty();
-    view.terminal.is_shared = !environment("TMUX").empty() || !environment("STY").empty();
-    add_optional_choice(verb, "--preview", view.preview, preview_modes, "auto",
-                        "show the picture in the terminal while it renders, in half blocks or with "
-                        "a graphics protocol (default: auto, the best the terminal supports)");
+    verb.flag("--preview", view.preview, "show the picture in the terminal while it renders");
     verb.flag("--show", view.window,
               "show the picture in a window while it renders; Escape or q closes the window, and "
               "the command ends when it is closed");

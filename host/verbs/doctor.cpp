@@ -21,7 +21,7 @@
 #include "host/render/stopwatch.h"
 #include "host/verbs/default_scene.h"
 #include "host/verbs/verbs.h"
-#include "host/view/sdl.h"
+#include "host/view/viewer.h"
 
 namespace rt {
 
@@ -111,10 +111,9 @@ Finding test_format(const char* name, const char* extension) {
 }
 
 Finding test_window() {
-    std::string why;
-    const bool is_there = sdl::load(why) != nullptr;
-    return {is_there ? State::fine : State::missing, "windows (--show)",
-            is_there ? "SDL 2 can be loaded" : why};
+    const std::string why = why_no_windows();
+    return {why.empty() ? State::fine : State::missing, "windows (--show)",
+            why.empty() ? "SDL 2 can be loaded" : why};
 }
 
 Finding test_kernel_cache() {

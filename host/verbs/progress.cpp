@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "host/base/console.h"
-#include "host/view/terminal.h"
+#include "host/view/terminal_viewer.h"
 
 namespace rt {
 

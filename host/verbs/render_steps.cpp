@@ -22,7 +22,7 @@
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/scene/scene_file.h"
-#include "host/view/make_viewers.h"
+#include "host/view/viewer.h"
 
 namespace rt {
 
