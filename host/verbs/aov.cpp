@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/verbs/aov.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "host/base/console.h"
+#include "host/base/printable.h"
 #include "host/image/false_color.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
@@ -57,19 +60,19 @@ class Aovs {
     }
 
     Picture in_false_colors(Aov aov) const {
-        switch (aov) {
-            case Aov::depth:
-                return color_numbers(hits_.depth, width_, height_, Scale::linear);
-            case Aov::normal:
-                return color_normals(hits_.normal, width_, height_);
-            case Aov::id:
-                return color_ids(hits_.id, width_, height_);
-            case Aov::rays:
-                return color_numbers(rays_, width_, height_, Scale::logarithmic);
-            case Aov::samples:
-                break;
-        }
-        return color_numbers(samples_, width_, height_, Scale::logarithmic);
+        if (aov == Aov::normal) return color_normals(hits_.normal, width_, height_);
+        if (aov == Aov::id) return color_ids(hits_.id, width_, height_);
+        return color_numbers(plane(aov), width_, height_,
+                             aov == Aov::depth ? Scale::linear : Scale::logarithmic);
+    }
+
+    /// What the colors of `in_false_colors` mean.
+    std::string key(Aov aov) const {
+        if (aov == Aov::normal) return "x, y, z from -1 to 1 as red, green, blue";
+        if (aov == Aov::id) return "a color for each object";
+        const auto [least, most] = range_of(plane(aov));
+        return fmt::format("violet {:.4g} to yellow {:.4g}{}", least, most,
+                           aov == Aov::depth ? "" : ", logarithmic");
     }
 
     /// The given AOVs as channels of one picture.
@@ -137,6 +140,7 @@ bool write_aovs(const Scene& scene, const RenderStats& stats, const RenderOption
     } else {
         for (std::size_t i = 0; i < files.size(); ++i) {
             write_picture(files[i], aovs.in_false_colors(options.aovs[i]), Encoding::display);
+            if (!options.quiet) print_note(printable(files[i]) + ": " + aovs.key(options.aovs[i]));
         }
     }
     return true;

@@ -138,8 +138,9 @@ std::string comparison_text(const Comparison& result, const CompareOptions& opti
                 : fmt::format("  FLIP        not measured: {}\n", result.flip->note);
     }
     if (!options.heatmap.empty()) {
-        text += fmt::format("  heat map    {}: black 0, yellow {:.4e}, cyan not finite\n",
-                            printable(options.heatmap), result.heatmap_scale);
+        text += fmt::format(
+            "  heat map    {}: black 0 to yellow {:.4e} by square roots, cyan not finite\n",
+            printable(options.heatmap), result.heatmap_scale);
     }
     return text + (result.identical() ? "  identical\n" : "");
 }

@@ -236,12 +236,12 @@ class HeatMap(CompareTest):
     def test_black_to_yellow_and_cyan(self):
         pixels = self.pixels()
         self.assertEqual(pixels, [(0, 0, 4), (252, 253, 191)] + [(0, 0, 4)] * 3 + [CYAN])
-        self.assertIn("h.png: black 0, yellow 5.0000e-01, cyan not finite", self.text)
+        self.assertIn("h.png: black 0 to yellow 5.0000e-01 by square roots, cyan not finite", self.text)
         self.assertEqual(png_texts((self.folder / "h.png").read_bytes())["mirrorball:HeatmapScale"],
                          "0.5")
 
     def test_fixed_scale(self):
-        self.assertEqual(self.pixels("--heatmap-scale", "0.9")[1], (205, 64, 113))
+        self.assertEqual(self.pixels("--heatmap-scale", "1.62")[1], (205, 64, 113))
         self.assertEqual(self.pixels("--heatmap-scale", "0.1")[1], (252, 253, 191))
 
     def test_of_identical_pictures(self):
