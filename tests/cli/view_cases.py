@@ -211,8 +211,8 @@ class Tev(CliTest):
             with self.subTest(outputs=outputs):
                 server = TevServer(slowly=True)
                 process = self.start("render", scene_path("cornell-box"), "--device", "threads",
-                                     "--size", "2000", f"--tev=127.0.0.1:{server.port}", "-o",
-                                     *outputs)
+                                     "--size", "2000", f"--tev=127.0.0.1:{server.port}",
+                                     "--progress", "none", "-o", *outputs)
                 self.assertIn("cornell-box: 2000x2000", process.stderr.readline())
                 self.assertTrue((self.folder / outputs[0].replace("%s", "cornell-box")).exists())
                 server.wait_for_more()
