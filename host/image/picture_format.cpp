@@ -70,7 +70,8 @@ PictureFormat picture_format_of_name(const std::string& path) {
     if (const auto format = known_picture_format(path)) return *format;
     usage_error("{}: {}; use .png, .exr, .pfm, .tif, .jpg, .webp, .hdr, .tga, .bmp, .ppm or .dpx",
                 path,
-                extension.empty() ? "no file extension" : "unknown extension '" + extension + "'");
+                extension.empty() ? "no file extension (for standard output, name -)"
+                                  : "unknown extension '" + extension + "'");
 }
 
 std::optional<PictureFormat> picture_format_of_bytes(std::string_view first_bytes) {

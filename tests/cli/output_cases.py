@@ -191,6 +191,18 @@ class Patterns(CliTest):
     def test_of_one_scene(self):
         self.render(SCENE, "--size", "8", "--device", "threads", "-o", "a-%s.png")
         self.assertEqual(self.files(), [f"a-{SCENE}.png"])
+    def test_that_are_parts_of_words_are_none(self):
+        for name in ["50%share", "5%dark", "a%sb"]:
+            (self.folder / name).mkdir()
+            self.render(SCENE, "--size", "8", "--device", "threads", "-o", f"{name}/{name}.png")
+            self.assertEqual(os.listdir(self.folder / name), [f"{name}.png"])
+
+    def test_names_of_standard_streams(self):
+        self.assert_refused(self.run_cli("render", scene_path(SCENE), "-o", "/dev/stdout"), 2,
+                            "for standard output, name -")
+        result = self.run_shell('"$MIRRORBALL" render <(cat "$SCENE")')
+        self.assert_refused(result, 3, "pipe JSON to -")
+
 
     def test_frame_number_without_frames(self):
         self.assert_refused(self.run_cli("render", scene_path(SCENE), "-o", "a%04d.png"), 2,
