@@ -27,5 +27,4 @@ add_fuzz_target(fuzz_journal mirrorball_journal ${CMAKE_SOURCE_DIR}/tests/journa
 add_fuzz_target(fuzz_exr_picture OpenEXR::OpenEXR ${CMAKE_SOURCE_DIR}/tests/pictures)
 target_sources(fuzz_exr_picture PRIVATE
     ${CMAKE_SOURCE_DIR}/host/image/modules/exr_limits.cpp
-    ${CMAKE_SOURCE_DIR}/host/image/modules/exr_reader.cpp
-    ${CMAKE_SOURCE_DIR}/host/image/modules/exr_threads.cpp)
+    ${CMAKE_SOURCE_DIR}/host/image/modules/exr_module.cpp)

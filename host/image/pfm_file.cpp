@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/image/pfm_file.h"
-
 #include <fmt/format.h>
 
 #include <bit>
@@ -12,6 +10,7 @@
 #include "host/base/error.h"
 #include "host/base/number.h"
 #include "host/image/atomic_file.h"
+#include "host/image/built_in_formats.h"
 
 namespace rt {
 namespace {
@@ -70,7 +69,7 @@ void write_pfm(const std::string& path, const Picture& picture) {
     file.commit();
 }
 
-Picture read_pfm(const std::string& path, InputFile file) {
+Picture read_pfm(const std::string& path, InputFile file, bool with_pixels) {
     const Header header = read_header(path, file.stream);
     check_picture_size(path, header.width, header.height, header.channels);
 
@@ -84,6 +83,7 @@ Picture read_pfm(const std::string& path, InputFile file) {
                                    file.size - start, expected),
                        "save it again");
     }
+    if (!with_pixels) return picture;
     check_picture_memory(path, header.width, header.height, header.channels);
     picture.pixels.resize(row * header.height);
     for (int y = header.height - 1; y >= 0; --y) {

@@ -3,19 +3,18 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/image/built_in_formats.h"
 #include "host/image/input_file.h"
-#include "host/image/module_loader.h"
-#include "host/image/pfm_file.h"
 #include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
-#include "host/image/png_file.h"
-#include "host/image/stored_size.h"
+#include "host/image/picture_module.h"
 
 namespace rt {
 namespace {
@@ -49,13 +48,31 @@ std::string one_line(std::string text) {
     return text;
 }
 
-PictureFile read_with_module(const std::string& path, PictureFormat format, InputFile file) {
-    if (format == PictureFormat::jpeg) check_jpeg_end(path, file);
+/// What OpenImageIO's readers do not check: a file too small for the values that its header
+/// promises, where the format limits its compression (WebP does not).
+void check_stored_values(const std::string& path, PictureFormat format, std::uintmax_t values,
+                         std::uintmax_t file_size) {
+    const std::uintmax_t most = values_per_byte(format);
+    if (most != 0) check_stored_size(path, values, most, file_size);
+}
+
+/// And a JPEG file that was cut short, whose missing pixels its reader makes up.
+void check_jpeg_end(const std::string& path, InputFile& file) {
+    const std::string bytes{std::istreambuf_iterator<char>(file.stream), {}};
+    const std::size_t scan = bytes.rfind("\xff\xda");  // the last one; thumbnails come before
+    if (scan != bytes.npos && bytes.find("\xff\xd9", scan) != bytes.npos) return;
+    refuse_picture(path, "has no end-of-image marker", "it may be truncated: save it again");
+}
+
+PictureFile read_with_module(const std::string& path, PictureFormat format, InputFile file,
+                             bool with_pixels) {
+    if (format == PictureFormat::jpeg && with_pixels) check_jpeg_end(path, file);
     const PictureModule& library = picture_module(format, ExitCode::input);
     const auto check = [&](int width, int height, int channels) {
         check_picture_size(path, width, height, channels);
         check_stored_values(path, format, std::uintmax_t(width) * height * channels, file.size);
-        check_picture_memory(path, width, height, channels);
+        if (with_pixels) check_picture_memory(path, width, height, channels);
+        return with_pixels;
     };
     try {
         return library.decode(path, module_name(format), check);
@@ -68,18 +85,20 @@ PictureFile read_with_module(const std::string& path, PictureFormat format, Inpu
     }
 }
 
-}  // namespace
-
-PictureFile read_picture_file(const std::string& path) try {
+PictureFile read(const std::string& path, bool with_pixels) try {
     InputFile file = open_input_file(path);
     const PictureFormat format = find_format(path, file);
-    if (format == PictureFormat::png) return read_png(path, file.stream, file.size);
-    if (format == PictureFormat::pfm) return {read_pfm(path, std::move(file)), {}};
-    return read_with_module(path, format, std::move(file));
+    if (format == PictureFormat::png) return read_png(path, file.stream, file.size, with_pixels);
+    if (format == PictureFormat::pfm) return {read_pfm(path, std::move(file), with_pixels), {}};
+    return read_with_module(path, format, std::move(file), with_pixels);
 } catch (const std::bad_alloc&) {
     throw Error(ExitCode::limit, path + ": not enough memory for its pixels; scale it down first");
 }
 
+}  // namespace
+
+PictureFile read_picture_file(const std::string& path) { return read(path, true); }
+PictureFile read_picture_header(const std::string& path) { return read(path, false); }
 Picture read_picture(const std::string& path) { return read_picture_file(path).picture; }
 
 }  // namespace rt

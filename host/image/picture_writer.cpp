@@ -12,12 +12,11 @@
 
 #include "host/base/error.h"
 #include "host/image/atomic_file.h"
-#include "host/image/module_loader.h"
+#include "host/image/built_in_formats.h"
 #include "host/image/output_path.h"
-#include "host/image/pfm_file.h"
 #include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
-#include "host/image/png_file.h"
+#include "host/image/picture_module.h"
 
 namespace rt {
 namespace {

@@ -16,8 +16,8 @@ constexpr std::array<float, 3> non_finite_color{0, 1, 1};
 std::array<float, 3> heat_color(double share);
 
 /// The largest channel difference of each pixel as the color of its square root, so that small ones
-/// show; `scale` is the difference at the top of the color map (0: the pictures do not differ). The pictures must have the same size and number
-/// of channels.
+/// show; `scale` is the difference at the top of the color map (0: the pictures do not differ). The
+/// pictures must have the same size and number of channels.
 Picture heat_map(const Picture& picture, const Picture& reference, double scale);
 
 }  // namespace rt

@@ -14,7 +14,7 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/image/temporary_file.h"
+#include "host/image/atomic_file.h"
 
 namespace rt {
 

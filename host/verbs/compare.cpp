@@ -103,10 +103,11 @@ std::vector<std::string> breaches_of(const Comparison& result, const CompareOpti
 }
 
 Comparison compare_pictures(const CompareOptions& options) {
+    check_same_shape(read_picture_header(options.picture).picture,
+                     read_picture_header(options.reference).picture, options);
     Comparison result;
     result.picture = read_picture(options.picture);
     result.reference = read_picture(options.reference);
-    check_same_shape(result.picture, result.reference, options);
     if (options.clamp) {
         clamp_finite(result.picture);
         clamp_finite(result.reference);

@@ -14,7 +14,8 @@
 #include "host/base/hash.h"
 #include "host/image/atomic_file.h"
 #include "host/image/image_error.h"
-#include "host/image/pfm_file.h"
+#include "host/image/input_file.h"
+#include "host/image/picture_io.h"
 #include "host/measure/picture_judge.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_hash.h"
@@ -70,7 +71,7 @@ std::optional<Picture> read_half(const std::string& path, const Scene& scene) {
     std::error_code ignored;
     if (path.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
     try {
-        Picture half = read_pfm(path, open_input_file(path));
+        Picture half = read_picture(path);
         std::string hash;
         open_input_file(hash_path(path)).stream >> hash;
         const bool fits =
@@ -86,7 +87,7 @@ void keep_half(const std::string& path, const Picture& half) {
     try {
         std::error_code ignored;
         std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
-        write_pfm(path, half);
+        write_picture(path, half, Encoding::display);
         const std::string hash = hash_text(hash_of(half));
         write_file_atomically(hash_path(path), std::as_bytes(std::span(hash)));
     } catch (const Error& error) {

@@ -53,7 +53,7 @@ bool may_show(const std::string& path, const Scene& scene, const RenderOptions& 
     stats.double_precision = options.precision == Precision::float64;
     stats.fast_math = options.fast_math;
     try {
-        const PictureMetadata found = read_picture_file(path).metadata;
+        const PictureMetadata found = read_picture_header(path).metadata;
         return text_in(found, "mirrorball:SceneHash").empty() ||
                shows_the_same(found, picture_metadata(scene.name, hash_text(scene_hash(scene)),
                                                       settings_text(stats), ""));

@@ -180,16 +180,16 @@ MUTANTS = [
         (I + "atomic_file.cpp", "if (destination_.existing) {", "if (false) {"),
     ], [("host_atomic_file_test", "WriteFileAtomically.*")]),
     Mutant("temporary files of living processes are removed", [
-        (I + "temporary_file.cpp", "return ::kill(process, 0) == 0 || errno != ESRCH;",
+        (I + "atomic_file.cpp", "return ::kill(process, 0) == 0 || errno != ESRCH;",
          "return process == 0;"),
-        (I + "temporary_file.cpp", "::flock(open.number(), LOCK_EX | LOCK_NB) == 0", "true"),
+        (I + "atomic_file.cpp", "::flock(open.number(), LOCK_EX | LOCK_NB) == 0", "true"),
     ], [("host_atomic_file_test", "AbandonedTemporaries.*")]),
     Mutant("an output may be an input", [
         (I + "output_path.cpp", "names_.find({status.st_dev, status.st_ino})",
          "names_.find({status.st_dev, 0})"),
     ], [("host_atomic_file_test", "OutputPath.*")]),
     Mutant("a small PNG may promise a huge picture", [
-        (I + "png_reader.cpp", "check_stored_size(path_, stored, 1032, file_size);",
+        (I + "png_file.cpp", "check_stored_size(path_, stored, 1032, file_size);",
          "check_stored_size(path_, 0, 1032, file_size);"),
     ], [("host_picture_read_test", "ReadPicture.PngThatPromises*")]),
     Mutant("EXR channels may share a name", [

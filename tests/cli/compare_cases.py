@@ -5,6 +5,7 @@ import math
 import os
 import struct
 import subprocess
+import zlib
 
 import jsonschema
 
@@ -219,6 +220,19 @@ class Json(CompareTest):
     def test_file_that_cannot_be_written(self):
         self.assert_refused(self.run_cli("compare", "a.pfm", "a.pfm", "--json", "no/out.json"), 4,
                             "no/out.json")
+
+
+class Headers(CompareTest):
+    def test_sizes_are_compared_before_pixels_are_read(self):
+        """Else a small file of a large picture takes gigabytes first."""
+        chunk = lambda kind, data: (struct.pack(">I", len(data)) + kind + data +
+                                    struct.pack(">I", zlib.crc32(kind + data)))
+        head = struct.pack(">IIBBBBB", 4000, 4000, 8, 0, 0, 0, 0)
+        (self.folder / "a.png").write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) +
+                                            chunk(b"IDAT", b"no pixels" * 2000))
+        self.write_pfm("b.pfm", 1, 1, [0.5], channels=1)
+        for pair in [("a.png", "b.pfm"), ("b.pfm", "a.png")]:
+            self.assert_refused(self.run_cli("compare", *pair), 3, "4000x4000", "1x1")
 
 
 class HeatMap(CompareTest):

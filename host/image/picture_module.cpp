@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/image/module_loader.h"
+#include "host/image/picture_module.h"
 
 #include <cstdlib>
 
