@@ -4,10 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "host/base/console.h"
@@ -28,23 +25,21 @@ namespace rt {
 
 namespace {
 
-/// Whether an interrupted render may have left it, as far as its format tells.
-bool may_be_partial(const std::string& path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return false;
-    const auto format = known_picture_format(path);
-    if (format != PictureFormat::png && format != PictureFormat::exr) return true;
-    std::string head(1 << 16, '\0');
-    std::ifstream(path, std::ios::binary).read(head.data(), std::ssize(head));
-    return head.find(partial_mark) != std::string::npos;
+/// The metadata of an unfinished picture (PNG and EXR have them); empty for any other file, which
+/// may be somebody's.
+PictureMetadata metadata_of_partial(const std::string& path) try {
+    PictureMetadata metadata = read_picture_header(path).metadata;
+    return text_in(metadata, partial_mark).empty() ? PictureMetadata() : metadata;
+} catch (const Error&) {
+    return {};
 }
 
-/// Where a picture's finished part goes: not over what somebody else has put there.
+/// Where a picture's finished part goes: over an older part at most.
 std::string free_partial_path(const std::string& output) {
     std::string path = partial_path(output);
     std::error_code ignored;
-    for (int n = 2; std::filesystem::exists(path, ignored) && !may_be_partial(path); ++n) {
-        path = partial_path(output, n);
+    for (int n = 2; std::filesystem::exists(path, ignored) && metadata_of_partial(path).empty();) {
+        path = partial_path(output, n++);
     }
     return path;
 }
@@ -53,13 +48,10 @@ std::string free_partial_path(const std::string& output) {
 void remove_partial(const std::string& output, const PictureMetadata& metadata) {
     if (output == stdout_path) return;
     const std::string path = free_partial_path(output);
+    const PictureMetadata partial = metadata_of_partial(path);
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return;
-    try {
-        const PictureMetadata partial = read_picture_file(path).metadata;
-        const bool is_ours = !text_in(partial, partial_mark).empty();
-        if (is_ours && shows_the_same(partial, metadata)) std::filesystem::remove(path, ignored);
-    } catch (const Error&) {
+    if (!partial.empty() && shows_the_same(partial, metadata)) {
+        std::filesystem::remove(path, ignored);
     }
 }
 
@@ -119,11 +111,6 @@ void check_output(const RenderOptions& options) {
     if (options.output.empty()) return;
     if (options.shares) return check_output_path(options.output);
     check_picture_path(options.output, options.format);
-    const std::string partial = partial_path(options.output);
-    struct stat ignored {};
-    if (::stat(partial.c_str(), &ignored) != 0 && errno == ENAMETOOLONG) {
-        fail_to_write(partial, ENAMETOOLONG);
-    }
 }
 
 void choose_journal(RenderOptions& options) {

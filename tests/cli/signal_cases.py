@@ -104,6 +104,14 @@ class Interrupted(CliTest):
         for name in ["out.partial.png", "out.partial-2.png"]:
             self.assertEqual((self.folder / name).read_text(), "somebody else's")
 
+    def test_a_format_that_does_not_say_who_wrote_it_is_left_alone(self):
+        self.write_text("out.partial.pfm", "somebody else's")
+        process = self.start_and_wait_until_tiles_are_done("threads", "out.pfm")
+        code, lines = self.stop(process, signal.SIGINT)
+        self.assertEqual(code, 130, lines)
+        self.assertIn("the finished part is in out.partial-2.pfm", lines[-1])
+        self.assertEqual((self.folder / "out.partial.pfm").read_text(), "somebody else's")
+
     def test_pocl_sigint(self):
         self.assert_stopped("pocl", signal.SIGINT, "out.pfm")
         self.assert_has_light_and_gaps("out.partial.pfm")
@@ -116,7 +124,8 @@ class Interrupted(CliTest):
             stderr = process.communicate(timeout=HANG_LIMIT)[1]
             self.assertEqual(process.returncode, 130, stderr)
             self.assertEqual(self.pictures(), ["out.partial.pfm"])
-            (self.folder / "out.pfm.mbj").unlink(missing_ok=True)
+            for name in ["out.partial.pfm", "out.pfm.mbj"]:
+                (self.folder / name).unlink(missing_ok=True)
 
     def test_as_timeout_sends_it(self):
         """To the program, and at once to its group."""
@@ -127,7 +136,8 @@ class Interrupted(CliTest):
             stderr = process.communicate(timeout=HANG_LIMIT)[1]
             self.assertEqual(process.returncode, 143, stderr)
             self.assertEqual(self.pictures(), ["out.partial.pfm"])
-            (self.folder / "out.pfm.mbj").unlink(missing_ok=True)
+            for name in ["out.partial.pfm", "out.pfm.mbj"]:
+                (self.folder / name).unlink(missing_ok=True)
 
     def test_pocl_sigterm(self):
         self.assert_stopped("pocl", signal.SIGTERM, "out.png")
