@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "host/base/error.h"
-#include "host/journal/journal_keeper.h"
+#include "host/journal/journal_file.h"
 #include "host/journal/merge.h"
 #include "host/picture/render_picture.h"
 #include "host/scene/scene_file.h"
