@@ -68,15 +68,6 @@ TEST_F(FreeMemoryTest, IsWhatTheTightestGroupLeaves) {
     EXPECT_EQ(free().bytes, 400 * mib);
 }
 
-TEST_F(FreeMemoryTest, KnowsTheFirstVersionOfGroups) {
-    write("proc/self/cgroup", "12:cpu,cpuacct:/x\n4:memory:/docker/abc\n0::/x\n");
-    const std::string top = "sys/fs/cgroup/memory/";  // the container sees its own group on top
-    write(top + "memory.limit_in_bytes", std::to_string(300 * mib));
-    write(top + "memory.usage_in_bytes", std::to_string(100 * mib));
-    write(top + "memory.stat", "inactive_file 1\ntotal_inactive_file " + std::to_string(20 * mib));
-    EXPECT_EQ(free().bytes, 220 * mib);
-}
-
 TEST_F(FreeMemoryTest, IsUnlimitedWhereNothingTells) {
     EXPECT_EQ(free_memory("/nowhere").bytes, std::numeric_limits<std::uint64_t>::max());
 }

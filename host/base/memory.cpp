@@ -60,48 +60,26 @@ std::uint64_t difference(std::uint64_t limit, std::uint64_t used) {
     return limit > used ? limit - used : 0;
 }
 
-/// The files of one version of control groups.
-struct GroupFiles {
-    const char* limit;
-    const char* usage;
-    const char* cache;  ///< file cache, which the system reclaims first: not counted as used
-};
-
-constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
-                               "total_inactive_file"};
-constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file"};
-
-void take_group(FreeMemory& least, const fs::path& group, const GroupFiles& files) {
-    const auto limit = number_in(group / files.limit);
-    const auto usage = number_in(group / files.usage);
+void take_group(FreeMemory& least, const fs::path& group) {
+    const auto limit = number_in(group / "memory.max");
+    const auto usage = number_in(group / "memory.current");
     if (!limit || !usage) return;
-    const std::uint64_t cache = number_of(group / "memory.stat", files.cache).value_or(0);
+    // The system reclaims file caches first.
+    const std::uint64_t cache = number_of(group / "memory.stat", "inactive_file").value_or(0);
     take_least(least, difference(*limit, difference(*usage, cache)),
                "remain within the memory limit of the container or job (cgroup)");
 }
 
-/// Visits a group and its ancestors. In a container the path may be the host's, with the
-/// container's own group mounted at the top.
-void take_groups(FreeMemory& least, const fs::path& mount, const std::string& path,
-                 const GroupFiles& files) {
-    fs::path group = fs::path(path).relative_path();
-    for (; !group.empty(); group = group.parent_path()) take_group(least, mount / group, files);
-    take_group(least, mount, files);
-}
-
-/// Lines of /proc/self/cgroup: "0::/path" (version 2) or "4:memory:/path" (version 1).
-void take_all_groups(FreeMemory& least, const std::string& root) {
-    std::ifstream file(root + "/proc/self/cgroup");
+/// Visits this process's group and its ancestors. In a container the path may be the host's, with
+/// the container's own group mounted at the top.
+void take_groups(FreeMemory& least, const fs::path& root) {
+    std::ifstream file(root / "proc/self/cgroup");
     for (std::string line; std::getline(file, line);) {
-        const std::size_t first = line.find(':');
-        const std::size_t second = first == line.npos ? first : line.find(':', first + 1);
-        if (second == line.npos) continue;
-        const std::string kinds = "," + line.substr(first + 1, second - first - 1) + ",";
-        const std::string path = line.substr(second + 1);
-        if (kinds == ",,") take_groups(least, root + "/sys/fs/cgroup", path, version_2);
-        if (kinds.find(",memory,") != kinds.npos) {
-            take_groups(least, root + "/sys/fs/cgroup/memory", path, version_1);
-        }
+        if (!line.starts_with("0::")) continue;  // version 1
+        const fs::path mount = root / "sys/fs/cgroup";
+        fs::path group = fs::path(line.substr(3)).relative_path();
+        for (; !group.empty(); group = group.parent_path()) take_group(least, mount / group);
+        take_group(least, mount);
     }
 }
 
@@ -121,7 +99,7 @@ FreeMemory free_memory(const std::string& root) {
     if (const auto kibibytes = number_of(root + "/proc/meminfo", "MemAvailable:")) {
         take_least(least, *kibibytes * 1024, "are free");
     }
-    take_all_groups(least, root);
+    take_groups(least, root.empty() ? "/" : root);
     take_address_space(least, root);
     return least;
 }

@@ -59,7 +59,7 @@ struct FreeMemory {
 };
 
 /// The smallest of: the machine's free memory, what each control group of this process leaves
-/// (cgroup v1 or v2: containers, batch jobs, systemd), and its address space (ulimit -v). `root` is
+/// (cgroup v2: containers, batch jobs, systemd), and its address space (ulimit -v). `root` is
 /// where /proc and /sys are, for tests.
 FreeMemory free_memory(const std::string& root = "");
 
