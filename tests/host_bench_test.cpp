@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <limits>
@@ -8,6 +10,7 @@
 #include "host/measure/baseline.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
+#include "host/measure/machine_load.h"
 #include "host/measure/pareto.h"
 #include "host/measure/picture_judge.h"
 #include "host/measure/statistics.h"
@@ -245,6 +248,24 @@ TEST(Converge, TargetBelowTheFloorIsNotDecided) {
     EXPECT_FALSE(times[0].below_floor);
     EXPECT_TRUE(times[2].below_floor);
     EXPECT_TRUE(figures_of(result, point)->below_floor);
+}
+
+TEST(MachineLoad, CountsTheTimeOfGivenCoresAlone) {
+    const std::string stat = "cpu 9 9 9 9\ncpu0 100 0 50 7 7 30 15 5 0 0\ncpu1 900 0 0 0\nintr 1\n";
+    cpu_set_t first;
+    CPU_ZERO(&first);
+    CPU_SET(0, &first);
+    std::istringstream lines(stat);
+    EXPECT_DOUBLE_EQ(used_seconds(lines, first), 200.0 / static_cast<double>(sysconf(_SC_CLK_TCK)));
+    CPU_SET(5, &first);
+    std::istringstream again(stat);
+    EXPECT_LT(used_seconds(again, first), 0);
+}
+
+TEST(MachineLoad, LeavesOutOurOwn) {
+    EXPECT_DOUBLE_EQ(load_between({1, 10, 3}, {3, 13, 5}), 0.5);
+    EXPECT_DOUBLE_EQ(load_between({1, 10, 3}, {3, 12, 5.1}), 0);
+    EXPECT_LT(load_between({1, -1, 3}, {3, 12, 5}), 0);
 }
 
 }  // namespace

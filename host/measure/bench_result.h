@@ -60,7 +60,7 @@ struct BenchRow : TimedRuns {
 struct BenchResult {
     int repeats_asked = 0;
     bool interrupted = false;
-    double load_before = -1;  ///< one-minute load average when it began; below 0: unknown
+    double load_before = -1;              ///< see other_load
     std::vector<RenderStats> references;  ///< double, strict, threads; one per scene, size, AA mode
     std::vector<BenchRow> rows;           ///< by scene, size, AA, precision; then devices
     /// With --ablate (`rows` is then empty): a picture on a device as usual, then with each change.

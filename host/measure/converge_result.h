@@ -47,7 +47,7 @@ struct ConvergeResult {
     int width = 0, height = 0;  ///< pixels
     int repeats_asked = 0;
     bool interrupted = false;
-    double load_before = -1;  ///< one-minute load average when it began; below 0: unknown
+    double load_before = -1;  ///< see other_load
     ConvergeReference reference;
     std::vector<ConvergePoint> points;  ///< by device, precision, math, bounces; then AA
 };

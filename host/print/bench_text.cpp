@@ -130,7 +130,7 @@ std::string bench_text(const BenchResult& result) {
         images[hash_text(row.repeats.back().image_hash)].push_back(row.asked.device + schedule);
     }
     text += images_text(images) + ablation_text(result);
-    text += fmt::format("\n{}; load before {:.2f}\n{}",
+    text += fmt::format("\n{}; other load {:.2f}\n{}",
                         rounds_text(result.ablation.empty() ? result.rows : result.ablation,
                                     result.repeats_asked, result.interrupted),
                         result.load_before, result.ablation.empty() ? legend : ablation_legend);

@@ -106,7 +106,7 @@ std::string targets_text(const ConvergeResult& result) {
 std::string converge_text(const ConvergeResult& result) {
     const ConvergeReference& reference = result.reference;
     std::string text = fmt::format(
-        "{}\n{}x{}, {}; load before {:.2f}\n"
+        "{}\n{}x{}, {}; other load {:.2f}\n"
         "reference: mean of {} and {} in double, {} bounces\n"
         "its halves differ by RMSE {:.2e}: floor {:.2e}; values clamped to [0,1]\n\n",
         printable(result.scene_path), result.width, result.height,

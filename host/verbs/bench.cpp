@@ -13,6 +13,7 @@
 #include "host/base/parallel.h"
 #include "host/image/output_path.h"
 #include "host/measure/baseline.h"
+#include "host/measure/machine_load.h"
 #include "host/print/print_bench.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stats.h"
@@ -235,7 +236,6 @@ bool has_regressed(const BenchResult& result, const Baseline& baseline, double m
 BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline) {
     BenchResult result;
     result.repeats_asked = options.repeats;
-    result.load_before = load_average();
     Plan plan(options);
     say_busy(options.quiet);
     result.interrupted = !plan.make(result);
@@ -248,6 +248,7 @@ BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline)
         rows.push_back({std::move(plan.cases[i]), plan.asked[i]});
     }
     judge_ablation(result);
+    result.load_before = other_load();
     return result;
 }
 

@@ -13,6 +13,7 @@
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/image/output_path.h"
+#include "host/measure/machine_load.h"
 #include "host/print/print_converge.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stats.h"
@@ -164,12 +165,11 @@ int verdict(const ConvergeResult& result) {
 
 ConvergeResult measure_converge(const ConvergeOptions& options) {
     ConvergeResult result;
-    result.load_before = load_average();
     result.repeats_asked = options.repeats;
+    say_busy(options.quiet);
     const Stopwatch watch;
     Scene scene = load_scene(options.scene, options.light);
     const double load_seconds = watch.seconds();
-    say_busy(options.quiet);
     if (options.size) set_image_size(scene, options.size->width, options.size->height);
     result.scene_path = options.scene;
     result.scene_name = scene.name;
@@ -194,6 +194,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     if (converged.complete) {
         time_points(scene, load_seconds, converged, options, devices, result);
     }
+    result.load_before = other_load();
     return result;
 }
 

@@ -55,7 +55,7 @@ void print_json(const std::vector<ClDevice>& devices, const std::vector<std::str
         {"version", 1},
         {"devices", list},
         {"threads", {{"cores", available_cores()}, {"isas", native_isas()}}},
-        {"machine", machine_load_json(load_of(load_average()))},
+        {"machine", machine_load_json(load_of(other_load()))},
         {"problems", problems}};
     print_result(json_text(json));
 }
@@ -111,7 +111,6 @@ int run_devices(const DevicesOptions& options) {
         print_json(devices, problems);
         return 0;
     }
-    print_lines({busy_text(load_of(load_average()))});
     std::string text;
     for (const ClDevice& device : devices) text += device_text(device);
     text += threads_text(available_cores());

@@ -9,6 +9,7 @@
 #include "host/base/error.h"
 #include "host/image/atomic_file.h"
 #include "host/measure/bench.h"
+#include "host/measure/machine_load.h"
 #include "host/print/environment_json.h"
 #include "host/print/print_bench.h"
 #include "host/print/print_converge.h"
@@ -196,7 +197,7 @@ int run_report(const ReportOptions& options) {
     Report report;
     report.date = today();
     report.commands = report_commands(options);
-    report.load_before = load_average();
+    report.load_before = other_load();
     measure(options, report);
     if (report.scenes.empty()) {
         print_note(stop_reason() + " before any picture was finished; no page written");

@@ -11,6 +11,7 @@
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/text.h"
+#include "host/measure/machine_load.h"
 #include "host/opencl/cl_ray_tracer.h"
 #include "host/opencl/device_spec.h"
 #include "host/picture/render_picture.h"
@@ -257,7 +258,7 @@ class Runner {
 StressResult run_stress_cases(const std::vector<StressFamily>& families,
                               const StressOptions& options) {
     StressResult result;
-    result.load_before = load_average();
+    other_load();
     result.quick = options.quick;
     const Stopwatch watch;
     Runner runner(options);
@@ -273,6 +274,7 @@ StressResult run_stress_cases(const std::vector<StressFamily>& families,
     result.interrupted = stop_flag() != 0;
     result.unfinished = families.size() - result.families.size();
     result.seconds = watch.seconds();
+    result.load_before = other_load();
     return result;
 }
 

@@ -110,17 +110,9 @@ bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
     return stop_flag() == 0;
 }
 
-double load_average() {
-    static const double at_first = [] {
-        double load = 0;
-        return getloadavg(&load, 1) == 1 ? load : -1;
-    }();
-    return at_first;
-}
-
 void say_busy(bool quiet) {
     static bool said = false;
-    const std::string text = busy_text(load_of(load_average()));
+    const std::string text = busy_text(load_of(other_load()));
     if (quiet || said || text.empty()) return;
     said = true;
     print_note(text);

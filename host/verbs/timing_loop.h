@@ -42,10 +42,6 @@ RenderedPicture render_quietly(const Scene& scene, const RenderSettings& setting
 /// Prints a line on stderr for each round unless `quiet`. Returns whether it ran to the end.
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet);
 
-/// The one-minute load average when first called, so that our own measurements do not count; -1 if
-/// unavailable.
-double load_average();
-
 /// Warns on stderr, once and unless `quiet`, that the machine is busy with other work.
 void say_busy(bool quiet);
 
