@@ -7,35 +7,23 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/opencl/icd_files.h"
+#include "host/opencl/pocl.h"
 #include "host/options/options.h"
 #include "host/picture/render_stats.h"
-#include "host/pocl/pocl_environment.h"
+#include "host/process/drivers.h"
 #include "host/process/exit_status.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
-#include "host/verbs/device_list.h"
 #include "host/verbs/verbs.h"
 
 namespace {
 
-/// Measures in a worker process, which the OpenCL drivers it loads may crash; once more without
-/// those that crash or hang while their devices are listed, if there are others.
+/// Measures in a worker process, which the OpenCL drivers it loads may crash.
 int isolated(const rt::RenderOptions& options, double seconds_before_main,
              const std::function<int()>& measure) {
     if (rt::is_worker()) return measure();
-    rt::WorkerEnd end = rt::run_worker(options.command, {}, options.deadline, seconds_before_main);
-    const auto has_failed = [&] { return end.stop_signal == 0 && !end.is_regular; };
-    if (has_failed() && end.task == rt::listing_devices) {
-        const rt::IcdFiles files = rt::try_icd_files(options.drivers);
-        const rt::UsableIcdFiles usable(files);
-        rt::print_notes(files.problems);
-        if (!usable.change().empty()) {
-            end = rt::run_worker(options.command, usable.change(), options.deadline,
-                                 seconds_before_main);
-        }
-    }
-    if (end.stop_signal != 0) rt::end_by_stop_signal(end.stop_signal);
+    rt::WorkerCommand command{options.command, {}, options.deadline, seconds_before_main};
+    const rt::WorkerEnd end = rt::run_without_bad_drivers(command, options.drivers, false);
     if (end.is_regular) return end.status;
     throw rt::Error(rt::ExitCode::device, (end.task.empty() ? "" : end.task + ": ") +
                                               "the worker process " + end.how +
@@ -91,7 +79,7 @@ int main(int argc, char** argv) {
         return result;
     });
     rt::note_worker_end(status);
-    rt::remove_private_pocl_cache();
+    rt::leave_pocl_cache();
     // Skips destructors: a driver may still be compiling for a picture that is finished.
     _exit(status);
 }

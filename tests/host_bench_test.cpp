@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "host/measure/amdahl.h"
 #include "host/measure/baseline.h"

@@ -100,7 +100,6 @@ std::vector<BuildOffset> build_offsets(const ConvergeResult& result) {
         }
         const RenderStats& run = first.warm_up.front();
         offsets.push_back({first.asked, spread_of(repeats, open_of).median, build_of(run),
-                           to_string(run.phases.renderer.build_cache),
                            spread_of(repeats, build_of)});
     }
     return offsets;

@@ -41,11 +41,10 @@ std::vector<Curve> curves_of(const ConvergeResult& result);
 
 /// Extra seconds of a device's first picture.
 struct BuildOffset {
-    ConvergeCase of;          ///< its device, precision and math
-    double open = 0;          ///< median
-    double first_build = 0;   ///< of the first picture in this process ...
-    std::string first_cache;  ///< ... by RenderStats: "cold", "unknown", "none" or "warm"
-    Spread warm_build;        ///< over all repeats
+    ConvergeCase of;         ///< its device, precision and math
+    double open = 0;         ///< median
+    double first_build = 0;  ///< of the first picture, with an empty kernel cache
+    Spread warm_build;       ///< over all repeats
 };
 
 std::vector<BuildOffset> build_offsets(const ConvergeResult& result);

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "host/opencl/pocl.h"
+
 struct _cl_device_id;
 
 namespace rt {
-
-inline constexpr const char* pocl_platform = "Portable Computing Language";
 
 /// An OpenCL device and its relevant properties.
 struct ClDevice {

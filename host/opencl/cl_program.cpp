@@ -8,9 +8,8 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/opencl/kept_programs.h"
 #include "host/opencl/opencl.h"
-#include "host/pocl/pocl_build.h"
+#include "host/opencl/pocl.h"
 
 namespace rt {
 
@@ -65,7 +64,6 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
 cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
                           const ProgramOptions& options) {
     const std::string flags = build_options(device, options);
-    if (auto kept = kept_program(context, device, source, flags)) return *std::move(kept);
     if (auto built = built_for_pocl(context, device, source, flags)) return *built;
     const cl::Program program(context, std::string(source));
     const cl_int status = build(program, device, flags);
@@ -79,7 +77,6 @@ cl::Program build_program(const cl::Context& context, const ClDevice& device, co
                         device.name, device.driver, cl_status_text(status), advice, flags,
                         build_log(program, device)));
     }
-    keep_program(program, device, source, flags);
     return program;
 }
 

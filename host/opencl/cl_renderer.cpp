@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <filesystem>
 #include <memory>
 #include <span>
 
@@ -16,8 +15,8 @@
 #include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/opencl/open_devices.h"
+#include "host/opencl/pocl.h"
 #include "host/opencl/render_kernels.h"
-#include "host/pocl/pocl_cache.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
@@ -209,8 +208,6 @@ class ClRenderer : public Renderer<T> {
             const bool is_one_packet = !launch_samples_ && held == params_.samples;
             if (is_one_packet && !options.any_samples) program_options.samples = held;
         }
-        const bool is_pocl = device_.platform == pocl_platform;
-        const auto start = std::filesystem::file_time_type::clock::now();
         const Stopwatch watch;
         OpenDevices* const kept = options.open_devices;
         const cl::Program program =
@@ -232,7 +229,6 @@ class ClRenderer : public Renderer<T> {
         }
         queue_.finish();
         times_.build = watch.seconds();
-        times_.build_cache = is_pocl ? pocl_build_since(start) : BuildCache::unknown;
     }
 
     /// Sets all arguments that stay the same for a picture; the tile's comes next.

@@ -11,7 +11,7 @@
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/opencl/gpu_nodes.h"
-#include "host/pocl/pocl_environment.h"
+#include "host/opencl/pocl.h"
 
 namespace rt {
 

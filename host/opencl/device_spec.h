@@ -18,7 +18,7 @@ struct DeviceChoice {
     int threads = 0;      ///< from threads:N; 0 when not given
     ClDevice device;      ///< meaningless for threads
     std::string failure;  ///< why its driver could not list it; then only device.name has a meaning
-    bool is_helper = false;  ///< threads that were not asked for, beside a device chosen by itself
+    bool is_helper = false;  ///< threads added next to an automatically chosen device
     std::string note;        ///< why it may be unexpected, for stderr; often empty
 };
 

@@ -28,12 +28,8 @@ Options parse_options(int argc, const char* const* argv) {
         add_scene(program, options);
     };
     options.worker_link = environment("MIRRORBALL_WORKER");
-    if (!options.worker_link.empty()) {
-        options.render.batch_log = environment("MIRRORBALL_BATCH");
-        options.render.rank_share = environment("MIRRORBALL_SHARE");
-    }
+    if (!options.worker_link.empty()) options.render.rank_share = environment("MIRRORBALL_SHARE");
     options.render.command.assign(argv, argv + argc);
-    options.doctor.command = options.render.command;
     options.render.drivers = options.devices.drivers = options.doctor.drivers = icd_place();
     options.text = read_command_line(texts, describe, argc, argv);
     return options;

@@ -22,10 +22,10 @@ struct DevicesOptions {
 
 /// `mirrorball doctor`
 struct DoctorOptions {
-    std::string drivers;               ///< as in DevicesOptions
-    std::string device;                ///< empty: everything, each device in its own process
-    std::vector<std::string> command;  ///< the program's own, to start workers
-    double deadline = 30;              ///< seconds without progress before a device counts as hung
+    std::string drivers;          ///< as in DevicesOptions
+    std::string library_folders;  ///< LD_LIBRARY_PATH
+    std::string device;           ///< empty: everything, each device in its own process
+    double deadline = 30;         ///< seconds without progress before a device counts as hung
     bool json = false;
 };
 

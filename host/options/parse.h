@@ -51,7 +51,7 @@ inline auto seconds_from(double least) {
     return [least](const std::string& text) {
         const auto seconds = parse_number<double>(text);
         if (!seconds || !(*seconds >= least && *seconds <= 1e8)) {
-            refuse(text, fmt::format("expected a number of seconds, at least {:g}", least));
+            refuse(text, fmt::format("expected a number of seconds from {:g} to 1e8", least));
         }
         return *seconds;
     };

@@ -167,7 +167,7 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
                "list the triangles that can cast shadows, if there are few (default: on)");
     add_choice(verb, "--isolate", render.isolate, isolate_choices,
                "auto (default): load OpenCL drivers in a separate process; never: in this one");
-    verb.value("--deadline", "S", render.deadline, seconds_from(0.5),
+    verb.value("--deadline", "S", render.deadline, seconds_from(0.1),
                "seconds without progress after which a driver counts as hung (default: 10)");
     verb.flag("--no-fallback", render.no_fallback,
               "fail if the device fails, instead of finishing on threads");
@@ -207,8 +207,6 @@ void add_render(const CommandLine& program, Options& options) {
     add_report_options(verb, options.render);
     verb.when_chosen([&options, verb] {
         if (!verb.given("--device")) options.render.device = device_from_environment();
-        const std::string left = environment("MIRRORBALL_DEVICES");
-        if (!options.worker_link.empty() && !left.empty()) options.render.device = left;
         settle_render(options.render);
         options.verb = Verb::render;
     });

@@ -29,18 +29,19 @@ struct RenderOptions : RenderSettings {
     Encoding encoding = Encoding::display;
     StatsFormat stats = StatsFormat::summary;
     ProgressMode progress = ProgressMode::automatic;
-    bool resume = false;               ///< requested explicitly
-    std::vector<Aov> aovs;             ///< to be saved next to the picture
-    ViewSettings view;                 ///< where to show the picture while it renders
-    bool mpi = false;                  ///< render on the ranks that mpirun started
-    bool watch = false;                ///< render again when the scene's files change
-    double timeout = 0;                ///< seconds until it gives up; 0: never
-    bool isolate = true;               ///< OpenCL in a separate process
-    double deadline = 10;              ///< seconds without progress after which a driver is hung
-    std::string failed_device;         ///< that threads replace
-    std::string device_failure;        ///< how it failed
-    std::string drivers;               ///< where OpenCL finds its .icd files
-    std::string batch_log;             ///< descriptor of memory shared by workers; see BatchLog
+    bool resume = false;         ///< requested explicitly
+    std::vector<Aov> aovs;       ///< to be saved next to the picture
+    ViewSettings view;           ///< where to show the picture while it renders
+    bool mpi = false;            ///< render on the ranks that mpirun started
+    bool watch = false;          ///< render again when the scene's files change
+    double timeout = 0;          ///< seconds until it gives up; 0: never
+    bool isolate = true;         ///< OpenCL in a separate process
+    double deadline = 10;        ///< seconds without progress after which a driver is hung
+    std::string failed_device;   ///< that threads replace
+    std::string device_failure;  ///< how it failed
+    std::string drivers;         ///< where OpenCL finds its .icd files
+    std::vector<std::string>
+        batch_past;                    ///< what the worker did whose driver failed; see BatchPast
     std::string rank_share;            ///< "I/N:FILE", in a worker of an MPI rank: what to render
     std::vector<std::string> command;  ///< the program's own, to start workers
     bool quiet = false, verbose = false;

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/low_priority.h"
 #include "host/picture/pixel_runs.h"
 #include "host/render/stopwatch.h"
 
@@ -177,7 +176,7 @@ void Crew<T>::serve(const std::shared_ptr<Team>& team, Place& place) {
         made.before = made.renderer->times();
     };
     try {
-        run_at_low_priority(make);
+        make();
     } catch (...) {
         return fail();
     }

@@ -53,12 +53,4 @@ std::string settings_text(const RenderStats& stats) {
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
-const char* to_string(BuildCache cache) {
-    static constexpr Named<BuildCache> names[] = {{"none", BuildCache::none},
-                                                  {"cold", BuildCache::cold},
-                                                  {"warm", BuildCache::warm},
-                                                  {"unknown", BuildCache::unknown}};
-    return name_of(names, cache);
-}
-
 }  // namespace rt

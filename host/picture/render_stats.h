@@ -112,6 +112,4 @@ std::string settings_text(const RenderStats& stats);
 /// 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
 
-const char* to_string(BuildCache cache);
-
 }  // namespace rt

@@ -66,7 +66,6 @@ Json builds_json(const ConvergeResult& result) {
         Json json = build_json(offset.of);
         json["open"] = offset.open;
         json["first_build"] = offset.first_build;
-        json["first_cache"] = offset.first_cache;
         json["warm_build"] = spread_json(offset.warm_build);
         list.push_back(json);
     }

@@ -73,12 +73,12 @@ std::string builds_text(const ConvergeResult& result) {
     std::string text = fmt::format(
         "\n"
         "extra time for the first picture, seconds\n"
-        "{:<30} {:>9} {:>11} {:<8} {:>11} {:>4}\n",
-        "", "open", "first build", "cache", "later build", "+-%");
+        "{:<30} {:>9} {:>11} {:>11} {:>4}\n",
+        "", "open", "first build", "later build", "+-%");
     for (const BuildOffset& offset : build_offsets(result)) {
-        text += fmt::format("{} {:>9.5f} {:>11.5f} {:<8} {:>11.5f} {:>4.1f}\n", who(offset.of),
-                            offset.open, offset.first_build, offset.first_cache,
-                            offset.warm_build.median, offset.warm_build.noise_percent());
+        text += fmt::format("{} {:>9.5f} {:>11.5f} {:>11.5f} {:>4.1f}\n", who(offset.of),
+                            offset.open, offset.first_build, offset.warm_build.median,
+                            offset.warm_build.noise_percent());
     }
     return text;
 }

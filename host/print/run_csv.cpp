@@ -45,7 +45,7 @@ std::vector<std::string> what_cells(const RenderStats& run, const RunPlace& plac
 
 std::vector<std::string> figure_cells(const RenderStats& run) {
     const RendererTimes& times = run.phases.renderer;
-    std::vector<std::string> cells{to_string(times.build_cache)};
+    std::vector<std::string> cells;
     for (const double seconds :
          {run.phases.load, run.phases.flatten, times.open, times.build, times.upload, times.trace,
           times.kernel, times.resolve, times.read_back, run.phases.total}) {
@@ -83,7 +83,7 @@ std::string line_of(const RenderStats& run, const RunPlace& place) {
 
 std::string run_csv_header() {
     return "scene,scene_hash,width,height,aa,max_bounces,precision,math,device,device_name,threads,"
-           "schedule,launch,verdict,round,build_cache,load,flatten,open,build,upload,trace,kernel,"
+           "schedule,launch,verdict,round,load,flatten,open,build,upload,trace,kernel,"
            "resolve,read_back,total,primary_rays,shadow_rays,mirror_rays,transmitted_rays,rays_per_"
            "second,"
            "image_hash,rmse,max_error,non_finite,machine,driver,version";

@@ -79,14 +79,21 @@ Json shares_json(const std::vector<DeviceShare>& shares) {
 
 Json phases_json(const PhaseStats& phases) {
     const RendererTimes& renderer = phases.renderer;
-    return {{"start", phases.start},       {"load", phases.load},
-            {"flatten", phases.flatten},   {"open", renderer.open},
-            {"build", renderer.build},     {"build_cache", to_string(renderer.build_cache)},
-            {"upload", renderer.upload},   {"self_test", renderer.check},
-            {"trace", renderer.trace},     {"kernel", renderer.kernel},
-            {"resolve", renderer.resolve}, {"read_back", renderer.read_back},
-            {"write", phases.write},       {"total", phases.total},
-            {"set_up", phases.set_up()},   {"resolve_and_write", phases.resolve_and_write()}};
+    return {{"start", phases.start},
+            {"load", phases.load},
+            {"flatten", phases.flatten},
+            {"open", renderer.open},
+            {"build", renderer.build},
+            {"upload", renderer.upload},
+            {"self_test", renderer.check},
+            {"trace", renderer.trace},
+            {"kernel", renderer.kernel},
+            {"resolve", renderer.resolve},
+            {"read_back", renderer.read_back},
+            {"write", phases.write},
+            {"total", phases.total},
+            {"set_up", phases.set_up()},
+            {"resolve_and_write", phases.resolve_and_write()}};
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ std::string phases_text(const PhaseStats& phases) {
     add_phase(text, "  start", phases.start, "before main");
     add_phase(text, "  load", phases.load);
     add_phase(text, "  flatten", phases.flatten);
-    if (renderer.build_cache != BuildCache::none) {
+    if (renderer.build > 0) {
         add_phase(text, "  open device", renderer.open);
-        add_phase(text, "  build kernels", renderer.build, to_string(renderer.build_cache));
+        add_phase(text, "  build kernels", renderer.build);
         add_phase(text, "  upload", renderer.upload);
         if (renderer.check > 0) add_phase(text, "  self-test", renderer.check);
     }

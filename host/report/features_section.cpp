@@ -20,8 +20,7 @@ namespace {
 double kernel_build_seconds(const RenderStats& run) { return run.phases.renderer.build; }
 
 std::string build_text(const std::vector<RenderStats>& runs) {
-    return fmt::format("{} ({})", duration_text(spread_of(runs, kernel_build_seconds).median),
-                       to_string(runs.front().phases.renderer.build_cache));
+    return duration_text(spread_of(runs, kernel_build_seconds).median);
 }
 
 std::string cold_text(const std::optional<RenderStats>& run) {

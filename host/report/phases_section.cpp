@@ -42,7 +42,7 @@ Bar phases_bar(const std::string& label, const std::string& source, int color,
 
 bool built_cold(const BenchRow& row) {
     return !row.warm_up.empty() &&
-           row.warm_up.front().phases.renderer.build_cache == BuildCache::cold;
+           row.warm_up.front().phases.renderer.build > 0;
 }
 
 std::string cold_label(const BenchRow& row) {

@@ -18,6 +18,7 @@
 #include "host/image/output_path.h"
 #include "host/options/frame_number.h"
 #include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/scene/scene_file.h"
 
 namespace rt {
@@ -74,8 +75,33 @@ std::string frame_output(const std::string& pattern, int frame) {
            pattern.substr(number->at + number->length);
 }
 
-LineReader::LineReader(const std::string& path, BatchLog& log)
-    : log_(log), file_(path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+BatchPast::BatchPast(const std::vector<std::string>& records) {
+    for (const std::string& record : records) {
+        std::istringstream fields(record.substr(1));
+        std::size_t picture = 0;
+        int status = 0;
+        if (record.starts_with('l')) {
+            lines_.push_back(record.substr(1));
+        } else if (fields >> picture >> status) {
+            statuses_.emplace(picture, status);
+        }
+    }
+}
+
+void BatchPast::tell_line(const std::string& line) { tell_parent("l" + line); }
+
+void BatchPast::tell_finished(std::size_t picture, int status) {
+    tell_parent(fmt::format("f{} {}", picture, status));
+}
+
+std::optional<int> BatchPast::status_of(std::size_t picture) const {
+    const auto found = statuses_.find(picture);
+    return found == statuses_.end() ? std::nullopt : std::optional(found->second);
+}
+
+LineReader::LineReader(const std::string& path, std::deque<std::string> past)
+    : past_(std::move(past)),
+      file_(path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
     if (!file_) {
         throw Error(ExitCode::input, fmt::format("{}: cannot open the list of scenes: {}", path,
                                                  std::strerror(errno)));
@@ -85,9 +111,7 @@ LineReader::LineReader(const std::string& path, BatchLog& log)
         throw Error(ExitCode::input,
                     path + ": is a directory; name a file that lists scenes, one per line");
     }
-    if (path == "-" || !S_ISREG(status.st_mode)) return;
-    chunk_ = 4096;
-    lseek(file_.number(), static_cast<off_t>(log.bytes_of_lines()), SEEK_SET);
+    if (path != "-" && S_ISREG(status.st_mode)) chunk_ = 4096;
 }
 
 /// Returns whether more was read.
@@ -101,14 +125,11 @@ bool LineReader::read_more() {
 }
 
 std::optional<std::string> LineReader::next() {
-    std::optional<std::string> line = log_.next_line();
-    if (line) return line;
-    line = read_line();
-    if (line) log_.add_line(*line);
-    return line;
-}
-
-std::optional<std::string> LineReader::read_line() {
+    if (!past_.empty()) {
+        std::string line = std::move(past_.front());
+        past_.pop_front();
+        return line;
+    }
     std::size_t end = text_.find('\n');
     while (end == std::string::npos && !at_end_) {
         at_end_ = !read_more();
@@ -117,11 +138,12 @@ std::optional<std::string> LineReader::read_line() {
     if (text_.empty() || stop_flag() != 0) return std::nullopt;
     std::string line = text_.substr(0, end);
     text_.erase(0, end == std::string::npos ? end : end + 1);
+    if (chunk_ == 1) BatchPast::tell_line(line);
     return line;
 }
 
-BatchList::BatchList(const RenderOptions& options, BatchLog& log) : options_(options) {
-    if (!options.batch.empty()) lines_.emplace(options.batch, log);
+BatchList::BatchList(const RenderOptions& options, BatchPast& past) : options_(options) {
+    if (!options.batch.empty()) lines_.emplace(options.batch, past.take_lines());
 }
 
 bool BatchList::take(BatchItem& item) {

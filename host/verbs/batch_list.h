@@ -2,14 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/base/files.h"
 #include "host/options/render_options.h"
-#include "host/verbs/batch_log.h"
 
 namespace rt {
 
@@ -32,21 +34,37 @@ std::vector<std::string> scenes_of_list(const std::string& path);
 /// The pattern with its %d or %04d replaced by the frame number.
 std::string frame_output(const std::string& pattern, int frame);
 
-/// Reads lines as they arrive, after those that an earlier process has read, and logs them. A stop
-/// signal ends the wait for one.
+/// What a worker had read and finished of a batch before its driver failed. It tells its parent
+/// each line of a list that can be read only once, and how each picture went.
+class BatchPast {
+   public:
+    explicit BatchPast(const std::vector<std::string>& records);
+
+    static void tell_line(const std::string& line);
+    static void tell_finished(std::size_t picture, int status);
+
+    std::optional<int> status_of(std::size_t picture) const;
+    std::deque<std::string> take_lines() { return std::move(lines_); }
+
+   private:
+    std::deque<std::string> lines_;
+    std::map<std::size_t, int> statuses_;
+};
+
+/// Reads lines as they arrive. A stop signal ends the wait for one.
 class LineReader {
    public:
-    /// "-": stdin. Throws Error (ExitCode::input) when it cannot be opened.
-    LineReader(const std::string& path, BatchLog& log);
+    /// "-": stdin. `past`: lines that were read before. Throws Error (ExitCode::input) when the
+    /// file cannot be opened.
+    LineReader(const std::string& path, std::deque<std::string> past);
 
     /// Empty at the end of the file and after a stop signal.
     std::optional<std::string> next();
 
    private:
     bool read_more();
-    std::optional<std::string> read_line();
 
-    BatchLog& log_;
+    std::deque<std::string> past_;
     FileDescriptor file_;
     std::size_t chunk_ = 1;  ///< bytes to read at once: of a pipe, none of the next line
     std::string text_;       ///< read, but not yet returned
@@ -57,7 +75,7 @@ class LineReader {
 class BatchList {
    public:
     /// Throws Error (ExitCode::input) when the list cannot be opened.
-    BatchList(const RenderOptions& options, BatchLog& log);
+    BatchList(const RenderOptions& options, BatchPast& past);
 
     /// Gets the next item; false if there is none. Throws Error for an invalid line, and
     /// ExitCode::usage if two scenes would share an output file; the next call continues after it.

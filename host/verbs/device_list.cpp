@@ -6,8 +6,8 @@
 #include "host/base/console.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/opencl/device_spec.h"
-#include "host/pocl/pocl_environment.h"
-#include "host/process/worker.h"
+#include "host/opencl/pocl.h"
+#include "host/process/drivers.h"
 
 namespace rt {
 
@@ -47,7 +47,7 @@ class ClDevices {
     const std::vector<ClDevice>& list() {
         if (!listed_) {
             prepare_pocl(0);
-            const WorkerTask task(listing_devices, true);
+            const DriverTask task(listing_devices);
             devices_ = list_cl_devices(problems_);
         }
         listed_ = true;

@@ -8,9 +8,6 @@
 
 namespace rt {
 
-/// A worker's task while it lists devices.
-inline constexpr const char* listing_devices = "listing OpenCL devices";
-
 /// A device to be measured.
 struct ListedDevice {
     std::string spec;  ///< for --device: "threads", "threads:2", "0"

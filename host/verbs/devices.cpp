@@ -8,10 +8,9 @@
 #include "host/base/parallel.h"
 #include "host/base/text.h"
 #include "host/measure/machine_load.h"
-#include "host/opencl/cl_device.h"
-#include "host/opencl/icd_files.h"
-#include "host/pocl/pocl_environment.h"
+#include "host/opencl/pocl.h"
 #include "host/print/print_stats.h"
+#include "host/process/drivers.h"
 #include "host/render/native_kernels.h"
 #include "host/verbs/timing_loop.h"
 #include "host/verbs/verbs.h"
@@ -47,16 +46,16 @@ nlohmann::ordered_json to_json(const ClDevice& device) {
             {"icd_file", device.icd_file}};
 }
 
-void print_json(const std::vector<ClDevice>& devices, const std::vector<std::string>& problems) {
+void print_json(const Drivers& drivers) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const ClDevice& device : devices) list.push_back(to_json(device));
+    for (const ClDevice& device : drivers.devices) list.push_back(to_json(device));
     const nlohmann::ordered_json json{
         {"format", "mirrorball-devices"},
         {"version", 1},
         {"devices", list},
         {"threads", {{"cores", available_cores()}, {"isas", native_isas()}}},
         {"machine", machine_load_json(load_of(other_load()))},
-        {"problems", problems}};
+        {"problems", drivers.problems}};
     print_result(json_text(json));
 }
 
@@ -84,16 +83,10 @@ std::string device_text(const ClDevice& device) {
     return text;
 }
 
-void print_lines(const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) {
-        if (!line.empty()) print_result(line + "\n");
-    }
-}
-
 /// The line for pthreads: cores, and the instruction sets that have kernels.
-std::string threads_text(int cores) {
+std::string threads_text() {
     const std::vector<std::string> isas = native_isas();
-    std::string text = "threads  POSIX threads on " + counted(cores, "core");
+    std::string text = "threads  POSIX threads on " + counted(available_cores(), "core");
     if (isas.empty()) return text + ": no kernels for this processor\n";
     text += fmt::format(", kernels for {}", fmt::join(isas, ", "));
     if (!has_fast_fma(isas.front())) text += " (slow: no fused multiply-add)";
@@ -103,19 +96,23 @@ std::string threads_text(int cores) {
 }  // namespace
 
 int run_devices(const DevicesOptions& options) {
+    if (is_worker()) {
+        list_drivers_for_parent(options.drivers);
+        return 0;
+    }
     prepare_pocl(0);
-    IcdFiles files = try_icd_files(options.drivers);
-    std::vector<std::string>& problems = files.problems;
-    const std::vector<ClDevice> devices = list_devices_of(files, UsableIcdFiles(files));
+    Drivers drivers = list_drivers(options.drivers);
+    drivers.problems.insert(drivers.problems.begin(), drivers.bad_files.begin(),
+                            drivers.bad_files.end());
     if (options.json) {
-        print_json(devices, problems);
+        print_json(drivers);
         return 0;
     }
     std::string text;
-    for (const ClDevice& device : devices) text += device_text(device);
-    text += threads_text(available_cores());
+    for (const ClDevice& device : drivers.devices) text += device_text(device);
+    text += threads_text();
+    for (const std::string& problem : drivers.problems) text += problem + "\n";
     print_result(text);
-    print_lines(problems);
     return 0;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "host/base/console.h"
@@ -11,13 +12,10 @@
 #include "host/base/version.h"
 #include "host/image/picture_io.h"
 #include "host/mpi/ranks.h"
-#include "host/opencl/icd_files.h"
+#include "host/opencl/pocl.h"
 #include "host/picture/render_picture.h"
-#include "host/pocl/pocl_cache.h"
-#include "host/pocl/pocl_environment.h"
 #include "host/print/print_stats.h"
-#include "host/process/stop_signal.h"
-#include "host/process/worker.h"
+#include "host/process/drivers.h"
 #include "host/render/native_kernels.h"
 #include "host/render/stopwatch.h"
 #include "host/verbs/default_scene.h"
@@ -32,7 +30,7 @@ namespace {
 constexpr PictureSize size{100, 100};
 constexpr std::uint64_t float_hash = 0x7263fc593b53fdc8, double_hash = 0x668173dac9fdc30f;
 
-/// How many deadlines testing a device, which may be busy for ever, may take.
+/// Time limit of a device test, in deadlines.
 constexpr double longest_test = 10;
 
 enum class State { fine, missing, broken };
@@ -46,8 +44,8 @@ struct Finding {
     std::string verdict;  ///< what is wrong, and what to do
 };
 
-/// Throws Error: ExitCode::different if the bits are wrong, else what rendering throws.
-void render_known_picture(const DeviceChoice& device, Precision precision) {
+/// Throws what rendering throws.
+std::uint64_t hash_of_known_picture(const DeviceChoice& device, Precision precision) {
     RenderSettings settings;
     settings.size = size;
     settings.precision = precision;
@@ -56,43 +54,56 @@ void render_known_picture(const DeviceChoice& device, Precision precision) {
     Scene scene = load_default_scene();
     apply_overrides(scene, settings);
     static const StopFlag never_stopped{0};
-    const RenderedPicture rendered = render_picture(scene, settings, {device}, {}, never_stopped);
+    return render_picture(scene, settings, {device}, {}, never_stopped).stats.image_hash;
+}
+
+/// Empty if the device renders the right picture.
+std::string what_is_wrong(const DeviceChoice& device, Precision precision) {
+    const std::uint64_t hash = hash_of_known_picture(device, precision);
     const bool is_double = precision == Precision::float64;
-    if (rendered.stats.image_hash == (is_double ? double_hash : float_hash)) return;
-    throw Error(ExitCode::different,
-                fmt::format("renders a wrong picture in {} (image {})", precision_name(is_double),
-                            hash_text(rendered.stats.image_hash)));
+    if (hash == (is_double ? double_hash : float_hash)) return "";
+    const bool is_of_threads =
+        device.use_threads || hash == hash_of_known_picture(threads_choice(), precision);
+    return fmt::format("{} in {} (image {}){}",
+                       is_of_threads ? "its kernels render another picture than the release's"
+                                     : "renders a wrong picture",
+                       precision_name(is_double), hash_text(hash),
+                       is_of_threads ? "" : "; clear its kernel cache or update its driver");
 }
 
 /// Tests a device in this process.
 int test_device(const std::string& spec) {
-    watch_worker(true);
+    watch_worker("testing " + spec);
     const DeviceChoice device = find_devices(spec, 0, {}).get().front();
-    render_known_picture(device, Precision::float32);
-    if (device.use_threads || device.device.has_double) {
-        render_known_picture(device, Precision::float64);
+    std::string wrong = what_is_wrong(device, Precision::float32);
+    if (wrong.empty() && (device.use_threads || device.device.has_double)) {
+        wrong = what_is_wrong(device, Precision::float64);
     }
-    return 0;
+    if (wrong.empty()) return 0;
+    tell_parent(wrong);
+    if (is_worker()) return static_cast<int>(ExitCode::different);
+    throw Error(ExitCode::different, wrong);
 }
 
 /// Tests a device in a worker process.
 Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
                        const std::string& name, const std::vector<std::string>& changes) {
     const Stopwatch watch;
-    const WorkerEnd end = run_worker({options.command.front(), "doctor", "--device", spec}, changes,
-                                     options.deadline, 0, longest_test * options.deadline);
-    const int stop = end.is_regular ? end.status - 128 : end.stop_signal;
-    if (stop > 0) end_by_stop_signal(stop);
+    const WorkerEnd end = run_worker({{"mirrorball", "doctor", "--device", spec},
+                                      changes,
+                                      options.deadline,
+                                      0,
+                                      longest_test * options.deadline});
+    end_if_stopped(end);
     Finding finding{State::broken, name, ""};
     if (!end.is_regular) {
-        finding.verdict = "its test process " + end.how + "; update its driver";
+        finding.verdict =
+            "its test process " + end.how + (end.is_started ? "; update its driver" : "");
     } else if (end.status == 0) {
         finding.state = State::fine;
         finding.verdict = fmt::format("renders the right picture ({:.2f} s)", watch.seconds());
-    } else if (end.status == static_cast<int>(ExitCode::different)) {
-        finding.verdict =
-            "renders a wrong picture (see above); clear its kernel cache or update its "
-            "driver";
+    } else if (!end.records.empty()) {
+        finding.verdict = end.records.front();
     } else {
         finding.verdict = "cannot render (see above)";
     }
@@ -141,20 +152,39 @@ Finding test_kernel_cache() {
             "PoCL caches compiled kernels in " + pocl_cache_folder().string()};
 }
 
-void examine_devices(const DoctorOptions& options, IcdFiles& files,
-                     std::vector<Finding>& findings) {
-    const UsableIcdFiles usable(files);
-    for (const ClDevice& device : list_devices_of(files, usable)) {
-        const std::string name = fmt::format("device {}, {}", device.index, device.name);
-        std::vector<std::string> changes;
-        if (!device.icd_file.empty()) changes.push_back("OCL_ICD_VENDORS=" + device.icd_file);
-        findings.push_back(
-            device.unusable.empty()
-                ? test_in_worker(options, std::to_string(device.index), name, changes)
-                : Finding{State::broken, name, device.unusable});
+void examine_device(const DoctorOptions& options, const ClDevice& device,
+                    const std::vector<std::string>& changes, std::vector<Finding>& findings) {
+    const std::string name = fmt::format("device {}, {}", device.index, device.name);
+    if (!device.unusable.empty()) return findings.push_back({State::broken, name, device.unusable});
+    findings.push_back(test_in_worker(
+        options, std::to_string(device.index), name,
+        device.icd_file.empty() ? changes : std::vector{"OCL_ICD_VENDORS=" + device.icd_file}));
+}
+
+/// Of drivers, and of the devices that they list.
+void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings) {
+    const Drivers drivers = list_drivers(options.drivers);
+    for (const std::string& file : drivers.files) findings.push_back({State::fine, "driver", file});
+    for (const std::string& problem : drivers.bad_files) {
+        findings.push_back({State::broken, "driver", problem});
     }
-    for (const std::string& problem : files.problems) {
+    for (const std::string& library : unlisted_drivers(options.drivers, options.library_folders)) {
+        findings.push_back({State::missing, "driver",
+                            fmt::format("{}: no .icd file names it; set OCL_ICD_VENDORS={}, or put "
+                                        "that name into {}/{}.icd",
+                                        library, library, options.drivers,
+                                        std::filesystem::path(library).stem().stem().string())});
+    }
+    if (drivers.files.empty() && drivers.devices.empty()) {
+        return findings.push_back(
+            {State::missing, "OpenCL",
+             "no driver in " + options.drivers + "; install pocl-opencl-icd or your GPU's driver"});
+    }
+    for (const std::string& problem : drivers.problems) {
         findings.push_back({State::broken, "OpenCL", problem});
+    }
+    for (const ClDevice& device : drivers.devices) {
+        examine_device(options, device, drivers.change, findings);
     }
     findings.push_back(test_kernel_cache());
 }
@@ -166,21 +196,8 @@ std::vector<Finding> examine(const DoctorOptions& options) {
                         isas.empty() ? "has no kernels for pthreads; render on an OpenCL device"
                                      : fmt::format("kernels for {}", fmt::join(isas, ", "))});
     prepare_pocl(0);
-    IcdFiles files = try_icd_files(options.drivers);
-    for (const std::string& file : files.usable) {
-        findings.push_back({State::fine, "driver", file});
-    }
-    for (const std::string& problem : files.problems) {
-        findings.push_back({State::broken, "driver", problem});
-    }
-    if (files.usable.empty()) {
-        findings.push_back(
-            {State::missing, "OpenCL",
-             "no driver in " + options.drivers + "; install pocl-opencl-icd or your GPU's driver"});
-    }
-    files.problems.clear();
     findings.push_back(test_in_worker(options, "threads", "threads", {}));
-    if (!files.usable.empty()) examine_devices(options, files, findings);
+    examine_opencl(options, findings);
     findings.push_back(test_format("EXR pictures", ".exr"));
     findings.push_back(test_format("TIFF, JPEG and other pictures", ".tif"));
     findings.push_back(test_window());

@@ -10,9 +10,9 @@ namespace rt {
 /// Renders in this process. `seconds_before_main`: time since the program began.
 using RenderHere = std::function<int(const RenderOptions&, double seconds_before_main)>;
 
-/// Renders in worker processes, which load the OpenCL drivers; if those fail, by `render_here` on
-/// threads. Returns the exit status.
-int render_isolated(const RenderOptions& options, double seconds_before_main,
-                    RenderHere render_here);
+/// Renders in a worker process, which loads the OpenCL drivers; if that fails, `render_here`
+/// finishes the picture or batch on threads. Returns the exit status.
+int render_isolated(RenderOptions options, double seconds_before_main,
+                    const RenderHere& render_here);
 
 }  // namespace rt

@@ -61,8 +61,7 @@ int render_scene(RenderOptions options, double seconds_before_main, LivePicture*
     check_output_is_no_input(options.output, inputs);
     check_aov_files(options, inputs);
     choose_journal(options);
-    watch_worker(true);
-    auto devices = find_devices(options.device, options.threads, restore_stop_signals);
+    auto devices = start_finding_devices(options);
     Stopwatch watch;
     const Scene scene = scene_to_render(options);
     check_aov_files(options, scene.model_files);
@@ -73,9 +72,14 @@ int render_scene(RenderOptions options, double seconds_before_main, LivePicture*
     const auto own = kept == nullptr ? make_live_picture(options) : nullptr;
     LivePicture* const live = kept == nullptr ? own.get() : kept;
     RenderConsole console(options, live);
-    RenderedPicture rendered =
-        render_picture(scene, options, std::move(devices), console.events(), stop_flag());
-    watch_worker(false);
+    RenderedPicture rendered;
+    try {
+        rendered =
+            render_picture(scene, options, std::move(devices), console.events(), stop_flag());
+    } catch (const WrongPicture& wrong) {
+        throw Error(wrong.exit_code(), wrong.what() + keep_wrong_picture(scene, options));
+    }
+    watch_worker("");
     RenderStats& stats = rendered.stats;
     note_failed_device(stats, options);
     stats.scene.path = options.scene;

@@ -26,14 +26,13 @@
 #include "host/scene/camera_path.h"
 #include "host/scene/scene_hash.h"
 #include "host/verbs/batch_list.h"
-#include "host/verbs/batch_log.h"
 #include "host/verbs/render_steps.h"
 
 namespace rt {
 
 namespace {
 
-/// No other picture can be rendered or reported.
+/// Aborts the whole batch.
 struct BatchEnds : Error {
     using Error::Error;
 };
@@ -97,15 +96,16 @@ class Batch {
    public:
     explicit Batch(const RenderOptions& options)
         : options_(options),
-          log_(options.batch_log),
-          list_(options, log_),
-          devices_(find_devices(options.device, options.threads, restore_stop_signals).get()) {
+          past_(options.batch_past),
+          list_(options, past_),
+          devices_(start_finding_devices(options).get()) {
         if (!options.output.empty()) {
             check_picture_path(batch_output(options.output, "scene"), options.format);
         }
         inputs_.add(options.batch);
         for (const std::string& scene : options.scenes) inputs_.add(scene);
         for (const std::string& scene : scenes_of_list(options.batch)) inputs_.add(scene);
+        watch_worker("");
     }
 
     int run() {
@@ -115,13 +115,12 @@ class Batch {
             const bool is_right = attempt(item, [&] { is_there = list_.next(item); });
             if (!is_there) break;
             if (!is_right) continue;
-            if (const std::optional<int> status = log_.status_of(item.number)) {
+            if (const std::optional<int> status = past_.status_of(item.number)) {
                 count(item, *status);
                 continue;
             }
-            watch_worker(true);
+            const DriverTask task(rendering);
             attempt(item, [&] { start(item); });
-            watch_worker(false);
         }
         settle();
         return sum_up();
@@ -176,7 +175,7 @@ class Batch {
         writing_ = std::async(std::launch::async, [this, rendered = std::move(rendered), options,
                                                    total, number = item.number]() mutable {
             return finish_picture(std::move(rendered), options, total,
-                                  [&](int status) { log_.add_finished(number, status); });
+                                  [&](int status) { BatchPast::tell_finished(number, status); });
         });
         if (live) wait_for_viewers(*live);
     }
@@ -214,9 +213,9 @@ class Batch {
 
     void note(const BatchItem& item, const Error& error) {
         const int status = static_cast<int>(error.exit_code());
-        if (!log_.status_of(item.number)) {
+        if (!past_.status_of(item.number)) {
             print_note(item.where + error.what());
-            log_.add_finished(item.number, status);
+            BatchPast::tell_finished(item.number, status);
         }
         count(item, status);
     }
@@ -255,7 +254,7 @@ class Batch {
     }
 
     const RenderOptions& options_;
-    BatchLog log_;
+    BatchPast past_;
     BatchList list_;
     std::vector<DeviceChoice> devices_;
     RenderCache cache_;
@@ -275,10 +274,7 @@ class Batch {
 
 int render_batch(const RenderOptions& options) {
     start_timeout(options);
-    watch_worker(true);
-    Batch batch(options);
-    watch_worker(false);
-    return batch.run();
+    return Batch(options).run();
 }
 
 }  // namespace rt

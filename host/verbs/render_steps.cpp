@@ -19,8 +19,8 @@
 #include "host/image/picture_io.h"
 #include "host/journal/journal_file.h"
 #include "host/print/print_stats.h"
+#include "host/process/drivers.h"
 #include "host/process/stop_signal.h"
-#include "host/process/worker.h"
 #include "host/scene/scene_file.h"
 #include "host/view/make_viewers.h"
 
@@ -113,6 +113,14 @@ bool report_non_finite(const Picture& picture, const Rect& region, std::size_t c
 
 void start_timeout(const RenderOptions& options) {
     if (options.timeout > 0) stop_after(std::max(options.timeout - seconds_before_worker(), 0.001));
+}
+
+std::future<std::vector<DeviceChoice>> start_finding_devices(const RenderOptions& options) {
+    watch_worker(listing_devices);
+    return find_devices(options.device, options.threads, [] {
+        restore_stop_signals();
+        watch_worker(rendering);
+    });
 }
 
 void check_output(const RenderOptions& options) {
@@ -226,7 +234,7 @@ RenderConsole::RenderConsole(const RenderOptions& options, LivePicture* live) {
     };
     if (is_worker()) events_.progressed = note_worker_progress;
     events_.ended = [this] {
-        watch_worker(false);
+        watch_worker("");
         progress_.reset();
     };
     events_.driver_loaded = restore_stop_signals;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,12 @@ bool report_non_finite(const Picture& picture, const Rect& region, std::size_t c
 
 /// Starts the clock of --timeout.
 void start_timeout(const RenderOptions& options);
+
+/// A worker's task while its devices render.
+inline constexpr const char* rendering = "rendering";
+
+/// Finds the devices on another thread, as find_devices; a worker's parent watches what they do.
+std::future<std::vector<DeviceChoice>> start_finding_devices(const RenderOptions& options);
 
 /// Rejects, before anything is computed, an output that could not be written.
 void check_output(const RenderOptions& options);

@@ -129,7 +129,7 @@ class SceneStudy {
 
     static std::optional<RenderStats> cold_of(const std::vector<RenderStats>& runs) {
         for (const RenderStats& run : runs) {
-            if (run.phases.renderer.build_cache == BuildCache::cold) return run;
+            if (run.phases.renderer.build > 0) return run;
         }
         return std::nullopt;
     }

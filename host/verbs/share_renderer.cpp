@@ -50,11 +50,8 @@ bool ShareRenderer::render(const ShareQueue::Turn& turn, int shares, const StopF
 /// Empty if its driver failed. Throws Error.
 std::optional<bool> ShareRenderer::render_in_worker(const std::string& share,
                                                     const StopFlag& stop) {
-    // Stop signals reach the worker, which then saves what it has.
-    const StopFlag* const enough = &stop == &stop_flag() ? nullptr : &stop;
-    const WorkerEnd end =
-        run_worker(options_.command, {"MIRRORBALL_SHARE=" + share}, options_.deadline,
-                   watch_.seconds(), std::numeric_limits<double>::infinity(), enough);
+    const WorkerEnd end = run_worker(
+        {options_.command, {"MIRRORBALL_SHARE=" + share}, options_.deadline, watch_.seconds()});
     if (stop != 0 || end.stop_signal != 0) return false;
     if (end.is_regular && end.status == static_cast<int>(ExitCode::done)) return true;
     if (end.is_regular && end.status >= 128) return false;  // stopped

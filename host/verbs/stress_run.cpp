@@ -220,7 +220,7 @@ class Runner {
             const Stopwatch watch;
             try {
                 const DeviceChoice& device = device_of(row);
-                const WorkerTask task(row.renderer, !device.use_threads);
+                const DriverTask task(device.use_threads ? "" : row.renderer);
                 const RayCaster caster = ray_caster(device);
                 row.rays = row.double_precision ? trial.in_double(rays, caster)
                                                 : trial.in_float(rays, caster);

@@ -92,7 +92,7 @@ RenderedPicture render_quietly(const Scene& scene, const RenderSettings& setting
     events.started = [](const TileQueue&) { install_stop_signals(); };
     events.driver_loaded = restore_stop_signals;
     if (is_worker()) events.progressed = note_worker_progress;
-    const WorkerTask task(device.use_threads ? "threads" : device.device.name, !device.use_threads);
+    const DriverTask task(device.use_threads ? "" : device.device.name);
     return render_picture(scene, settings, std::vector{device}, events, stop_flag());
 }
 

@@ -69,7 +69,7 @@ int watch_scene(const std::string& scene, bool is_quiet, const std::function<int
             flush_results();
         } catch (const Error& error) {
             if (is_first && !concerns_scene(error)) throw;
-            watch_worker(false);
+            watch_worker("");
             print_error(error.what());
         }
         if (stop_flag() != 0 || is_over()) break;

@@ -2,7 +2,7 @@
 """mirrorball doctor: what is installed works, or is named with what to do."""
 import json
 
-from harness import SETTINGS, CliTest, image_hash, scene_path, unwritable_folder
+from harness import POCL_DRIVER, SETTINGS, CliTest, image_hash, scene_path, unwritable_folder
 
 
 class Doctor(CliTest):
@@ -52,6 +52,22 @@ class Doctor(CliTest):
         findings = self.findings(5, OCL_ICD_VENDORS=str(self.folder))
         self.assertEqual(findings["driver"]["state"], "broken")
         self.assertIn("libz.so.1", findings["driver"]["verdict"])
+
+    def test_names_the_library_of_a_gpu_that_no_file_names(self):
+        (self.folder / "libnvidia-opencl.so.1").touch()
+        env = {"LD_LIBRARY_PATH": str(self.folder), "OCL_ICD_VENDORS": str(self.folder)}
+        finding = self.findings(0, **env)["driver"]
+        self.assertEqual(finding["state"], "missing")
+        self.assertIn(f"set OCL_ICD_VENDORS={self.folder}/libnvidia-opencl.so.1", finding["verdict"])
+        self.write_text("nvidia.icd", "libnvidia-opencl.so.1\n")
+        self.assertNotIn("no .icd file", self.run_cli("doctor", env=env).stdout)
+
+    def test_takes_a_library_for_a_driver(self):
+        """As the loader does."""
+        with open(POCL_DRIVER, encoding="ascii") as file:
+            library = file.readline().strip()
+        findings = self.findings(0, OCL_ICD_VENDORS=library)
+        self.assertTrue(any(name.startswith("device 0") for name in findings), findings)
 
     def test_names_a_kernel_cache_that_cannot_be_written(self):
         findings = self.findings(5, POCL_CACHE_DIR=unwritable_folder(self.folder))

@@ -2,6 +2,7 @@
 """SIGINT and SIGTERM: exit 130 or 143, the picture so far saved and whole."""
 import json
 import os
+import pathlib
 import re
 import select
 import signal
@@ -133,6 +134,16 @@ class Interrupted(CliTest):
         self.assert_stopped("pocl", signal.SIGTERM, "out.png")
         png_chunks((self.folder / "out.partial.png").read_bytes())
 
+    def test_pocl_sigterm_while_its_worker_is_stopped(self):
+        process = self.start_and_wait_until_tiles_are_done("pocl", "out.png")
+        worker, = map(int, pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split())
+        os.kill(worker, signal.SIGSTOP)
+        sent = time.monotonic()
+        code, lines = self.stop(process, signal.SIGTERM)
+        self.assertEqual(code, 143, lines)
+        self.assertLess(time.monotonic() - sent, 30)
+        self.assertEqual(self.pictures(), ["out.partial.png"])
+
     def test_without_output_nothing_is_left(self):
         for path in ["threads", "pocl"]:
             process = self.start_and_wait_until_tiles_are_done(path)
@@ -181,7 +192,9 @@ class Interrupted(CliTest):
         for first, second in [(signal.SIGINT, signal.SIGINT), (signal.SIGUSR1, signal.SIGTERM)]:
             process = self.start_and_wait_until_it_renders()
             process.send_signal(first)
-            self.assertIn("again to quit", self.next_word(process))
+            word = self.next_word(process)
+            self.assertIn("saving what is finished", word)
+            self.assertEqual("again to quit" in word, first == signal.SIGINT)
             time.sleep(0.25)  # else it is taken for an echo of the first
             process.send_signal(second)
             sent = time.monotonic()
@@ -243,6 +256,7 @@ class Interrupted(CliTest):
                                   "grid:32", "--device", device, "--timeout", "1.5", "-o", "out.png")
             self.assertEqual(result.returncode, 8, result.stderr)
             self.assertIn("out of time (--timeout) after", result.stderr)
+            self.assertNotIn("again to quit", result.stderr)
             self.assertEqual(self.pictures(), ["out.partial.png"])
 
     def test_out_of_time_before_it_began(self):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/pocl/pocl_environment.h"
+#include "host/opencl/pocl.h"
 
+#include <fmt/format.h>
 #include <sched.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -8,10 +9,9 @@
 
 #include <cerrno>
 #include <chrono>
-#include <filesystem>
+#include <cstring>
 #include <optional>
 #include <sstream>
-#include <string>
 #include <system_error>
 
 #include "host/base/files.h"
@@ -61,12 +61,13 @@ bool is_ours(const fs::path& folder) {
 
 /// Empty if there is no home.
 fs::path own_cache_folder() {
-    if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) return xdg;
+    const fs::path xdg = variable("XDG_CACHE_HOME");
+    if (xdg.is_absolute()) return xdg;  // as its specification says
     const std::string home = variable("HOME");
     return home.empty() ? fs::path() : fs::path(home) / ".cache";
 }
 
-/// PoCL leaves an empty file there per build, and others when it crashes. Removes those that no
+/// PoCL leaves an empty file there per process, and others when it crashes. Removes those that no
 /// running build can need.
 void remove_leftovers(const fs::path& cache) {
     const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
@@ -75,15 +76,22 @@ void remove_leftovers(const fs::path& cache) {
          entry.increment(error)) {
         if (!entry->path().filename().string().starts_with("tempfile_")) continue;
         std::error_code failed;
+        const bool is_probe = !entry->path().has_extension() && entry->file_size(failed) == 0;
         const auto written = entry->last_write_time(failed);
-        if (!failed && written < long_ago) fs::remove(entry->path(), failed);
+        if (!failed && (is_probe || written < long_ago)) fs::remove(entry->path(), failed);
     }
 }
 
-/// The folder of this process alone, for want of another.
+/// The folder of this process alone, if there is no permanent one.
 std::optional<TemporaryFolder> private_cache;
 
-/// Empty if others can write there, or we cannot.
+/// Or the permanent one; empty if it is not ours to clean.
+fs::path kept_cache;
+
+/// Its paths have at most 1,023 bytes; those of kernels have up to 200 after the folder's name.
+constexpr std::size_t longest_folder = 800;
+
+/// Empty if others can write there, or we or PoCL cannot.
 fs::path kept_cache_folder() {
     std::error_code error;
     fs::path folder = own_cache_folder();
@@ -95,6 +103,7 @@ fs::path kept_cache_folder() {
     folder /= "mirrorball";
     fs::create_directories(folder, error);
     folder /= "pocl";
+    if (folder.native().size() > longest_folder) return {};
     mkdir(folder.c_str(), S_IRWXU);
     if (!is_ours(folder) || access(folder.c_str(), W_OK | X_OK) != 0) return {};
     remove_leftovers(folder);
@@ -104,18 +113,23 @@ fs::path kept_cache_folder() {
 void set_cache_folder() {
     const std::string given = variable(cache_variable);
     if (!given.empty() && is_ours(given)) return;
-    fs::path folder = kept_cache_folder();
-    if (folder.empty()) folder = private_cache.emplace().name();
+    kept_cache = kept_cache_folder();
+    const fs::path folder =
+        kept_cache.empty() ? fs::path(private_cache.emplace().name()) : kept_cache;
     setenv(cache_variable, folder.c_str(), overwrite);
 }
 
 void find_linker() {
-    const std::string path = variable("PATH");
-    std::istringstream folders(path);
+    std::istringstream folders(variable("PATH"));
+    std::string path;
+    bool is_found = false;
     for (std::string folder; std::getline(folders, folder, ':');) {
-        if (access((fs::path(folder) / "ld").c_str(), X_OK) == 0) return;
+        if (!fs::path(folder).is_absolute()) continue;  // anybody's ld may be there
+        is_found |= access((fs::path(folder) / "ld").c_str(), X_OK) == 0;
+        path += (path.empty() ? "" : ":") + folder;
     }
-    setenv("PATH", (path + (path.empty() ? "" : ":") + "/usr/bin:/bin").c_str(), overwrite);
+    if (!is_found) path += path.empty() ? "/usr/bin:/bin" : ":/usr/bin:/bin";
+    setenv("PATH", path.c_str(), overwrite);
 }
 
 }  // namespace
@@ -126,6 +140,40 @@ void prepare_pocl(int count) {
     find_linker();
 }
 
-void remove_private_pocl_cache() { private_cache.reset(); }
+void leave_pocl_cache() {
+    private_cache.reset();
+    if (!kept_cache.empty()) remove_leftovers(kept_cache);
+}
+
+fs::path pocl_cache_folder() {
+    const std::string folder = variable(cache_variable);
+    return folder.empty() ? "/tmp/pocl/kcache" : folder;
+}
+
+bool pocl_keeps_kernels() {
+    const char* const wanted = getenv("POCL_KERNEL_CACHE");
+    return wanted == nullptr || *wanted == '1';
+}
+
+std::string why_pocl_cache_is_read_only() {
+    const fs::path folder = pocl_cache_folder();
+    if (folder.native().size() > longest_folder) {
+        return fmt::format("its name has {} bytes, and PoCL has room for {}",
+                           folder.native().size(), longest_folder);
+    }
+    std::string probe = folder / "mirrorball-XXXXXX";
+    const int file = mkstemp(probe.data());
+    if (file < 0) return folder.string() + ": " + std::strerror(errno);
+    close(file);
+    unlink(probe.c_str());
+    return "";
+}
+
+std::string pocl_build_advice() {
+    const std::string why = why_pocl_cache_is_read_only();
+    if (why.empty()) return "update the driver";
+    return "PoCL cannot write its kernel cache (" + why +
+           "): set POCL_CACHE_DIR to a writable folder";
+}
 
 }  // namespace rt
