@@ -334,7 +334,7 @@ class Job {
         const std::string what = by + ": " + wrong;
         if (settings_.no_fallback) {
             journal_->discard();
-            throw Error(ExitCode::device, what);
+            throw WrongPicture(what);
         }
         say(what + "; rendering on threads instead");
         std::vector<DeviceShare> shares = stats_.shares;

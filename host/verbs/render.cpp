@@ -12,6 +12,7 @@
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
+#include "host/picture/tile_check.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
@@ -23,6 +24,7 @@
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
 #include "host/verbs/watch.h"
+#include "host/verbs/wrong_picture.h"
 
 namespace rt {
 
