@@ -7,7 +7,7 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/device_spec.h"
-#include "host/opencl/open_devices.h"
+#include "host/opencl/cl_program.h"
 #include "host/render/picture_loop.h"
 #include "host/scene/json_file.h"
 

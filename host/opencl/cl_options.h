@@ -10,7 +10,7 @@ namespace rt {
 
 class OpenDevices;
 
-/// Contexts and programs kept from picture to picture (open_devices.h).
+/// Contexts and programs kept from picture to picture (cl_program.h).
 std::shared_ptr<OpenDevices> make_open_devices();
 
 struct ClOptions {

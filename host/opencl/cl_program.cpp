@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/opencl/cl_options.h"
 #include "host/opencl/opencl.h"
 #include "host/opencl/pocl.h"
 
@@ -77,6 +78,24 @@ cl::Program build_program(const cl::Context& context, const ClDevice& device, co
                         device.name, device.driver, cl_status_text(status), advice, flags,
                         build_log(program, device)));
     }
+    return program;
+}
+
+std::shared_ptr<OpenDevices> make_open_devices() { return std::make_shared<OpenDevices>(); }
+
+cl::Context OpenDevices::context(const ClDevice& device) {
+    const std::lock_guard lock(mutex_);
+    cl::Context& context = contexts_[device.handle];
+    if (context() == nullptr) context = cl::Context(handle_of(device));
+    return context;
+}
+
+cl::Program OpenDevices::program(const ClDevice& device, const char* source,
+                                 const ProgramOptions& options) {
+    const cl::Context of = context(device);
+    const std::lock_guard lock(mutex_);
+    cl::Program& program = programs_[{device.handle, source, build_options(device, options)}];
+    if (program() == nullptr) program = build_program(of, device, source, options);
     return program;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <mutex>
 #include <string>
+#include <tuple>
 
 #include "host/flatten/features.h"
 #include "host/opencl/cl_device.h"
@@ -38,6 +41,22 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
 /// compiler's log.
 cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
                           const ProgramOptions& options);
+
+/// Contexts and programs kept from picture to picture. Thread-safe.
+class OpenDevices {
+   public:
+    cl::Context context(const ClDevice& device);
+
+    /// As build_program, in that context; built once.
+    cl::Program program(const ClDevice& device, const char* source, const ProgramOptions& options);
+
+   private:
+    using Key = std::tuple<cl_device_id, const char*, std::string>;
+
+    std::mutex mutex_;
+    std::map<cl_device_id, cl::Context> contexts_;
+    std::map<Key, cl::Program> programs_;
+};
 
 /// The Error (ExitCode::device) for an OpenCL call that failed.
 [[noreturn]] void throw_device_error(const ClDevice& device, const cl::Error& error);

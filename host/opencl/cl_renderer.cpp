@@ -14,7 +14,6 @@
 #include "host/opencl/cl_program.h"
 #include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
-#include "host/opencl/open_devices.h"
 #include "host/opencl/pocl.h"
 #include "host/opencl/render_kernels.h"
 #include "host/render/launch_pacer.h"

@@ -52,7 +52,7 @@ AaMode parse_aa(const std::string& text) {
 
 std::string parse_device(const std::string& text) {
     if (text.empty()) refuse(text, "expected a device, or auto");
-    check_device_list(text);
+    parse_device_specs(text);
     return text;
 }
 

@@ -75,7 +75,7 @@ std::string parse_isa(const std::string& text) {
 std::string device_from_environment() {
     const std::string spec = environment("MIRRORBALL_DEVICE");
     try {
-        check_device_list(spec);
+        parse_device_specs(spec);
         return spec;
     } catch (const Error& error) {
         throw Error(error.exit_code(), std::string("in $MIRRORBALL_DEVICE: ") + error.what());

@@ -25,7 +25,7 @@ namespace rt {
 
 using Json = nlohmann::json;
 
-/// What a worker says of a device; all but icd_file, which it cannot know.
+/// What a worker says of a device.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClDevice, index, platform_index, device_index, name, vendor,
                                    driver, version, platform, is_cpu, is_gpu, compute_units,
                                    float_lanes, double_lanes, memory_bytes, max_buffer_bytes,
@@ -116,16 +116,19 @@ class Lister {
 
     Drivers list() {
         if (drivers_.files.empty() && leaves_out_) return std::move(drivers_);
-        Listing together = list_together();
-        if (!together.is_started) {
-            drivers_.problems.push_back("the process that lists devices " + together.failure);
-        } else if (!together.failure.empty() && !drivers_.files.empty()) {
-            const std::vector<Listing> alone = list_alone(together);
+        Listing listing = list_together();
+        if (listing.is_started && !listing.failure.empty()) {
+            leave_out_failing(listing);
             if (drivers_.files.empty()) return std::move(drivers_);
-            if (leaves_out_) together = list_together();
-            if (!together.failure.empty()) add_each(alone, together.failure);
+            if (leaves_out_) listing = list_together();
         }
-        if (together.failure.empty()) add(together.answer, "");
+        if (listing.failure.empty()) {
+            add(listing.answer);
+        } else {
+            drivers_.problems.push_back(printable(
+                fmt::format("a process that loads {} {}; choose one of them with OCL_ICD_VENDORS",
+                            fmt::join(drivers_.files, " and "), listing.failure)));
+        }
         return std::move(drivers_);
     }
 
@@ -151,43 +154,23 @@ class Lister {
         return list_in_worker(place, deadline_);
     }
 
-    /// What each driver lists in a worker of its own, without those that fail there.
-    std::vector<Listing> list_alone(const Listing& together) {
-        std::vector<Listing> listings;
+    /// Those that fail in a worker of their own; an only one has failed there already.
+    void leave_out_failing(const Listing& together) {
         const bool is_only = drivers_.files.size() == 1;
         std::erase_if(drivers_.files, [&](const std::string& file) {
-            Listing one = is_only ? together : list_in_worker(file, deadline_);
-            if (!one.failure.empty()) {
-                leave_out(file, one.failure);
-                return true;
-            }
-            listings.push_back(std::move(one));
-            return false;
+            const Listing alone = is_only ? together : list_in_worker(file, deadline_);
+            if (!alone.failure.empty()) leave_out(file, alone.failure);
+            return !alone.failure.empty();
         });
-        return listings;
     }
 
-    void add_each(const std::vector<Listing>& alone, const std::string& failure) {
-        const std::vector<std::string> files = drivers_.files;
-        for (std::size_t i = 0; i < files.size(); ++i) add(alone[i].answer, files[i]);
-        if (files.size() < 2) return;
-        drivers_.problems.push_back(printable(
-            fmt::format("a process that loads the drivers of {} {}; choose one of them with "
-                        "OCL_ICD_VENDORS",
-                        fmt::join(files, " and "), failure)));
-    }
-
-    /// `only`: the file without which the devices cannot be used; "": none.
-    void add(const Json& answer, const std::string& only) {
+    void add(const Json& answer) {
         for (const auto& [file, why] :
              answer.at("skipped").get<std::map<std::string, std::string>>()) {
             drivers_.bad_files.push_back(problem_of(file, "cannot be loaded: " + why));
             std::erase(drivers_.files, file);
         }
-        for (ClDevice device : answer.at("devices").get<std::vector<ClDevice>>()) {
-            device.icd_file = only;
-            drivers_.devices.push_back(std::move(device));
-        }
+        answer.at("devices").get_to(drivers_.devices);
         for (const Json& problem : answer.at("problems")) drivers_.problems.push_back(problem);
     }
 

@@ -31,7 +31,7 @@ struct Drivers {
 };
 
 /// Lists the devices of all drivers in a worker; if it fails, each driver's in one of its own, to
-/// leave out those that fail. Drivers that fail only together are listed one by one. `place` is an
+/// leave out those that fail. Of drivers that fail only together, none is listed. `place` is an
 /// .icd file, or a folder of them; `deadline` as in WorkerCommand. Ends this process if a stop
 /// signal ended a worker.
 Drivers list_drivers(const std::string& place, double deadline = 10);

@@ -27,8 +27,8 @@ ListedDevice list_entry(const ClDevice& device) {
 ListedDevice threads_entry(const std::string& spec, int threads) {
     ListedDevice entry;
     entry.spec = spec;
-    entry.choice.use_threads = true;
-    entry.choice.threads = entry.threads = threads;
+    entry.choice = threads_choice(threads);
+    entry.threads = threads;
     entry.name = "threads";
     entry.is_threads = true;
     return entry;
@@ -78,15 +78,15 @@ void add_all(std::vector<ListedDevice>& list, ClDevices& devices) {
 std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs) {
     std::vector<ListedDevice> list;
     ClDevices devices;
-    for (const std::string& spec : specs) {
-        DeviceChoice choice;
-        if (spec == "all") {
+    for (const std::string& text : specs) {
+        const DeviceSpec spec = parse_device_specs(text).front();
+        if (spec.kind == DeviceSpec::Kind::all) {
             add_all(list, devices);
-        } else if (names_threads(spec, choice)) {
-            add_once(list, threads_entry(spec, choice.threads));
+        } else if (spec.kind == DeviceSpec::Kind::threads) {
+            add_once(list, threads_entry(text, spec.threads));
         } else {
             const auto& all = devices.list();
-            choice = choose_device(spec, all, devices.problems());
+            const DeviceChoice choice = choose_device(text, all, devices.problems());
             add_once(list,
                      choice.use_threads ? threads_entry("threads", 0) : list_entry(choice.device));
         }

@@ -42,8 +42,7 @@ nlohmann::ordered_json to_json(const ClDevice& device) {
             {"rounds_correctly", device.rounds_correctly},
             {"keeps_subnormals", device.keeps_subnormals},
             {"usable", device.unusable.empty()},
-            {"unusable_because", device.unusable},
-            {"icd_file", device.icd_file}};
+            {"unusable_because", device.unusable}};
 }
 
 void print_json(const Drivers& drivers) {
@@ -74,10 +73,6 @@ std::string device_text(const ClDevice& device) {
         static_cast<double>(device.max_buffer_bytes) / gib);
     if (!device.rounds_correctly) {
         text += "   does not guarantee correctly rounded division, so bits may differ\n";
-    }
-    if (!device.icd_file.empty()) {
-        text += fmt::format("   only with OCL_ICD_VENDORS={}, as --device {}\n", device.icd_file,
-                            device.index);
     }
     if (!device.unusable.empty()) text += "   cannot be used: " + device.unusable + "\n";
     return text;

@@ -156,9 +156,7 @@ void examine_device(const DoctorOptions& options, const ClDevice& device,
                     const std::vector<std::string>& changes, std::vector<Finding>& findings) {
     const std::string name = fmt::format("device {}, {}", device.index, device.name);
     if (!device.unusable.empty()) return findings.push_back({State::broken, name, device.unusable});
-    findings.push_back(test_in_worker(
-        options, std::to_string(device.index), name,
-        device.icd_file.empty() ? changes : std::vector{"OCL_ICD_VENDORS=" + device.icd_file}));
+    findings.push_back(test_in_worker(options, std::to_string(device.index), name, changes));
 }
 
 /// Of drivers, and of the devices that they list.

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -13,18 +17,16 @@
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/picture/tile_check.h"
+#include "host/process/drivers.h"
 #include "host/process/stop_signal.h"
-#include "host/process/worker.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
+#include "host/scene/stdin_text.h"
 #include "host/verbs/aov.h"
-#include "host/verbs/isolated_render.h"
-#include "host/verbs/render_batch.h"
 #include "host/verbs/render_mpi.h"
 #include "host/verbs/render_steps.h"
 #include "host/verbs/verbs.h"
 #include "host/verbs/watch.h"
-#include "host/verbs/wrong_picture.h"
 
 namespace rt {
 
@@ -52,6 +54,50 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
                             "have {}x{} and 3; adjust --size or --crop",
                             options.reference, reference.width, reference.height,
                             counted(reference.channels, "channel"), width, height));
+}
+
+/// Its index; bits are compared.
+std::optional<std::size_t> first_difference(const Picture& a, const Picture& b) {
+    for (std::size_t at = 0; at < a.pixels.size(); at += 3) {
+        if (std::memcmp(&a.pixels[at], &b.pixels[at], 3 * sizeof(float)) != 0) return at / 3;
+    }
+    return std::nullopt;
+}
+
+std::string save(const Picture& picture, const RenderOptions& options, const char* kind) {
+    std::filesystem::path path = options.output;
+    path.replace_extension(kind + path.extension().string());
+    if (std::filesystem::exists(path)) throw Error(ExitCode::output, path.string() + " exists");
+    write_picture(path.string(), picture, options.encoding);
+    return path.string();
+}
+
+/// After a device's picture was found to be wrong, for whoever mends the driver: renders the scene
+/// on the device again, whatever it gives, and on threads. Saves both next to the output, as
+/// NAME.wrong.png and NAME.right.png. Returns, for a message, the first pixel that differs and
+/// where they are.
+std::string keep_wrong_picture(const Scene& scene, const RenderOptions& options) try {
+    RenderSettings settings = options;
+    settings.self_test = false;
+    settings.check = 0;
+    settings.journal.clear();
+    const auto render = [&](const std::vector<DeviceChoice>& devices) {
+        return render_picture(scene, settings, devices, {}, stop_flag());
+    };
+    const RenderedPicture wrong = render(start_finding_devices(options).get());
+    const RenderedPicture right = render({threads_choice()});
+    const auto first = first_difference(wrong.picture, right.picture);
+    if (!first) return "; rendered again, it is the picture of threads";
+    const Rect& region = wrong.stats.region;
+    const auto width = static_cast<std::size_t>(region.width);
+    const std::string text = fmt::format("; the first wrong pixel is {},{}",
+                                         static_cast<std::size_t>(region.x) + *first % width,
+                                         static_cast<std::size_t>(region.y) + *first / width);
+    if (options.output.empty() || options.output == stdout_path || options.shares) return text;
+    const std::string kept = save(wrong.picture, options, ".wrong");
+    return text + "; compare " + kept + " with " + save(right.picture, options, ".right");
+} catch (const Error& error) {
+    return std::string("; cannot keep its picture: ") + error.what();
 }
 
 /// `kept`: viewers that stay open for the next picture; null: they wait to be closed.
@@ -119,12 +165,49 @@ int render_here(const RenderOptions& options, double seconds_before_main) {
     return render_scene(options, seconds_before_main, nullptr);
 }
 
+/// When the picture's journal was last written; the epoch if there is none.
+std::filesystem::file_time_type journal_time(RenderOptions options) {
+    choose_journal(options);
+    std::error_code ignored;
+    return std::filesystem::last_write_time(options.journal, ignored);
+}
+
+/// A worker gets extra time to save its picture at --timeout: its driver may never finish.
+WorkerCommand worker_command(const RenderOptions& options, double seconds_before_main) {
+    WorkerCommand command{options.command, {}, options.deadline, seconds_before_main};
+    if (options.timeout > 0) command.longest = options.timeout + options.deadline;
+    return command;
+}
+
+/// Renders in a worker process, which loads the OpenCL drivers; if that fails, threads finish the
+/// picture or batch here.
+int render_isolated(RenderOptions options, double seconds_before_main) {
+    const Stopwatch watch;
+    const std::string name = options.device.empty() ? "OpenCL" : "--device " + options.device;
+    if (options.scene == stdin_scene) keep_stdin();  // the worker reads it
+    const auto journal_before = journal_time(options);
+    const WorkerEnd end = run_without_bad_drivers(worker_command(options, seconds_before_main),
+                                                  options.drivers, options.quiet);
+    if (end.is_regular) return end.status;
+    const std::string failure = "the driver process " + end.how;
+    if (options.no_fallback) throw Error(ExitCode::device, name + ": " + failure);
+    if (!options.quiet) print_note(name + ": " + failure + "; rendering on threads instead");
+    // What the worker has written with --fresh is resumed.
+    if (journal_time(options) != journal_before) options.fresh = false;
+    if (options.timeout > 0) options.timeout = std::max(options.timeout - watch.seconds(), 0.001);
+    options.batch_past = end.records;
+    options.failed_device = name;
+    options.device_failure = failure;
+    options.device = "threads";
+    return render_here(options, seconds_before_main + watch.seconds());
+}
+
 }  // namespace
 
 int run_render(const RenderOptions& options, double seconds_before_main) {
     if (options.mpi) return render_mpi(options);
     if (options.isolate && !is_worker() && needs_opencl(options.device)) {
-        return render_isolated(options, seconds_before_main, render_here);
+        return render_isolated(options, seconds_before_main);
     }
     return render_here(options, seconds_before_main);
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/verbs/render_batch.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -98,4 +98,8 @@ void print_results(const RenderStats& stats, const RenderOptions& options);
 /// Reports on stderr what is wrong with a picture saved as `path`. Returns the exit status.
 int verdict(const RenderedPicture& rendered, const std::string& path);
 
+/// Renders several scenes, one after the other, on devices that are opened once. A scene that fails
+/// does not stop the others. Returns the worst exit status of all.
+int render_batch(const RenderOptions& options);
+
 }  // namespace rt

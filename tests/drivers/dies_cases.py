@@ -140,20 +140,13 @@ class Dies(WrongDriver):
             shutil.copy("/etc/OpenCL/vendors/pocl.icd", folder / name)
         return {"OCL_ICD_VENDORS": str(folder)}
 
-    def test_beside_another_one_is_listed_alone(self):
+    def test_beside_another_one_is_named(self):
         shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
                 "CL_SHIM_DIE_WITH": "a.icd b.icd", **self.drivers("a.icd", "b.icd")}
-        result = self.run_with(shim, "devices", "--json", code=0)
-        answer = json.loads(result.stdout)
-        self.assertEqual([pathlib.Path(device["icd_file"]).name for device in answer["devices"]],
-                         ["a.icd", "b.icd"])
-        self.assertRegex(answer["problems"][0], r"a process that loads the drivers of .*a\.icd and "
-                         r".*b\.icd was killed by SIGABRT while listing its devices")
-        self.assertRegex(self.run_with(shim, "devices").stdout,
-                         r"only with OCL_ICD_VENDORS=.*b\.icd, as --device 0")
-        result = self.run_with(shim, "doctor", code=5)
-        self.assertEqual(result.stdout.count("renders the right picture"), 3, result.stdout)
-        self.assertRegex(result.stdout, r"BROKEN +OpenCL: a process that loads the drivers of")
+        words = (r"a process that loads .*a\.icd and .*b\.icd was killed by SIGABRT while listing its "
+                 "devices; choose one of them with OCL_ICD_VENDORS")
+        self.assertRegex(self.run_with(shim, "devices", code=0).stdout, words)
+        self.assertRegex(self.run_with(shim, "doctor", code=5).stdout, "BROKEN +OpenCL: " + words)
 
     def test_is_left_out_of_what_is_measured(self):
         shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
