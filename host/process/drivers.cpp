@@ -125,9 +125,10 @@ class Lister {
         if (listing.failure.empty()) {
             add(listing.answer);
         } else {
-            drivers_.problems.push_back(printable(
-                fmt::format("a process that loads {} {}; choose one of them with OCL_ICD_VENDORS",
-                            fmt::join(drivers_.files, " and "), listing.failure)));
+            const bool may_choose = listing.is_started && drivers_.files.size() > 1;
+            drivers_.problems.push_back(printable(fmt::format(
+                "a process that loads {} {}{}", fmt::join(drivers_.files, " and "), listing.failure,
+                may_choose ? "; choose one of them with OCL_ICD_VENDORS" : "")));
         }
         return std::move(drivers_);
     }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "host/base/console.h"
 #include "host/base/error.h"
@@ -188,6 +189,11 @@ void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings
 }
 
 std::vector<Finding> examine(const DoctorOptions& options) {
+    std::error_code error;
+    if (!std::filesystem::exists("/proc/self/exe", error)) {
+        return {{State::broken, "/proc",
+                 "is not mounted, so the program finds neither itself nor its modules; mount it"}};
+    }
     std::vector<Finding> findings;
     const std::vector<std::string> isas = native_isas();
     findings.push_back({isas.empty() ? State::broken : State::fine, "processor",

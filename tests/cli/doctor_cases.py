@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """mirrorball doctor: what is installed works, or is named with what to do."""
 import json
+import subprocess
 
+from hang_limit import HANG_LIMIT
 from harness import POCL_DRIVER, SETTINGS, CliTest, image_hash, scene_path, unwritable_folder
 
 
@@ -80,6 +82,15 @@ class Doctor(CliTest):
         findings = self.findings(0, POCL_CACHE_DIR=str(cache), POCL_KERNEL_CACHE="0")
         self.assertEqual(findings["kernel cache"]["state"], "missing")
         self.assertIn("POCL_KERNEL_CACHE", findings["kernel cache"]["verdict"])
+
+    def test_names_a_missing_proc(self):
+        command = "umount -l /proc && exec \"$0\" doctor"
+        result = subprocess.run(["unshare", "-m", "sh", "-c", command, SETTINGS["program"]], text=True,
+                                capture_output=True, timeout=HANG_LIMIT, check=False)
+        if "BROKEN" not in result.stdout:
+            self.skipTest(f"cannot unmount /proc: {result.stderr}")
+        self.assertEqual(len(result.stdout.splitlines()), 3, result.stdout)
+        self.assertIn("BROKEN   /proc: is not mounted", result.stdout)
 
     def test_tests_one_device(self):
         for spec in ["threads", "pocl"]:
