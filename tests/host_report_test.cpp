@@ -451,7 +451,7 @@ TEST(ReportPage, SaysThatItIsIncomplete) {
 TEST(ReportPage, SaysThatTheMachineWasBusy) {
     rt::Report report = stopped_report();
     report.load_before = 1e3;
-    EXPECT_TRUE(holds(rt::report_page(report), "Busy machine (load 1000.0"));
+    EXPECT_TRUE(holds(rt::report_page(report), "Busy machine (others use 1000.0"));
     report.load_before = 0;
     EXPECT_FALSE(holds(rt::report_page(report), "Busy machine"));
 }
