@@ -60,7 +60,8 @@ OpenedFile open_beneath(const SceneFolder& folder, const std::string& name) {
         return OpenedFile{FileDescriptor(), {}, fmt::format("{} {}", in_quotes(name), what)};
     };
     constexpr std::string_view outside = "is outside the scene's folder; move it into that folder";
-    constexpr std::string_view unreachable = "cannot be found or opened; check the name";
+    const std::string unreachable = fmt::format("cannot be found or opened in {}; check the name",
+                                                in_quotes(folder_or_here(folder.base).string()));
     if (name.empty()) return problem("is not a file name; write one");
     if (climbs(name)) return problem(outside);
     const fs::path path = folder.base / name;

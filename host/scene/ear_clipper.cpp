@@ -37,7 +37,7 @@ EarClipper::EarClipper(std::vector<glm::dvec2> points, std::int64_t& work,
 PolygonFault EarClipper::run() {
     link();
     tidy_all();
-    if (count_ < 3) return PolygonFault::zero_area;
+    if (count_ < 3) return PolygonFault::none;
     if (is_strictly_convex()) {
         for (Index i = next_[start_]; next_[i] != start_; i = next_[i]) {
             triangles_.push_back({start_, i, next_[i]});
@@ -174,7 +174,6 @@ bool EarClipper::clip_round(bool strict, bool skip) {
     for (Index left = count_; left > 0 && count_ > 2 && work_ >= 0; --left) {
         const Index following = next_[corner];
         if (turn(corner) > 0 && is_ear(corner, strict)) {
-            triangles_.push_back({previous_[corner], corner, following});
             cut(corner);
             any = true;
             corner = tidy(following);
@@ -199,7 +198,10 @@ bool EarClipper::drop_flat_corner() {
     return false;
 }
 
+/// Each corner leaves a triangle, so that a polygon that is not flat loses nothing where it has no
+/// area in the projection.
 void EarClipper::cut(Index corner) {
+    triangles_.push_back({previous_[corner], corner, next_[corner]});
     next_[previous_[corner]] = next_[corner];
     previous_[next_[corner]] = previous_[corner];
     alive_[corner] = 0;

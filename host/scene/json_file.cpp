@@ -132,7 +132,9 @@ SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes&
 }  // namespace
 
 Scene load_json_scene(const std::string& path) {
-    return parse_json_scene(read_text_file(path, max_json_bytes).view(), path);
+    const FileText text = read_text_file(path, max_json_bytes);
+    refuse_foreign(path, text.view());
+    return parse_json_scene(text.view(), path);
 }
 
 Scene parse_json_scene(std::string_view text, const std::string& file_name) {

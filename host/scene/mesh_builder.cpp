@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/mesh_builder.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <utility>
-
-#include "host/base/counted.h"
 
 namespace rt {
 namespace {
@@ -19,11 +14,6 @@ constexpr Face flat_face = {Scene::Mesh::no_normal, Scene::Mesh::no_normal, Scen
 
 Face pick(std::span<const std::uint32_t> items, const Face& which) {
     return {items[which[0]], items[which[1]], items[which[2]]};
-}
-
-void make_fan(std::size_t corners, std::vector<Face>& triangles) {
-    triangles.clear();
-    for (std::uint32_t i = 2; i < corners; ++i) triangles.push_back({0, i - 1, i});
 }
 
 }  // namespace
@@ -69,46 +59,14 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
         append_face(face, &face_normals, mesh.faces, mesh.face_normals);
     };
     if (corners.size() == 3) return add({0, 1, 2});
-    split(corners);
-    for (const Face& which : parts_) add(which);
-}
-
-/// Sets parts_. Each corner adds to the work budget, so that many small faces cannot exhaust it.
-void MeshBuilder::split(std::span<const std::uint32_t> corners) {
     outline_.clear();
     for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
     const auto& o = outline_;
-    if (o.size() == 4 && parts_well({o[0], o[1], o[2], o[3]})) return make_fan(4, parts_);
-    constexpr std::int64_t work_of_a_corner = 64;
-    work_ = std::min(max_polygon_work,
-                     std::max<std::int64_t>(work_, 0) +
-                         work_of_a_corner * static_cast<std::int64_t>(corners.size()));
-    constexpr double any_bend = std::numeric_limits<double>::infinity();
-    switch (triangulate(outline_, work_, parts_, any_bend)) {
-        case PolygonFault::none:
-            return;
-        case PolygonFault::zero_area:
-            ++zero_areas_;
-            return parts_.clear();
-        case PolygonFault::crosses_itself:
-        case PolygonFault::bent:
-        case PolygonFault::too_complex:
-            ++fans_;
-            return make_fan(corners.size(), parts_);
+    if (o.size() == 4 && parts_well({o[0], o[1], o[2], o[3]})) {
+        add({0, 1, 2});
+        return add({0, 2, 3});
     }
-}
-
-std::vector<std::string> MeshBuilder::notes(const std::string& file_name) const {
-    std::vector<std::string> notes;
-    if (zero_areas_ > 0) {
-        notes.push_back(
-            fmt::format("{}: ignored {}", file_name, counted(zero_areas_, "zero-area polygon")));
-    }
-    if (fans_ > 0) {
-        notes.push_back(fmt::format("{}: {} self-intersecting or too complex and may look wrong",
-                                    file_name, counted(fans_, "polygon is", "polygons are")));
-    }
-    return notes;
+    for (const Face& which : splitter_.split(outline_)) add(which);
 }
 
 void MeshBuilder::use_material(int material) {

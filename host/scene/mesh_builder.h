@@ -37,8 +37,7 @@ class MeshBuilder {
                        std::span<const Scene::Mesh::Face> normals);
 
     /// `corners` are at least 3 indices into mesh.positions; `normals` as many into mesh.normals,
-    /// or none. All must be in range. Faces need not be planar. One that crosses itself, or exceeds
-    /// the polygon budget, becomes a fan from its first corner; one without area is dropped.
+    /// or none. All must be in range.
     void add_face(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals);
 
     /// Sets the material of subsequent faces. Faces before the first call have material -1.
@@ -48,7 +47,9 @@ class MeshBuilder {
     Scene::Mesh take();
 
     /// What add_face dropped or could not triangulate exactly, a sentence each.
-    std::vector<std::string> notes(const std::string& file_name) const;
+    std::vector<std::string> notes(const std::string& file_name) const {
+        return splitter_.notes(file_name);
+    }
 
    private:
     struct Run {
@@ -56,12 +57,9 @@ class MeshBuilder {
         int material;
     };
 
-    void split(std::span<const std::uint32_t> corners);
     std::vector<Run> runs_;
-    std::vector<glm::dvec3> outline_;
-    std::vector<Scene::Mesh::Face> parts_;  ///< of the face at hand
-    std::int64_t work_ = max_polygon_work;
-    std::size_t zero_areas_ = 0, fans_ = 0;
+    std::vector<glm::dvec3> outline_;  ///< of the face at hand
+    PolygonSplitter splitter_;
 };
 
 }  // namespace rt

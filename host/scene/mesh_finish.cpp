@@ -19,22 +19,31 @@ bool is_within(const glm::dvec3& p) {
     return good(p.x) && good(p.y) && good(p.z);
 }
 
-/// Transforms the positions and returns whether all are in range.
-bool move_positions(std::vector<glm::dvec3>& positions, const Affine& transform) {
-    for (glm::dvec3& p : positions) p = transform.linear * p + transform.translation;
-    return std::all_of(positions.begin(), positions.end(), is_within);
+/// Transforms the positions and returns whether those of all faces are in range.
+bool move_positions(Scene::Mesh& mesh, const Affine& transform) {
+    for (glm::dvec3& p : mesh.positions) p = transform.linear * p + transform.translation;
+    if (std::ranges::all_of(mesh.positions, is_within)) return true;
+    for (const Face& face : mesh.faces) {
+        for (const std::uint32_t i : face) {
+            if (!is_within(mesh.positions[i])) return false;
+        }
+    }
+    for (glm::dvec3& p : mesh.positions) {
+        if (!is_within(p)) p = glm::dvec3(0);
+    }
+    return true;
 }
 
-/// Transforms the normals to unit length and returns how many are zero, which stay zero.
-std::size_t turn_normals(std::vector<glm::dvec3>& normals, const glm::dmat3& matrix) {
-    std::size_t zeros = 0;
+/// Transforms the normals to unit length and returns whether any is zero, which stays zero.
+bool turn_normals(std::vector<glm::dvec3>& normals, const glm::dmat3& matrix) {
+    bool any_zero = false;
     for (glm::dvec3& normal : normals) {
         auto unit = unit_direction(normal);
         if (unit) unit = unit_direction(matrix * *unit);
-        if (!unit) ++zeros;
+        if (!unit) any_zero = true;
         normal = unit.value_or(glm::dvec3(0));
     }
-    return zeros;
+    return any_zero;
 }
 
 bool has_zero_normal(const Scene::Mesh& mesh, const Face& normals) {
@@ -93,15 +102,15 @@ void turn_round(std::vector<Face>& faces) {
 
 MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform) {
     MeshLosses losses;
-    if (transform != Affine{}) losses.too_far = !move_positions(mesh.positions, transform);
+    if (transform != Affine{}) losses.too_far = !move_positions(mesh, transform);
     const auto matrix = normal_matrix(transform.linear);
-    losses.zero_normals = turn_normals(mesh.normals, matrix.value_or(glm::dmat3(1)));
+    const bool any_zero = turn_normals(mesh.normals, matrix.value_or(glm::dmat3(1)));
     losses.zero_areas = drop_zero_areas(mesh);
-    if (losses.zero_normals > 0) {
-        constexpr std::uint32_t none = Scene::Mesh::no_normal;
-        for (Face& normals : mesh.face_normals) {
-            if (has_zero_normal(mesh, normals)) normals = {none, none, none};
-        }
+    constexpr std::uint32_t none = Scene::Mesh::no_normal;
+    for (Face& normals : mesh.face_normals) {
+        if (!any_zero || !has_zero_normal(mesh, normals)) continue;
+        normals = {none, none, none};
+        ++losses.flat_faces;
     }
     if (mirrors(transform.linear)) {
         turn_round(mesh.faces);

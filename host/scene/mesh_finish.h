@@ -10,9 +10,9 @@ namespace rt {
 
 /// What was dropped from a mesh.
 struct MeshLosses {
-    std::size_t zero_areas = 0;    ///< triangles without area
-    std::size_t zero_normals = 0;  ///< vertex normals of length 0: their faces are flat
-    bool too_far = false;          ///< a position ends up beyond max_scene_number
+    std::size_t zero_areas = 0;  ///< triangles without area
+    std::size_t flat_faces = 0;  ///< made flat, since a vertex normal has length 0
+    bool too_far = false;        ///< a face's vertex ends up beyond max_scene_number
 };
 
 /// Transforms a mesh into the scene. Normals become unit length; triangles without area are

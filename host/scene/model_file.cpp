@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <cstring>
 #include <string_view>
 
 #include "host/base/counted.h"
@@ -17,20 +19,64 @@
 namespace rt {
 namespace {
 
+/// The name of a file in a folder that differs only in letter case; else the name itself.
+std::string in_any_case(const std::filesystem::path& folder, const std::string& name) {
+    std::error_code error;
+    const std::filesystem::path path = folder / name;
+    if (exists(path, error)) return name;
+    const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
+    for (const auto& entry : std::filesystem::directory_iterator(parent, error)) {
+        const std::string found = entry.path().filename().string();
+        if (lower(found) != lower(path.filename().string())) continue;
+        return (std::filesystem::path(name).parent_path() / found).string();
+    }
+    return name;
+}
+
 /// Opens libraries in the model's folder or beneath it.
 OpenLibrary library_opener(const std::string& model_path, const std::filesystem::path& root) {
     const SceneFolder folder{root, std::filesystem::path(model_path).parent_path()};
     return [folder](const std::string& name) {
-        const OpenedFile opened = open_beneath(folder, name);
-        if (!opened.problem.empty()) return LibraryFile{{}, {}, opened.problem};
+        OpenedFile opened = open_beneath(folder, name);
+        if (!opened.problem.empty()) {
+            const std::string problem = opened.problem;
+            const std::string other = in_any_case(folder.base, name);
+            if (other != name) opened = open_beneath(folder, other);
+            if (!opened.problem.empty()) return LibraryFile{{}, {}, problem};
+        }
         const FileText text = read_text_file(opened.file, opened.path, max_model_bytes);
+        try {
+            refuse_foreign(opened.path, text.view());
+        } catch (const Error& error) {
+            return LibraryFile{{}, {}, error.what()};
+        }
         return LibraryFile{opened.path, std::string(text.view()), {}};
     };
+}
+
+/// A file of one format under the other's name, or of quite another format, is refused.
+void check_format(const std::string& path, std::string_view text) {
+    refuse_foreign(path, text);
+    const auto refuse = [&](const char* what) {
+        throw Error(ExitCode::input, fmt::format("{}: {}", printable(path), what));
+    };
+    constexpr std::size_t stl_header = 84, stl_facet = 50;
+    if (text.size() > stl_header) {
+        std::uint32_t facets = 0;
+        std::memcpy(&facets, text.data() + stl_header - sizeof facets, sizeof facets);
+        if (text.size() == stl_header + std::size_t{facets} * stl_facet && facets > 0) {
+            refuse("is an STL model; export it as OBJ or PLY");
+        }
+    }
+    if (text.starts_with("{")) refuse("is JSON, a scene or glTF; give it the name of its format");
+    const bool is_ply = text.starts_with("ply\n") || text.starts_with("ply\r");
+    if (is_obj_name(path) && is_ply) refuse("is a PLY model; give it a name that ends in .ply");
 }
 
 Model parse_model(const FileDescriptor& file, const std::string& path,
                   const ModelOptions& options) {
     const FileText text = read_text_file(file, path, max_model_bytes);
+    check_format(path, text.view());
     if (is_ply_name(path)) return parse_ply(text.view(), printable(path));
     OpenLibrary open;
     if (options.with_materials) open = library_opener(path, options.root);
@@ -58,10 +104,9 @@ Model finish_model(Model model, const std::string& path, const Affine& transform
         model.notes.push_back(
             fmt::format("{}: ignored {}", path, counted(losses.zero_areas, "zero-area triangle")));
     }
-    if (losses.zero_normals > 0) {
-        model.notes.push_back(
-            fmt::format("{}: {} of length 0, so faces there are flat", path,
-                        counted(losses.zero_normals, "vertex normal is", "vertex normals are")));
+    if (losses.flat_faces > 0) {
+        model.notes.push_back(fmt::format("{}: {} flat, as a vertex normal has length 0", path,
+                                          counted(losses.flat_faces, "face is", "faces are")));
     }
     return model;
 }

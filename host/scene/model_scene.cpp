@@ -11,7 +11,7 @@
 #include "host/base/printable.h"
 #include "host/scene/geometry_checks.h"
 #include "host/scene/model_file.h"
-#include "host/scene/obj_materials.h"
+#include "host/scene/mtl_file.h"
 #include "host/scene/scene_name.h"
 #include "host/scene/text_file.h"
 

@@ -2,14 +2,12 @@
 #include "host/scene/ply_blocks.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
 #include "host/scene/mesh_builder.h"
-#include "host/scene/ply_value.h"
 #include "host/scene/scene_limits.h"
 
 namespace rt {
@@ -21,34 +19,18 @@ struct Place {
     PlyType type = PlyType::float32;
 };
 
-using VectorPlaces = std::array<Place, 3>;
-
-/// The places of three values by name, in rows without lists; empty when one is missing.
-std::optional<VectorPlaces> places_of(const PlyElement& element,
-                                      const std::array<std::string_view, 3>& names) {
-    VectorPlaces places{};
-    int found = 0;
-    std::size_t offset = 0;
-    for (const PlyProperty& property : element.properties) {
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            if (property.name != names[i]) continue;
-            places[i] = {offset, property.type};
-            ++found;
-        }
-        offset += size_of(property.type);
-    }
-    return found == 3 ? std::optional(places) : std::nullopt;
+bool are_within(const glm::dvec3& v) {
+    const auto good = [](double x) { return std::abs(x) <= max_scene_number; };
+    return good(v.x) && good(v.y) && good(v.z);
 }
 
-/// Whether all three are numbers in range.
-bool read_vector(const char* row, const VectorPlaces& places, bool swapped, glm::dvec3& target) {
-    bool good = true;
+bool read_vector(const char* row, const std::array<Place, 3>& places, bool swapped,
+                 glm::dvec3& target) {
     for (int axis = 0; axis < 3; ++axis) {
         const Place& place = places[static_cast<std::size_t>(axis)];
         target[axis] = ply_number(row + place.offset, place.type, swapped);
-        good = good && std::abs(target[axis]) <= max_scene_number;
     }
-    return good;
+    return are_within(target);
 }
 
 /// The same for three consecutive floats in native byte order: the usual layout, without branching
@@ -57,44 +39,30 @@ bool read_floats(const char* row, glm::dvec3& target) {
     std::array<float, 3> v;
     std::memcpy(v.data(), row, sizeof v);
     target = glm::dvec3(v[0], v[1], v[2]);
-    const auto good = [](double x) { return std::abs(x) <= max_scene_number; };
-    return good(target.x) && good(target.y) && good(target.z);
+    return are_within(target);
 }
 
-bool are_floats(const VectorPlaces& places, bool swapped) {
+bool are_floats(const std::array<Place, 3>& places, bool swapped) {
     return !swapped && std::ranges::all_of(places, [&](const Place& place) {
         const auto i = static_cast<std::size_t>(&place - places.data());
         return place.type == PlyType::float32 && place.offset == places[0].offset + 4 * i;
     });
 }
 
-/// Calls work(first, last) on runs of rows in parallel; returns false if any call did.
+/// Calls work(row) for all rows in parallel; returns whether all calls did.
 template <typename Work>
 bool all_rows(std::size_t rows, std::size_t row_bytes, const ReadPace& pace, Work work) {
     std::atomic<bool> good = true;
     const std::size_t grain = std::max<std::size_t>(pace.chunk_bytes / row_bytes, 1);
     for_each_run(rows, grain, pace.threads, [&](std::size_t first, std::size_t last) {
-        if (good && !work(first, last)) good = false;
+        bool all = true;
+        for (std::size_t i = first; i < last; ++i) all &= work(i);
+        if (!all) good = false;
     });
     return good;
 }
 
-bool read_column(std::string_view rows, std::size_t stride, const VectorPlaces& places,
-                 bool swapped, std::vector<glm::dvec3>& target, const ReadPace& pace) {
-    const bool floats = are_floats(places, swapped);
-    target.resize(rows.size() / stride);
-    return all_rows(target.size(), stride, pace, [&](std::size_t first, std::size_t last) {
-        bool good = true;
-        for (std::size_t i = first; i < last; ++i) {
-            const char* row = rows.data() + i * stride;
-            good &= floats ? read_floats(row + places[0].offset, target[i])
-                           : read_vector(row, places, swapped, target[i]);
-        }
-        return good;
-    });
-}
-
-/// The layout of a face row whose list has a given number of items.
+/// The layout of a face row whose list has N items.
 struct FaceLayout {
     std::size_t list = 0, first_item = 0, stride = 0;
     PlyType count_type = PlyType::uint8, item_type = PlyType::int32;
@@ -103,7 +71,7 @@ struct FaceLayout {
 FaceLayout layout_of(const PlyElement& element, std::size_t items) {
     FaceLayout layout;
     for (const PlyProperty& property : element.properties) {
-        if (property.count_type) {
+        if (property.is_list()) {
             layout.list = layout.stride;
             layout.count_type = *property.count_type;
             layout.item_type = property.type;
@@ -117,99 +85,91 @@ FaceLayout layout_of(const PlyElement& element, std::size_t items) {
     return layout;
 }
 
-using Face = Scene::Mesh::Face;
-
-/// Reads N corners of a row; returns whether it has exactly N and all exist.
+/// Reads faces of N corners each.
 template <std::size_t N>
-bool read_row(const char* row, const FaceLayout& layout, bool swapped, std::size_t vertices,
-              std::array<std::uint32_t, N>& corners) {
-    if (ply_whole(row + layout.list, layout.count_type, swapped) != N) return false;
-    bool good = true;
-    for (std::size_t i = 0; i < N; ++i) {
-        const char* item = row + layout.first_item + i * size_of(layout.item_type);
-        const std::int64_t index = ply_whole(item, layout.item_type, swapped);
-        good &= index >= 0 && static_cast<std::uint64_t>(index) < vertices;
-        corners[i] = static_cast<std::uint32_t>(index);
+class FaceRows {
+   public:
+    using Corners = std::array<std::uint32_t, N>;
+
+    FaceRows(const char* rows, const FaceLayout& layout, bool swapped, std::size_t vertices)
+        : rows_(rows),
+          layout_(layout),
+          swapped_(swapped),
+          usual_(!swapped && size_of(layout.count_type) == 1 && size_of(layout.item_type) == 4),
+          vertices_(vertices) {}
+
+    /// Whether a row has N corners, and all exist.
+    bool read(std::size_t i, Corners& corners) const {
+        const char* row = rows_ + i * layout_.stride;
+        return usual_ ? read_usual(row, corners) : read_any(row, corners);
     }
-    return good;
-}
 
-/// The usual layout: a count byte, then 32-bit indices in native byte order.
-bool is_usual(const FaceLayout& layout, bool swapped) {
-    return !swapped && size_of(layout.count_type) == 1 && size_of(layout.item_type) == 4;
-}
+   private:
+    /// The usual layout: a count byte, then 32-bit indices in native byte order.
+    bool read_usual(const char* row, Corners& corners) const {
+        std::memcpy(corners.data(), row + layout_.first_item, sizeof corners);
+        bool good = row[layout_.list] == N;
+        for (const std::uint32_t corner : corners) good &= corner < vertices_;
+        return good;
+    }
 
-template <std::size_t N>
-bool read_usual_row(const char* row, const FaceLayout& layout, std::size_t vertices,
-                    std::array<std::uint32_t, N>& corners) {
-    std::memcpy(corners.data(), row + layout.first_item, sizeof corners);
-    bool good = row[layout.list] == N;
-    for (const std::uint32_t corner : corners) good &= corner < vertices;
-    return good;
-}
-
-bool read_triangles(const char* rows, const FaceLayout& layout, bool swapped, std::size_t vertices,
-                    std::vector<Face>& faces, const ReadPace& pace) {
-    const bool usual = is_usual(layout, swapped);
-    return all_rows(faces.size(), layout.stride, pace, [&](std::size_t first, std::size_t last) {
+    bool read_any(const char* row, Corners& corners) const {
+        if (ply_whole(row + layout_.list, layout_.count_type, swapped_) != N) return false;
         bool good = true;
-        for (std::size_t i = first; i < last; ++i) {
-            const char* row = rows + i * layout.stride;
-            good &= usual ? read_usual_row<3>(row, layout, vertices, faces[i])
-                          : read_row<3>(row, layout, swapped, vertices, faces[i]);
+        for (std::size_t i = 0; i < N; ++i) {
+            const char* item = row + layout_.first_item + i * size_of(layout_.item_type);
+            const std::int64_t index = ply_whole(item, layout_.item_type, swapped_);
+            good &= index >= 0 && static_cast<std::uint64_t>(index) < vertices_;
+            corners[i] = static_cast<std::uint32_t>(index);
         }
         return good;
-    });
-}
+    }
 
-bool read_quads(const char* rows, const FaceLayout& layout, bool swapped,
-                const std::vector<glm::dvec3>& p, std::vector<Face>& faces, const ReadPace& pace) {
-    return all_rows(
-        faces.size() / 2, layout.stride, pace, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) {
-                std::array<std::uint32_t, 4> c{};
-                if (!read_row<4>(rows + i * layout.stride, layout, swapped, p.size(), c))
-                    return false;
-                if (!parts_well({p[c[0]], p[c[1]], p[c[2]], p[c[3]]})) return false;
-                faces[2 * i] = {c[0], c[1], c[2]};
-                faces[2 * i + 1] = {c[0], c[2], c[3]};
-            }
-            return true;
-        });
-}
+    const char* rows_;
+    const FaceLayout& layout_;
+    const bool swapped_, usual_;
+    const std::size_t vertices_;
+};
 
 }  // namespace
 
 std::optional<std::string_view> fixed_rows(std::string_view data, const PlyElement& element) {
     std::size_t stride = 0;
     for (const PlyProperty& property : element.properties) {
-        if (property.count_type) return std::nullopt;
+        if (property.is_list()) return std::nullopt;
         stride += size_of(property.type);
     }
     if (stride == 0 || data.size() / stride < element.count) return std::nullopt;
     return data.substr(0, element.count * stride);
 }
 
-std::optional<PlyVertices> read_vertex_block(std::string_view rows, const PlyElement& element,
-                                             bool swapped, const ReadPace& pace) {
-    PlyVertices vertices;
-    const auto positions = places_of(element, {"x", "y", "z"});
-    const auto normals = places_of(element, {"nx", "ny", "nz"});
-    if (!positions || rows.empty()) return std::nullopt;
-    const std::size_t stride = rows.size() / element.count;
-    if (!read_column(rows, stride, *positions, swapped, vertices.positions, pace)) return {};
-    if (normals && !read_column(rows, stride, *normals, swapped, vertices.normals, pace)) return {};
-    return vertices;
+bool read_columns(std::string_view rows, const PlyElement& element,
+                  const std::array<std::size_t, 3>& properties, bool swapped,
+                  std::vector<glm::dvec3>& target, const ReadPace& pace) {
+    std::array<Place, 3> places{};
+    std::size_t stride = 0;
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyType type = element.properties[i].type;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (properties[axis] == i) places[axis] = {stride, type};
+        }
+        stride += size_of(type);
+    }
+    const bool floats = are_floats(places, swapped);
+    target.resize(element.count);
+    return all_rows(target.size(), stride, pace, [&](std::size_t i) {
+        const char* row = rows.data() + i * stride;
+        return floats ? read_floats(row + places[0].offset, target[i])
+                      : read_vector(row, places, swapped, target[i]);
+    });
 }
 
 std::optional<PlyFaces> read_face_block(std::string_view data, const PlyElement& element,
                                         bool swapped, const std::vector<glm::dvec3>& positions,
                                         const ReadPace& pace) {
-    const auto is_list = [](const PlyProperty& property) {
-        return property.count_type.has_value();
-    };
-    if (std::ranges::count_if(element.properties, is_list) != 1) return std::nullopt;
+    if (std::ranges::count_if(element.properties, &PlyProperty::is_list) != 1) return std::nullopt;
     const FaceLayout start = layout_of(element, 0);
+    if (!is_whole(start.count_type) || !is_whole(start.item_type)) return std::nullopt;
     if (element.count == 0 || data.size() < start.stride) return std::nullopt;
     const std::int64_t corners = ply_whole(data.data() + start.list, start.count_type, swapped);
     if (corners != 3 && corners != 4) return std::nullopt;
@@ -218,10 +178,22 @@ std::optional<PlyFaces> read_face_block(std::string_view data, const PlyElement&
     PlyFaces read;
     read.bytes = element.count * layout.stride;
     read.faces.resize(element.count * (corners == 3 ? 1 : 2));
-    const bool good =
-        corners == 3
-            ? read_triangles(data.data(), layout, swapped, positions.size(), read.faces, pace)
-            : read_quads(data.data(), layout, swapped, positions, read.faces, pace);
+    bool good = false;
+    if (corners == 3) {
+        const FaceRows<3> rows(data.data(), layout, swapped, positions.size());
+        good = all_rows(element.count, layout.stride, pace,
+                        [&](std::size_t i) { return rows.read(i, read.faces[i]); });
+    } else {
+        const FaceRows<4> rows(data.data(), layout, swapped, positions.size());
+        const auto& p = positions;
+        good = all_rows(element.count, layout.stride, pace, [&](std::size_t i) {
+            std::array<std::uint32_t, 4> c{};
+            if (!rows.read(i, c) || !parts_well({p[c[0]], p[c[1]], p[c[2]], p[c[3]]})) return false;
+            read.faces[2 * i] = {c[0], c[1], c[2]};
+            read.faces[2 * i + 1] = {c[0], c[2], c[3]};
+            return true;
+        });
+    }
     return good ? std::optional(std::move(read)) : std::nullopt;
 }
 

@@ -6,109 +6,242 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
-#include <type_traits>
 #include <utility>
 
 #include "host/scene/mesh_builder.h"
 #include "host/scene/ply_blocks.h"
 #include "host/scene/ply_header.h"
-#include "host/scene/ply_rows.h"
 #include "host/scene/scene_limits.h"
 #include "host/scene/words.h"
 
 namespace rt {
 namespace {
 
-constexpr std::string_view vertex_columns[] = {"x", "y", "z", "nx", "ny", "nz"};
-constexpr std::size_t column_count = std::size(vertex_columns);
-constexpr std::size_t not_used = column_count;
+constexpr Remedy bad_face{"face left out", "faces left out"};
+constexpr Remedy bad_vertex = bad_face;
+constexpr Remedy bad_strip_vertex = bad_face;
+constexpr Remedy bad_normal{"normal ignored", "normals ignored"};
+constexpr Remedy bad_row{"row ignored", "rows ignored"};
+constexpr Remedy extra_value{"value ignored", "values ignored"};
+constexpr Remedy extra_line{"line ignored", "lines ignored"};
+constexpr Remedy extra_byte{"byte ignored", "bytes ignored"};
 
-bool is_corner_list(const PlyProperty& property) {
-    return property.name == "vertex_indices" || property.name == "vertex_index";
-}
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view column_names[] = {"x", "y", "z", "nx", "ny", "nz"};
 
-/// Notes required properties that the header does not declare.
-void check_vertex(const PlyElement& vertex, Mistakes& mistakes) {
-    for (const std::string_view name : vertex_columns) {
-        const PlyProperty* property = vertex.find(name);
-        if (property && property->count_type) {
-            mistakes.add(vertex.offset,
-                         fmt::format("property {} of the vertices is a list; declare one number",
-                                     in_quotes(name)));
-        } else if (!property && name.size() == 1) {
-            mistakes.add(vertex.offset, fmt::format("the vertices have no property {}; declare "
-                                                    "x, y and z",
-                                                    in_quotes(name)));
-        }
-    }
-}
+bool is_within(double x) { return std::abs(x) <= max_scene_number; }
 
-/// Checks the list of faces or strips.
-void check_corners(const PlyElement& element, std::string_view what, Mistakes& mistakes) {
-    const auto list = std::ranges::find_if(element.properties, is_corner_list);
-    if (list == element.properties.end()) {
-        mistakes.add(element.offset,
-                     fmt::format("the {} have no property 'vertex_indices'; declare 'property "
-                                 "list uchar int vertex_indices'",
-                                 what));
-    } else if (!list->count_type || !is_whole(list->type)) {
-        mistakes.add(element.offset, fmt::format("property {} of the {} is not a list of whole "
-                                                 "numbers; declare 'property list uchar int {}'",
-                                                 in_quotes(list->name), what, list->name));
-    }
-}
-
-void check_header(const PlyHeader& header, Mistakes& mistakes) {
-    const PlyElement* vertex = header.find("vertex");
-    const PlyElement* face = header.find("face");
-    const PlyElement* strips = header.find("tristrips");
-    if (!vertex) mistakes.add(0, "the header declares no element 'vertex'; use a mesh");
-    if (!face && !strips) {
-        mistakes.add(0,
-                     "the header declares no element 'face'; points alone cannot be drawn; use a "
-                     "mesh");
-    }
-    if (vertex) check_vertex(*vertex, mistakes);
-    if (face) check_corners(*face, "faces", mistakes);
-    if (strips) check_corners(*strips, "strips", mistakes);
-    for (const PlyElement* element : {face, strips}) {
-        if (!vertex || !element || element > vertex) continue;
-        mistakes.add(element->offset,
-                     fmt::format("the {} come before the vertices; save the vertices first",
-                                 element == face ? "faces" : "strips"));
-    }
-    mistakes.throw_if_any();
-}
-
-template <typename Rows>
-class BodyReader {
+/// Reads the rows of elements value by value: of text, where each has its own line, or of bytes in
+/// either order. A text row that cannot be read is noted once, and gives no more values; bytes that
+/// are missing are an error.
+class Rows {
    public:
-    BodyReader(const PlyHeader& header, Rows rows, Mistakes& mistakes, const ReadPace& pace)
-        : header_(header), rows_(std::move(rows)), mistakes_(mistakes), pace_(pace) {}
+    Rows(const PlyHeader& header, Mistakes& mistakes)
+        : scanner_(mistakes.text(), header.data_offset),
+          is_text_(header.format == PlyFormat::ascii),
+          swapped_((header.format == PlyFormat::little_endian) !=
+                   (std::endian::native == std::endian::little)),
+          mistakes_(&mistakes) {}
 
-    Model read(const std::string& file_name) {
-        for (const PlyElement& element : header_.elements) {
-            check_count(element);
-            read_element(element);
+    bool is_text() const { return is_text_; }
+    bool swapped() const { return swapped_; }
+    std::string_view left() const { return scanner_.left(); }
+    std::size_t offset() const { return scanner_.offset(); }
+    void advance(std::size_t bytes) { scanner_.advance(bytes); }
+
+    /// Returns whether the file has another row.
+    bool start_row(const PlyElement& element, std::uint64_t row) {
+        element_ = &element;
+        row_ = row;
+        is_good_ = true;
+        const bool is_face = element.name == "face" || element.name == "tristrips";
+        remedy_ = element.name == "vertex" ? &bad_vertex : is_face ? &bad_face : &bad_row;
+        if (!is_text_ || scanner_.find_word()) return true;
+        fail(scanner_.offset(),
+             fmt::format("the file ends before {}, of {}; save the model again", row_name(),
+                         element.count),
+             element.count - row);
+        return false;
+    }
+
+    void end_row() {
+        if (!is_text_) return;
+        if (is_good_ && scanner_.word_follows()) {
+            const std::size_t offset = scanner_.offset();
+            mistakes_->note(extra_value, offset,
+                            fmt::format("unexpected {} after the values of {}; remove it",
+                                        in_quotes(scanner_.word()), row_name()));
         }
-        const std::string leftover = rows_.leftover();
-        mistakes_.throw_if_any();
-        Model model;
-        model.mesh = builder_.take();
-        model.notes = builder_.notes(file_name);
-        model.mesh.face_materials = {-1};
-        if (!model.mesh.normals.empty()) model.mesh.face_normals = model.mesh.faces;
-        if (!leftover.empty()) model.notes.push_back(file_name + ": " + leftover);
-        return model;
+        scanner_.next_line();
+    }
+
+    std::optional<double> number(PlyType type) {
+        if (!is_text_) {
+            const char* at = take(size_of(type));
+            return at ? std::optional(ply_number(at, type, swapped_)) : std::nullopt;
+        }
+        if (!has_word()) return std::nullopt;
+        const std::size_t offset = scanner_.offset();
+        const auto number = scanner_.number();
+        if (!number) refuse_word(offset, "a number");
+        return number;
+    }
+
+    /// In text, "3.0" is whole too.
+    std::optional<std::int64_t> integer(PlyType type) {
+        if (!is_text_) {
+            const char* at = take(size_of(type));
+            return at ? std::optional(ply_whole(at, type, swapped_)) : std::nullopt;
+        }
+        if (!has_word()) return std::nullopt;
+        const std::size_t offset = scanner_.offset();
+        if (const auto whole = scanner_.integer()) return whole;
+        LineScanner ahead = scanner_;
+        const auto number = ahead.number();
+        if (number && std::abs(*number) < 1e15 && *number == std::floor(*number)) {
+            scanner_ = ahead;
+            return static_cast<std::int64_t>(*number);
+        }
+        refuse_word(offset, "a whole number");
+        return std::nullopt;
+    }
+
+    /// Skips this many values; returns whether they exist.
+    bool skip(PlyType type, std::uint64_t count) {
+        if (!is_text_) return take(size_of(type), count) != nullptr;
+        for (std::uint64_t i = 0; i < count; ++i) {
+            if (!has_word()) return false;
+            scanner_.word();
+        }
+        return true;
+    }
+
+    /// Notes what is wrong at this place; a text row may be given up.
+    void note(const Remedy& remedy, std::string message, std::size_t count = 1) {
+        mistakes_->note(remedy, scanner_.offset(), std::move(message), count,
+                        is_text_ ? "" : row_name());
+    }
+    void fail(std::size_t offset, std::string message, std::size_t count = 1) {
+        is_good_ = false;
+        mistakes_->note(*remedy_, offset, std::move(message), remedy_ == &bad_vertex ? 0 : count,
+                        is_text_ ? "" : row_name());
+    }
+    [[nodiscard]] bool is_good() const { return is_good_; }
+
+    void refuse(std::string message) {
+        mistakes_->add_in(row_name(), scanner_.offset(), std::move(message));
+        mistakes_->throw_if_any();
+    }
+
+    /// Notes what follows the last row, save for a line end left by an editor or a program.
+    void note_rest() {
+        const char* message = "more data follows than the header declares; correct its counts";
+        constexpr std::size_t few = 4;
+        if (!is_text_ &&
+            (left().size() > few || left().find_first_not_of("\r\n \t") != left().npos)) {
+            return note(extra_byte, message, left().size());
+        }
+        while (is_text_ && scanner_.find_word()) {
+            note(extra_line, message);
+            scanner_.next_line();
+        }
+    }
+
+    /// Says "element 'face' 17" (rows count from 0, as indices do).
+    std::string row_name() const {
+        return element_ ? fmt::format("element {} {}", in_quotes(element_->name), row_) : "end";
     }
 
    private:
-    /// Checks a declared row count against the bytes that are left.
+    bool has_word() {
+        if (!is_good_) return false;
+        if (scanner_.word_follows()) return true;
+        fail(scanner_.offset(),
+             fmt::format("the line of {} ends too early; write all values of its properties and a "
+                         "line for each row",
+                         row_name()));
+        return false;
+    }
+
+    void refuse_word(std::size_t offset, std::string_view wanted) {
+        fail(offset, fmt::format("a value of {} is {}; write {}", row_name(),
+                                 in_quotes(scanner_.word()), wanted));
+    }
+
+    const char* take(std::size_t bytes, std::uint64_t count = 1) {
+        const std::string_view all = left();
+        if (all.size() / bytes < count) {
+            refuse("the file ends before it does; save the model again");
+            return nullptr;
+        }
+        advance(bytes * count);
+        return all.data();
+    }
+
+    LineScanner scanner_;
+    bool is_text_, swapped_;
+    Mistakes* mistakes_;
+    const PlyElement* element_ = nullptr;
+    std::uint64_t row_ = 0;
+    const Remedy* remedy_ = nullptr;  ///< for rows that cannot be read
+    bool is_good_ = true;             ///< nothing was wrong with the current row
+};
+
+class BodyReader {
+   public:
+    BodyReader(const PlyHeader& header, Mistakes& mistakes, const ReadPace& pace)
+        : header_(header), rows_(header, mistakes), mistakes_(mistakes), pace_(pace) {}
+
+    /// Faces above the vertices are skipped, and read after them.
+    Model read() {
+        std::vector<std::pair<const PlyElement*, Rows>> waiting;
+        bool has_vertices = false;
+        for (const PlyElement& element : header_.elements) {
+            check_count(element);
+            if (element.properties.empty()) continue;
+            const bool is_face = element.name == "face", is_strip = element.name == "tristrips";
+            if (element.name == "vertex") {
+                has_vertices = true;
+                read_vertices(element);
+            } else if ((is_face || is_strip) && has_vertices) {
+                is_face ? read_faces(element) : read_strips(element);
+            } else {
+                if (is_face || is_strip) waiting.emplace_back(&element, rows_);
+                read_rows(element, [&] { skip_all(element); });
+            }
+        }
+        rows_.note_rest();
+        for (const auto& [element, rows] : waiting) {
+            rows_ = rows;
+            element->name == "face" ? read_faces(*element) : read_strips(*element);
+        }
+        return finish();
+    }
+
+   private:
+    Model finish() {
+        Model model;
+        model.mesh = builder_.take();
+        model.mesh.face_materials = {-1};
+        if (model.mesh.faces.empty()) mistakes_.refuse_notes();
+        for (glm::dvec3& p : model.mesh.positions) {
+            if (!all_readable_ && std::isnan(p.x)) p = glm::dvec3(0);  // no face uses it
+        }
+        if (!model.mesh.normals.empty()) model.mesh.face_normals = model.mesh.faces;
+        model.notes = mistakes_.notes();
+        std::ranges::move(builder_.notes(mistakes_.file_name()), std::back_inserter(model.notes));
+        return model;
+    }
+
+    /// Checks a declared row count against the bytes that are left; faces at the end of a text may
+    /// be missing.
     void check_count(const PlyElement& element) {
+        if (rows_.is_text() && element.name != "vertex") return;
         const std::size_t least = element.least_bytes(header_.format);
         if (least == 0) return;
-        const std::uint64_t most = (rows_.bytes_left() + 1) / least;
+        const std::uint64_t most = (rows_.left().size() + 1) / least;
         if (element.count <= most) return;
         mistakes_.add(
             element.offset,
@@ -118,192 +251,210 @@ class BodyReader {
         mistakes_.throw_if_any();
     }
 
-    void read_element(const PlyElement& element) {
-        if (element.properties.empty()) return;
-        if (element.name == "vertex") return read_vertices(element);
-        if (element.name == "face") return read_faces(element);
-        if (element.name == "tristrips") return read_strips(element);
-        read_rows(element, [&] {
-            return std::ranges::all_of(element.properties,
-                                       [&](const PlyProperty& property) { return skip(property); });
-        });
-    }
-
-    /// Calls read_row for each row. Throws if a row is truncated.
     template <typename ReadRow>
     void read_rows(const PlyElement& element, ReadRow read_row) {
-        for (std::uint64_t row = 0; row < element.count; ++row) {
-            rows_.start_row(element, row);
-            if (!rows_.lost()) read_row();
-            if (rows_.lost()) mistakes_.throw_if_any();
+        for (std::uint64_t row = 0; row < element.count && rows_.start_row(element, row); ++row) {
+            read_row();
             rows_.end_row();
         }
     }
 
-    /// Reads the length of a list; throws if it is negative.
+    /// Reads the length of a list. A negative one gives up a row of text, but it cannot be known
+    /// where the next row of bytes begins.
     std::optional<std::uint64_t> list_length(const PlyProperty& list) {
+        const std::size_t offset = rows_.offset();
         const auto length = rows_.integer(*list.count_type);
         if (!length) return std::nullopt;
         if (*length >= 0) return static_cast<std::uint64_t>(*length);
-        rows_.note(fmt::format("the length of list {} is {}; write 0 or more", in_quotes(list.name),
-                               *length));
-        mistakes_.throw_if_any();
+        std::string message = fmt::format("the length of list {} is {}; write 0 or more",
+                                          in_quotes(list.name), *length);
+        if (!rows_.is_text() && !rows_.left().empty()) rows_.refuse(message);
+        rows_.fail(offset, std::move(message));
         return std::nullopt;
     }
 
-    bool skip(const PlyProperty& property) {
-        if (!property.count_type) return rows_.skip(property.type, 1);
-        const auto length = list_length(property);
-        return length && rows_.skip(property.type, *length);
+    void skip(const PlyProperty& property) {
+        if (!property.is_list()) {
+            rows_.skip(property.type, 1);
+        } else if (const auto length = list_length(property)) {
+            rows_.skip(property.type, *length);
+        }
     }
 
-    /// Reads all rows in parallel if they are uniform and valid; returns whether it did.
-    bool read_vertices_side_by_side(const PlyElement& element) {
-        if constexpr (std::is_same_v<Rows, BinaryRows>) {
-            const auto rows = fixed_rows(rows_.left(), element);
-            if (!rows) return false;
-            auto block = read_vertex_block(*rows, element, rows_.swapped(), pace_);
-            if (!block) return false;
-            builder_.mesh.positions = std::move(block->positions);
-            builder_.mesh.normals = std::move(block->normals);
-            rows_.advance(rows->size());
-            return true;
-        }
-        return false;
-    }
-
-    bool read_faces_side_by_side(const PlyElement& element) {
-        if constexpr (std::is_same_v<Rows, BinaryRows>) {
-            auto block = read_face_block(rows_.left(), element, rows_.swapped(),
-                                         builder_.mesh.positions, pace_);
-            if (!block) return false;
-            if (builder_.mesh.faces.empty()) {
-                builder_.mesh.faces = std::move(block->faces);
-            } else {
-                builder_.add_triangles(block->faces, {});
-            }
-            rows_.advance(block->bytes);
-            return true;
-        }
-        return false;
+    void skip_all(const PlyElement& element) {
+        for (const PlyProperty& property : element.properties) skip(property);
     }
 
     void read_vertices(const PlyElement& element) {
-        if (read_vertices_side_by_side(element)) return;
-        const bool smooth = element.find("nx") && element.find("ny") && element.find("nz");
-        const std::span<const std::string_view> used(vertex_columns, smooth ? column_count : 3);
-        std::vector<std::size_t> columns;
-        for (const PlyProperty& property : element.properties) {
-            const auto found = std::ranges::find(used, property.name);
-            columns.push_back(found == used.end() ? not_used
-                                                  : static_cast<std::size_t>(found - used.begin()));
-        }
+        std::array<std::size_t, 6> places{};
+        for (std::size_t i = 0; i < places.size(); ++i) places[i] = element.find(column_names[i]);
+        const bool smooth = std::all_of(places.begin() + 3, places.end(), [&](std::size_t place) {
+            return place < element.properties.size() && !element.properties[place].is_list();
+        });
         Scene::Mesh& mesh = builder_.mesh;
+        const auto bytes = rows_.is_text() ? std::nullopt : fixed_rows(rows_.left(), element);
+        if (bytes) {
+            read_blocks(*bytes, element, places, smooth);
+            return;
+        }
         mesh.positions.reserve(element.count);
         if (smooth) mesh.normals.reserve(element.count);
         read_rows(element, [&] {
-            std::array<double, column_count> values{};
-            read_vertex(element, columns, values);
-            mesh.positions.emplace_back(values[0], values[1], values[2]);
-            if (smooth) mesh.normals.emplace_back(values[3], values[4], values[5]);
+            std::array<double, 6> v{nan, nan, nan, nan, nan, nan};
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const auto column = std::ranges::find(places, i);
+                if (column == places.end()) {
+                    skip(element.properties[i]);
+                } else if (const auto number = rows_.number(element.properties[i].type)) {
+                    v[static_cast<std::size_t>(column - places.begin())] = *number;
+                }
+            }
+            mesh.positions.push_back(checked({v[0], v[1], v[2]}, 0));
+            if (smooth) mesh.normals.push_back(checked({v[3], v[4], v[5]}, 3));
         });
     }
 
-    void read_vertex(const PlyElement& element, const std::vector<std::size_t>& columns,
-                     std::array<double, column_count>& values) {
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            const PlyProperty& property = element.properties[i];
-            if (columns[i] == not_used) {
-                if (!skip(property)) return;
-                continue;
+    void read_blocks(std::string_view bytes, const PlyElement& element,
+                     const std::array<std::size_t, 6>& places, bool smooth) {
+        Scene::Mesh& mesh = builder_.mesh;
+        const auto read = [&](std::size_t first, std::vector<glm::dvec3>& target) {
+            const bool good =
+                read_columns(bytes, element, {places[first], places[first + 1], places[first + 2]},
+                             rows_.swapped(), target, pace_);
+            for (std::size_t i = 0; !good && i < target.size(); ++i) {
+                rows_.start_row(element, i);
+                target[i] = checked(target[i], first);
             }
-            const auto number = rows_.number(property.type);
-            if (!number) return;
-            values[columns[i]] = *number;
-            if (std::abs(*number) <= max_scene_number) continue;
-            rows_.note(fmt::format("{} is {}; write a number from -1e30 to 1e30",
-                                   in_quotes(property.name), *number));
+        };
+        read(0, mesh.positions);
+        if (smooth) read(3, mesh.normals);
+        rows_.advance(bytes.size());
+    }
+
+    /// The vector of the row at hand, whose columns start with `first`; NaN, or for a normal 0,
+    /// where a number is not within the limit, with a note.
+    glm::dvec3 checked(const glm::dvec3& v, std::size_t first) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (is_within(v[axis])) continue;
+            const bool is_normal = first > 0;
+            if (!is_normal) all_readable_ = false;
+            if (rows_.is_good()) {
+                rows_.note(
+                    is_normal ? bad_normal : bad_vertex,
+                    fmt::format("{} is {}; write a number from -1e30 to 1e30",
+                                in_quotes(column_names[first + static_cast<std::size_t>(axis)]),
+                                v[axis]),
+                    is_normal ? 1 : 0);
+            }
+            return is_normal ? glm::dvec3(0) : glm::dvec3(nan);
         }
+        return v;
+    }
+
+    bool read_faces_side_by_side(const PlyElement& element) {
+        if (rows_.is_text() || !all_readable_) return false;
+        auto block =
+            read_face_block(rows_.left(), element, rows_.swapped(), builder_.mesh.positions, pace_);
+        if (!block) return false;
+        if (builder_.mesh.faces.empty()) {
+            builder_.mesh.faces = std::move(block->faces);
+        } else {
+            builder_.add_triangles(block->faces, {});
+        }
+        rows_.advance(block->bytes);
+        return true;
     }
 
     void read_faces(const PlyElement& element) {
         if (read_faces_side_by_side(element)) return;
         constexpr std::uint64_t triangle_bytes = 8;  // "3 0 1 2\n"; usual binary rows take more
-        const std::uint64_t triangles =
-            std::min(element.count, rows_.bytes_left() / triangle_bytes);
-        builder_.mesh.faces.reserve(triangles);
-        const auto list = std::ranges::find_if(element.properties, is_corner_list);
+        builder_.mesh.faces.reserve(std::min(element.count, rows_.left().size() / triangle_bytes));
+        const std::size_t list = element.find_corners();
         read_rows(element, [&] {
-            for (auto property = element.properties.begin(); property != element.properties.end();
-                 ++property) {
-                if (!(property == list ? read_corners(*property) : skip(*property))) return;
+            bool good = true;
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const PlyProperty& property = element.properties[i];
+                i == list ? static_cast<void>(good = read_corners(property)) : skip(property);
             }
-            if (mistakes_.count() == 0) builder_.add_face(corners_, {});
+            if (good && rows_.is_good()) builder_.add_face(corners_, {});
         });
     }
 
-    /// Returns whether the next value can be read; invalid indices are only noted.
+    /// Reads a face's list to its end; returns whether it is a face.
     bool read_corners(const PlyProperty& list) {
         const auto length = list_length(list);
         if (!length) return false;
         if (*length < 3 || *length > max_face_corners) {
-            rows_.note(
-                fmt::format("the face has {} corners; use 3 to {}", *length, max_face_corners));
-            return rows_.skip(list.type, *length);
+            rows_.fail(rows_.offset(), fmt::format("the face has {} corners; use 3 to {}", *length,
+                                                   max_face_corners));
+            rows_.skip(list.type, *length);
+            return false;
         }
         corners_.clear();
+        bool good = true;
         for (std::uint64_t i = 0; i < *length; ++i) {
             const auto index = rows_.integer(list.type);
             if (!index) return false;
-            check_index(*index);
-            corners_.push_back(static_cast<std::uint32_t>(*index));
+            if (good) good = take_corner(*index, bad_face, 1);
         }
-        return true;
+        return good;
     }
 
-    void check_index(std::int64_t index) {
-        const std::size_t count = builder_.mesh.positions.size();
-        if (index >= 0 && static_cast<std::uint64_t>(index) < count) return;
-        rows_.note(fmt::format(
-            "vertex {} does not exist, there are {}, counted from 0; correct the number", index,
-            count));
+    /// Appends a vertex to corners_ if it exists and can be read; notes it otherwise.
+    bool take_corner(std::int64_t index, const Remedy& remedy, std::size_t count) {
+        const std::vector<glm::dvec3>& all = builder_.mesh.positions;
+        if (index < 0 || static_cast<std::uint64_t>(index) >= all.size()) {
+            rows_.note(
+                remedy,
+                fmt::format("vertex {} does not exist, there are {}, counted from 0; correct "
+                            "the number",
+                            index, all.size()),
+                count);
+            return false;
+        }
+        corners_.push_back(static_cast<std::uint32_t>(index));
+        if (all_readable_ || !std::isnan(all[corners_.back()].x)) return true;
+        count > 0 ? rows_.note(bad_vertex, {})
+                  : rows_.note(remedy, "a vertex of the strip cannot be read", 0);
+        return false;
     }
 
     void read_strips(const PlyElement& element) {
+        const std::size_t list = element.find_corners();
         read_rows(element, [&] {
-            for (const PlyProperty& property : element.properties) {
-                if (!(is_corner_list(property) ? read_strip(property) : skip(property))) return;
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const PlyProperty& property = element.properties[i];
+                i == list ? read_strip(property) : skip(property);
             }
         });
     }
 
     /// Triangles of three consecutive vertices, with alternating winding. -1 starts a new strip.
-    /// Triangles with a repeated vertex are skipped.
-    bool read_strip(const PlyProperty& list) {
+    /// Triangles with a repeated vertex are skipped; a bad vertex takes three triangles with it.
+    void read_strip(const PlyProperty& list) {
         const auto length = list_length(list);
-        if (!length) return false;
-        corners_.clear();
-        bool turned = false;
-        for (std::uint64_t i = 0; i < *length; ++i) {
+        std::size_t seen = 0, good = 0;  // in this strip; good ones in a row
+        for (std::uint64_t i = 0; length && i < *length; ++i) {
             const auto index = rows_.integer(list.type);
-            if (!index) return false;
+            if (!index) return;
             if (*index == -1) {
-                corners_.clear();
-                turned = false;
+                seen = good = 0;
                 continue;
             }
-            check_index(*index);
-            corners_.push_back(static_cast<std::uint32_t>(*index));
-            if (corners_.size() < 3) continue;
-            if (mistakes_.count() == 0) add_strip_triangle(turned);
-            corners_.erase(corners_.begin());
-            turned = !turned;
+            if (good == 0) corners_.clear();
+            good = take_corner(*index, bad_strip_vertex, 0) ? good + 1 : 0;
+            if (++seen < 3) continue;
+            if (good >= 3) {
+                add_strip_triangle(seen % 2 == 0);
+            } else {
+                rows_.note(bad_strip_vertex, {});
+            }
         }
-        return true;
     }
 
     void add_strip_triangle(bool turned) {
-        const auto [a, b, c] = std::array{corners_[0], corners_[1], corners_[2]};
+        const auto last = std::span(corners_).last(3);
+        const auto [a, b, c] = std::array{last[0], last[1], last[2]};
         if (a == b || b == c || c == a) return;
         builder_.add_face(turned ? std::array{b, a, c} : std::array{a, b, c}, {});
     }
@@ -313,7 +464,8 @@ class BodyReader {
     Mistakes& mistakes_;
     ReadPace pace_;
     MeshBuilder builder_;
-    std::vector<std::uint32_t> corners_;  ///< of the face being read
+    std::vector<std::uint32_t> corners_;  ///< of the face or strip being read
+    bool all_readable_ = true;            ///< no position is NaN
 };
 
 }  // namespace
@@ -321,11 +473,7 @@ class BodyReader {
 Model parse_ply(std::string_view text, const std::string& file_name, const ReadPace& pace) {
     Mistakes mistakes(text, file_name);
     const PlyHeader header = parse_ply_header(mistakes);
-    check_header(header, mistakes);
-    if (header.format == PlyFormat::ascii) {
-        return BodyReader(header, TextRows(text, header, mistakes), mistakes, pace).read(file_name);
-    }
-    return BodyReader(header, BinaryRows(text, header, mistakes), mistakes, pace).read(file_name);
+    return BodyReader(header, mistakes, pace).read();
 }
 
 }  // namespace rt

@@ -16,18 +16,13 @@ namespace {
 /// Elements, or properties of one: no model has a header with more.
 constexpr std::size_t max_declared = 1000;
 
-struct TypeName {
-    std::string_view name;
-    PlyType type;
-};
+constexpr Remedy ignored{"line ignored", "lines ignored"};
+constexpr Remedy version_ignored = ignored;
 
-constexpr TypeName type_names[] = {
-    {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
-    {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
-    {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
-    {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-    {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
-    {"float64", PlyType::float64}};
+/// Each type has two names.
+constexpr std::string_view type_names[] = {
+    "char", "int8",  "uchar", "uint8",  "short", "int16",   "ushort", "uint16",
+    "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};
 
 class HeaderReader {
    public:
@@ -60,10 +55,8 @@ class HeaderReader {
         const bool only_returns =
             text.substr(first_end, 1) == "\r" && text.substr(first_end, 2) != "\r\n";
         scanner_.rest();
-        const std::string_view left = text.substr(scanner_.offset());
-        if (left.empty()) return;
-        const bool two = !only_returns && left.starts_with("\r\n");
-        scanner_ = LineScanner(text, scanner_.offset() + (two ? 2 : 1));
+        if (scanner_.bytes_left() == 0) return;
+        scanner_.advance(!only_returns && scanner_.left().starts_with("\r\n") ? 2 : 1);
     }
 
     void read_lines() {
@@ -84,10 +77,8 @@ class HeaderReader {
         if (word == "format") return read_format();
         if (word == "element") return read_element();
         if (word == "property") return read_property();
-        constexpr std::string_view known[] = {"format",  "comment",  "obj_info",
-                                              "element", "property", "end_header"};
-        mistakes_.add(offset_, fmt::format("unknown word {} in the header; known words are {}",
-                                           in_quotes(word), word_list(known)));
+        mistakes_.note(ignored, offset_,
+                       fmt::format("unknown word {} in the header", in_quotes(word)));
     }
 
     void read_format() {
@@ -96,17 +87,19 @@ class HeaderReader {
         const std::size_t offset = scanner_.offset();
         const std::string_view name = scanner_.word(), version = scanner_.word();
         const auto found = std::ranges::find(names, name);
+        const auto format = static_cast<PlyFormat>(found - std::begin(names));
         if (found == std::end(names)) {
             mistakes_.add(offset, fmt::format("unknown format {}; known formats are {}",
                                               in_quotes(name), word_list(names)));
-        } else if (version != "1.0") {
-            mistakes_.add(offset, fmt::format("unknown version {} of the format; write 1.0",
-                                              in_quotes(version)));
-        } else if (has_format_) {
+        } else if (has_format_ && format != header_.format) {
             mistakes_.add(offset_, "the format is given twice; keep one");
-        } else {
-            header_.format = static_cast<PlyFormat>(found - std::begin(names));
+        } else if (has_format_ || version != "1.0") {
+            mistakes_.note(
+                version_ignored, offset,
+                fmt::format("the format is given twice, or its version is {} and not 1.0",
+                            in_quotes(version)));
         }
+        header_.format = format;
         has_format_ = true;
     }
 
@@ -118,18 +111,14 @@ class HeaderReader {
         const std::size_t offset = scanner_.offset();
         const auto count = there ? scanner_.integer() : std::nullopt;
         if (!count || *count < 0) {
+            const std::string found = !there  ? "missing"
+                                      : count ? fmt::format("{}", *count)
+                                              : in_quotes(scanner_.word());
             mistakes_.add(offset, fmt::format("the count of element {} is {}; write a whole "
                                               "number, 0 or more",
-                                              in_quotes(element.name),
-                                              there ? count ? fmt::format("{}", *count)
-                                                            : in_quotes(scanner_.word())
-                                                    : "missing"));
+                                              in_quotes(element.name), found));
         } else {
             element.count = static_cast<std::uint64_t>(*count);
-        }
-        if (header_.find(element.name)) {
-            mistakes_.add(offset_, fmt::format("element {} is declared twice; keep one",
-                                               in_quotes(element.name)));
         }
         if (header_.elements.size() >= max_declared) {
             fail(offset_,
@@ -142,53 +131,44 @@ class HeaderReader {
         scanner_.word_follows();
         const std::size_t offset = scanner_.offset();
         const std::string_view word = scanner_.word();
-        const auto found = std::ranges::find(type_names, word, &TypeName::name);
-        if (found != std::end(type_names)) return found->type;
+        const auto found = std::ranges::find(type_names, word);
+        if (found != std::end(type_names)) {
+            return static_cast<PlyType>((found - std::begin(type_names)) / 2);
+        }
+        if (header_.format == PlyFormat::ascii && has_format_) return PlyType::float64;
         mistakes_.add(offset, fmt::format("unknown type {}; write char, uchar, short, ushort, "
                                           "int, uint, float or double",
                                           in_quotes(word)));
         return std::nullopt;
     }
 
+    /// Names may be missing or repeated, as of padding: the first of a name counts.
     void read_property() {
         if (header_.elements.empty()) {
-            mistakes_.add(offset_, "a property comes before the first element; move it below one");
+            mistakes_.note(ignored, offset_, "a property comes before the first element");
             return;
         }
         PlyProperty property;
-        LineScanner ahead = scanner_;
-        if (ahead.word() == "list") {
+        if (LineScanner ahead = scanner_; ahead.word() == "list") {
             scanner_ = ahead;
             scanner_.word_follows();
             const std::size_t offset = scanner_.offset();
             property.count_type = read_type();
             if (!property.count_type) return;
-            if (!is_whole(*property.count_type)) {
+            if (!is_whole(*property.count_type) && header_.format != PlyFormat::ascii) {
                 mistakes_.add(offset, "a list's length must be a whole number; write uchar or int");
-                return;
             }
         }
         const auto type = read_type();
         if (!type) return;
         property.type = *type;
         property.name = scanner_.word();
-        add_property(std::move(property));
-    }
-
-    void add_property(PlyProperty property) {
         PlyElement& element = header_.elements.back();
-        if (property.name.empty()) {
-            mistakes_.add(offset_, "the property has no name; write one after its type");
-        } else if (element.find(property.name)) {
-            mistakes_.add(offset_, fmt::format("property {} is declared twice in element {}; "
-                                               "rename one",
-                                               in_quotes(property.name), in_quotes(element.name)));
-        } else if (element.properties.size() >= max_declared) {
+        if (element.properties.size() >= max_declared) {
             fail(offset_, fmt::format("more than {} properties; check that this is a PLY file",
                                       max_declared));
-        } else {
-            element.properties.push_back(std::move(property));
         }
+        element.properties.push_back(std::move(property));
     }
 
     LineScanner scanner_;
@@ -198,11 +178,73 @@ class HeaderReader {
     bool has_format_ = false;
 };
 
+void check_vertex(const PlyElement& vertex, Mistakes& mistakes) {
+    for (const std::string_view name : {"x", "y", "z"}) {
+        const std::size_t place = vertex.find(name);
+        if (place == vertex.properties.size()) {
+            mistakes.add(vertex.offset, fmt::format("the vertices have no property {}; declare "
+                                                    "x, y and z",
+                                                    in_quotes(name)));
+        } else if (vertex.properties[place].is_list()) {
+            mistakes.add(vertex.offset,
+                         fmt::format("property {} of the vertices is a list; declare one number",
+                                     in_quotes(name)));
+        }
+    }
+}
+
+/// Checks the list of faces or strips.
+void check_corners(const PlyElement& element, PlyFormat format, Mistakes& mistakes) {
+    const std::string_view what = element.name == "face" ? "faces" : "strips";
+    const std::size_t place = element.find_corners();
+    if (place == element.properties.size()) {
+        mistakes.add(element.offset,
+                     fmt::format("the {} have no property 'vertex_indices'; declare 'property "
+                                 "list uchar int vertex_indices'",
+                                 what));
+        return;
+    }
+    const PlyProperty& list = element.properties[place];
+    if (!list.is_list() || (format != PlyFormat::ascii && !is_whole(list.type))) {
+        const std::string& name = list.name;
+        mistakes.add(element.offset, fmt::format("property {} of the {} is not a list of whole "
+                                                 "numbers; declare 'property list uchar int {}'",
+                                                 in_quotes(name), what, name));
+    }
+}
+
+void check_header(const PlyHeader& header, Mistakes& mistakes) {
+    int vertices = 0, faces = 0;
+    for (const PlyElement& element : header.elements) {
+        if (element.name == "vertex") {
+            if (vertices++ > 0) {
+                mistakes.add(element.offset, "element 'vertex' is declared twice; keep one");
+            } else {
+                check_vertex(element, mistakes);
+            }
+        } else if (element.name == "face" || element.name == "tristrips") {
+            ++faces;
+            check_corners(element, header.format, mistakes);
+        }
+    }
+    if (vertices == 0) mistakes.add(0, "the header declares no element 'vertex'; use a mesh");
+    if (faces == 0) {
+        mistakes.add(0,
+                     "the header declares no element 'face'; points alone cannot be drawn; use a "
+                     "mesh");
+    }
+    mistakes.throw_if_any();
+}
+
 }  // namespace
 
-const PlyProperty* PlyElement::find(std::string_view property) const {
+std::size_t PlyElement::find(std::string_view property) const {
     const auto found = std::ranges::find(properties, property, &PlyProperty::name);
-    return found == properties.end() ? nullptr : &*found;
+    return static_cast<std::size_t>(found - properties.begin());
+}
+
+std::size_t PlyElement::find_corners() const {
+    return std::min(find("vertex_indices"), find("vertex_index"));
 }
 
 std::size_t PlyElement::least_bytes(PlyFormat format) const {
@@ -214,11 +256,10 @@ std::size_t PlyElement::least_bytes(PlyFormat format) const {
     return bytes;
 }
 
-const PlyElement* PlyHeader::find(std::string_view element) const {
-    const auto found = std::ranges::find(elements, element, &PlyElement::name);
-    return found == elements.end() ? nullptr : &*found;
+PlyHeader parse_ply_header(Mistakes& mistakes) {
+    PlyHeader header = HeaderReader(mistakes).read();
+    check_header(header, mistakes);
+    return header;
 }
-
-PlyHeader parse_ply_header(Mistakes& mistakes) { return HeaderReader(mistakes).read(); }
 
 }  // namespace rt

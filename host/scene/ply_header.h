@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,12 +23,15 @@ constexpr std::size_t size_of(PlyType type) {
     constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
     return sizes[static_cast<std::size_t>(type)];
 }
-inline bool is_whole(PlyType type) { return type < PlyType::float32; }
+
+constexpr bool is_whole(PlyType type) { return type < PlyType::float32; }
 
 struct PlyProperty {
     std::string name;
     PlyType type = PlyType::float32;    ///< of the value, or of a list's items
     std::optional<PlyType> count_type;  ///< of a list's length; empty for a single value
+
+    bool is_list() const { return count_type.has_value(); }
 };
 
 struct PlyElement {
@@ -33,7 +40,10 @@ struct PlyElement {
     std::vector<PlyProperty> properties;
     std::size_t offset = 0;  ///< of its line in the file
 
-    const PlyProperty* find(std::string_view property) const;
+    /// The place of the first property of this name, or of the list of a face's or strip's corners;
+    /// properties.size() if there is none.
+    std::size_t find(std::string_view property) const;
+    std::size_t find_corners() const;
     /// The minimum bytes per row: in a binary file, or as text.
     std::size_t least_bytes(PlyFormat format) const;
 };
@@ -42,12 +52,47 @@ struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
     std::size_t data_offset = 0;
-
-    const PlyElement* find(std::string_view element) const;
 };
 
-/// Reads the header of a PLY file (Turk 1994), up to the line end after end_header. Throws all of
-/// the header's mistakes at once.
+/// Reads the header of a PLY file (Turk 1994), up to the line end after end_header, and checks that
+/// it declares a mesh. Throws all of the header's mistakes at once.
 PlyHeader parse_ply_header(Mistakes& mistakes);
+
+/// Reads a number from bytes, byte-swapped if `swapped`.
+template <typename T>
+T ply_bytes(const char* at, bool swapped) {
+    std::array<unsigned char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), at, sizeof(T));
+    if (swapped) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+}
+
+/// A value of a whole type.
+inline std::int64_t ply_whole(const char* at, PlyType type, bool swapped) {
+    switch (type) {
+        case PlyType::int8:
+            return static_cast<std::int8_t>(*at);
+        case PlyType::uint8:
+            return static_cast<std::uint8_t>(*at);
+        case PlyType::int16:
+            return ply_bytes<std::int16_t>(at, swapped);
+        case PlyType::uint16:
+            return ply_bytes<std::uint16_t>(at, swapped);
+        case PlyType::int32:
+            return ply_bytes<std::int32_t>(at, swapped);
+        case PlyType::uint32:
+        case PlyType::float32:
+        case PlyType::float64:
+            break;
+    }
+    return ply_bytes<std::uint32_t>(at, swapped);
+}
+
+/// A value of any type.
+inline double ply_number(const char* at, PlyType type, bool swapped) {
+    if (type == PlyType::float32) return ply_bytes<float>(at, swapped);
+    if (type == PlyType::float64) return ply_bytes<double>(at, swapped);
+    return static_cast<double>(ply_whole(at, type, swapped));
+}
 
 }  // namespace rt

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/polygon.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "host/base/counted.h"
 #include "host/scene/ear_clipper.h"
 #include "host/scene/geometry_checks.h"
 
@@ -27,33 +30,21 @@ bool on_one_line(std::span<const glm::dvec3> corners) {
     });
 }
 
-/// The best-fit plane of a polygon.
-struct Plane {
-    glm::dvec3 normal{0};  ///< length: twice the area, at an extent of 1
-    double bend = 0;       ///< largest distance of a corner from it, as a fraction of the extent
-};
-
-/// The normal is Newell's (Sutherland, Sproull and Schumacker 1974).
-Plane plane_of(std::span<const glm::dvec3> corners) {
+/// Newell's normal (Sutherland, Sproull and Schumacker 1974): its length is twice the area, at an
+/// extent of 1.
+glm::dvec3 normal_of(std::span<const glm::dvec3> corners) {
     double extent = 0;
     for (const glm::dvec3& corner : corners)
         extent = std::max(extent, largest_coordinate(corner - corners[0]));
     const auto scaled = [&](const glm::dvec3& corner) { return (corner - corners[0]) / extent; };
-    Plane plane;
-    glm::dvec3 middle{0};
+    glm::dvec3 normal{0};
     glm::dvec3 before = scaled(corners.back());
     for (const glm::dvec3& corner : corners) {
         const glm::dvec3 p = scaled(corner);
-        plane.normal += glm::cross(before, p);
-        middle += p / static_cast<double>(corners.size());
+        normal += glm::cross(before, p);
         before = p;
     }
-    const auto unit = unit_direction(plane.normal);
-    if (!unit) return plane;
-    for (const glm::dvec3& corner : corners) {
-        plane.bend = std::max(plane.bend, std::abs(glm::dot(scaled(corner) - middle, *unit)));
-    }
-    return plane;
+    return normal;
 }
 
 /// Projects the polygon along the axis nearest to its normal, counterclockwise. Coordinates are
@@ -81,7 +72,7 @@ std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners, glm::dvec
 }  // namespace
 
 PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
-                         std::vector<std::array<std::uint32_t, 3>>& triangles, double max_bend) {
+                         std::vector<std::array<std::uint32_t, 3>>& triangles) {
     triangles.clear();
     if (corners.size() == 3) {
         if (zero_area({corners[0], corners[1], corners[2]})) return PolygonFault::zero_area;
@@ -89,14 +80,44 @@ PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work
         return PolygonFault::none;
     }
     if (corners.size() < 3 || on_one_line(corners)) return PolygonFault::zero_area;
-    const Plane plane = plane_of(corners);
-    if (plane.bend > max_bend) return PolygonFault::bent;
-    if (largest_coordinate(plane.normal) == 0) return PolygonFault::crosses_itself;
-    const PolygonFault fault = EarClipper(flattened(corners, plane.normal), work, triangles).run();
+    const glm::dvec3 normal = normal_of(corners);
+    if (largest_coordinate(normal) == 0) return PolygonFault::crosses_itself;
+    const PolygonFault fault = EarClipper(flattened(corners, normal), work, triangles).run();
     std::erase_if(triangles, [&](const auto& triangle) {
         return zero_area({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
     });
     return fault;
+}
+
+const std::vector<std::array<std::uint32_t, 3>>& PolygonSplitter::split(
+    std::span<const glm::dvec3> corners) {
+    constexpr std::int64_t work_of_a_corner = 64;
+    work_ = std::min(max_polygon_work,
+                     std::max<std::int64_t>(work_, 0) +
+                         work_of_a_corner * static_cast<std::int64_t>(corners.size()));
+    const PolygonFault fault = triangulate(corners, work_, parts_);
+    if (fault == PolygonFault::none) return parts_;
+    parts_.clear();
+    if (fault == PolygonFault::zero_area) {
+        ++zero_areas_;
+        return parts_;
+    }
+    ++fans_;
+    for (std::uint32_t i = 2; i < corners.size(); ++i) parts_.push_back({0, i - 1, i});
+    return parts_;
+}
+
+std::vector<std::string> PolygonSplitter::notes(const std::string& file_name) const {
+    std::vector<std::string> notes;
+    if (zero_areas_ > 0) {
+        notes.push_back(
+            fmt::format("{}: ignored {}", file_name, counted(zero_areas_, "zero-area polygon")));
+    }
+    if (fans_ > 0) {
+        notes.push_back(fmt::format("{}: {} self-intersecting or too complex and may look wrong",
+                                    file_name, counted(fans_, "polygon is", "polygons are")));
+    }
+    return notes;
 }
 
 }  // namespace rt

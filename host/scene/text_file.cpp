@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/lower.h"
 #include "host/base/parallel.h"
 #include "host/base/printable.h"
 
@@ -62,6 +63,41 @@ FileText read_unsized(const FileDescriptor& file, const std::string& path, std::
     return {std::move(bytes), size};
 }
 
+struct Foreign {
+    std::string_view start, message;
+};
+
+constexpr std::string_view utf16 = "is UTF-16 text; save it as UTF-8";
+
+/// Letter case is ignored.
+constexpr Foreign foreign_starts[] = {
+    {"version https://git-lfs", "is a Git LFS pointer, not the file itself; run 'git lfs pull'"},
+    {"<", "is a web page or XML; download the file itself, or export another format"},
+    {"\x1f\x8b", "is compressed; unpack it with gunzip"},
+    {"PK\x03\x04", "is a ZIP archive; unpack it with unzip"},
+    {"BZh", "is compressed; unpack it with bunzip2"},
+    {"\xfd\x37zXZ", "is compressed; unpack it with unxz"},
+    {"\x28\xb5\x2f\xfd", "is compressed; unpack it with unzstd"},
+    {"7z\xbc\xaf", "is a 7-Zip archive; unpack it with 7z"},
+    {"\xff\xfe", utf16},
+    {"\xfe\xff", utf16},
+    {"solid ", "is an STL model; export it as OBJ or PLY"},
+    {"glTF", "is a glTF model; export it as OBJ or PLY"},
+    {"Kaydara FBX", "is an FBX model; export it as OBJ or PLY"},
+    {"; FBX", "is an FBX model; export it as OBJ or PLY"},
+    {"BLENDER", "is a Blender file; export it as OBJ or PLY"},
+    {"OFF\n", "is an OFF model; export it as OBJ or PLY"},
+    {"#VRML", "is a VRML model; export it as OBJ or PLY"},
+    {"USDC", "is a USD scene; export it as OBJ or PLY"},
+    {"#usda", "is a USD scene; export it as OBJ or PLY"},
+    {"bplist", "is a binary property list; export the model as OBJ or PLY"},
+    {"%PDF", "is a PDF document; use a model"},
+    {"\x89PNG", "is a picture; use a model"},
+    {"\xff\xd8\xff", "is a picture; use a model"},
+    {"\x7f"
+     "ELF",
+     "is a program; use a model"}};
+
 struct stat status_of(const FileDescriptor& file, const std::string& path) {
     struct stat status {};
     if (fstat(file.number(), &status) != 0) refuse_read(path, errno);
@@ -106,6 +142,18 @@ FileText read_text_file(const FileDescriptor& file, const std::string& path,
 
 FileText read_text_file(const std::string& path, std::size_t max_bytes) {
     return read_text_file(open_text_file(path), path, max_bytes);
+}
+
+void refuse_foreign(const std::string& path, std::string_view text) {
+    const std::size_t blanks = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+    const std::string start = lower(std::string(text.substr(blanks, 32)));
+    for (const Foreign& foreign : foreign_starts) {
+        if (start.starts_with(lower(std::string(foreign.start))))
+            refuse(path, std::string(foreign.message));
+    }
+    const bool wide =
+        text.size() > 3 && text[0] != 0 && text[1] == 0 && text[2] != 0 && text[3] == 0;
+    if (wide) refuse(path, std::string(utf16));
 }
 
 }  // namespace rt

@@ -101,7 +101,7 @@ int show_info(const SceneOptions& options) {
 }
 
 Json check_json(const std::string& path, const std::string& mistakes,
-                const std::vector<std::string>& warnings) {
+                const std::vector<std::string>& notes, const std::vector<std::string>& warnings) {
     Json lines = Json::array();
     std::istringstream text(mistakes);
     for (std::string line; std::getline(text, line);) lines.push_back(line);
@@ -110,6 +110,7 @@ Json check_json(const std::string& path, const std::string& mistakes,
             {"path", printable(path)},
             {"fine", lines.empty()},
             {"mistakes", lines},
+            {"notes", notes},
             {"warnings", warnings}};
 }
 
@@ -121,18 +122,22 @@ void print_warnings(const std::string& path, const std::vector<std::string>& war
 
 int check_scene(const SceneOptions& options) {
     std::string mistakes;
-    std::vector<std::string> warnings;
+    std::vector<std::string> notes, warnings;
     try {
         const Scene scene = load_scene(options.scene, options.light);
         flatten<float>(scene);
+        notes = scene.notes;
         warnings = scene_warnings(scene);
     } catch (const Error& error) {
         if (!options.json || error.exit_code() != ExitCode::input) throw;
         mistakes = error.what();
     }
-    print_result(options.json ? json_text(check_json(options.scene, mistakes, warnings))
+    print_result(options.json ? json_text(check_json(options.scene, mistakes, notes, warnings))
                               : printable(options.scene) + ": fine\n");
-    if (!options.json) print_warnings(options.scene, warnings);
+    if (!options.json) {
+        print_notes(notes);
+        print_warnings(options.scene, warnings);
+    }
     return static_cast<int>(mistakes.empty() ? ExitCode::done : ExitCode::input);
 }
 
