@@ -25,8 +25,9 @@ namespace {
 constexpr int max_max_bounces = 100000;
 
 constexpr std::string_view scene_keys[] = {
-    "$schema", "name",      "camera",  "image", "max_bounces", "background", "ambient_light",
-    "lights",  "materials", "spheres", "cones", "triangles",   "meshes",     "path"};
+    "$schema",     "description", "name",          "camera", "image",
+    "max_bounces", "background",  "ambient_light", "lights", "materials",
+    "spheres",     "cones",       "triangles",     "meshes", "path"};
 constexpr std::string_view image_keys[] = {"width", "height", "aa"};
 
 std::optional<AaMode> read_aa(const JsonValue& value, std::string_view name, Mistakes& mistakes) {
@@ -94,7 +95,9 @@ void read_objects(const ObjectReader& reader, const SceneFolder& folder, SceneTe
 }
 
 void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
-    if (const JsonValue* schema = reader.find("$schema")) read_string(*schema, "$schema", mistakes);
+    for (const std::string_view key : {"$schema", "description"}) {  // for editors and people
+        if (const JsonValue* text = reader.find(key)) read_string(*text, key, mistakes);
+    }
     if (const JsonValue* value = reader.find("name")) {
         const std::string* name = read_string(*value, "name", mistakes);
         if (name && printable(*name) != *name) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/scene/scene_limits.h"
 #include "host/scene/words.h"
@@ -52,6 +53,49 @@ std::optional<glm::dvec3> read_items(const JsonValue::Array* items, std::string_
 }
 
 glm::dvec3 gray(double level) { return glm::dvec3(level, level, level); }
+
+/// What other programs call a key, where no known key is spelled much like it.
+constexpr std::pair<std::string_view, std::string_view> synonyms[] = {
+    {"pos", "position"},
+    {"pos", "from"},
+    {"pos", "center"},
+    {"position", "from"},
+    {"position", "center"},
+    {"position", "translate"},
+    {"location", "position"},
+    {"location", "from"},
+    {"origin", "from"},
+    {"eye", "from"},
+    {"look_at", "at"},
+    {"lookat", "at"},
+    {"target", "at"},
+    {"color", "diffuse"},
+    {"color", "intensity"},
+    {"colour", "diffuse"},
+    {"colour", "intensity"},
+    {"reflection", "mirror"},
+    {"reflectivity", "mirror"},
+    {"refraction", "ior"},
+    {"opacity", "transmission"},
+    {"exponent", "shininess"},
+    {"power", "intensity"},
+    {"brightness", "intensity"},
+    {"samples", "aa"},
+    {"antialiasing", "aa"},
+    {"size", "width"},
+    {"resolution", "width"},
+    {"points", "vertices"},
+    {"path", "file"},
+    {"rotation", "rotate_degrees"},
+    {"depth", "max_bounces"}};
+
+std::string guess(std::string_view key, std::span<const std::string_view> known) {
+    for (const auto& [word, meant] : synonyms) {
+        const bool fits = word == key && std::ranges::find(known, meant) != known.end();
+        if (fits) return fmt::format("did you mean {}?", in_quotes(meant));
+    }
+    return suggestion(key, known, "known keys are");
+}
 
 }  // namespace
 
@@ -184,7 +228,7 @@ ObjectReader::ObjectReader(const JsonValue& value, std::string_view what,
         if (std::ranges::find(known_keys, member.key) != known_keys.end()) continue;
         mistakes.add(member.key_offset,
                      fmt::format("unknown key {} in {}; {}", in_quotes(member.key), what,
-                                 suggestion(member.key, known_keys, "known keys are")));
+                                 guess(member.key, known_keys)));
     }
 }
 
