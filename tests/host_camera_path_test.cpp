@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/error.h"
-#include "host/scene/camera_path.h"
+#include "host/scene/scene.h"
 #include "host/scene/json_file.h"
 
 namespace rt::test {

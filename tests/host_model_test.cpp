@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/scene/model_file.h"
+#include "host/scene/model.h"
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 

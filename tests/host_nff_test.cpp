@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "host/scene/nff_file.h"
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/obj_file.h"
+#include "host/scene/model.h"
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/scene/ply_file.h"
+#include "host/scene/model.h"
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 

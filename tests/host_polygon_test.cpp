@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "host/scene/orientation.h"
+#include "host/scene/geometry.h"
 #include "host/scene/polygon.h"
 
 namespace rt {

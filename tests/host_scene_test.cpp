@@ -15,7 +15,7 @@
 
 #include "host/base/error.h"
 #include "host/base/printable.h"
-#include "host/scene/geometry_checks.h"
+#include "host/scene/geometry.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_file.h"
 #include "host/scene/mistakes.h"

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "host/scene/affine.h"
-#include "host/scene/mesh_finish.h"
+#include "host/scene/geometry.h"
+#include "host/scene/mesh.h"
 
 namespace rt {
 namespace {

@@ -332,8 +332,8 @@ class Parser {
             if (first == &*member) continue;
             const SourcePosition position = position_of(text_, first->key_offset);
             mistakes_.add(member->key_offset,
-                          fmt::format("key {} is repeated, first at {}:{}; keep one of them",
-                                      in_quotes(member->key), position.line, position.column));
+                          "key {} is repeated, first at {}:{}; keep one of them",
+                          in_quotes(member->key), position.line, position.column);
         }
     }
 

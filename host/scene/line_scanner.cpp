@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host/scene/scene_limits.h"
+#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -138,7 +138,7 @@ std::optional<std::int64_t> LineScanner::integer() {
     return std::nullopt;
 }
 
-std::optional<double> read_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes,
+std::optional<double> scan_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes,
                                   const Remedy* remedy, std::size_t count) {
     const bool there = scanner.word_follows();
     const std::size_t offset = scanner.offset();
@@ -149,7 +149,7 @@ std::optional<double> read_number(LineScanner& scanner, std::string_view name, M
                                        : in_quotes(scanner.word());
     std::string message = fmt::format("{} is {}; write a number from -1e30 to 1e30", name, found);
     if (remedy) {
-        mistakes.note(*remedy, offset, std::move(message), count);
+        mistakes.note_in({}, *remedy, offset, std::move(message), count);
     } else {
         mistakes.add(offset, std::move(message));
     }

@@ -60,7 +60,7 @@ class LineScanner {
 
 /// The next number, within max_scene_number. Otherwise nothing, and a note (or, without a remedy,
 /// an error) says why; a word that is no number is skipped. `name` is what messages call it.
-std::optional<double> read_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes,
+std::optional<double> scan_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes,
                                   const Remedy* remedy = nullptr, std::size_t count = 1);
 
 /// How a large file is read: with how many threads, in chunks of about how many bytes. Neither

@@ -32,17 +32,13 @@ SourcePosition position_of(std::string_view text, std::size_t offset) {
 Mistakes::Mistakes(std::string_view text, std::string_view file_name)
     : text_(text), file_name_(printable(file_name)) {}
 
-void Mistakes::add(std::size_t offset, std::string message) {
-    add_in({}, offset, std::move(message));
-}
-
 void Mistakes::add_in(std::string where, std::size_t offset, std::string message) {
     found_.push_back({offset, std::move(message), std::move(where)});
     if (found_.size() >= max_count) throw_if_any();
 }
 
-void Mistakes::note(const Remedy& remedy, std::size_t offset, std::string message,
-                    std::size_t count, std::string where) {
+void Mistakes::note_in(std::string where, const Remedy& remedy, std::size_t offset,
+                       std::string message, std::size_t count) {
     const auto same = std::ranges::find(notes_, &remedy, &Note::remedy);
     if (same != notes_.end()) {
         same->count += count;
@@ -53,7 +49,7 @@ void Mistakes::note(const Remedy& remedy, std::size_t offset, std::string messag
 
 void Mistakes::take_notes(const Mistakes& part) {
     for (const auto& [first, remedy, count] : part.notes_) {
-        note(*remedy, first.offset, first.message, count, first.where);
+        note_in(first.where, *remedy, first.offset, first.message, count);
     }
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rt {
@@ -29,7 +32,14 @@ class Mistakes {
     Mistakes(std::string_view text, std::string_view file_name);
 
     /// Notes "what is wrong; what to do" at a byte offset. Throws when max_count is reached.
-    void add(std::size_t offset, std::string message);
+    void add(std::size_t offset, std::string message) { add_in({}, offset, std::move(message)); }
+
+    /// The same with a message to be formatted.
+    template <typename... Args>
+    requires(sizeof...(Args) > 0) void add(std::size_t offset, fmt::format_string<Args...> message,
+                                           Args&&... args) {
+        add(offset, fmt::format(message, std::forward<Args>(args)...));
+    }
 
     /// The same for data without lines: `where` ("element 'face' 17") replaces line and column in
     /// the message.
@@ -38,9 +48,19 @@ class Mistakes {
     std::size_t count() const { return found_.size(); }
 
     /// Notes a blemish. Of those with the same remedy, the first is kept and all are counted, so
-    /// that a million of them are one line. A `count` of 0 only gives the reason for later ones.
-    void note(const Remedy& remedy, std::size_t offset, std::string message, std::size_t count = 1,
-              std::string where = {});
+    /// that a million of them are one line.
+    void note(const Remedy& remedy, std::size_t offset, std::string message) {
+        note_in({}, remedy, offset, std::move(message), 1);
+    }
+    template <typename... Args>
+    requires(sizeof...(Args) > 0) void note(const Remedy& remedy, std::size_t offset,
+                                            fmt::format_string<Args...> message, Args&&... args) {
+        note(remedy, offset, fmt::format(message, std::forward<Args>(args)...));
+    }
+
+    /// A `count` of 0 only gives the reason for later ones; `where` is as for add_in.
+    void note_in(std::string where, const Remedy& remedy, std::size_t offset, std::string message,
+                 std::size_t count);
 
     bool has_notes() const { return !notes_.empty(); }
 

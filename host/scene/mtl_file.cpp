@@ -12,7 +12,7 @@
 
 #include "host/base/printable.h"
 #include "host/scene/line_scanner.h"
-#include "host/scene/scene_limits.h"
+#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -87,14 +87,14 @@ class MtlReader {
         if (word == "newmtl") return start_material(offset);
         if (!mtl_) {
             mistakes_.note(ignored, offset,
-                           fmt::format("{} comes before the first newmtl; write newmtl and a name "
-                                       "above it",
-                                       in_quotes(word)));
+                           "{} comes before the first newmtl; write newmtl and a name "
+                           "above it",
+                           in_quotes(word));
         } else if (!read_value(word, *mtl_)) {
             mistakes_.note(unsupported, offset,
-                           fmt::format("unknown statement {}: textures and extensions are not "
-                                       "supported",
-                                       in_quotes(word)));
+                           "unknown statement {}: textures and extensions are not "
+                           "supported",
+                           in_quotes(word));
         }
     }
 
@@ -137,8 +137,8 @@ class MtlReader {
         const auto [first, is_new] = offsets_.emplace(mtl_->name, offset);
         if (is_new) return;
         mistakes_.note(ignored, offset,
-                       fmt::format("material {} is defined twice, first at {}; the first counts",
-                                   in_quotes(mtl_->name), mistakes_.place(first->second)));
+                       "material {} is defined twice, first at {}; the first counts",
+                       in_quotes(mtl_->name), mistakes_.place(first->second));
         mtl_->name.clear();
     }
 
@@ -159,7 +159,7 @@ class MtlReader {
         }
         if (count == 2) {
             mistakes_.note(value_ignored, scanner_.offset(),
-                           fmt::format("{} has two numbers; write one for a gray, or three", word));
+                           "{} has two numbers; write one for a gray, or three", word);
         } else {
             color = count == 1 ? glm::dvec3(rgb[0]) : rgb;
         }
@@ -169,12 +169,12 @@ class MtlReader {
     void read_amount(std::string_view word, double most, double& target) {
         scanner_.word_follows();
         const std::size_t offset = scanner_.offset();
-        const auto number = read_number(scanner_, word, mistakes_, &value_ignored);
+        const auto number = scan_number(scanner_, word, mistakes_, &value_ignored);
         if (!number) return;
         target = std::clamp(*number, 0.0, most);
         if (target == *number) return;
-        mistakes_.note(value_limited, offset,
-                       fmt::format("{} is {}; write a number from 0 to {}", word, *number, most));
+        mistakes_.note(value_limited, offset, "{} is {}; write a number from 0 to {}", word,
+                       *number, most);
     }
 
     void read_illum(Mtl& mtl) {
@@ -189,8 +189,8 @@ class MtlReader {
         const std::string found = !there   ? "missing"
                                   : number ? fmt::format("{}", *number)
                                            : in_quotes(scanner_.word());
-        mistakes_.note(value_ignored, offset,
-                       fmt::format("illum is {}; write a whole number from 0 to {}", found, last));
+        mistakes_.note(value_ignored, offset, "illum is {}; write a whole number from 0 to {}",
+                       found, last);
     }
 
     LineScanner scanner_;
@@ -293,9 +293,9 @@ void ObjMaterials::assign(Model& model, const OpenLibrary& open, Mistakes& mista
         std::string advice = "the libraries contain none";
         if (libraries_.empty()) advice = "the file has no mtllib";
         if (!names.empty()) advice = suggestion(first.name, names, "the libraries contain");
-        mistakes.note(unknown, first.offset,
-                      fmt::format("unknown material {}; {}", in_quotes(first.name), advice),
-                      unknown_ones.size());
+        mistakes.note_in({}, unknown, first.offset,
+                         fmt::format("unknown material {}; {}", in_quotes(first.name), advice),
+                         unknown_ones.size());
     }
     std::vector<int>& faces = model.mesh.face_materials;
     if (libraries_.empty()) {

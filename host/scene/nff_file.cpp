@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/nff_file.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,11 +12,11 @@
 #include "host/base/error.h"
 #include "host/base/lower.h"
 #include "host/base/printable.h"
-#include "host/scene/geometry_checks.h"
+#include "host/scene/geometry.h"
 #include "host/scene/line_scanner.h"
 #include "host/scene/polygon.h"
-#include "host/scene/scene_limits.h"
-#include "host/scene/scene_name.h"
+#include "host/scene/scene.h"
+#include "host/scene/scene_file.h"
 #include "host/scene/text_file.h"
 #include "host/scene/words.h"
 
@@ -118,9 +116,9 @@ class NffReader {
             mistakes_.add(offset, "unknown entity 'nff'; this is Sense8's NFF, a different format");
         } else {
             mistakes_.note(ignored, offset,
-                           fmt::format("unknown entity {}; NFF has v, b, l, f, c, s, p and pp; "
-                                       "extensions are not supported",
-                                       in_quotes(word)));
+                           "unknown entity {}; NFF has v, b, l, f, c, s, p and pp; "
+                           "extensions are not supported",
+                           in_quotes(word));
         }
         return false;
     }
@@ -151,7 +149,7 @@ class NffReader {
 
     std::optional<double> read_next(std::string_view name) {
         if (number_follows()) {
-            const auto number = read_number(scanner_, name, mistakes_, remedy_);
+            const auto number = scan_number(scanner_, name, mistakes_, remedy_);
             has_lost_ = has_lost_ || (!number && remedy_ == &left_out);
             return number;
         }
@@ -182,15 +180,14 @@ class NffReader {
 
     double at_least_0(double number, std::string_view name, std::size_t offset) {
         if (number >= 0) return number;
-        mistakes_.note(value_replaced, offset,
-                       fmt::format("{} is {}; write 0 or more", name, number));
+        mistakes_.note(value_replaced, offset, "{} is {}; write 0 or more", name, number);
         return 0;
     }
 
     double at_most(double number, std::string_view name, std::size_t offset) {
         if (number <= max_reflectance) return number;
-        mistakes_.note(value_replaced, offset,
-                       fmt::format("{} is {}; write {} at most", name, number, max_reflectance));
+        mistakes_.note(value_replaced, offset, "{} is {}; write {} at most", name, number,
+                       max_reflectance);
         return max_reflectance;
     }
 
@@ -210,9 +207,9 @@ class NffReader {
         while (number_follows()) {
             const std::size_t offset = scanner_.offset();
             mistakes_.note(number_ignored, offset,
-                           fmt::format("{} is one number too many, or an entity's letter is "
-                                       "missing",
-                                       in_quotes(scanner_.word())));
+                           "{} is one number too many, or an entity's letter is "
+                           "missing",
+                           in_quotes(scanner_.word()));
         }
     }
 
@@ -236,9 +233,8 @@ class NffReader {
     void note_repeated(std::string_view word, std::size_t offset,
                        std::optional<std::size_t>& first) {
         if (first) {
-            mistakes_.note(ignored, *first,
-                           fmt::format("a second '{}' is at {}; keep one of them", word,
-                                       mistakes_.place(offset)));
+            mistakes_.note(ignored, *first, "a second '{}' is at {}; keep one of them", word,
+                           mistakes_.place(offset));
         }
         first = offset;
     }
@@ -258,8 +254,8 @@ class NffReader {
         }
         for (std::size_t i = 0; i < 4; ++i) {  // the others are optional
             if (places[i]) continue;
-            mistakes_.add(offset, fmt::format("the view has no '{}'; add {}", view_parts[i].word,
-                                              view_parts[i].usage));
+            mistakes_.add(offset, "the view has no '{}'; add {}", view_parts[i].word,
+                          view_parts[i].usage);
         }
         if (mistakes_.count() != before) return true;
         const Scene::Camera& camera = scene_.camera;
@@ -278,8 +274,7 @@ class NffReader {
         if (part == "angle") {
             const auto degrees = read_next(part);
             if (degrees && !(*degrees > 0 && *degrees < 180)) {
-                mistakes_.add(
-                    offset, fmt::format("angle is {}; write an angle between 0 and 180", *degrees));
+                mistakes_.add(offset, "angle is {}; write an angle between 0 and 180", *degrees);
             }
             scene_.camera.field_of_view = {Scene::FieldOfView::Fixed::vertical,
                                            degrees.value_or(0)};
@@ -292,8 +287,8 @@ class NffReader {
         scene_.height = *height;
         const auto pixels = static_cast<std::int64_t>(*width) * *height;
         if (pixels > max_image_pixels) {
-            mistakes_.add(offset, fmt::format("the picture has {} pixels; make it {} at most",
-                                              pixels, max_image_pixels));
+            mistakes_.add(offset, "the picture has {} pixels; make it {} at most", pixels,
+                          max_image_pixels);
         }
         return true;
     }
@@ -376,7 +371,7 @@ class NffReader {
 
     bool read_sphere() {
         const auto center = read_vec3("center");
-        const std::size_t offset = center ? next_offset() : 0;
+        const std::size_t offset = next_offset();
         const auto radius = center ? read_next("radius") : std::nullopt;
         if (!radius) return false;
         if (*radius == 0) {
@@ -393,16 +388,15 @@ class NffReader {
         const auto apex = base_radius ? read_vec3("apex") : std::nullopt;
         const auto apex_radius = apex ? read_next("apex radius") : std::nullopt;
         if (!apex_radius) return false;
+        const double one = *base_radius, other = *apex_radius;
         if (nearly_same_point(*base, *apex)) {
             report(offset, same_cone_ends);
-        } else if (std::min(*base_radius, *apex_radius) < 0 &&
-                   std::max(*base_radius, *apex_radius) > 0) {
-            report(offset, "the radii have opposite signs; give both the same sign");
-        } else if (*base_radius == 0 && *apex_radius == 0) {
+        } else if (one == 0 && other == 0) {
             report(offset, zero_cone_radii);
+        } else if (std::min(one, other) < 0 && std::max(one, other) > 0) {
+            report(offset, "the radii have opposite signs; give both the same sign");
         } else {
-            scene_.cones.push_back(
-                {*base, *apex, std::abs(*base_radius), std::abs(*apex_radius), material()});
+            scene_.cones.push_back({*base, *apex, std::abs(one), std::abs(other), material()});
         }
         return true;
     }

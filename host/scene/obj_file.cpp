@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/obj_file.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +12,9 @@
 
 #include "host/base/counted.h"
 #include "host/base/printable.h"
-#include "host/scene/mesh_builder.h"
+#include "host/scene/mesh.h"
 #include "host/scene/mistakes.h"
+#include "host/scene/model.h"
 #include "host/scene/mtl_file.h"
 #include "host/scene/words.h"
 
@@ -80,7 +79,7 @@ glm::dvec3 read_three(LineScanner& scanner, std::string_view name, const Remedy&
                       Mistakes& notes) {
     glm::dvec3 v(0);
     for (int axis = 0; axis < 3; ++axis) {
-        const auto number = read_number(scanner, name, notes, &remedy, 0);
+        const auto number = scan_number(scanner, name, notes, &remedy, 0);
         if (!number) return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
         v[axis] = *number;
     }
@@ -236,9 +235,9 @@ class FaceReader {
                 !parsed || (parsed->has_normal && parsed->normal == 0 && !word.ends_with("/0"));
             if (unreadable) {
                 notes_.note(parsed ? bad_corner_normal : bad_face, offset,
-                            fmt::format("{} is not a face corner; write v, v/vt, v//vn or v/vt/vn "
-                                        "in whole numbers",
-                                        in_quotes(word)));
+                            "{} is not a face corner; write v, v/vt, v//vn or v/vt/vn "
+                            "in whole numbers",
+                            in_quotes(word));
                 flat_ = Flat::noted;
             }
             if (!parsed) return false;

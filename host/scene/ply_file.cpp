@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/ply_file.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +8,10 @@
 #include <span>
 #include <utility>
 
-#include "host/scene/mesh_builder.h"
-#include "host/scene/ply_blocks.h"
-#include "host/scene/ply_header.h"
-#include "host/scene/scene_limits.h"
+#include "host/scene/mesh.h"
+#include "host/scene/model.h"
+#include "host/scene/ply.h"
+#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -70,9 +68,8 @@ class Rows {
         if (!is_text_) return;
         if (is_good_ && scanner_.word_follows()) {
             const std::size_t offset = scanner_.offset();
-            mistakes_->note(extra_value, offset,
-                            fmt::format("unexpected {} after the values of {}; remove it",
-                                        in_quotes(scanner_.word()), row_name()));
+            mistakes_->note(extra_value, offset, "unexpected {} after the values of {}; remove it",
+                            in_quotes(scanner_.word()), row_name());
         }
         scanner_.next_line();
     }
@@ -120,13 +117,13 @@ class Rows {
 
     /// Notes what is wrong at this place; a text row may be given up.
     void note(const Remedy& remedy, std::string message, std::size_t count = 1) {
-        mistakes_->note(remedy, scanner_.offset(), std::move(message), count,
-                        is_text_ ? "" : row_name());
+        mistakes_->note_in(is_text_ ? "" : row_name(), remedy, scanner_.offset(),
+                           std::move(message), count);
     }
     void fail(std::size_t offset, std::string message, std::size_t count = 1) {
         is_good_ = false;
-        mistakes_->note(*remedy_, offset, std::move(message), remedy_ == &bad_vertex ? 0 : count,
-                        is_text_ ? "" : row_name());
+        mistakes_->note_in(is_text_ ? "" : row_name(), *remedy_, offset, std::move(message),
+                           remedy_ == &bad_vertex ? 0 : count);
     }
     [[nodiscard]] bool is_good() const { return is_good_; }
 
@@ -243,11 +240,10 @@ class BodyReader {
         if (least == 0) return;
         const std::uint64_t most = (rows_.left().size() + 1) / least;
         if (element.count <= most) return;
-        mistakes_.add(
-            element.offset,
-            fmt::format("element {} declares {} rows, but the rest of the file holds at most {}; "
-                        "correct the count or save the model again",
-                        in_quotes(element.name), element.count, most));
+        mistakes_.add(element.offset,
+                      "element {} declares {} rows, but the rest of the file holds at most {}; "
+                      "correct the count or save the model again",
+                      in_quotes(element.name), element.count, most);
         mistakes_.throw_if_any();
     }
 

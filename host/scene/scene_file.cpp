@@ -11,9 +11,7 @@
 #include "host/scene/json_document.h"
 #include "host/scene/json_file.h"
 #include "host/scene/mistakes.h"
-#include "host/scene/model_file.h"
-#include "host/scene/nff_file.h"
-#include "host/scene/stdin_text.h"
+#include "host/scene/model.h"
 #include "host/scene/text_file.h"
 
 namespace rt {

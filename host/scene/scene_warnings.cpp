@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "host/scene/geometry_checks.h"
+#include "host/scene/geometry.h"
 #include "host/scene/words.h"
 
 namespace rt {

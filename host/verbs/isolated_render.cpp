@@ -22,7 +22,7 @@
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
-#include "host/scene/stdin_text.h"
+#include "host/scene/text_file.h"
 #include "host/verbs/batch_log.h"
 #include "host/verbs/render_steps.h"
 

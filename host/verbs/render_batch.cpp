@@ -24,7 +24,7 @@
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
-#include "host/scene/camera_path.h"
+#include "host/scene/scene.h"
 #include "host/scene/scene_hash.h"
 #include "host/verbs/batch_list.h"
 #include "host/verbs/batch_log.h"

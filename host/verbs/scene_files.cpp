@@ -8,7 +8,7 @@
 #include "host/base/error.h"
 #include "host/scene/json_document.h"
 #include "host/scene/line_scanner.h"
-#include "host/scene/model_file.h"
+#include "host/scene/model.h"
 #include "host/scene/text_file.h"
 
 namespace rt {

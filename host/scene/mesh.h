@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/geometry.h"
 #include "host/scene/polygon.h"
 #include "host/scene/scene.h"
 
@@ -61,5 +62,17 @@ class MeshBuilder {
     std::vector<glm::dvec3> outline_;  ///< of the face at hand
     PolygonSplitter splitter_;
 };
+
+/// What was dropped from a mesh.
+struct MeshLosses {
+    std::size_t zero_areas = 0;  ///< triangles without area
+    std::size_t flat_faces = 0;  ///< made flat, since a vertex normal has length 0
+    bool too_far = false;        ///< a face's vertex ends up beyond max_scene_number
+};
+
+/// Transforms a mesh into the scene. Normals become unit length; triangles without area are
+/// removed; a mirroring transform reverses the faces, so that fronts stay fronts. The transform
+/// must not be singular.
+MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform);
 
 }  // namespace rt

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -31,5 +33,29 @@ struct AxesMistake {
 };
 
 std::optional<AxesMistake> find_axes_mistake(glm::dvec3 from, glm::dvec3 at, glm::dvec3 up);
+
+/// p -> linear * p + translation.
+struct Affine {
+    glm::dmat3 linear{1};
+    glm::dvec3 translation{0};
+
+    bool operator==(const Affine&) const = default;
+};
+
+/// Scales, then rotates about x, y and z in this order (degrees, counterclockwise seen from the tip
+/// of the axis), then translates.
+Affine make_affine(glm::dvec3 scale, glm::dvec3 degrees, glm::dvec3 translation);
+
+/// The matrix that transforms normals (inverse transpose, up to a positive factor); empty when
+/// `linear` is singular up to rounding, whatever its scale.
+std::optional<glm::dmat3> normal_matrix(const glm::dmat3& linear);
+
+/// Whether the linear part mirrors (negative determinant).
+bool mirrors(const glm::dmat3& linear);
+
+/// On which side of the line from a to b the point c lies: 1 on its left, -1 on its right, 0 on
+/// it. Exact for coordinates whose products neither overflow nor underflow (Shewchuk, Adaptive
+/// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997).
+int orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c);
 
 }  // namespace rt
