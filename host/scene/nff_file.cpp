@@ -71,9 +71,7 @@ class NffReader {
 
     Scene read() {
         while (scanner_.find_word()) {
-            const std::string_view word = LineScanner(scanner_).word();
-            const bool skips_words = word == "v" || !is_entity(word);
-            read_entity() ? skip_numbers() : skip_to_entity(skips_words);
+            read_entity() ? skip_numbers() : skip_to_entity();
             if (shape_count() > max_nff_primitives) {
                 throw Error(ExitCode::limit,
                             fmt::format("{}: more than {} primitives; split the scene",
@@ -98,6 +96,7 @@ class NffReader {
         const std::size_t offset = scanner_.offset();
         const std::string_view word = scanner_.word();
         const auto known = std::ranges::find(entities, word, &Usage::word);
+        skips_words_ = word == "v" || known == std::end(entities);
         if (known == std::end(entities)) return note_unknown(word, offset);
         usage_ = known->usage;
         remedy_ = word == "v" ? nullptr : word == "b" || word == "l" ? &ignored : &left_out;
@@ -142,16 +141,23 @@ class NffReader {
     bool number_follows() {
         if (!scanner_.find_word()) return false;
         const std::string_view left = scanner_.left();
-        if (std::string_view("0123456789+-.").find(left[0]) != left.npos) return true;
-        const std::string word = lower(std::string(left.substr(0, 3)));
+        const char c = left[0];
+        if ((c >= '0' && c <= '9') || c == '-' || c == '.' || c == '+') return true;
+        if (std::string_view("nNiI").find(c) == left.npos) return false;
+        const std::string word = lower(std::string(LineScanner(scanner_).word()));
         return word == "nan" || word == "inf";
     }
 
     std::optional<double> read_next(std::string_view name) {
+        scanner_.find_word();
+        const std::size_t start = scanner_.offset();
+        if (const auto usual = scanner_.number()) {
+            if (std::abs(*usual) <= max_scene_number) return usual;
+            scanner_ = LineScanner(mistakes_.text(), start);
+        }
         if (number_follows()) {
-            const auto number = scan_number(scanner_, name, mistakes_, remedy_);
-            has_lost_ = has_lost_ || (!number && remedy_ == &left_out);
-            return number;
+            has_lost_ = has_lost_ || remedy_ == &left_out;
+            return scan_number(scanner_, name, mistakes_, remedy_);
         }
         const std::string_view word = LineScanner(scanner_).word();
         report(scanner_.offset(),
@@ -221,10 +227,10 @@ class NffReader {
 
     /// Error recovery: skips to a line that begins with an entity, or at least with a word. Lines
     /// of a view or an extension may begin with words of their own.
-    void skip_to_entity(bool skips_words) {
+    void skip_to_entity() {
         if (scanner_.find_word() && !at_line_start()) scanner_.next_line();
         for (; scanner_.find_word(); scanner_.next_line()) {
-            if (!number_follows() && (!skips_words || is_entity(LineScanner(scanner_).word())))
+            if (!number_follows() && (!skips_words_ || is_entity(LineScanner(scanner_).word())))
                 return;
         }
     }
@@ -457,6 +463,7 @@ class NffReader {
     int material_ = -1;                             ///< -1: no fill yet
     std::vector<glm::dvec3> corners_, normals_;     ///< of the polygon at hand
     PolygonSplitter splitter_;
+    bool skips_words_ = false;
     bool has_lost_ = false;  ///< a shape, or a statement that may be one
 };
 

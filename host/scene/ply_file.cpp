@@ -49,18 +49,21 @@ class Rows {
     std::size_t offset() const { return scanner_.offset(); }
     void advance(std::size_t bytes) { scanner_.advance(bytes); }
 
-    /// Returns whether the file has another row.
-    bool start_row(const PlyElement& element, std::uint64_t row) {
+    void start_element(const PlyElement& element) {
         element_ = &element;
-        row_ = row;
-        is_good_ = true;
         const bool is_face = element.name == "face" || element.name == "tristrips";
         remedy_ = element.name == "vertex" ? &bad_vertex : is_face ? &bad_face : &bad_row;
+    }
+
+    /// Returns whether the file has another row.
+    bool start_row(std::uint64_t row) {
+        row_ = row;
+        is_good_ = true;
         if (!is_text_ || scanner_.find_word()) return true;
         fail(scanner_.offset(),
              fmt::format("the file ends before {}, of {}; save the model again", row_name(),
-                         element.count),
-             element.count - row);
+                         element_->count),
+             element_->count - row);
         return false;
     }
 
@@ -74,35 +77,31 @@ class Rows {
         scanner_.next_line();
     }
 
-    std::optional<double> number(PlyType type) {
+    /// Reads a value; returns whether it could.
+    bool number(PlyType type, double& value) {
         if (!is_text_) {
             const char* at = take(size_of(type));
-            return at ? std::optional(ply_number(at, type, swapped_)) : std::nullopt;
+            if (at) value = ply_number(at, type, swapped_);
+            return at != nullptr;
         }
-        if (!has_word()) return std::nullopt;
-        const std::size_t offset = scanner_.offset();
+        if (!has_word()) return false;
         const auto number = scanner_.number();
-        if (!number) refuse_word(offset, "a number");
-        return number;
+        if (!number) return refuse_word("a number");
+        value = *number;
+        return true;
     }
 
-    /// In text, "3.0" is whole too.
-    std::optional<std::int64_t> integer(PlyType type) {
+    bool integer(PlyType type, std::int64_t& value) {
         if (!is_text_) {
             const char* at = take(size_of(type));
-            return at ? std::optional(ply_whole(at, type, swapped_)) : std::nullopt;
+            if (at) value = ply_whole(at, type, swapped_);
+            return at != nullptr;
         }
-        if (!has_word()) return std::nullopt;
-        const std::size_t offset = scanner_.offset();
-        if (const auto whole = scanner_.integer()) return whole;
-        LineScanner ahead = scanner_;
-        const auto number = ahead.number();
-        if (number && std::abs(*number) < 1e15 && *number == std::floor(*number)) {
-            scanner_ = ahead;
-            return static_cast<std::int64_t>(*number);
-        }
-        refuse_word(offset, "a whole number");
-        return std::nullopt;
+        if (!has_word()) return false;
+        const auto whole = scanner_.integer();
+        if (!whole) return whole_number(value);
+        value = *whole;
+        return true;
     }
 
     /// Skips this many values; returns whether they exist.
@@ -162,9 +161,23 @@ class Rows {
         return false;
     }
 
-    void refuse_word(std::size_t offset, std::string_view wanted) {
+    bool refuse_word(std::string_view wanted) {
+        const std::size_t offset = scanner_.offset();
         fail(offset, fmt::format("a value of {} is {}; write {}", row_name(),
                                  in_quotes(scanner_.word()), wanted));
+        return false;
+    }
+
+    /// In text, "3.0" is whole too.
+    bool whole_number(std::int64_t& value) {
+        LineScanner ahead = scanner_;
+        const auto number = ahead.number();
+        if (!number || std::abs(*number) > 1e15 || *number != std::floor(*number)) {
+            return refuse_word("a whole number");
+        }
+        scanner_ = ahead;
+        value = static_cast<std::int64_t>(*number);
+        return true;
     }
 
     const char* take(std::size_t bytes, std::uint64_t count = 1) {
@@ -249,7 +262,8 @@ class BodyReader {
 
     template <typename ReadRow>
     void read_rows(const PlyElement& element, ReadRow read_row) {
-        for (std::uint64_t row = 0; row < element.count && rows_.start_row(element, row); ++row) {
+        rows_.start_element(element);
+        for (std::uint64_t row = 0; row < element.count && rows_.start_row(row); ++row) {
             read_row();
             rows_.end_row();
         }
@@ -257,23 +271,23 @@ class BodyReader {
 
     /// Reads the length of a list. A negative one gives up a row of text, but it cannot be known
     /// where the next row of bytes begins.
-    std::optional<std::uint64_t> list_length(const PlyProperty& list) {
+    bool list_length(const PlyProperty& list, std::uint64_t& length) {
         const std::size_t offset = rows_.offset();
-        const auto length = rows_.integer(*list.count_type);
-        if (!length) return std::nullopt;
-        if (*length >= 0) return static_cast<std::uint64_t>(*length);
+        std::int64_t number = 0;
+        if (!rows_.integer(*list.count_type, number)) return false;
+        length = static_cast<std::uint64_t>(number);
+        if (number >= 0) return true;
         std::string message = fmt::format("the length of list {} is {}; write 0 or more",
-                                          in_quotes(list.name), *length);
+                                          in_quotes(list.name), number);
         if (!rows_.is_text() && !rows_.left().empty()) rows_.refuse(message);
         rows_.fail(offset, std::move(message));
-        return std::nullopt;
+        return false;
     }
 
     void skip(const PlyProperty& property) {
-        if (!property.is_list()) {
-            rows_.skip(property.type, 1);
-        } else if (const auto length = list_length(property)) {
-            rows_.skip(property.type, *length);
+        std::uint64_t length = 1;
+        if (!property.is_list() || list_length(property, length)) {
+            rows_.skip(property.type, length);
         }
     }
 
@@ -295,14 +309,18 @@ class BodyReader {
         }
         mesh.positions.reserve(element.count);
         if (smooth) mesh.normals.reserve(element.count);
+        std::vector<std::size_t> columns;  // of the properties; 6 for those that are not used
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            columns.push_back(
+                static_cast<std::size_t>(std::ranges::find(places, i) - places.begin()));
+        }
         read_rows(element, [&] {
             std::array<double, 6> v{nan, nan, nan, nan, nan, nan};
-            for (std::size_t i = 0; i < element.properties.size(); ++i) {
-                const auto column = std::ranges::find(places, i);
-                if (column == places.end()) {
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                if (columns[i] == v.size()) {
                     skip(element.properties[i]);
-                } else if (const auto number = rows_.number(element.properties[i].type)) {
-                    v[static_cast<std::size_t>(column - places.begin())] = *number;
+                } else {
+                    rows_.number(element.properties[i].type, v[columns[i]]);
                 }
             }
             mesh.positions.push_back(checked({v[0], v[1], v[2]}, 0));
@@ -313,12 +331,13 @@ class BodyReader {
     void read_blocks(std::string_view bytes, const PlyElement& element,
                      const std::array<std::size_t, 6>& places, bool smooth) {
         Scene::Mesh& mesh = builder_.mesh;
+        rows_.start_element(element);
         const auto read = [&](std::size_t first, std::vector<glm::dvec3>& target) {
             const bool good =
                 read_columns(bytes, element, {places[first], places[first + 1], places[first + 2]},
                              rows_.swapped(), target, pace_);
             for (std::size_t i = 0; !good && i < target.size(); ++i) {
-                rows_.start_row(element, i);
+                rows_.start_row(i);
                 target[i] = checked(target[i], first);
             }
         };
@@ -378,20 +397,20 @@ class BodyReader {
 
     /// Reads a face's list to its end; returns whether it is a face.
     bool read_corners(const PlyProperty& list) {
-        const auto length = list_length(list);
-        if (!length) return false;
-        if (*length < 3 || *length > max_face_corners) {
-            rows_.fail(rows_.offset(), fmt::format("the face has {} corners; use 3 to {}", *length,
+        std::uint64_t length = 0;
+        if (!list_length(list, length)) return false;
+        if (length < 3 || length > max_face_corners) {
+            rows_.fail(rows_.offset(), fmt::format("the face has {} corners; use 3 to {}", length,
                                                    max_face_corners));
-            rows_.skip(list.type, *length);
+            rows_.skip(list.type, length);
             return false;
         }
         corners_.clear();
         bool good = true;
-        for (std::uint64_t i = 0; i < *length; ++i) {
-            const auto index = rows_.integer(list.type);
-            if (!index) return false;
-            if (good) good = take_corner(*index, bad_face, 1);
+        for (std::uint64_t i = 0; i < length; ++i) {
+            std::int64_t index = 0;
+            if (!rows_.integer(list.type, index)) return false;
+            if (good) good = take_corner(index, bad_face, 1);
         }
         return good;
     }
@@ -428,17 +447,18 @@ class BodyReader {
     /// Triangles of three consecutive vertices, with alternating winding. -1 starts a new strip.
     /// Triangles with a repeated vertex are skipped; a bad vertex takes three triangles with it.
     void read_strip(const PlyProperty& list) {
-        const auto length = list_length(list);
+        std::uint64_t length = 0;
+        if (!list_length(list, length)) return;
         std::size_t seen = 0, good = 0;  // in this strip; good ones in a row
-        for (std::uint64_t i = 0; length && i < *length; ++i) {
-            const auto index = rows_.integer(list.type);
-            if (!index) return;
-            if (*index == -1) {
+        for (std::uint64_t i = 0; i < length; ++i) {
+            std::int64_t index = 0;
+            if (!rows_.integer(list.type, index)) return;
+            if (index == -1) {
                 seen = good = 0;
                 continue;
             }
             if (good == 0) corners_.clear();
-            good = take_corner(*index, bad_strip_vertex, 0) ? good + 1 : 0;
+            good = take_corner(index, bad_strip_vertex, 0) ? good + 1 : 0;
             if (++seen < 3) continue;
             if (good >= 3) {
                 add_strip_triangle(seen % 2 == 0);
