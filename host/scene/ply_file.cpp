@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "host/scene/mesh.h"
 #include "host/scene/model.h"
 #include "host/scene/ply.h"
-#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -29,11 +31,11 @@ constexpr Remedy extra_byte{"byte ignored", "bytes ignored"};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view column_names[] = {"x", "y", "z", "nx", "ny", "nz"};
 
-bool is_within(double x) { return std::abs(x) <= max_scene_number; }
+using Vectors = std::vector<glm::dvec3>;
+using Places = std::array<std::size_t, 6>;  ///< of properties in an element
 
-/// Reads the rows of elements value by value: of text, where each has its own line, or of bytes in
-/// either order. A text row that cannot be read is noted once, and gives no more values; bytes that
-/// are missing are an error.
+/// Reads the rows of elements one by one: of text, where each has its own line, or of bytes in
+/// either order. A text row that cannot be read is noted; bytes that are missing are an error.
 class Rows {
    public:
     Rows(const PlyHeader& header, Mistakes& mistakes)
@@ -46,29 +48,142 @@ class Rows {
     bool is_text() const { return is_text_; }
     bool swapped() const { return swapped_; }
     std::string_view left() const { return scanner_.left(); }
-    std::size_t offset() const { return scanner_.offset(); }
     void advance(std::size_t bytes) { scanner_.advance(bytes); }
 
-    void start_element(const PlyElement& element) {
+    /// Only the values of `wanted` properties are kept.
+    void start_element(const PlyElement& element, std::span<const std::size_t> wanted) {
         element_ = &element;
         const bool is_face = element.name == "face" || element.name == "tristrips";
         remedy_ = element.name == "vertex" ? &bad_vertex : is_face ? &bad_face : &bad_row;
+        wanted_.assign(element.properties.size(), 0);
+        for (const std::size_t i : wanted) {
+            if (i < wanted_.size()) wanted_[i] = 1;
+        }
+        firsts_.resize(wanted_.size() + 1);
     }
 
-    /// Returns whether the file has another row.
-    bool start_row(std::uint64_t row) {
+    /// For messages about rows that are read another way.
+    void set_row(std::uint64_t row) {
         row_ = row;
         is_good_ = true;
-        if (!is_text_ || scanner_.find_word()) return true;
-        fail(scanner_.offset(),
-             fmt::format("the file ends before {}, of {}; save the model again", row_name(),
-                         element_->count),
-             element_->count - row);
-        return false;
     }
 
-    void end_row() {
-        if (!is_text_) return;
+    /// Returns whether the file has this row; is_good says whether all values could be read.
+    bool read(std::uint64_t row) {
+        set_row(row);
+        values_.clear();
+        if (is_text_ && !scanner_.find_word()) {
+            fail(fmt::format("the file ends before {}, of {}; save the model again", row_name(),
+                             element_->count),
+                 element_->count - row);
+            return false;
+        }
+        start_ = scanner_.offset();
+        for (std::size_t i = 0; is_good_ && i < wanted_.size(); ++i) {
+            firsts_[i] = values_.size();
+            read_property(element_->properties[i], wanted_[i] != 0);
+        }
+        firsts_.back() = values_.size();
+        if (is_text_) end_line();
+        return true;
+    }
+
+    [[nodiscard]] bool is_good() const { return is_good_; }
+    /// What was read of a property: one value, or the items of a list.
+    std::span<const double> values(std::size_t property) const {
+        return std::span(values_).subspan(firsts_[property],
+                                          firsts_[property + 1] - firsts_[property]);
+    }
+    double value(std::size_t property) const { return values_[firsts_[property]]; }
+
+    /// Notes what is wrong with the row at hand.
+    void note(const Remedy& remedy, std::string message, std::size_t count = 1) {
+        mistakes_->note_in(is_text_ ? "" : row_name(), remedy, start_, std::move(message), count);
+    }
+
+    /// Notes what follows the last row, save for a line end left by an editor or a program.
+    void note_rest() {
+        const char* message = "more data follows than the header declares; correct its counts";
+        constexpr std::size_t few = 4;
+        const bool is_blank = left().find_first_not_of("\r\n \t") == left().npos;
+        start_ = scanner_.offset();
+        if (!is_text_ && (left().size() > few || !is_blank)) {
+            return note(extra_byte, message, left().size());
+        }
+        for (; is_text_ && scanner_.find_word(); scanner_.next_line()) {
+            start_ = scanner_.offset();
+            note(extra_line, message);
+        }
+    }
+
+   private:
+    /// Says "element 'face' 17" (rows count from 0, as indices do).
+    std::string row_name() const {
+        return element_ ? fmt::format("element {} {}", in_quotes(element_->name), row_) : "end";
+    }
+
+    /// Gives the row up.
+    void fail(std::string message, std::size_t count = 1) {
+        is_good_ = false;
+        mistakes_->note_in(is_text_ ? "" : row_name(), *remedy_, scanner_.offset(),
+                           std::move(message), remedy_ == &bad_vertex ? 0 : count);
+    }
+
+    void refuse(std::string message) {
+        mistakes_->add_in(row_name(), scanner_.offset(), std::move(message));
+        mistakes_->throw_if_any();
+    }
+
+    void read_property(const PlyProperty& property, bool is_wanted) {
+        if (!property.is_list()) return read_values(property.type, 1, is_wanted);
+        read_values(*property.count_type, 1, true);
+        if (!is_good_) return;
+        const double length = values_.back();
+        values_.pop_back();
+        if (length >= 0) {
+            return read_values(property.type, static_cast<std::uint64_t>(length), is_wanted);
+        }
+        std::string message = fmt::format("the length of list {} is {}; write 0 or more",
+                                          in_quotes(property.name), length);
+        // Of bytes, it is not known where the next row begins.
+        if (!is_text_ && !left().empty()) refuse(message);
+        fail(std::move(message));
+    }
+
+    void read_values(PlyType type, std::uint64_t count, bool is_wanted) {
+        if (is_text_) return read_words(type, count, is_wanted);
+        const std::size_t size = size_of(type);
+        const char* at = left().data();
+        if (left().size() / size < count)
+            refuse("the file ends before it does; save the model again");
+        for (std::uint64_t i = 0; is_wanted && i < count; ++i, at += size) {
+            values_.push_back(ply_number(at, type, swapped_));
+        }
+        advance(size * count);
+    }
+
+    void read_words(PlyType type, std::uint64_t count, bool is_wanted) {
+        for (std::uint64_t i = 0; i < count; ++i) {
+            if (!scanner_.word_follows()) {
+                return fail(
+                    fmt::format("the line of {} ends too early; write all values of its "
+                                "properties and a line for each row",
+                                row_name()));
+            }
+            if (!is_wanted) {
+                scanner_.word();
+            } else if (const auto whole = is_whole(type) ? scanner_.integer() : std::nullopt) {
+                values_.push_back(static_cast<double>(*whole));
+            } else if (const auto number = scanner_.number()) {
+                values_.push_back(*number);
+            } else {
+                return fail(fmt::format("a value of {} is {}; write a number", row_name(),
+                                        in_quotes(LineScanner(scanner_).word())));
+            }
+        }
+    }
+
+    void end_line() {
         if (is_good_ && scanner_.word_follows()) {
             const std::size_t offset = scanner_.offset();
             mistakes_->note(extra_value, offset, "unexpected {} after the values of {}; remove it",
@@ -77,126 +192,17 @@ class Rows {
         scanner_.next_line();
     }
 
-    /// Reads a value; returns whether it could.
-    bool number(PlyType type, double& value) {
-        if (!is_text_) {
-            const char* at = take(size_of(type));
-            if (at) value = ply_number(at, type, swapped_);
-            return at != nullptr;
-        }
-        if (!has_word()) return false;
-        const auto number = scanner_.number();
-        if (!number) return refuse_word("a number");
-        value = *number;
-        return true;
-    }
-
-    bool integer(PlyType type, std::int64_t& value) {
-        if (!is_text_) {
-            const char* at = take(size_of(type));
-            if (at) value = ply_whole(at, type, swapped_);
-            return at != nullptr;
-        }
-        if (!has_word()) return false;
-        const auto whole = scanner_.integer();
-        if (!whole) return whole_number(value);
-        value = *whole;
-        return true;
-    }
-
-    /// Skips this many values; returns whether they exist.
-    bool skip(PlyType type, std::uint64_t count) {
-        if (!is_text_) return take(size_of(type), count) != nullptr;
-        for (std::uint64_t i = 0; i < count; ++i) {
-            if (!has_word()) return false;
-            scanner_.word();
-        }
-        return true;
-    }
-
-    /// Notes what is wrong at this place; a text row may be given up.
-    void note(const Remedy& remedy, std::string message, std::size_t count = 1) {
-        mistakes_->note_in(is_text_ ? "" : row_name(), remedy, scanner_.offset(),
-                           std::move(message), count);
-    }
-    void fail(std::size_t offset, std::string message, std::size_t count = 1) {
-        is_good_ = false;
-        mistakes_->note_in(is_text_ ? "" : row_name(), *remedy_, offset, std::move(message),
-                           remedy_ == &bad_vertex ? 0 : count);
-    }
-    [[nodiscard]] bool is_good() const { return is_good_; }
-
-    void refuse(std::string message) {
-        mistakes_->add_in(row_name(), scanner_.offset(), std::move(message));
-        mistakes_->throw_if_any();
-    }
-
-    /// Notes what follows the last row, save for a line end left by an editor or a program.
-    void note_rest() {
-        const char* message = "more data follows than the header declares; correct its counts";
-        constexpr std::size_t few = 4;
-        if (!is_text_ &&
-            (left().size() > few || left().find_first_not_of("\r\n \t") != left().npos)) {
-            return note(extra_byte, message, left().size());
-        }
-        while (is_text_ && scanner_.find_word()) {
-            note(extra_line, message);
-            scanner_.next_line();
-        }
-    }
-
-    /// Says "element 'face' 17" (rows count from 0, as indices do).
-    std::string row_name() const {
-        return element_ ? fmt::format("element {} {}", in_quotes(element_->name), row_) : "end";
-    }
-
-   private:
-    bool has_word() {
-        if (!is_good_) return false;
-        if (scanner_.word_follows()) return true;
-        fail(scanner_.offset(),
-             fmt::format("the line of {} ends too early; write all values of its properties and a "
-                         "line for each row",
-                         row_name()));
-        return false;
-    }
-
-    bool refuse_word(std::string_view wanted) {
-        const std::size_t offset = scanner_.offset();
-        fail(offset, fmt::format("a value of {} is {}; write {}", row_name(),
-                                 in_quotes(scanner_.word()), wanted));
-        return false;
-    }
-
-    /// In text, "3.0" is whole too.
-    bool whole_number(std::int64_t& value) {
-        LineScanner ahead = scanner_;
-        const auto number = ahead.number();
-        if (!number || std::abs(*number) > 1e15 || *number != std::floor(*number)) {
-            return refuse_word("a whole number");
-        }
-        scanner_ = ahead;
-        value = static_cast<std::int64_t>(*number);
-        return true;
-    }
-
-    const char* take(std::size_t bytes, std::uint64_t count = 1) {
-        const std::string_view all = left();
-        if (all.size() / bytes < count) {
-            refuse("the file ends before it does; save the model again");
-            return nullptr;
-        }
-        advance(bytes * count);
-        return all.data();
-    }
-
     LineScanner scanner_;
     bool is_text_, swapped_;
     Mistakes* mistakes_;
     const PlyElement* element_ = nullptr;
-    std::uint64_t row_ = 0;
     const Remedy* remedy_ = nullptr;  ///< for rows that cannot be read
-    bool is_good_ = true;             ///< nothing was wrong with the current row
+    std::vector<char> wanted_;
+    std::uint64_t row_ = 0;
+    std::size_t start_ = 0;            ///< of the row at hand
+    bool is_good_ = true;              ///< nothing was wrong with it
+    std::vector<double> values_;       ///< of it
+    std::vector<std::size_t> firsts_;  ///< where the values of each property begin
 };
 
 class BodyReader {
@@ -211,21 +217,21 @@ class BodyReader {
         for (const PlyElement& element : header_.elements) {
             check_count(element);
             if (element.properties.empty()) continue;
-            const bool is_face = element.name == "face", is_strip = element.name == "tristrips";
+            const bool is_shape = element.name == "face" || element.name == "tristrips";
             if (element.name == "vertex") {
                 has_vertices = true;
                 read_vertices(element);
-            } else if ((is_face || is_strip) && has_vertices) {
-                is_face ? read_faces(element) : read_strips(element);
+            } else if (is_shape && has_vertices) {
+                read_shapes(element);
             } else {
-                if (is_face || is_strip) waiting.emplace_back(&element, rows_);
-                read_rows(element, [&] { skip_all(element); });
+                if (is_shape) waiting.emplace_back(&element, rows_);
+                read_rows(element, {}, [] {});
             }
         }
         rows_.note_rest();
         for (const auto& [element, rows] : waiting) {
             rows_ = rows;
-            element->name == "face" ? read_faces(*element) : read_strips(*element);
+            read_shapes(*element);
         }
         return finish();
     }
@@ -248,122 +254,96 @@ class BodyReader {
     /// Checks a declared row count against the bytes that are left; faces at the end of a text may
     /// be missing.
     void check_count(const PlyElement& element) {
-        if (rows_.is_text() && element.name != "vertex") return;
         const std::size_t least = element.least_bytes(header_.format);
-        if (least == 0) return;
+        if (least == 0 || (rows_.is_text() && element.name != "vertex")) return;
         const std::uint64_t most = (rows_.left().size() + 1) / least;
         if (element.count <= most) return;
-        mistakes_.add(element.offset,
-                      "element {} declares {} rows, but the rest of the file holds at most {}; "
-                      "correct the count or save the model again",
-                      in_quotes(element.name), element.count, most);
+        mistakes_.add(
+            element.offset,
+            "element {} declares {} rows, but the rest of the file holds at most {}; correct the "
+            "count or save the model again",
+            in_quotes(element.name), element.count, most);
         mistakes_.throw_if_any();
     }
 
-    template <typename ReadRow>
-    void read_rows(const PlyElement& element, ReadRow read_row) {
-        rows_.start_element(element);
-        for (std::uint64_t row = 0; row < element.count && rows_.start_row(row); ++row) {
-            read_row();
-            rows_.end_row();
-        }
-    }
-
-    /// Reads the length of a list. A negative one gives up a row of text, but it cannot be known
-    /// where the next row of bytes begins.
-    bool list_length(const PlyProperty& list, std::uint64_t& length) {
-        const std::size_t offset = rows_.offset();
-        std::int64_t number = 0;
-        if (!rows_.integer(*list.count_type, number)) return false;
-        length = static_cast<std::uint64_t>(number);
-        if (number >= 0) return true;
-        std::string message = fmt::format("the length of list {} is {}; write 0 or more",
-                                          in_quotes(list.name), number);
-        if (!rows_.is_text() && !rows_.left().empty()) rows_.refuse(message);
-        rows_.fail(offset, std::move(message));
-        return false;
-    }
-
-    void skip(const PlyProperty& property) {
-        std::uint64_t length = 1;
-        if (!property.is_list() || list_length(property, length)) {
-            rows_.skip(property.type, length);
-        }
-    }
-
-    void skip_all(const PlyElement& element) {
-        for (const PlyProperty& property : element.properties) skip(property);
+    template <typename UseRow>
+    void read_rows(const PlyElement& element, std::span<const std::size_t> wanted, UseRow use_row) {
+        rows_.start_element(element, wanted);
+        for (std::uint64_t row = 0; row < element.count && rows_.read(row); ++row) use_row();
     }
 
     void read_vertices(const PlyElement& element) {
-        std::array<std::size_t, 6> places{};
+        Places places{};
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = element.find(column_names[i]);
         const bool smooth = std::all_of(places.begin() + 3, places.end(), [&](std::size_t place) {
             return place < element.properties.size() && !element.properties[place].is_list();
         });
-        Scene::Mesh& mesh = builder_.mesh;
+        const std::span<const std::size_t> wanted(places.data(), smooth ? 6 : 3);
+        Vectors& positions = builder_.mesh.positions;
+        Vectors& normals = builder_.mesh.normals;
         const auto bytes = rows_.is_text() ? std::nullopt : fixed_rows(rows_.left(), element);
         if (bytes) {
-            read_blocks(*bytes, element, places, smooth);
-            return;
+            rows_.start_element(element, wanted);
+            read_block(*bytes, element, places, 0, positions);
+            if (smooth) read_block(*bytes, element, places, 3, normals);
+            return rows_.advance(bytes->size());
         }
-        mesh.positions.reserve(element.count);
-        if (smooth) mesh.normals.reserve(element.count);
-        std::vector<std::size_t> columns;  // of the properties; 6 for those that are not used
-        for (std::size_t i = 0; i < element.properties.size(); ++i) {
-            columns.push_back(
-                static_cast<std::size_t>(std::ranges::find(places, i) - places.begin()));
-        }
-        read_rows(element, [&] {
-            std::array<double, 6> v{nan, nan, nan, nan, nan, nan};
-            for (std::size_t i = 0; i < columns.size(); ++i) {
-                if (columns[i] == v.size()) {
-                    skip(element.properties[i]);
-                } else {
-                    rows_.number(element.properties[i].type, v[columns[i]]);
-                }
-            }
-            mesh.positions.push_back(checked({v[0], v[1], v[2]}, 0));
-            if (smooth) mesh.normals.push_back(checked({v[3], v[4], v[5]}, 3));
+        positions.reserve(element.count);
+        if (smooth) normals.reserve(element.count);
+        read_rows(element, wanted, [&] {
+            const auto vector = [&](std::size_t first) {
+                if (!rows_.is_good()) return glm::dvec3(nan);
+                return glm::dvec3(rows_.value(places[first]), rows_.value(places[first + 1]),
+                                  rows_.value(places[first + 2]));
+            };
+            positions.push_back(checked(vector(0), 0));
+            if (smooth) normals.push_back(checked(vector(3), 3));
         });
     }
 
-    void read_blocks(std::string_view bytes, const PlyElement& element,
-                     const std::array<std::size_t, 6>& places, bool smooth) {
-        Scene::Mesh& mesh = builder_.mesh;
-        rows_.start_element(element);
-        const auto read = [&](std::size_t first, std::vector<glm::dvec3>& target) {
-            const bool good =
-                read_columns(bytes, element, {places[first], places[first + 1], places[first + 2]},
-                             rows_.swapped(), target, pace_);
-            for (std::size_t i = 0; !good && i < target.size(); ++i) {
-                rows_.start_row(i);
-                target[i] = checked(target[i], first);
-            }
-        };
-        read(0, mesh.positions);
-        if (smooth) read(3, mesh.normals);
-        rows_.advance(bytes.size());
+    void read_block(std::string_view bytes, const PlyElement& element, const Places& places,
+                    std::size_t first, Vectors& target) {
+        const bool good =
+            read_columns(bytes, element, {places[first], places[first + 1], places[first + 2]},
+                         rows_.swapped(), target, pace_);
+        for (std::size_t i = 0; !good && i < target.size(); ++i) {
+            rows_.set_row(i);
+            target[i] = checked(target[i], first);
+        }
     }
 
     /// The vector of the row at hand, whose columns start with `first`; NaN, or for a normal 0,
     /// where a number is not within the limit, with a note.
     glm::dvec3 checked(const glm::dvec3& v, std::size_t first) {
-        for (int axis = 0; axis < 3; ++axis) {
-            if (is_within(v[axis])) continue;
-            const bool is_normal = first > 0;
-            if (!is_normal) all_readable_ = false;
+        const bool is_normal = first > 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double number = v[static_cast<int>(axis)];
+            if (std::abs(number) <= max_scene_number) continue;
             if (rows_.is_good()) {
-                rows_.note(
-                    is_normal ? bad_normal : bad_vertex,
-                    fmt::format("{} is {}; write a number from -1e30 to 1e30",
-                                in_quotes(column_names[first + static_cast<std::size_t>(axis)]),
-                                v[axis]),
-                    is_normal ? 1 : 0);
+                rows_.note(is_normal ? bad_normal : bad_vertex,
+                           fmt::format("{} is {}; write a number from -1e30 to 1e30",
+                                       in_quotes(column_names[first + axis]), number),
+                           is_normal ? 1 : 0);
             }
+            if (!is_normal) all_readable_ = false;
             return is_normal ? glm::dvec3(0) : glm::dvec3(nan);
         }
         return v;
+    }
+
+    void read_shapes(const PlyElement& element) {
+        const std::size_t list[] = {element.find_corners()};
+        if (element.name == "tristrips") {
+            return read_rows(element, list, [&] {
+                if (rows_.is_good()) add_strip(rows_.values(list[0]));
+            });
+        }
+        if (read_faces_side_by_side(element)) return;
+        constexpr std::uint64_t triangle_bytes = 8;  // "3 0 1 2\n"; usual binary rows take more
+        builder_.mesh.faces.reserve(std::min(element.count, rows_.left().size() / triangle_bytes));
+        read_rows(element, list, [&] {
+            if (rows_.is_good()) add_face(rows_.values(list[0]));
+        });
     }
 
     bool read_faces_side_by_side(const PlyElement& element) {
@@ -380,45 +360,23 @@ class BodyReader {
         return true;
     }
 
-    void read_faces(const PlyElement& element) {
-        if (read_faces_side_by_side(element)) return;
-        constexpr std::uint64_t triangle_bytes = 8;  // "3 0 1 2\n"; usual binary rows take more
-        builder_.mesh.faces.reserve(std::min(element.count, rows_.left().size() / triangle_bytes));
-        const std::size_t list = element.find_corners();
-        read_rows(element, [&] {
-            bool good = true;
-            for (std::size_t i = 0; i < element.properties.size(); ++i) {
-                const PlyProperty& property = element.properties[i];
-                i == list ? static_cast<void>(good = read_corners(property)) : skip(property);
-            }
-            if (good && rows_.is_good()) builder_.add_face(corners_, {});
-        });
-    }
-
-    /// Reads a face's list to its end; returns whether it is a face.
-    bool read_corners(const PlyProperty& list) {
-        std::uint64_t length = 0;
-        if (!list_length(list, length)) return false;
-        if (length < 3 || length > max_face_corners) {
-            rows_.fail(rows_.offset(), fmt::format("the face has {} corners; use 3 to {}", length,
-                                                   max_face_corners));
-            rows_.skip(list.type, length);
-            return false;
+    void add_face(std::span<const double> indices) {
+        if (indices.size() < 3 || indices.size() > max_face_corners) {
+            return rows_.note(bad_face, fmt::format("the face has {} corners; use 3 to {}",
+                                                    indices.size(), max_face_corners));
         }
         corners_.clear();
-        bool good = true;
-        for (std::uint64_t i = 0; i < length; ++i) {
-            std::int64_t index = 0;
-            if (!rows_.integer(list.type, index)) return false;
-            if (good) good = take_corner(index, bad_face, 1);
+        for (const double index : indices) {
+            if (!take_corner(index, bad_face, 1)) return;
         }
-        return good;
+        builder_.add_face(corners_, {});
     }
 
     /// Appends a vertex to corners_ if it exists and can be read; notes it otherwise.
-    bool take_corner(std::int64_t index, const Remedy& remedy, std::size_t count) {
-        const std::vector<glm::dvec3>& all = builder_.mesh.positions;
-        if (index < 0 || static_cast<std::uint64_t>(index) >= all.size()) {
+    bool take_corner(double index, const Remedy& remedy, std::size_t count) {
+        const Vectors& all = builder_.mesh.positions;
+        if (!(index >= 0 && index < static_cast<double>(all.size())) ||
+            index != std::floor(index)) {
             rows_.note(
                 remedy,
                 fmt::format("vertex {} does not exist, there are {}, counted from 0; correct "
@@ -434,25 +392,11 @@ class BodyReader {
         return false;
     }
 
-    void read_strips(const PlyElement& element) {
-        const std::size_t list = element.find_corners();
-        read_rows(element, [&] {
-            for (std::size_t i = 0; i < element.properties.size(); ++i) {
-                const PlyProperty& property = element.properties[i];
-                i == list ? read_strip(property) : skip(property);
-            }
-        });
-    }
-
     /// Triangles of three consecutive vertices, with alternating winding. -1 starts a new strip.
     /// Triangles with a repeated vertex are skipped; a bad vertex takes three triangles with it.
-    void read_strip(const PlyProperty& list) {
-        std::uint64_t length = 0;
-        if (!list_length(list, length)) return;
+    void add_strip(std::span<const double> indices) {
         std::size_t seen = 0, good = 0;  // in this strip; good ones in a row
-        for (std::uint64_t i = 0; i < length; ++i) {
-            std::int64_t index = 0;
-            if (!rows_.integer(list.type, index)) return;
+        for (const double index : indices) {
             if (index == -1) {
                 seen = good = 0;
                 continue;
@@ -460,19 +404,15 @@ class BodyReader {
             if (good == 0) corners_.clear();
             good = take_corner(index, bad_strip_vertex, 0) ? good + 1 : 0;
             if (++seen < 3) continue;
-            if (good >= 3) {
-                add_strip_triangle(seen % 2 == 0);
-            } else {
+            if (good < 3) {
                 rows_.note(bad_strip_vertex, {});
+                continue;
             }
+            const auto last = std::span(corners_).last(3);
+            const auto [a, b, c] = std::array{last[0], last[1], last[2]};
+            if (a == b || b == c || c == a) continue;
+            builder_.add_face(seen % 2 == 0 ? std::array{b, a, c} : std::array{a, b, c}, {});
         }
-    }
-
-    void add_strip_triangle(bool turned) {
-        const auto last = std::span(corners_).last(3);
-        const auto [a, b, c] = std::array{last[0], last[1], last[2]};
-        if (a == b || b == c || c == a) return;
-        builder_.add_face(turned ? std::array{b, a, c} : std::array{a, b, c}, {});
     }
 
     const PlyHeader& header_;
