@@ -104,6 +104,7 @@ void read_vertices(Chunk& chunk) {
 struct Corner {
     std::int64_t position = 0, normal = 0;
     bool has_normal = false;
+    std::size_t offset = 0;
 };
 
 /// Reads up to 9 digits.
@@ -125,7 +126,7 @@ bool take_slash(const char*& at, const char* end) {
 std::size_t parse_plain_corner(std::string_view line, Corner& corner) {
     const char* at = line.data();
     const char* const end = at + line.size();
-    corner = {take_digits(at, end), 0, false};
+    corner = {take_digits(at, end)};
     if (corner.position != 0 && take_slash(at, end)) {
         take_digits(at, end);
         corner.has_normal = take_slash(at, end);
@@ -135,18 +136,18 @@ std::size_t parse_plain_corner(std::string_view line, Corner& corner) {
     return ended && corner.position != 0 ? static_cast<std::size_t>(at - line.data()) : 0;
 }
 
-std::optional<Corner> parse_corner(std::string_view text) {
-    Corner corner;
+bool parse_corner(std::string_view text, Corner& corner) {
     const char* const end = text.data() + text.size();
+    corner = {};
     const auto result = std::from_chars(text.data(), end, corner.position);
-    if (result.ec != std::errc() || (result.ptr != end && *result.ptr != '/')) return std::nullopt;
+    if (result.ec != std::errc() || (result.ptr != end && *result.ptr != '/')) return false;
     const char* slash = std::find(result.ptr, end, '/');
     if (slash != end) slash = std::find(slash + 1, end, '/');
-    if (end - slash <= 1) return corner;
-    corner.has_normal = true;
+    corner.has_normal = end - slash > 1;
+    if (!corner.has_normal) return true;
     const auto normal = std::from_chars(slash + 1, end, corner.normal);
     if (normal.ec != std::errc() || normal.ptr != end) corner.normal = 0;
-    return corner;
+    return true;
 }
 
 /// The second pass: all other statements.
@@ -206,102 +207,83 @@ class FaceReader {
         return fmt::format("unknown statement {}; {}", in_quotes(word), advice);
     }
 
-    /// Converts an index from 1, or from -1 backward, to one from 0; notes one that is wrong.
-    std::optional<std::uint32_t> resolve(std::int64_t index, std::size_t count,
-                                         std::string_view what, std::size_t offset,
-                                         const Remedy& remedy) {
+    /// Converts an index from 1, or from -1 backward, to one from 0, and appends it; notes one that
+    /// is wrong.
+    bool resolve(std::int64_t index, std::size_t count, std::string_view what, std::size_t offset,
+                 const Remedy& remedy, std::vector<std::uint32_t>& target) {
         const auto size = static_cast<std::int64_t>(count);
-        const bool good = index >= -size && index <= size && index != 0;
-        if (good) return static_cast<std::uint32_t>(index > 0 ? index - 1 : size + index);
-        notes_.note(
-            remedy, offset,
-            index == 0
-                ? fmt::format("{} 0 does not exist; indices start at 1", what)
-                : fmt::format("{} {} does not exist, only {} defined above; correct the number",
-                              what, index, count));
-        return std::nullopt;
+        if (index >= -size && index <= size && index != 0) {
+            target.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : size + index));
+            return true;
+        }
+        if (index == 0) {
+            notes_.note(remedy, offset, "{} 0 does not exist; indices start at 1", what);
+        } else {
+            notes_.note(remedy, offset,
+                        "{} {} does not exist, only {} defined above; correct the number", what,
+                        index, count);
+        }
+        return false;
     }
 
-    /// Appends one corner to corners_ and normals_; returns whether its vertex exists.
     bool read_corner() {
+        Corner& corner = parsed_.emplace_back();
         const std::size_t offset = scanner_.offset();
-        Corner corner;
         if (const std::size_t length = parse_plain_corner(scanner_.left(), corner)) {
             scanner_.advance(length);
-        } else {
-            const std::string_view word = scanner_.word();
-            const auto parsed = parse_corner(word);
-            const bool unreadable =
-                !parsed || (parsed->has_normal && parsed->normal == 0 && !word.ends_with("/0"));
-            if (unreadable) {
-                notes_.note(parsed ? bad_corner_normal : bad_face, offset,
-                            "{} is not a face corner; write v, v/vt, v//vn or v/vt/vn "
-                            "in whole numbers",
-                            in_quotes(word));
-                flat_ = Flat::noted;
-            }
-            if (!parsed) return false;
-            corner = *parsed;
+        } else if (const std::string_view word = scanner_.word(); !parse_corner(word, corner)) {
+            notes_.note(bad_face, offset,
+                        "{} is not a face corner; write v, v/vt, v//vn or v/vt/vn in whole numbers",
+                        in_quotes(word));
+            return false;
         }
-        const auto position =
-            resolve(corner.position, above_.positions, "vertex", offset, bad_face);
-        if (position) corners_.push_back(*position);
-        if (position && flat_ == Flat::no) read_normal(corner, offset);
-        return position.has_value();
-    }
-
-    /// The face is flat without a note if none of its corners has a normal.
-    void read_normal(const Corner& corner, std::size_t offset) {
-        const bool first = corners_.size() == 1;
-        if (!corner.has_normal && first) flat_ = Flat::yes;
-        if (flat_ == Flat::yes && !corner.has_normal) return;
-        if (flat_ == Flat::yes || !corner.has_normal) {
-            notes_.note(bad_corner_normal, offset,
-                        "only some corners of the face have normals; give normals to all or none");
-            flat_ = Flat::noted;
-            return;
-        }
-        const auto normal =
-            resolve(corner.normal, above_.normals, "normal", offset, bad_corner_normal);
-        if (normal) normals_.push_back(*normal);
-        if (!normal) flat_ = Flat::noted;
+        corner.offset = offset;
+        return resolve(corner.position, above_.positions, "vertex", offset, bad_face, corners_);
     }
 
     void read_face(std::size_t offset) {
+        parsed_.clear();
         corners_.clear();
         normals_.clear();
-        flat_ = Flat::no;
         while (scanner_.word_follows() && corners_.size() <= max_face_corners) {
             if (!read_corner()) return;
         }
-        if (corners_.size() < 3 || corners_.size() > max_face_corners) {
-            notes_.note(
-                bad_face, offset,
-                corners_.size() < 3
-                    ? fmt::format("the face has {}; write three or more",
-                                  counted(corners_.size(), "corner"))
-                    : fmt::format("the face has more than {} corners; split it", max_face_corners));
-        } else if (is_readable(offset)) {
-            if (flat_ != Flat::no) normals_.clear();
+        if (corners_.size() < 3) {
+            notes_.note(bad_face, offset, "the face has {}; write three or more",
+                        counted(corners_.size(), "corner"));
+        } else if (corners_.size() > max_face_corners) {
+            notes_.note(bad_face, offset, "the face has more than {} corners; split it",
+                        max_face_corners);
+        } else if (!all_readable_ && has_unreadable(corners_, positions_)) {
+            notes_.note(bad_vertex, offset, {});
+        } else {
+            if (!read_normals(offset)) normals_.clear();
             add_face();
         }
     }
 
-    /// Whether the face's vertices are; unreadable normals make it flat.
-    bool is_readable(std::size_t offset) {
-        if (all_readable_) return true;
-        const auto is_bad = [](const Positions& all) {
-            return [&](std::uint32_t i) { return std::isnan(all[i].x); };
-        };
-        if (std::ranges::any_of(corners_, is_bad(positions_))) {
-            notes_.note(bad_vertex, offset, {});
+    static bool has_unreadable(const std::vector<std::uint32_t>& indices, const Positions& all) {
+        return std::ranges::any_of(indices, [&](std::uint32_t i) { return std::isnan(all[i].x); });
+    }
+
+    /// The face is flat without a note if none of its corners has a normal.
+    bool read_normals(std::size_t offset) {
+        if (std::ranges::none_of(parsed_, &Corner::has_normal)) return false;
+        const auto lacking = std::ranges::find(parsed_, false, &Corner::has_normal);
+        if (lacking != parsed_.end()) {
+            notes_.note(bad_corner_normal, lacking->offset,
+                        "only some corners of the face have normals; give normals to all or none");
             return false;
         }
-        if (flat_ == Flat::no && std::ranges::any_of(normals_, is_bad(all_normals_))) {
-            notes_.note(bad_normal, offset, {});
-            flat_ = Flat::noted;
+        for (const Corner& corner : parsed_) {
+            if (!resolve(corner.normal, above_.normals, "normal", corner.offset, bad_corner_normal,
+                         normals_)) {
+                return false;
+            }
         }
-        return true;
+        if (all_readable_ || !has_unreadable(normals_, all_normals_)) return true;
+        notes_.note(bad_normal, offset, {});
+        return false;
     }
 
     /// Triangles, and quadrilaterals that part well, are the usual faces.
@@ -330,8 +312,8 @@ class FaceReader {
     const Positions &positions_, &all_normals_;
     const bool all_readable_;  ///< the vertices of the file
     LineScanner scanner_;
-    std::vector<std::uint32_t> corners_, normals_;  ///< of the face being read
-    enum class Flat { no, yes, noted } flat_ = Flat::no;
+    std::vector<Corner> parsed_;                    ///< of the face being read
+    std::vector<std::uint32_t> corners_, normals_;  ///< their indices from 0
 };
 
 /// Reads the chunks of a file in parallel, first vertices, then faces, and joins them in file
