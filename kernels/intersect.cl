@@ -171,12 +171,15 @@ real3 shear_vertex(const RayShear* shear, __global const Packed3* vertex) {
     return make3(fma(-shear->sx, p.z, p.x), fma(-shear->sy, p.z, p.y), p.z);
 }
 
-// Distance along the rays to the triangle's plane; NaN or infinite if parallel to it.
+// Distance along the rays to the triangle's plane; NaN or infinite if parallel to it. 0 for rays
+// that start within rounding of the plane: where it says that they cross is noise.
 Reals plane_distance(const RayShear* shear, __global const Triangle* triangle) {
     real3 n = load_in_frame(shear, &triangle->normal);
-    Reals height = fma(n.z, shear->origin.z, fma(n.y, shear->origin.y, n.x * shear->origin.x));
+    real3 o = shear->origin;
+    Reals height = triangle->plane - fma(n.z, o.z, fma(n.y, o.y, n.x * o.x));
     Reals slope = fma(n.x, shear->sx, fma(n.y, shear->sy, n.z));
-    return (triangle->plane - height) * shear->sz / slope;
+    Reals error = (Real)RT_ROUNDOFF * (fabs(o.x) + fabs(o.y) + fabs(o.z));
+    return fabs(height) <= error ? (Reals)0 : height * shear->sz / slope;
 }
 
 // Whether the rays' lines meet the triangle, at which distance t, and the barycentric coordinates u

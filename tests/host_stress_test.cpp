@@ -264,9 +264,25 @@ TEST(RayTrials, AreTheSameEachTime) {
     EXPECT_EQ(first.max_error, second.max_error);
 }
 
+/// In packets of every width.
+TEST(LeavingEdges, StaysOnItsSide) {
+    for (const StressMesh& mesh : {box_mesh(), wedge_mesh(3), wedge_mesh(150), ball_mesh(1)}) {
+        Scene scene = bare_scene();
+        add_mesh(scene, mesh, add_matt(scene, glm::dvec3(1)));
+        set_view(scene, {0.5, 0.0625, 0.125}, {1, 0, 0}, 60);
+        for (const MeshSide side : {MeshSide::inside, MeshSide::outside}) {
+            for (const int lanes : {1, 2, 4, 8, 16}) {
+                const RayCaster caster = threads_ray_caster(lanes);
+                EXPECT_EQ(count_edge_escapes<float>(scene, side, 10000, caster).failures, 0U);
+                EXPECT_EQ(count_edge_escapes<double>(scene, side, 10000, caster).failures, 0U);
+            }
+        }
+    }
+}
+
 TEST(StressMeshes, AreClosed) {
-    for (const StressMesh& mesh :
-         {ball_mesh(2), bumpy_mesh(1), fan_mesh(50), needle_mesh(6, 3, 1e-6)}) {
+    for (const StressMesh& mesh : {ball_mesh(2), bumpy_mesh(1), fan_mesh(50),
+                                   needle_mesh(6, 3, 1e-6), wedge_mesh(10), box_mesh()}) {
         std::set<std::pair<int, int>> edges;
         for (const auto& face : mesh.faces) {
             for (std::size_t i = 0; i < 3; ++i) {
