@@ -34,22 +34,15 @@ double difference_error(const ViewFrame& view, const glm::dvec3& a, const glm::d
 /// What a distance of 0 from a surface this large may round to.
 double contact(double size) { return 1e-14 * size; }
 
-double gap_between(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& point) {
-    return (glm::length(sphere.center - point) - sphere.radius) * view.scale;
-}
+/// How near to a surface the eye's rays need to be told its side, in u.
+constexpr double eye_ulps = 8;
 
-/// Whether the point lies on the lateral surface of the cone, as far as double can tell.
-bool lies_on(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& point) {
-    const glm::dvec3 base = (cone.base - point) * view.scale;
-    const glm::dvec3 along = (cone.apex - point) * view.scale - base;
-    const double height = -glm::dot(base, along) / glm::dot(along, along);
-    const double base_radius = cone.base_radius * view.scale;
-    const double radius = base_radius + height * (cone.apex_radius * view.scale - base_radius);
-    const double distance = glm::length(base + height * along);
-    const double slack = contact(glm::length(base) + glm::length(along) + base_radius) +
-                         difference_error(view, cone.base, point) +
-                         difference_error(view, cone.apex, point);
-    return height >= 0 && height <= 1 && std::abs(distance - radius) <= slack;
+/// Where a point lies that is `gap` outside a surface: on it as far as double can tell, on one side
+/// but nearer than T can tell, or elsewhere (0).
+int side_of(double gap, double slack, double rounding) {
+    if (std::abs(gap) <= slack) return f32::RT_ON;
+    if (std::abs(gap) > slack + rounding) return 0;
+    return gap > 0 ? f32::RT_OUTSIDE : f32::RT_INSIDE;
 }
 
 /// How far a barycentric point may lie off the plane: 4 u extent + 6 u |vertex| per axis, seen
@@ -91,6 +84,36 @@ typename Flat<T>::Packed3 pack_position(const ViewFrame& view, const glm::dvec3&
 }
 
 template <typename T>
+int side_of_sphere(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& point,
+                   double ulps) {
+    const double radius = sphere.radius * view.scale;
+    const double gap = glm::length(sphere.center - point) * view.scale - radius;
+    const double slack = contact(radius) + difference_error(view, sphere.center, point);
+    const double distance = glm::length(view.to_view(sphere.center));
+    // Where a huge sphere is near the eye, so are the numbers that are rounded.
+    const double size =
+        is_huge(radius, distance) ? glm::length(view.to_view(point)) : radius + distance;
+    return side_of(gap, slack, ulps * static_cast<double>(Flat<T>::roundoff) * size);
+}
+
+template <typename T>
+int side_of_cone(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& point,
+                 double ulps) {
+    const glm::dvec3 base = (cone.base - point) * view.scale;
+    const glm::dvec3 along = (cone.apex - point) * view.scale - base;
+    const double length = glm::length(along), base_radius = cone.base_radius * view.scale;
+    const double height = -glm::dot(base, along) / (length * length);
+    if (height < 0 || height > 1) return 0;
+    const double growth = cone.apex_radius * view.scale - base_radius;
+    const double gap = glm::length(base + height * along) - (base_radius + height * growth);
+    const double slack = contact(glm::length(base) + length + base_radius) +
+                         difference_error(view, cone.base, point) +
+                         difference_error(view, cone.apex, point);
+    const double size = glm::length(view.to_view(cone.base)) + length + base_radius;
+    return side_of(gap, slack, ulps * static_cast<double>(Flat<T>::roundoff) * size);
+}
+
+template <typename T>
 typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphere& sphere) {
     typename Flat<T>::Sphere flat{};
     flat.center = pack_position<T>(view, sphere.center);
@@ -101,28 +124,9 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
     flat.radius = static_cast<T>(radius);
     flat.is_huge = is_huge(radius, distance) ? 1 : 0;
     flat.power = static_cast<T>((distance - radius) * (distance + radius));
-    const double slack = contact(radius) + difference_error(view, sphere.center, view.eye);
-    const bool touches_eye = view.is_perspective && std::abs(distance - radius) <= slack;
-    flat.touches = touches_eye ? f32::RT_TOUCHES_EYE : 0;
+    if (view.is_perspective) flat.touches = side_of_sphere<T>(view, sphere, view.eye, eye_ulps);
     flat.material = sphere.material;
     return flat;
-}
-
-template <typename T>
-bool touches_light(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& light) {
-    const double gap = gap_between(view, sphere, light);
-    const double radius = sphere.radius * view.scale;
-    const double slack = contact(radius) + difference_error(view, sphere.center, light);
-    const double distance = glm::length(view.to_view(sphere.center));
-    // Where a huge sphere is near the eye, so are the numbers that are rounded.
-    const double size =
-        is_huge(radius, distance) ? glm::length(view.to_view(light)) : radius + distance;
-    const double rounding = 64 * static_cast<double>(Flat<T>::roundoff) * size;
-    return gap >= -slack && gap <= slack + rounding;
-}
-
-bool touches_light(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& light) {
-    return lies_on(view, cone, light);
 }
 
 /// Numbers are rounded relative to the coordinates of the end that is called base: that is the
@@ -145,7 +149,7 @@ typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& gi
     flat.axis = pack<T>(along / length);
     flat.length = static_cast<T>(length);
     flat.slope = static_cast<T>(std::clamp(slope, -steepest, steepest));
-    flat.touches = view.is_perspective && lies_on(view, cone, view.eye) ? f32::RT_TOUCHES_EYE : 0;
+    if (view.is_perspective) flat.touches = side_of_cone<T>(view, cone, view.eye, eye_ulps);
     flat.material = cone.material;
     flat.apex_radius = static_cast<T>(cone.apex_radius * view.scale);
     return flat;
@@ -192,8 +196,12 @@ typename Flat<T>::VertexNormals flatten_normals(const TriangleList::Corners& nor
 
 template Flat<float>::Packed3 pack_position<float>(const ViewFrame&, const glm::dvec3&);
 template Flat<float>::Sphere flatten_sphere<float>(const ViewFrame&, const Scene::Sphere&);
-template bool touches_light<float>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&);
-template bool touches_light<double>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&);
+template int side_of_sphere<float>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&,
+                                   double);
+template int side_of_cone<float>(const ViewFrame&, const Scene::Cone&, const glm::dvec3&, double);
+template int side_of_sphere<double>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&,
+                                    double);
+template int side_of_cone<double>(const ViewFrame&, const Scene::Cone&, const glm::dvec3&, double);
 template Flat<float>::Cone flatten_cone<float>(const ViewFrame&, const Scene::Cone&);
 template Flat<float>::Triangle flatten_triangle<float>(const ViewFrame&,
                                                        const TriangleList::Corners&, int);

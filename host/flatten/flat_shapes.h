@@ -29,13 +29,14 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
 template <typename T>
 typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& cone);
 
-/// Whether the light lies on the sphere as far as double can tell, or outside and nearer to it than
-/// T can tell.
+/// Where the point lies if it is on the shape or within ulps u of it: RT_ON as far as double can
+/// tell, RT_OUTSIDE, RT_INSIDE; else 0.
 template <typename T>
-bool touches_light(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& light);
-
-/// Whether the light lies on the cone, as far as double can tell.
-bool touches_light(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& light);
+int side_of_sphere(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& point,
+                   double ulps);
+template <typename T>
+int side_of_cone(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& point,
+                 double ulps);
 
 /// A flat triangle.
 template <typename T>
