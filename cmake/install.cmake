@@ -10,16 +10,18 @@ set_source_files_properties(host/base/module_file.cpp PROPERTIES
 
 install(TARGETS mirrorball RUNTIME)
 install(TARGETS mirrorball_exr mirrorball_oiio LIBRARY DESTINATION ${module_folder})
-if(MPI_CXX_FOUND)
-    install(TARGETS mirrorball_mpi LIBRARY DESTINATION ${module_folder})
+if(SDL2_FOUND)
+    install(TARGETS mirrorball_sdl LIBRARY DESTINATION ${module_folder})
 endif()
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball)
+install(DIRECTORY python/mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball/python
+    PATTERN __pycache__ EXCLUDE PATTERN program EXCLUDE)
 install(FILES docs/bench.schema.json docs/compare.schema.json docs/converge.schema.json
     docs/results.schema.json docs/stress.schema.json
     DESTINATION ${CMAKE_INSTALL_DATADIR}/mirrorball/schemas)
 install(FILES cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/images DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
-install(FILES scripts/kubernetes/render.yaml DESTINATION ${CMAKE_INSTALL_DOCDIR}/scripts/kubernetes)
+install(FILES docs/paper.ipynb docs/sliders.ipynb DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} *.md docs/*.md python/*.md)
 list(REMOVE_ITEM pages CHANGELOG.md)
 configure_file(cmake/debian_changelog.in changelog.Debian)
@@ -58,7 +60,7 @@ install(FILES ${texts}/_mirrorball DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/\${z
 install(FILES ${texts}/mirrorball.fish
     DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
-# A package for Debian 12. Dependencies by hand: OpenEXR, OpenImageIO, MPI and PoCL serve those who use them,
+# A package for Debian 12. Dependencies by hand: OpenEXR, OpenImageIO, SDL and PoCL serve those who use them,
 # where dpkg-shlibdeps would ask for the libraries of every module.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -74,6 +76,6 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
     "libc6 (>= 2.36), libgcc-s1, libstdc++6 (>= 12), libfmt9, libpng16-16, zlib1g, ocl-icd-libopencl1 | libopencl1")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenexr-3-1-30, libopenimageio2.4, pocl-opencl-icd")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopenmpi3, libsdl2-2.0-0")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenexr-3-1-30, libopenimageio2.4, pocl-opencl-icd, python3-matplotlib")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libsdl2-2.0-0")
 include(CPack)

@@ -33,6 +33,20 @@ if(MIRRORBALL_SANITIZE)
         -fno-sanitize=signed-integer-overflow -fno-omit-frame-pointer)
 endif()
 
+# For changing the kernels (docs/kernels.md): those of all features, for this processor.
+option(MIRRORBALL_LAB "Compile kernels for this processor alone, in as few variants as render any scene" OFF)
+if(MIRRORBALL_LAB)
+    set(NATIVE_SETS all)
+    set(NATIVE_FEWER_WIDTHS 1)  # and that of a vector
+    file(STRINGS /proc/cpuinfo flags REGEX "^flags" LIMIT_COUNT 1)
+    set(NATIVE_FEWER_ISAS x86-64-v2)
+    if(flags MATCHES " avx512vl( |$)")
+        set(NATIVE_FEWER_ISAS x86-64-v4)
+    elseif(flags MATCHES " avx2( |$)")
+        set(NATIVE_FEWER_ISAS x86-64-v3)
+    endif()
+endif()
+
 # Each instruction set: its flags, and how many floats and doubles a vector holds.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(MIRRORBALL_ISAS x86-64-v4 x86-64-v3 x86-64-v2 x86-64 CACHE STRING

@@ -1,97 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <unistd.h>
 
-#include <functional>
 #include <string>
-#include <vector>
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/opencl/icd_files.h"
-#include "host/options/options.h"
+#include "host/base/version.h"
+#include "host/cli/options.h"
+#include "host/cli/verb.h"
+#include "host/opencl/pocl.h"
 #include "host/picture/render_stats.h"
-#include "host/pocl/pocl_environment.h"
+#include "host/process/drivers.h"
 #include "host/process/exit_status.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
-#include "host/verbs/device_list.h"
-#include "host/verbs/verbs.h"
+
+namespace rt {
 
 namespace {
 
-/// Measures in a worker process, which the OpenCL drivers it loads may crash; once more without
-/// those that crash or hang while their devices are listed, if there are others.
-int isolated(const rt::RenderOptions& options, double seconds_before_main,
-             const std::function<int()>& measure) {
-    if (rt::is_worker()) return measure();
-    rt::WorkerEnd end = rt::run_worker(options.command, {}, options.deadline, seconds_before_main);
-    const auto has_failed = [&] { return end.stop_signal == 0 && !end.is_regular; };
-    if (has_failed() && end.task == rt::listing_devices) {
-        const rt::IcdFiles files = rt::try_icd_files(options.drivers);
-        const rt::UsableIcdFiles usable(files);
-        rt::print_notes(files.problems);
-        if (!usable.change().empty()) {
-            end = rt::run_worker(options.command, usable.change(), options.deadline,
-                                 seconds_before_main);
-        }
+constexpr AddVerb* verbs[] = {add_render,   add_merge,   add_compare, add_bench,
+                              add_converge, add_stress,  add_report,  add_devices,
+                              add_doctor,   add_explain, add_scene};
+
+constexpr double deadline = 10;  ///< seconds without progress after which a driver counts as hung
+
+/// Where OpenCL's loader looks for its drivers: a folder of .icd files, or one of them.
+std::string icd_place() {
+    for (const char* name : {"OCL_ICD_VENDORS", "OPENCL_VENDOR_PATH"}) {
+        if (const std::string place = environment(name); !place.empty()) return place;
     }
-    if (end.stop_signal != 0) rt::end_by_stop_signal(end.stop_signal);
+    return "/etc/OpenCL/vendors";
+}
+
+/// Measures in a worker process, which the OpenCL drivers it loads may crash.
+int run_in_worker(const Invocation& call) {
+    const WorkerCommand command{call.command, {}, deadline, call.seconds_before_main};
+    const WorkerEnd end = run_without_bad_drivers(command, call.drivers, false);
     if (end.is_regular) return end.status;
-    throw rt::Error(rt::ExitCode::device, (end.task.empty() ? "" : end.task + ": ") +
-                                              "the worker process " + end.how +
-                                              "; test each driver with 'mirrorball doctor'");
+    throw Error(ExitCode::device, (end.task.empty() ? "" : end.task + ": ") +
+                                      "the worker process " + end.how +
+                                      "; test each driver with 'mirrorball doctor'");
 }
 
 int run(int argc, char** argv, double seconds_before_main) {
-    const rt::Options options = rt::parse_options(argc, argv);
-    if (rt::become_worker(options.worker_link)) seconds_before_main += rt::seconds_before_worker();
-    if (options.quiet()) rt::stop_quietly();
-    const auto in_worker = [&](const std::function<int()>& measure) {
-        return isolated(options.render, seconds_before_main, measure);
+    const CommandLineTexts texts{
+        "mirrorball", "a headless OpenCL ray tracer that measures its own speed and error",
+        fmt::format("mirrorball {} ({})", version, git_revision)};
+    Invocation call;
+    call.command.assign(argv, argv + argc);
+    call.drivers = icd_place();
+    call.worker_link = environment("MIRRORBALL_WORKER");
+    call.seconds_before_main = seconds_before_main;
+    const auto add_verbs = [&call](const CommandLine& program) {
+        for (AddVerb* const add : verbs) add(program, call);
     };
-    switch (options.verb) {
-        case rt::Verb::render:
-            return rt::run_render(options.render, seconds_before_main);
-        case rt::Verb::merge:
-            return rt::run_merge(options.merge);
-        case rt::Verb::compare:
-            return rt::run_compare(options.compare);
-        case rt::Verb::bench:
-            return in_worker([&] { return rt::run_bench(options.bench); });
-        case rt::Verb::converge:
-            return in_worker([&] { return rt::run_converge(options.converge); });
-        case rt::Verb::stress:
-            return in_worker([&] { return rt::run_stress(options.stress); });
-        case rt::Verb::report:
-            return in_worker([&] { return rt::run_report(options.report); });
-        case rt::Verb::devices:
-            return rt::run_devices(options.devices);
-        case rt::Verb::doctor:
-            return rt::run_doctor(options.doctor);
-        case rt::Verb::explain:
-            return rt::run_explain(options.explain);
-        case rt::Verb::scene:
-            return rt::run_scene(options.scene);
-        case rt::Verb::none:
-            rt::print_result(options.text);
-            return 0;
+    const std::string text = read_command_line(texts, add_verbs, argc, argv);
+    if (become_worker(call.worker_link)) call.seconds_before_main += seconds_before_worker();
+    if (call.quiet) stop_quietly();
+    if (!call.run) {
+        print_result(text);
+        return static_cast<int>(ExitCode::done);
     }
-    return static_cast<int>(rt::ExitCode::bug);
+    return call.measures && !is_worker() ? run_in_worker(call) : call.run();
 }
 
 }  // namespace
+
+}  // namespace rt
 
 int main(int argc, char** argv) {
     const double seconds_before_main = rt::seconds_since_process_start();
     rt::open_missing_streams();
     rt::prepare_signals();
     const int status = rt::exit_status_of([&] {
-        const int result = run(argc, argv, seconds_before_main);
+        const int result = rt::run(argc, argv, seconds_before_main);
         rt::flush_results();
         return result;
     });
     rt::note_worker_end(status);
-    rt::remove_private_pocl_cache();
+    rt::leave_pocl_cache();
     // Skips destructors: a driver may still be compiling for a picture that is finished.
     _exit(status);
 }

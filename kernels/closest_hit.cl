@@ -149,11 +149,11 @@ bool blocked_by_spheres(const SceneView* scene, const Ray* ray, Index light, Tra
             __global const Sphere* sphere = &scene->spheres[prim];
             Reals t;
             Mask met = intersect_sphere(ray, sphere, prim, &t);
-            if (!any_lane(met)) continue;
-            met &= (t > (Reals)0) & (t <= *t_max);
-            if (!any_lane(met)) continue;
-            if ((sphere->touches & light) != 0) met &= !ends_on_sphere(ray, sphere, t, *t_max);
-            if (block(t_max, met)) return true;
+            Index side = light_side(sphere->touches, light);
+            if (side == 0 && !any_lane(met)) continue;
+            met = side == 0 ? met & (t > (Reals)0) & (t <= *t_max)
+                            : meets_sphere_before(ray, sphere, met, t, *t_max, side);
+            if (any_lane(met) && block(t_max, met)) return true;
         }
     }
     return false;
@@ -199,9 +199,9 @@ bool blocked_by_triangles(const SceneView* scene, const Ray* ray, Traversal* tra
     return false;
 }
 
-// Whether anything lies on the rays in (0, t_max], towards a light whose bit is `light`
-// (Sphere::touches; 0: none). Without a hierarchy, tests caster_count
-// triangles of the caster list from first_caster on, or all triangles if that is their number.
+// Whether anything lies on the rays in (0, t_max], towards the light with place `light` in the bits
+// of Sphere::touches. Without a hierarchy, tests caster_count triangles of the caster list from
+// first_caster on, or all triangles if that is their number.
 Mask any_hit(const SceneView* scene, const Ray* ray, Index light, Index first_caster,
              Index caster_count) {
     Reals t_max = ray->t_max;

@@ -50,9 +50,7 @@ Reals cone_shift(const Ray* ray, real3 w, Reals goal, __global const Cone* cone)
 // The lanes whose rays start on cone number prim.
 Mask leaves_cone(const Ray* ray, __global const Cone* cone, Index prim) {
     Mask leaving = ray->from == prim;
-    if (RT_HAS_EYE_ON_SURFACE && (cone->touches & RT_TOUCHES_EYE) != 0) {
-        leaving |= ray->from == (Index)RT_EYE;
-    }
+    if (eye_side(cone->touches) != 0) leaving |= ray->from == (Index)RT_EYE;
     return leaving;
 }
 
@@ -60,13 +58,15 @@ Mask leaves_cone(const Ray* ray, __global const Cone* cone, Index prim) {
 typedef struct {
     Reals near, far;
     Mask near_counts, far_counts;
+    Mask is_far_outwards;  // the farther one leads outwards, the nearer one inwards
 } ConeRoots;
 
-// `leaving`: the origin lies on this very cone. No root counts in lanes that are not met.
-ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving) {
+// `leaving`: the origin lies on this very cone. `ends_inside`: the rays do, so that they meet it
+// even where rounding has them pass by. No root counts in lanes that are not met.
+ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving, bool ends_inside) {
     ConeRoots roots;
     roots.near = roots.far = (Reals)0;
-    roots.near_counts = roots.far_counts = RT_NO_LANES;
+    roots.near_counts = roots.far_counts = roots.is_far_outwards = RT_NO_LANES;
     real3 axis = load3(cone->axis);
     Reals slope = (Reals)cone->slope;
     real3 w = sub3(ray->origin, load3(cone->base));
@@ -97,6 +97,7 @@ ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving) {
     real3 x = cross3(g, c);
     real3 v = add_scaled(scale3(radius, c), -m, g);
     Reals discriminant = dot3(v, v) - dot3(x, x);
+    if (ends_inside) discriminant = max_of(discriminant, (Reals)0);
     Mask met = discriminant >= (Reals)0;
     met |= leaving;
     met &= !misses;
@@ -109,15 +110,24 @@ ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving) {
     Reals k = (distance - radius) * (distance + radius);
     Reals root = sqrt(discriminant);
     Reals self_hit = ray->self_hit * unit;
-    if (RT_HAS_EYE_ON_SURFACE) self_hit = ray->from == (Index)RT_EYE ? (Reals)-2 * b : self_hit;
+    Mask from_eye = RT_NO_LANES;
+    if (RT_HAS_EYE_ON_SURFACE) {
+        from_eye = leaving & (ray->from == (Index)RT_EYE);
+        self_hit = from_eye ? (Reals)-2 * b : self_hit;
+    }
     Reals q = leaving ? self_hit : -(b + (b < (Reals)0 ? -root : root));
     Reals one = q / a;
     Mask is_single = leaving | (q == (Reals)0);
     Reals other = is_single ? one : k / q;
+    if (RT_HAS_EYE_ON_SURFACE && any_lane(from_eye)) {
+        Mask at_once = from_eye & starts_through(eye_side(cone->touches), b > (Reals)0);
+        other = at_once ? (Real)RT_ROUNDOFF * radius : other;
+    }
     Reals near = min_of(one, other);
     Reals far = max_of(one, other);
     Reals near_radius = fma(near, m, radius);
     Reals far_radius = fma(far, m, radius);
+    roots.is_far_outwards = a > (Reals)0;
     roots.near = fma(unit, near, shift);
     roots.far = fma(unit, far, shift);
     roots.near_counts = met & (roots.near > (Reals)0) & (near_radius >= (Reals)0);
@@ -141,25 +151,32 @@ ConeRoots cone_roots(const Ray* ray, __global const Cone* cone, Mask leaving) {
 // Whether the rays' lines meet the frustum in front of the origin, and at which distance t; if that
 // is the nearer of two, *far is the other.
 Mask intersect_cone(const Ray* ray, __global const Cone* cone, Mask leaving, Reals* t, Reals* far) {
-    ConeRoots roots = cone_roots(ray, cone, leaving);
+    ConeRoots roots = cone_roots(ray, cone, leaving, false);
     *far = roots.far_counts ? roots.far : (Reals)0;
     *t = roots.near_counts ? roots.near : roots.far;
     return roots.near_counts | roots.far_counts;
 }
 
-// Whether shadow rays meet the frustum in (0, t_max]. If their light lies on it, the root nearer to
-// the light does not count.
+// Whether shadow rays meet the frustum in (0, t_max], before the light with this place in its bits.
+// Towards a light on the tip both roots are the light.
 Mask meets_cone_before(const Ray* ray, __global const Cone* cone, Mask leaving, Reals t_max,
                        Index light) {
-    ConeRoots roots = cone_roots(ray, cone, leaving);
-    if ((cone->touches & light) != 0) {
-        Real size = cone->base_radius + cone->apex_radius + cone->length;
-        Mask near_is_nearer = fabs(roots.near - t_max) <= fabs(roots.far - t_max);
-        roots.near_counts &= !(near_is_nearer & is_at_light(roots.near, t_max, size));
-        Mask far_is_nearer = leaving | !near_is_nearer;
-        roots.far_counts &= !(far_is_nearer & is_at_light(roots.far, t_max, size));
+    Index side = light_side(cone->touches, light);
+    ConeRoots roots = cone_roots(ray, cone, leaving, side == RT_INSIDE);
+    if (side == 0) {
+        return (roots.near_counts & (roots.near <= t_max)) |
+               (roots.far_counts & (roots.far <= t_max));
     }
-    return (roots.near_counts & (roots.near <= t_max)) | (roots.far_counts & (roots.far <= t_max));
+    Real size = cone->base_radius + cone->apex_radius + cone->length;
+    real3 way = add_scaled(sub3(ray->origin, load3(cone->base)), t_max, ray->dir);
+    Mask is_tip = length3(cross3(way, load3(cone->axis))) <=
+                  (Reals)((Real)64 * (Real)RT_ROUNDOFF) * (t_max + size);
+    Mask near_is_nearer = fabs(roots.near - t_max) <= fabs(roots.far - t_max);
+    Mask near = is_before_light(roots.near, !roots.is_far_outwards, is_tip | near_is_nearer, side,
+                                t_max, size);
+    Mask far = is_before_light(roots.far, roots.is_far_outwards, is_tip | leaving | !near_is_nearer,
+                               side, t_max, size);
+    return (roots.near_counts & near & !leaving) | (roots.far_counts & far);  // leaving: one root
 }
 
 #endif

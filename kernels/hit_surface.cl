@@ -9,6 +9,10 @@
 // moves back along the ray, by eight offsets plus the tie distance, to the viewer's side of all of
 // them; shadow rays to lights on the other side start as far beyond them. A refracted ray crosses
 // them in the scene's order, each once, and of neighbors that share an edge only one (Ray::zone).
+//
+// None of this tells on which side of a neighbor's plane a point next to an edge is that the ray
+// reached almost parallel to that plane. So near edges points also move into their triangle
+// (clear_of_edges).
 #ifndef RT_HIT_SURFACE_CL
 #define RT_HIT_SURFACE_CL
 
@@ -54,16 +58,65 @@ Surface hit_surface(const SceneView* scene, const Ray* ray, const Hit* hit, Mask
     return surface;
 }
 
+// The least weight of a vertex where a triangle was hit: 0 on an edge. Elsewhere infinity.
+Reals edge_weight(const SceneView* scene, const Hit* hit) {
+    Reals least = min_of(min_of(hit->u, hit->v), (Reals)1 - hit->u - hit->v);
+    return hit->prim >= first_triangle(scene) ? least : (Reals)INFINITY;
+}
+
 // Whether a triangle was hit within rounding error of its edge, where a neighbor may begin.
 Mask is_on_edge(const SceneView* scene, const Hit* hit) {
-    Reals rim = (Reals)((Real)64 * (Real)RT_ROUNDOFF);
-    Mask at_rim = (hit->u < rim) | (hit->v < rim) | ((Reals)1 - hit->u - hit->v < rim);
-    return at_rim & (hit->prim >= first_triangle(scene));
+    return edge_weight(scene, hit) < (Reals)((Real)64 * (Real)RT_ROUNDOFF);
+}
+
+// The least sine of an angle between two faces that points next to their edge must clear.
+#define RT_SHARPEST 0x1p-7f
+
+// How far, as a share of the way to the incenter, a point must move from an edge to be clear of it.
+Reals edge_share(real3 side, Reals length, Reals weight, real3 dir, Reals sine, Reals error) {
+    Reals across = length3(add_scaled(dir, -dot3(dir, side) / (length * length), side));
+    Reals away = error / max_of(sine / across, (Reals)RT_SHARPEST);
+    return min_of(away, (Reals)0x1p-6f) - (Reals)2 * weight;
+}
+
+// Near a triangle's edge, the point as far inside the triangle that rounding cannot put it beyond
+// the neighbor's plane: the error over the sine of the ray's angle to the face, seen along the
+// edge, since rays from between two faces meet each at less than their angle. Towards the incenter,
+// which clears all three edges.
+real3 clear_of_edges(const Ray* ray, const Hit* hit, real3 point,
+                     __global const Triangle* triangle) {
+    real3 p0 = load3(triangle->p0), p1 = load3(triangle->p1), p2 = load3(triangle->p2);
+    real3 side0 = sub3(p2, p1), side1 = sub3(p0, p2), side2 = sub3(p1, p0);
+    Reals length0 = length3(side0), length1 = length3(side1), length2 = length3(side2);
+    Reals scale = (Reals)1 / (length0 + length1 + length2);
+    real3 incenter = scale3(scale * length0, p0);
+    incenter = add_scaled(incenter, scale * length1, p1);
+    incenter = add_scaled(incenter, scale * length2, p2);
+    Reals inradius = length3(cross3(scale3(scale, side0), side1));
+    Reals size = min_of((Reals)largest_coordinate(triangle), length3(ray->origin) + hit->t);
+    Reals error = (Reals)((Real)32 * (Real)RT_ROUNDOFF) * size / inradius;
+    Reals sine = fabs(dot3(load3(triangle->normal), ray->dir));
+    Reals weight0 = (Reals)1 - hit->u - hit->v;
+    Reals share = edge_share(side0, length0, weight0, ray->dir, sine, error);
+    share = max_of(share, edge_share(side1, length1, hit->u, ray->dir, sine, error));
+    share = max_of(share, edge_share(side2, length2, hit->v, ray->dir, sine, error));
+    return add_scaled(point, max_of(share, (Reals)0), sub3(incenter, point));
 }
 
 // The hits' surfaces, with the points moved clear of other surfaces they touch.
 Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
     Surface surface = hit_surface(scene, ray, hit, live);
+    Reals sine = max_of(fabs(dot3(surface.geometric, ray->dir)), (Reals)RT_SHARPEST);
+    Reals nearness = edge_weight(scene, hit) * sine;
+    Mask near = live & (nearness < (Reals)((Real)4096 * (Real)RT_ROUNDOFF));
+    for (Mask left = near; any_lane(left);) {
+        Index prim = least_lane(left, hit->prim);
+        Mask lanes = left & (hit->prim == prim);
+        left &= !lanes;
+        real3 clear = clear_of_edges(ray, hit, surface.point,
+                                     &scene->triangles[prim - first_triangle(scene)]);
+        surface.point = select3(lanes, clear, surface.point);
+    }
     Mask touching = live & (hit->tied | is_on_edge(scene, hit));
     if (RT_HAS_GLASS) touching |= live & (hit->t <= ray->zone);
     if (any_lane(touching)) {

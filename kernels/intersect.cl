@@ -39,13 +39,25 @@ Mask intersect_huge_sphere(const Ray* ray, __global const Sphere* sphere, Reals*
     return discriminant >= (Reals)0;
 }
 
+// Where the eye lies on or next to a surface: RT_ON, RT_OUTSIDE, RT_INSIDE; 0: elsewhere.
+Index eye_side(Index touches) { return RT_HAS_EYE_ON_SURFACE ? touches & RT_ON : 0; }
+
+// Whether rays from an eye this close to a surface meet it at once: `outwards` those that go from
+// its inside to its outside.
+Mask starts_through(Index side, Mask outwards) {
+    return side == RT_INSIDE ? outwards : (side == RT_OUTSIDE ? !outwards : RT_NO_LANES);
+}
+
 // The lanes whose rays start on the sphere, and their chords through it.
 Mask leaves_sphere(const Ray* ray, __global const Sphere* sphere, Index prim, Reals* chord) {
     Mask leaving = ray->from == prim;
     *chord = ray->self_hit;
-    if (RT_HAS_EYE_ON_SURFACE && (sphere->touches & RT_TOUCHES_EYE) != 0) {
+    Index side = eye_side(sphere->touches);
+    if (side != 0) {
         Mask from_eye = ray->from == RT_EYE;
         Reals inward = (Reals)2 * dot3(load3(sphere->center), ray->dir);
+        Mask at_once = starts_through(side, inward < (Reals)0);
+        inward = at_once ? (Reals)((Real)RT_ROUNDOFF * sphere->radius) : inward;
         *chord = from_eye ? inward : *chord;
         leaving |= from_eye;
     }
@@ -68,6 +80,7 @@ Mask intersect_sphere(const Ray* ray, __global const Sphere* sphere, Index prim,
     Reals discriminant = (Reals)(sphere->radius * sphere->radius) - dot3(l, l);
     Mask met = discriminant >= (Reals)0;
     met |= leaving;
+    *t = b;
     if (!any_lane(met)) return met;
     Reals s = sqrt(discriminant);
     Reals near = b - s;
@@ -76,21 +89,32 @@ Mask intersect_sphere(const Ray* ray, __global const Sphere* sphere, Index prim,
     return met;
 }
 
-// Whether a shadow ray meets a surface at t, near the light at t_max on it. `size` is the
-// surface's: the rounding error of a root grows as the square root of roundoff where the ray grazes
-// it.
-Mask is_at_light(Reals t, Reals t_max, Real size) {
+// Where the light with this place in the bits lies on or next to a surface; likewise.
+Index light_side(Index touches, Index place) { return (touches >> place) & RT_ON; }
+
+// Whether a shadow ray that crosses a surface at t does so before the light at t_max. Where the
+// light lies on the surface or next to it (`side`), rounding cannot tell: then the crossing nearest
+// to the light counts if it leads from the other side to the light's. (Where the light is inside,
+// it lies between both, and the first counts.) The rounding error of a root grows as the square
+// root of roundoff where the ray grazes the surface, whose size is `size`.
+Mask is_before_light(Reals t, Mask outwards, Mask is_nearest, Index side, Reals t_max, Real size) {
     Reals away = t - t_max;
     Reals reach = t_max + size;
-    return away * away <= (Reals)((Real)64 * (Real)RT_ROUNDOFF) * reach * reach;
+    Mask near = away * away <= (Reals)((Real)64 * (Real)RT_ROUNDOFF) * reach * reach;
+    if (side == RT_INSIDE) return near ? !outwards : t <= t_max;
+    Mask crosses = side == RT_OUTSIDE ? outwards : RT_NO_LANES;
+    return near & is_nearest ? crosses : t <= t_max;
 }
 
-// Whether a shadow ray to a light on the sphere meets it only there, by the root t in front of the
-// light: the other root is farther from the light, and beyond it.
-Mask ends_on_sphere(const Ray* ray, __global const Sphere* sphere, Reals t, Reals t_max) {
-    Reals b = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
-    Mask is_far_root = t >= b;
-    return (is_far_root | (t_max < b)) & is_at_light(t, t_max, sphere->radius);
+// Whether shadow rays meet the sphere, at t where `met`, before the light. To a light inside they
+// do, next to the light, even where rounding has them pass by.
+Mask meets_sphere_before(const Ray* ray, __global const Sphere* sphere, Mask met, Reals t,
+                         Reals t_max, Index side) {
+    Reals middle = dot3(sub3(load3(sphere->center), ray->origin), ray->dir);
+    Mask outwards = met & (t >= middle);
+    t = met ? t : (side == RT_INSIDE ? t_max : (Reals)INFINITY);
+    Mask is_nearest = outwards | (t_max < middle);
+    return (t > (Reals)0) & is_before_light(t, outwards, is_nearest, side, t_max, sphere->radius);
 }
 
 // The rays' frames: z is the direction's largest component, x and y the next two in order.
@@ -171,12 +195,15 @@ real3 shear_vertex(const RayShear* shear, __global const Packed3* vertex) {
     return make3(fma(-shear->sx, p.z, p.x), fma(-shear->sy, p.z, p.y), p.z);
 }
 
-// Distance along the rays to the triangle's plane; NaN or infinite if parallel to it.
+// Distance along the rays to the triangle's plane; NaN or infinite if parallel to it. 0 for rays
+// that start within rounding of the plane: where it says that they cross is noise.
 Reals plane_distance(const RayShear* shear, __global const Triangle* triangle) {
     real3 n = load_in_frame(shear, &triangle->normal);
-    Reals height = fma(n.z, shear->origin.z, fma(n.y, shear->origin.y, n.x * shear->origin.x));
+    real3 o = shear->origin;
+    Reals height = triangle->plane - fma(n.z, o.z, fma(n.y, o.y, n.x * o.x));
     Reals slope = fma(n.x, shear->sx, fma(n.y, shear->sy, n.z));
-    return (triangle->plane - height) * shear->sz / slope;
+    Reals error = (Real)RT_ROUNDOFF * (fabs(o.x) + fabs(o.y) + fabs(o.z));
+    return fabs(height) <= error ? (Reals)0 : height * shear->sz / slope;
 }
 
 // Whether the rays' lines meet the triangle, at which distance t, and the barycentric coordinates u

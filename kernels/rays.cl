@@ -67,7 +67,7 @@ void rays_item(__global RayAnswer* answers, __global const RayQuery* queries,
     Mask asks = live & (ray.t_max < (Reals)INFINITY);
     ray.t_max = asks ? ray.t_max : (Reals)-1;
     if (any_lane(ray.t_max > (Reals)0)) {
-        Mask blocked = any_hit(scene, &ray, 0, 0, scene->params.triangle_count);
+        Mask blocked = any_hit(scene, &ray, RT_TOUCHES_NO_LIGHT, 0, scene->params.triangle_count);
         out[7].all = blocked ? (Indices)1 : (Indices)0;
     }
     Mask met = live & (hit.prim != RT_NONE);

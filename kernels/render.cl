@@ -3,13 +3,13 @@
 // The entry points of OpenCL devices (kernels/items.cl says what a work item does). counts has one
 // slot per work item, accumulated over launches. A program holds only those launched
 // (RT_RENDERS_..), since each compiles the whole tracer again. RT_ITEM is on the functions they
-// call: PoCL makes three copies of a kernel, so there these stay calls
-// (host/opencl/cl_program.cpp).
+// call: PoCL makes three copies of a kernel, so there these stay calls (host/opencl/pocl.h). A GPU
+// would copy their arguments to its slow memory, so elsewhere they are inlined at any size.
 
 #include "kernels/items.cl"
 
 #ifndef RT_ITEM
-#define RT_ITEM
+#define RT_ITEM __attribute__((always_inline))
 #endif
 
 #define RT_SCENE_ARGUMENT(type, name, what) __global const type *restrict name,

@@ -44,8 +44,8 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const M
     counts->shadow += lit & 1;
     RT_EXPLAIN(lit, RT_EVENT_SHADOW, number, 0, distance, none, origin, dir, none);
     Index last = RT_TOUCHES_LIGHTS - 1;
-    Index bit = RT_TOUCHES_FIRST_LIGHT << (number < last ? number : last);
-    lit &= !any_hit(scene, &shadow, bit, light->first_caster, light->caster_count);
+    Index place = RT_TOUCHES_FIRST_LIGHT + 2 * (number < last ? number : last);
+    lit &= !any_hit(scene, &shadow, place, light->first_caster, light->caster_count);
     if (!any_lane(lit)) return none;
     real3 reflected = scale3(cosine, material->diffuse);
     if (any_lane(lit & !is_black(material->specular))) {  // elsewhere it adds 0

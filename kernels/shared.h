@@ -116,8 +116,8 @@ typedef struct {
     Index sphere_root;  // root node over all spheres, or 0: test each sphere
     Index cone_root;
     Index triangle_root;
-    Index eye_on_surface;   // 1: a perspective camera's eye lies on a sphere or cone or in a
-                            // triangle's plane
+    Index eye_on_surface;   // 1: a perspective camera's eye touches a sphere or cone or lies in
+                            // a triangle's plane
     Packed3 direction_low;  // parts of direction and its steps lost to rounding
     Index sampling;         // RT_SAMPLES_...
     Packed3 direction_dx_low;
@@ -173,9 +173,11 @@ typedef struct {
 
 enum { RT_NONE = -1 };
 
-// What lies on a sphere or cone, as far as double can tell: the eye, light i for i below the last
-// bit's, some of the other lights.
-enum { RT_TOUCHES_EYE = 1, RT_TOUCHES_FIRST_LIGHT = 2, RT_TOUCHES_LIGHTS = 30 };
+// Sphere::touches, Cone::touches: where the eye and the lights are that lie on the surface or
+// nearer to it than rounding can tell, two bits each: RT_ON, or the side. From the eye's bits up,
+// light i's for i below the last one's, those of all others, and two that are 0.
+enum { RT_OUTSIDE = 1, RT_INSIDE = 2, RT_ON = 3 };
+enum { RT_TOUCHES_FIRST_LIGHT = 2, RT_TOUCHES_LIGHTS = 14, RT_TOUCHES_NO_LIGHT = 30 };
 
 // Ray::from of rays that start at an eye on some surface (LaunchParams::eye_on_surface).
 enum { RT_EYE = -2 };

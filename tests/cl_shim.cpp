@@ -8,15 +8,15 @@
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
 //   CL_SHIM_FAIL_READ          if not empty, reads and maps fail once a launch has failed
 //   CL_SHIM_INEXACT            if not empty, devices do not promise to round correctly
-//   CL_SHIM_NO_FORK            if not empty, no child process can be started
+//   CL_SHIM_NO_CHILD           if not empty, no child process can be started
 //   CL_SHIM_DIE_IN             the function whose call fails
 //   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error, or delay (2 s)
 //   CL_SHIM_DIE_AT             the first call that may fail, counted from 1
 //   CL_SHIM_DIE_AFTER          seconds since that call before which none fails
 //   CL_SHIM_DIE_WITH           .icd files, separated by blanks, all of which must be in use
-//   CL_SHIM_DIE_ONCE           a file made on failure; if it exists, nothing fails
 // Nothing in mirrorball knows about it.
 #include <dlfcn.h>
+#include <spawn.h>
 #include <unistd.h>
 
 #define CL_TARGET_OPENCL_VERSION 120
@@ -85,16 +85,12 @@ bool die_in(const char* function) {
     const std::string with = setting("CL_SHIM_DIE_WITH");
     if (!with.empty() && !uses_drivers(with)) return false;
     static std::atomic<int> calls = 0;
-    const std::string at = setting("CL_SHIM_DIE_AT"), once = setting("CL_SHIM_DIE_ONCE");
+    const std::string at = setting("CL_SHIM_DIE_AT");
     if (++calls < (at.empty() ? 1 : std::stoi(at))) return false;
     static const auto first = std::chrono::steady_clock::now();
     const std::string after = setting("CL_SHIM_DIE_AFTER");
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - first;
     if (!after.empty() && passed.count() < std::stod(after)) return false;
-    if (!once.empty()) {
-        if (access(once.c_str(), F_OK) == 0) return false;
-        std::ofstream(once) << function;
-    }
     const std::string by = setting("CL_SHIM_DIE_BY");
     if (by == "abort") std::abort();
     if (by == "exit") std::exit(1);
@@ -108,10 +104,13 @@ bool die_in(const char* function) {
 
 }  // namespace
 
-extern "C" pid_t fork() {
-    if (setting("CL_SHIM_NO_FORK").empty()) return real<decltype(fork)>("fork")();
-    errno = EAGAIN;
-    return -1;
+extern "C" int posix_spawn(pid_t* process, const char* path,
+                           const posix_spawn_file_actions_t* actions,
+                           const posix_spawnattr_t* attributes, char* const* arguments,
+                           char* const* variables) {
+    if (!setting("CL_SHIM_NO_CHILD").empty()) return EAGAIN;
+    return real<decltype(posix_spawn)>("posix_spawn")(process, path, actions, attributes, arguments,
+                                                      variables);
 }
 
 extern "C" cl_int clGetPlatformIDs(cl_uint size, cl_platform_id* platforms, cl_uint* count) {

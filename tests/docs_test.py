@@ -9,6 +9,7 @@ A block of a page without a language is commands: lines that begin with `mirrorb
 `build/release/mirrorball` are run, one after the other, in a folder that has the repository's scenes.
 A json block that follows "Save this as `NAME`" is written to NAME first.
 """
+import json
 import os
 import pathlib
 import re
@@ -25,7 +26,7 @@ NAMES = {"mirrorball", "build/release/mirrorball"}
 PAGES = [REPO / "README.md", REPO / "CONTRIBUTING.md", REPO / "python/README.md",
          *sorted((REPO / "docs").glob("*.md"))]
 # Of other programs, of scripts, and of an earlier revision.
-OTHERS_OPTIONS = {"--bind-to", "--enable-recovery", "--sshlogin", "--corners", "--naive"}
+OTHERS_OPTIONS = {"--spec", "--bind-to", "--enable-recovery", "--sshlogin", "--corners", "--naive"}
 
 
 def steps_of(page):
@@ -72,6 +73,43 @@ class Code(unittest.TestCase):
                 self.assertRegex(word, r"^(\.{0,2}/.*|[^/]*)$", page)
 
 
+    def test_names_presets_that_are_there(self):
+        presets = json.loads((REPO / "CMakePresets.json").read_text(encoding="utf-8"))
+        names = {preset["name"] for preset in presets["configurePresets"]}
+        found = [name for page in PAGES for code in code_of(page) for name in re.findall(r"--preset (\S+)", code)]
+        self.assertTrue(found)
+        self.assertLessEqual(set(found), names)
+
+    def test_tells_how_long_the_tracer_is(self):
+        page = (REPO / "docs/kernels.md").read_text(encoding="utf-8")
+        said = int(re.search(r"about ([\d,]+) lines of OpenCL C in `kernels/`", page)[1].replace(",", ""))
+        lines = sum(len(path.read_text(encoding="utf-8").splitlines())
+                    for path in (REPO / "kernels").iterdir() if path.is_file())
+        self.assertAlmostEqual(said / lines, 1, delta=0.05, msg=str(lines))
+
+
+def anchors_of(page):
+    """As GitHub makes them of headings."""
+    headings = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.M)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+class Links(unittest.TestCase):
+    def test_lead_somewhere(self):
+        found = 0
+        for page in PAGES:
+            for link in re.findall(r"\]\(([^()\s]+)\)", page.read_text(encoding="utf-8")):
+                if "://" in link:
+                    continue
+                path, _, anchor = link.partition("#")
+                target = (page.parent / path).resolve() if path else page
+                self.assertTrue(target.exists(), f"{page}: {link}")
+                if anchor:
+                    self.assertIn(anchor, anchors_of(target), f"{page}: {link}")
+                found += 1
+        self.assertGreater(found, 50)
+
+
 def help_of(*verb):
     return subprocess.run([BUILD / "mirrorball", *verb, "--help"], capture_output=True, text=True,
                           check=True).stdout
@@ -83,7 +121,7 @@ def options_of(*verb):
 
 class Options(unittest.TestCase):
     def test_that_pages_name_are_there(self):
-        verbs = re.findall(r"^  (\w+) ", help_of().partition("Subcommands:")[2], re.M)
+        verbs = re.findall(r"^  (\w+) ", help_of().partition("Verbs (")[2], re.M)
         of_verb = {verb: options_of(verb) for verb in verbs}
         of_verb["scene"] = options_of("scene", "info") | options_of("scene", "check")
         of_any = set().union(options_of(), *of_verb.values())

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "host/measure/ray_tree.h"
+#include "host/explain/ray_tree.h"
 #include "host/scene/json_file.h"
 #include "tests/render_helpers.h"
 
@@ -15,9 +15,9 @@ namespace {
 /// Checks the tree's own sums: local light is ambient light plus the lights' contributions.
 void check_parts(const RayNode& ray) {
     if (ray.hit) {
-        glm::dvec3 sum = ray.ambient;
-        for (const LightAtHit& light : ray.lights) sum += light.color;
-        for (int i = 0; i < 3; ++i) ASSERT_EQ(sum[i], ray.color[i]) << ray.object;
+        glm::dvec3 sum = ray.hit->ambient;
+        for (const LightAtHit& light : ray.hit->lights) sum += light.color;
+        for (int i = 0; i < 3; ++i) ASSERT_EQ(sum[i], ray.color[i]) << ray.hit->object;
     }
     for (const RayNode& child : ray.children) {
         ASSERT_EQ(child.bounce, ray.bounce + 1);
@@ -91,19 +91,19 @@ TEST(Explain, SaysWhereASphereWasHit) {
     const FlatScene<double> flat = flatten<double>(scene);
     const auto trees = ray_trees(explain_pixel(flat, 1, 1), scene, flat);
     const RayNode& ray = trees.at(0).ray;
-    EXPECT_TRUE(ray.hit);
-    EXPECT_EQ(ray.object, "sphere 2");
-    EXPECT_EQ(ray.material, "matt");
-    EXPECT_NEAR(ray.distance, 3, 1e-14);
-    EXPECT_NEAR(ray.point.x, 10, 1e-13);
-    EXPECT_NEAR(ray.point.z, 32, 1e-13);
-    EXPECT_NEAR(ray.normal.z, 1, 1e-15);
-    ASSERT_EQ(ray.lights.size(), 2u);  // one is dark
-    EXPECT_EQ(ray.lights[0].light, 1u);
-    EXPECT_EQ(ray.lights[0].state, LightAtHit::State::lit);
-    EXPECT_NEAR(ray.lights[0].color.x, 0.5, 1e-15);
-    EXPECT_EQ(ray.lights[1].light, 2u);
-    EXPECT_EQ(ray.lights[1].state, LightAtHit::State::behind);
+    ASSERT_TRUE(ray.hit);
+    EXPECT_EQ(ray.hit->object, "sphere 2");
+    EXPECT_EQ(ray.hit->material, "matt");
+    EXPECT_NEAR(ray.hit->distance, 3, 1e-14);
+    EXPECT_NEAR(ray.hit->point.x, 10, 1e-13);
+    EXPECT_NEAR(ray.hit->point.z, 32, 1e-13);
+    EXPECT_NEAR(ray.hit->normal.z, 1, 1e-15);
+    ASSERT_EQ(ray.hit->lights.size(), 2u);  // one is dark
+    EXPECT_EQ(ray.hit->lights[0].light, 1u);
+    EXPECT_EQ(ray.hit->lights[0].state, LightAtHit::State::lit);
+    EXPECT_NEAR(ray.hit->lights[0].color.x, 0.5, 1e-15);
+    EXPECT_EQ(ray.hit->lights[1].light, 2u);
+    EXPECT_EQ(ray.hit->lights[1].state, LightAtHit::State::behind);
     EXPECT_NEAR(ray.color.z, 0.8, 1e-15);
     EXPECT_TRUE(ray.children.empty());
 }

@@ -60,7 +60,7 @@ TEST(RenderPixels, GivesTheSameBitsWithTwoSamples) {
     const std::uint64_t reference = hash_of(render_on_threads<float>(scene));
     for (const int lanes : {1, 2, 8}) {
         ClOptions options = cl_options(Launch::pixel);
-        options.lanes = lanes;
+        options.kernels.lanes = lanes;
         EXPECT_EQ(hash_of(render_on_device<float>(scene, options)), reference) << lanes;
     }
 }
@@ -104,8 +104,8 @@ TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
     options.entries = {true, false, false, false};
     for (const int lanes : {1, 4}) {
         options.lanes = lanes;
-        for (const bool double_precision : {false, true}) {
-            options.double_precision = double_precision;
+        for (const Precision precision : {Precision::float32, Precision::float64}) {
+            options.precision = precision;
             expect_own_declarations(render_kernels, options);
         }
     }

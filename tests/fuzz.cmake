@@ -18,14 +18,13 @@ add_fuzz_target(fuzz_json_scene mirrorball_scene
     ${CMAKE_SOURCE_DIR}/scenes ${CMAKE_SOURCE_DIR}/tests/scenes_bad)
 foreach(model obj ply)
     add_fuzz_target(fuzz_${model}_scene mirrorball_threads
-        ${CMAKE_SOURCE_DIR}/tests/models ${CMAKE_SOURCE_DIR}/tests/scenes_bad)
+        ${CMAKE_SOURCE_DIR}/tests/models ${CMAKE_SOURCE_DIR}/tests/scenes_bad
+        ${CMAKE_SOURCE_DIR}/tests/scenes_blemished)
 endforeach()
 add_fuzz_target(fuzz_nff_scene mirrorball_threads
-    ${CMAKE_SOURCE_DIR}/tests/scenes_nff ${CMAKE_SOURCE_DIR}/tests/scenes_bad)
+    ${CMAKE_SOURCE_DIR}/tests/scenes_nff ${CMAKE_SOURCE_DIR}/tests/scenes_bad
+    ${CMAKE_SOURCE_DIR}/tests/scenes_blemished)
 add_fuzz_target(fuzz_png_picture mirrorball_image ${CMAKE_SOURCE_DIR}/tests/pictures)
 add_fuzz_target(fuzz_journal mirrorball_journal ${CMAKE_SOURCE_DIR}/tests/journals)
 add_fuzz_target(fuzz_exr_picture OpenEXR::OpenEXR ${CMAKE_SOURCE_DIR}/tests/pictures)
-target_sources(fuzz_exr_picture PRIVATE
-    ${CMAKE_SOURCE_DIR}/host/image/modules/exr_limits.cpp
-    ${CMAKE_SOURCE_DIR}/host/image/modules/exr_reader.cpp
-    ${CMAKE_SOURCE_DIR}/host/image/modules/exr_threads.cpp)
+target_sources(fuzz_exr_picture PRIVATE ${CMAKE_SOURCE_DIR}/host/image/modules/exr_module.cpp)

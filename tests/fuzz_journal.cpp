@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         rt::JournalReader reader(stream, size);
         if (reader.header().film.pixels() > 1 << 14) return 0;
-        if (reader.header().double_precision) {
+        if (reader.header().is_double()) {
             read_all<double>(reader);
         } else {
             read_all<float>(reader);

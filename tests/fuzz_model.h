@@ -13,7 +13,7 @@
 #include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
-#include "host/scene/model_file.h"
+#include "host/scene/model.h"
 
 namespace rt::fuzz {
 

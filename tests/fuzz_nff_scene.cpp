@@ -15,8 +15,8 @@
 #include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
-#include "host/scene/nff_file.h"
 #include "host/scene/scene.h"
+#include "host/scene/scene_file.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/scene/obj_file.h"
+#include "host/scene/model.h"
 #include "tests/fuzz_model.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

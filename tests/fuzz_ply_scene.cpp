@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "host/scene/ply_file.h"
+#include "host/scene/model.h"
 #include "tests/fuzz_model.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -8,12 +8,12 @@
 #include <string>
 
 #include "host/base/error.h"
-#include "host/image/png_file.h"
+#include "host/image/built_in_formats.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::istringstream stream(std::string(reinterpret_cast<const char*>(data), size));
     try {
-        const rt::Picture picture = rt::read_png("fuzz.png", stream, size).picture;
+        const rt::Picture picture = rt::read_png("fuzz.png", stream, size, true).picture;
         const std::size_t values = static_cast<std::size_t>(picture.width) * picture.height *
                                    static_cast<std::size_t>(picture.channels);
         if (picture.pixels.size() != values) __builtin_trap();

@@ -48,7 +48,7 @@ std::vector<Answer<T>> answers(const Numbered<T>& numbered, std::vector<Query<T>
         if (query.from >= 0) query.from = numbered.place[std::size_t(query.from)];
     }
     ThreadsOptions options;
-    options.lanes = lanes;
+    options.kernels.lanes = lanes;
     std::vector<Answer<T>> found(queries.size());
     make_threads_ray_tracer(numbered.scene, options)(queries, found);
     for (Answer<T>& answer : found) {

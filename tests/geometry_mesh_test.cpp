@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/mesh_builder.h"
+#include "host/scene/mesh.h"
 
 namespace rt {
 namespace {

@@ -5,6 +5,7 @@
 // one place in the scene's order, each once.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -68,7 +69,7 @@ Film<T> picture(const Scene& scene, int lanes, const FlattenOptions& flattening 
     static const StopFlag never_stop = 0;
     const FlatScene<T> flat = flatten<T>(scene, flattening);
     ThreadsOptions options;
-    options.lanes = lanes;
+    options.kernels.lanes = lanes;
     const auto renderer = make_threads_renderer(flat, options);
     const Rect region{0, 0, scene.width, scene.height};
     TileQueue queue(make_tiles(region, scene.width, scene.height), never_stop);
@@ -108,6 +109,28 @@ TYPED_TEST(Touching, APaneOfTwoTrianglesIsOne) {
     expect_square<TypeParam>(scene, 1, [](const auto&) { return 0.5; });
     scene.materials = {glass(0.9, 1.5)};
     expect_square<TypeParam>(scene, 1, [](const auto&) { return 0.9; });
+}
+
+/// Two mirrors at a right angle, seen along one of them: whatever the first bounce starts from,
+/// next to their common edge too, it meets the other one.
+TYPED_TEST(Touching, MirrorsThatMeetLeaveNoGap) {
+    Scene scene;
+    scene.camera.from = {-0.5, 0.99, 0.1};
+    scene.camera.at = {1, 1, 0.1};
+    scene.camera.up = {-0.01, 1.5, 0};
+    scene.camera.field_of_view = {Scene::FieldOfView::Fixed::horizontal, 60};
+    scene.aa = grid_aa(1);
+    set_image_size(scene, 500, 1);
+    scene.background = glm::dvec3(1);
+    scene.max_bounces = 1;
+    scene.materials.emplace_back().mirror = glm::dvec3(1);
+    add_quad(scene, {{{1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {1, -1, 1}}}, 0);
+    scene.triangles.push_back({{{{-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}}}, {}, 0});
+    scene.triangles.push_back({{{{-1, 1, -1}, {1, 1, 1}, {1, 1, -1}}}, {}, 0});
+    for (const int lanes : {1, 0}) {
+        const Film<TypeParam> film = picture<TypeParam>(scene, lanes);
+        EXPECT_EQ(std::count(film.rgb.begin(), film.rgb.end(), TypeParam(0)), 1500);
+    }
 }
 
 TYPED_TEST(Touching, TheFarSideOfAOneSidedSheetIsLitOnItsEdgesToo) {

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "host/image/atomic_file.h"
-#include "host/image/temporary_file.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
@@ -201,6 +200,8 @@ TEST_F(OutputPath, PartialComesBeforeTheEnding) {
     EXPECT_EQ(partial_path("out.png"), "out.partial.png");
     EXPECT_EQ(partial_path("/a.b/out.0001.exr"), "/a.b/out.0001.partial.exr");
     EXPECT_EQ(partial_path("a.b/out"), "a.b/out.partial");
+    const std::string longest = "d/" + std::string(251, 'a') + ".png";
+    EXPECT_EQ(partial_path(longest, 2), "d/" + std::string(241, 'a') + ".partial-2.png");
 }
 
 TEST_F(OutputPath, OutputsThatAreInputsAreRefused) {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
-#include "host/measure/amdahl.h"
 #include "host/measure/baseline.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
-#include "host/measure/pareto.h"
+#include "host/measure/machine_load.h"
 #include "host/measure/picture_judge.h"
-#include "host/measure/statistics.h"
-#include "host/print/rounds_text.h"
+#include "host/print/print_run.h"
 
 namespace rt {
 namespace {
@@ -166,8 +167,8 @@ TEST(Baseline, SlowerMeansBeyondTheShareAndBeyondTheNoise) {
     EXPECT_FALSE(is_slower(before, {0.50, 0.0, 1, 1}, 0.05));
 }
 
-RenderStats run_of(double trace, double build, int threads) {
-    RenderStats run;
+TimedRun run_of(double trace, double build, int threads) {
+    TimedRun run;
     run.phases.renderer.trace = trace;
     run.phases.renderer.build = build;
     run.device.threads = threads;
@@ -189,7 +190,8 @@ BenchRow threads_row(int threads, const std::vector<double>& traces) {
 TEST(Bench, SpeedUpAndAmdahlAreOfMediansWithoutTheWarmUp) {
     BenchResult result;
     result.rows = {threads_row(1, {9, 9, 20}), threads_row(2, {4.5, 4, 7})};
-    const auto figures = figures_of(result, result.rows[1]);
+    result.judge();
+    const auto& figures = result.rows[1].figures;
     ASSERT_TRUE(figures && figures->speed_up && figures->amdahl);
     EXPECT_DOUBLE_EQ(*figures->parallel_fraction, 0.9);
     EXPECT_DOUBLE_EQ(*figures->speed_up, 10 / 5.5);
@@ -202,13 +204,15 @@ TEST(Bench, WrongRowHasNoTimingAndIsNoBase) {
     BenchResult result;
     result.rows = {threads_row(1, {9}), threads_row(2, {4})};
     result.rows[0].verdict = Verdict::wrong;
-    EXPECT_FALSE(figures_of(result, result.rows[0]));
-    EXPECT_FALSE(figures_of(result, result.rows[1])->speed_up);
+    result.judge();
+    EXPECT_FALSE(result.rows[0].figures);
+    EXPECT_FALSE(result.rows[1].figures->speed_up);
 }
 
 TEST(Bench, RegressionsAreFoundByKey) {
     BenchResult result;
     result.rows = {threads_row(1, {9, 9, 9}), threads_row(2, {4, 4, 4})};
+    result.judge();
     Baseline baseline;
     baseline[key_of(result.rows[0].asked)] = {{9, 0, 9, 9}, {10, 0, 10, 10}};
     EXPECT_TRUE(regressions(result, baseline, 0.05).empty());
@@ -239,12 +243,31 @@ TEST(Converge, TargetBelowTheFloorIsNotDecided) {
         point.repeats.back().error.emplace().rmse = 1e-3;
     }
     result.points = {point};
-    const auto times = target_times(result);
+    result.summarize();
+    const auto& times = result.targets;
     ASSERT_EQ(times.size(), 4U);
-    EXPECT_DOUBLE_EQ(times[0].seconds, 0.5);
+    EXPECT_DOUBLE_EQ(times[0].seconds.value(), 0.5);
     EXPECT_FALSE(times[0].below_floor);
     EXPECT_TRUE(times[2].below_floor);
-    EXPECT_TRUE(figures_of(result, point)->below_floor);
+    EXPECT_TRUE(result.points[0].figures->below_floor);
+}
+
+TEST(MachineLoad, CountsTheTimeOfGivenCoresAlone) {
+    const std::string stat = "cpu 9 9 9 9\ncpu0 100 0 50 7 7 30 15 5 0 0\ncpu1 900 0 0 0\nintr 1\n";
+    cpu_set_t first;
+    CPU_ZERO(&first);
+    CPU_SET(0, &first);
+    std::istringstream lines(stat);
+    EXPECT_DOUBLE_EQ(used_seconds(lines, first), 200.0 / static_cast<double>(sysconf(_SC_CLK_TCK)));
+    CPU_SET(5, &first);
+    std::istringstream again(stat);
+    EXPECT_LT(used_seconds(again, first), 0);
+}
+
+TEST(MachineLoad, LeavesOutOurOwn) {
+    EXPECT_DOUBLE_EQ(load_between({1, 10, 3}, {3, 13, 5}), 0.5);
+    EXPECT_DOUBLE_EQ(load_between({1, 10, 3}, {3, 12, 5.1}), 0);
+    EXPECT_LT(load_between({1, -1, 3}, {3, 12, 5}), 0);
 }
 
 }  // namespace

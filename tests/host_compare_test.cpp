@@ -9,9 +9,8 @@
 #include <string>
 
 #include "host/image/image_error.h"
-#include "host/measure/flip.h"
 #include "host/measure/heatmap.h"
-#include "host/print/print_image_error.h"
+#include "host/print/print_stats.h"
 
 namespace {
 
@@ -80,7 +79,7 @@ TEST(ErrorTable, SaysThatNothingCouldBeCompared) {
 }
 
 TEST(ErrorJson, HasEveryFigure) {
-    const auto json = error_json(image_error(row(1, {0.5f, 0}), row(1, {0, 0})));
+    const auto json = json_of(image_error(row(1, {0.5f, 0}), row(1, {0, 0})));
     EXPECT_EQ(json.at("max_at"), nlohmann::ordered_json({0, 0}));
     EXPECT_EQ(json.at("rel_mse"), 1250);
     EXPECT_EQ(json.at("pixels_over_2_255"), 1);
@@ -124,68 +123,6 @@ TEST(HeatMap, ShowsTheLargestChannelAndWhatIsNotFinite) {
 TEST(HeatMap, OfEqualPicturesIsBlack) {
     const Picture gray = row(1, {0.5f, 0.25f});
     EXPECT_EQ(heat_map(gray, gray, 0).pixels, colors({heat_color(0), heat_color(0)}).pixels);
-}
-
-/// A folder with a fake python3, and PATH set to it.
-class Flip : public testing::Test {
-   protected:
-    Flip() : path_(std::getenv("PATH")) {
-        std::string name = (std::filesystem::temp_directory_path() / "mirrorball-XXXXXX").string();
-        folder_ = ::mkdtemp(name.data());
-        ::setenv("PATH", folder_.c_str(), 1);
-    }
-    ~Flip() override {
-        ::setenv("PATH", path_.c_str(), 1);
-        std::filesystem::remove_all(folder_);
-    }
-
-    FlipResult with_python(const std::string& script) const {
-        const auto file = folder_ / "python3";
-        std::ofstream(file) << "#!/bin/sh\n" << script;
-        std::filesystem::permissions(file, std::filesystem::perms::owner_all);
-        return measure_flip(row(1, {0.25f, 2}), row(1, {-1, 0.5f}));
-    }
-
-    std::string path_;
-    std::filesystem::path folder_;
-};
-
-TEST_F(Flip, IsTheLastLine) {
-    const FlipResult result = with_python("echo noise; echo; echo flip 0.125 1.7\n");
-    EXPECT_EQ(result.mean, 0.125);
-    EXPECT_EQ(result.note, "flip-evaluator 1.7, 67 pixels per degree");
-}
-
-TEST_F(Flip, GetsTheReferenceFirstClampedInThreeChannels) {
-    // 0, 0.5 and 0.25, 1, each three times, as little-endian floats.
-    const std::string zero = "00000000", half = "0000003f", quarter = "0000803e", one = "0000803f";
-    std::string expected;
-    for (const auto& value : {zero, half, quarter, one}) expected += value + value + value;
-    const FlipResult result = with_python(
-        "bytes=$(/usr/bin/od -An -v -tx1 | /usr/bin/tr -d ' \\n')\n[ \"$bytes $3 $4\" = \"" +
-        expected + " 2 1\" ] && echo flip 0.5 1.7 || echo $bytes $3 $4\n");
-    EXPECT_EQ(result.mean, 0.5) << result.note;
-}
-
-TEST_F(Flip, SaysWhatIsMissing) {
-    const FlipResult result = with_python("echo missing numpy\n");
-    EXPECT_FALSE(result.mean);
-    EXPECT_NE(result.note.find("module numpy"), std::string::npos) << result.note;
-    EXPECT_NE(result.note.find("pip install flip-evaluator"), std::string::npos) << result.note;
-}
-
-TEST_F(Flip, SaysThatThereIsNoPython) {
-    const FlipResult result = measure_flip(row(1, {0}), row(1, {0}));
-    EXPECT_FALSE(result.mean);
-    EXPECT_NE(result.note.find("no python3 in PATH"), std::string::npos) << result.note;
-}
-
-TEST_F(Flip, TellsOfAFailure) {
-    for (const char* script : {"echo boom >&2; exit 1\n", "kill -9 $$\n", "echo flip x 1\n"}) {
-        const FlipResult result = with_python(script);
-        EXPECT_FALSE(result.mean);
-        EXPECT_NE(result.note.find("failed: "), std::string::npos) << result.note;
-    }
 }
 
 }  // namespace

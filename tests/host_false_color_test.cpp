@@ -35,19 +35,11 @@ TEST(ColorNumbers, GoesFromVioletByTealToYellow) {
     }
 }
 
-TEST(ColorNumbers, NamesTheEndsInALegendBelow) {
-    const std::array<float, 2> values{1, 3};
-    const Picture picture = color_numbers(values, 2, 1, Scale::linear);
-    EXPECT_EQ(picture.width, 200);
-    EXPECT_EQ(picture.height, 21);
-    std::set<Color> colors;
-    bool has_white = false;
-    for (int x = 0; x < picture.width; ++x) {
-        colors.insert(color_at(picture, x, 11));
-        has_white = has_white || color_at(picture, x, 11) == Color{1, 1, 1};
-    }
-    EXPECT_TRUE(has_white);
-    EXPECT_GT(colors.size(), 100u);
+TEST(ColorNumbers, HasTheRangeOfWhatIsNotZero) {
+    const std::array<float, 4> values{0, 3, 1, 0}, none{};
+    EXPECT_EQ(range_of(values).least, 1);
+    EXPECT_EQ(range_of(values).most, 3);
+    EXPECT_EQ(range_of(none).most, 0);
 }
 
 TEST(ColorNumbers, OfOneValueAndOfNone) {
@@ -63,8 +55,6 @@ TEST(ColorNormals, HasXyzAsRedGreenBlue) {
     expect_near(color_at(picture, 0, 0), {0.5f, 0.5f, 1});
     expect_near(color_at(picture, 1, 0), {0, 0.5f, 0.5f});
     EXPECT_EQ(color_at(picture, 2, 0), black);
-    const Color facing = color_at(picture, 10, 11);  // center of the legend's ball
-    EXPECT_GT(facing[2], 0.99f);
 }
 
 TEST(ColorIds, HasAColorForEachOfManyNeighbors) {

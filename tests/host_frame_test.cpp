@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// host/flatten/flat_params.h: what an eye ray is made of.
+// host/flatten/view_frame.h: what an eye ray is made of.
 #include <gtest/gtest.h>
 
 #include "host/flatten/flat_scene.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "host/base/error.h"
-#include "host/journal/journal_keeper.h"
+#include "host/journal/journal_file.h"
 #include "host/journal/merge.h"
 #include "host/picture/render_picture.h"
 #include "host/scene/scene_file.h"
@@ -299,9 +299,9 @@ TEST_F(Journals, ForgetLostTiles) {
     Film<float> film(4, 2);
     for (std::size_t i = 0; i < film.rgb.size(); ++i) film.rgb[i] = static_cast<float>(i);
     JournalHeader header;
-    header.width = 4;
-    header.height = 2;
-    header.region = header.film = {0, 0, 4, 2};
+    header.picture.width = 4;
+    header.picture.height = 2;
+    header.picture.region = header.film = {0, 0, 4, 2};
     JournalFile file(path("f.mbj"));
     file.restart([&] {
         const auto magic = std::as_bytes(std::span(journal_magic));

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/huge_pages.h"
-#include "host/base/memory_limit.h"
+#include "host/base/memory.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
@@ -67,15 +66,6 @@ TEST_F(FreeMemoryTest, IsWhatTheTightestGroupLeaves) {
     group("sys/fs/cgroup/jobs/job 7", std::to_string(500 * mib), 100 * mib, 0);
     group("sys/fs/cgroup/jobs/job 7/step", "max", 100 * mib, 0);
     EXPECT_EQ(free().bytes, 400 * mib);
-}
-
-TEST_F(FreeMemoryTest, KnowsTheFirstVersionOfGroups) {
-    write("proc/self/cgroup", "12:cpu,cpuacct:/x\n4:memory:/docker/abc\n0::/x\n");
-    const std::string top = "sys/fs/cgroup/memory/";  // the container sees its own group on top
-    write(top + "memory.limit_in_bytes", std::to_string(300 * mib));
-    write(top + "memory.usage_in_bytes", std::to_string(100 * mib));
-    write(top + "memory.stat", "inactive_file 1\ntotal_inactive_file " + std::to_string(20 * mib));
-    EXPECT_EQ(free().bytes, 220 * mib);
 }
 
 TEST_F(FreeMemoryTest, IsUnlimitedWhereNothingTells) {

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/scene/model_file.h"
+#include "host/scene/model.h"
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 
@@ -187,6 +187,78 @@ TEST_F(ModelFiles, FileAboveTheSizeCapIsOverTheLimit) {
     fs::resize_file(path, max_model_bytes + 1);  // sparse: takes no room
     const Refusal refusal = refusal_of([&] { load_scene(path); });
     EXPECT_EQ(refusal.exit_code, ExitCode::limit);
+}
+
+TEST_F(ModelFiles, FilesOfAnotherKindAreNamed) {
+    const std::string utf16("v\0 \0001\0", 6);
+    for (const auto& [text, kind] :
+         {std::pair<std::string, std::string>{"<!DOCTYPE html>\n<html>", "is a web page"},
+          {"version https://git-lfs.github.com/spec/v1\n", "is a Git LFS pointer"},
+          {"\x1f\x8b\x08", "is compressed"},
+          {"\xff\xfe" + utf16, "is UTF-16"},
+          {utf16, "is UTF-16"},
+          {"solid ball\nfacet", "is an STL model"},
+          {std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '.'),
+           "is an STL model"},
+          {"glTF\2", "is a glTF model"},
+          {"bplist00", "is a binary property list"},
+          {"{\"asset\": {}}", "is JSON"}}) {
+        for (const std::string name : {"a.obj", "a.ply"}) {
+            const std::string path = write(name, text);
+            const Refusal refusal = refusal_of([&] { load_scene(path); });
+            EXPECT_TRUE(refusal.message.starts_with(path + ": " + kind)) << refusal.message;
+            EXPECT_EQ(refusal.message.find('\n'), std::string::npos);
+        }
+    }
+    const std::string path = write("b.obj", ply_triangle);
+    EXPECT_EQ(refusal_of([&] { load_scene(path); }).message,
+              path + ": is a PLY model; give it a name that ends in .ply");
+    write("page.mtl", "<html>");
+    const Scene gray =
+        load_scene(write("c.obj", "mtllib page.mtl\nusemtl x\n" + square + "f 1 2 3\n"));
+    ASSERT_EQ(gray.notes.size(), 1u);
+    EXPECT_NE(gray.notes[0].find("is a web page"), std::string::npos);
+}
+
+TEST_F(ModelFiles, LibrariesAreFoundInAnotherLetterCase) {
+    write("sub/Lib.MTL", "newmtl x\nKd 1 0 0\n");
+    const Scene scene =
+        load_scene(write("a.obj", "mtllib sub/lib.mtl\nusemtl x\n" + square + "f 1 2 3\n"));
+    EXPECT_TRUE(scene.notes.empty());
+    EXPECT_EQ(scene.materials.at(0).diffuse, glm::dvec3(1, 0, 0));
+}
+
+TEST_F(ModelFiles, AMissingModelIsLookedForWhereItIsSaid) {
+    const std::string path = write("s/scene.json", scene_with(R"({"file": "no.obj"})"));
+    const Refusal refusal = refusal_of([&] { load_scene(path); });
+    EXPECT_NE(refusal.message.find("'no.obj' cannot be found or opened in '" +
+                                   (folder_ / "s").string() + "'"),
+              std::string::npos)
+        << refusal.message;
+}
+
+TEST_F(ModelFiles, NotesOfASceneAreFew) {
+    std::string meshes;
+    for (int i = 0; i < 30; ++i) {
+        const std::string name = std::to_string(i) + ".obj";
+        write(name, "foo\n" + square + "f 1 2 3\n");
+        meshes += (i > 0 ? ", " : "") + (R"({"material": "red", "file": ")" + name + "\"}");
+    }
+    const Scene scene = load_scene(write("scene.json", scene_with(meshes)));
+    ASSERT_EQ(scene.notes.size(), 21u);
+    EXPECT_EQ(scene.notes.back(), "and 10 more notes");
+}
+
+TEST_F(ModelFiles, FarVerticesOnlyMatterToTheirFaces) {
+    write("a.obj", square + "v 9e29 0 0\nf 1 2 3\n");
+    write("b.obj", square + "v 9e29 0 0\nf 1 2 5\n");
+    const auto scene = [&](const std::string& name) {
+        return write("scene.json", scene_with(R"({"material": "red", "transform": {"scale": 2},
+                                                  "file": ")" +
+                                              name + "\"}"));
+    };
+    EXPECT_EQ(load_scene(scene("a.obj")).meshes[0].positions[2], glm::dvec3(2, 2, 0));
+    EXPECT_EQ(refusal_of([&] { load_scene(scene("b.obj")); }).exit_code, ExitCode::input);
 }
 
 TEST_F(ModelFiles, DegenerateTrianglesAreANoteNotAMistake) {

@@ -56,6 +56,17 @@ TEST_F(ReadPicture, TheFirstBytesTellTheFormatAndANameMayNotDenyIt) {
               path("c.png") + ": is not a valid PNG file; save it again");
 }
 
+TEST_F(ReadPicture, AHeaderHasSizeAndMetadata) {
+    const PictureMetadata metadata{{"mirrorball:Note", "text"}};
+    for (const char* name : {"a.png", "a.exr", "a.pfm", "a.tif", "a.jpg"}) {
+        write_picture(path(name), ramp_picture(5, 3), Encoding::display, metadata);
+        const PictureFile head = read_picture_header(path(name));
+        EXPECT_TRUE(head.picture.pixels.empty()) << name;
+        EXPECT_TRUE(have_same_shape(head.picture, read_picture(path(name)))) << name;
+        EXPECT_EQ(head.metadata, read_picture_file(path(name)).metadata) << name;
+    }
+}
+
 TEST_F(ReadPicture, PnmIsReadToo) {
     put(path("a.ppm"), std::string("P6\n2 1\n255\n\x00\x01\x02\xff\x80\x7f", 17));
     EXPECT_EQ(read_picture(path("a.ppm")).pixels,

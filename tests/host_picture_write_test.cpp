@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "host/image/module_loader.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
+#include "host/image/picture_module.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/scene/ply_file.h"
+#include "host/scene/model.h"
 #include "host/scene/scene_file.h"
 #include "tests/refusals.h"
 
@@ -21,10 +21,14 @@ using Positions = std::vector<glm::dvec3>;
 using Faces = std::vector<Scene::Mesh::Face>;
 
 TEST(ParsePly, BadFilesAreRefusedAsExpected) {
-    const auto files = malformed_files(".ply");
-    EXPECT_GE(files.size(), 53u);
-    for (const auto& path : files) {
+    for (const auto& path : malformed_files(".ply")) {
         expect_announced(path, refusal_of([&] { load_scene(path.string()); }));
+    }
+}
+
+TEST(ParsePly, BlemishesAreNoted) {
+    for (const auto& path : blemished_files(".ply")) {
+        expect_announced(path, load_scene(path.string()).notes);
     }
 }
 
@@ -141,7 +145,9 @@ TEST(ParsePly, BytesAfterTheEndAreNoted) {
     EXPECT_TRUE(parse_ply(whole + "\n", "t.ply").notes.empty());
     const Model model = parse_ply(whole + "more of it", "t.ply");
     ASSERT_EQ(model.notes.size(), 1u);
-    EXPECT_EQ(model.notes[0], "t.ply: ignored 10 bytes after the last element");
+    EXPECT_EQ(model.notes[0],
+              "t.ply: element 'face' 1: more data follows than the header declares; correct its "
+              "counts (10 bytes ignored)");
 }
 
 /// Two strips in one list, as in Stanford's models, one of which turns a corner.
@@ -237,22 +243,98 @@ TEST(ParsePly, RowsReadSideBySideAreTheSame) {
     }
 }
 
-TEST(ParsePly, MistakesInRowsReadSideBySideAreToldByTheirRows) {
+TEST(ParsePly, BlemishesInRowsReadSideBySideAreToldByTheirRows) {
     for (const std::size_t chunk : {1, 1 << 20}) {
         const ReadPace pace{3, chunk};
         const std::string text = ply_grid("binary_little_endian", 12, false, {0, 1, 144});
-        const Refusal refusal = refusal_of([&] { parse_ply(text, "t.ply", pace); });
-        EXPECT_EQ(refusal.message,
-                  "t.ply: element 'face' 242: vertex 144 does not exist, there are 144, "
-                  "counted from 0; correct the number");
+        const Model model = parse_ply(text, "t.ply", pace);
+        EXPECT_EQ(model.mesh.faces.size(), 242u);
+        EXPECT_EQ(model.notes,
+                  std::vector<std::string>{"t.ply: element 'face' 242: vertex 144 does not exist, "
+                                           "there are 144, counted from 0; correct the number (1 "
+                                           "face left out)"});
         std::string infinite = ply_grid("binary_little_endian", 12, false);
         const float bad = std::numeric_limits<float>::infinity();
         const std::size_t row = infinite.find("end_header\n") + 11 + 100 * 27;
         std::memcpy(infinite.data() + row + 1, &bad, sizeof bad);
-        const Refusal vertex = refusal_of([&] { parse_ply(infinite, "t.ply", pace); });
-        EXPECT_EQ(vertex.message,
-                  "t.ply: element 'vertex' 100: 'x' is inf; write a number from -1e30 to 1e30");
+        EXPECT_EQ(
+            parse_ply(infinite, "t.ply", pace).notes,
+            std::vector<std::string>{"t.ply: element 'vertex' 100: 'x' is inf; write a number "
+                                     "from -1e30 to 1e30 (6 faces left out)"});
     }
+}
+
+const std::string corners_header =
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+const std::string corners = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+const std::string list = "property list int int vertex_indices\n";
+
+Model text_ply(const std::string& header, const std::string& rows) {
+    return parse_ply("ply\nformat ascii 1.0\n" + header + "end_header\n" + rows, "t.ply");
+}
+
+TEST(ParsePly, FacesMayComeBeforeTheVertices) {
+    const Faces expected = {{0, 1, 2}, {0, 1, 3}, {1, 0, 2}};
+    const Model text =
+        text_ply("element face 2\n" + list + "element tristrips 1\n" + list + corners_header,
+                 "3 0 1 2\n3 0 1 3\n3 1 0 2\n" + corners);
+    EXPECT_EQ(text.mesh.faces, expected);
+    EXPECT_TRUE(text.notes.empty());
+    PlyData data("binary_big_endian");
+    for (const int i : {3, 0, 1, 2, 3, 0, 1, 3, 3, 1, 0, 2}) data.add(i);
+    for (const float x : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) data.add(x);
+    EXPECT_EQ(parse_ply(data.file("element face 3\n" + list + corners_header), "t.ply").mesh.faces,
+              expected);
+}
+
+TEST(ParsePly, RowsThatAreNoFacesAreLeftOut) {
+    for (const std::string row : {"0", "2 0 1", "3 0 1 4", "3 0 1 -1", "-3 0 1 2", "3 0 1", "x",
+                                  "3 0 1 1.5", "10001", "3 0 1 x"}) {
+        const Model model = text_ply(corners_header + "element face 3\n" + list,
+                                     corners + "3 0 1 2\n" + row + "\n3 0 1 3.0\n");
+        EXPECT_EQ(model.mesh.faces, (Faces{{0, 1, 2}, {0, 1, 3}})) << row;
+        ASSERT_EQ(model.notes.size(), 1u) << row;
+        EXPECT_TRUE(model.notes[0].starts_with("t.ply:15:") &&
+                    model.notes[0].ends_with("(1 face left out)"))
+            << model.notes[0];
+    }
+}
+
+TEST(ParsePly, ATextThatEndsEarlyLosesItsLastFaces) {
+    const Model model =
+        text_ply(corners_header + "element face 4\n" + list, corners + "3 0 1 2\n3 0 1 3\n3 1 2\n");
+    EXPECT_EQ(model.mesh.faces, (Faces{{0, 1, 2}, {0, 1, 3}}));
+    ASSERT_EQ(model.notes.size(), 1u);
+    EXPECT_TRUE(model.notes[0].ends_with("(2 faces left out)")) << model.notes[0];
+}
+
+TEST(ParsePly, VerticesThatAreNoNumbersOnlyMatterToTheirFaces) {
+    for (const std::string vertex : {"nan 0 0", "0 1e31 0", "0 0", "a 0 0"}) {
+        const std::string header =
+            "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n";
+        const auto with = [&](const std::string& faces, const std::string& count) {
+            return text_ply(header + "element face " + count + "\n" + list,
+                            corners + vertex + "\n" + faces);
+        };
+        EXPECT_TRUE(with("3 0 1 2\n", "1").notes.empty()) << vertex;
+        const Model model = with("3 0 1 2\n3 0 1 4\n", "2");
+        EXPECT_EQ(model.mesh.faces, (Faces{{0, 1, 2}}));
+        ASSERT_EQ(model.notes.size(), 1u);
+        EXPECT_TRUE(model.notes[0].starts_with("t.ply:14:") &&
+                    model.notes[0].ends_with("(1 face left out)"))
+            << model.notes[0];
+    }
+}
+
+TEST(ParsePly, HeadersMayHaveLinesAndPropertiesOfTheirOwn) {
+    const Model model = text_ply("made by hand\n" + corners_header +
+                                     "property uchar pad\nproperty uchar pad\nproperty real\n"
+                                     "element face 1\n" +
+                                     list,
+                                 "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n0 0 1 1 2 3\n3 0 1 2\n");
+    EXPECT_EQ(model.mesh.faces, (Faces{{0, 1, 2}}));
+    EXPECT_EQ(model.notes, std::vector<std::string>{
+                               "t.ply:3:1: unknown word 'made' in the header (1 line ignored)"});
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 #include "host/flatten/flat_scene.h"
 #include "host/image/image_error.h"
 #include "host/opencl/device_spec.h"
-#include "host/opencl/gpu_nodes.h"
 #include "host/render/adaptive.h"
 #include "host/render/film.h"
 #include "host/render/launch_pacer.h"
@@ -239,7 +238,7 @@ TEST(ChooseDevice, AutoTakesAGpuElseThreads) {
     EXPECT_TRUE(choose_device("auto", devices, {}).use_threads);
 }
 
-TEST(ChooseWithoutOpencl, KnowsAGpuByItsDeviceFile) {
+TEST(NeedsOpencl, KnowsAGpuByItsDeviceFile) {
     const std::filesystem::path dev =
         std::filesystem::temp_directory_path() / ("dev-" + std::to_string(getpid()));
     std::filesystem::create_directories(dev / "dri");
@@ -250,19 +249,15 @@ TEST(ChooseWithoutOpencl, KnowsAGpuByItsDeviceFile) {
     std::ofstream(dev / "dri/renderD128") << "";
     EXPECT_TRUE(gpu_may_be_here(dev));
     std::filesystem::remove_all(dev);
-    EXPECT_TRUE(choose_without_opencl("threads:3")->use_threads);
-    EXPECT_FALSE(choose_without_opencl("pocl").has_value());
+    EXPECT_FALSE(needs_opencl("threads:3"));
+    EXPECT_TRUE(needs_opencl("threads,pocl"));
 }
 
-TEST(NamesThreads, ReadsTheCount) {
-    DeviceChoice choice;
-    EXPECT_FALSE(names_threads("pocl", choice));
-    EXPECT_TRUE(names_threads("threads", choice));
-    EXPECT_EQ(choice.threads, 0);
-    EXPECT_TRUE(names_threads("threads:7", choice));
-    EXPECT_EQ(choice.threads, 7);
+TEST(ParseDeviceSpecs, ReadsTheCountOfThreads) {
+    EXPECT_EQ(parse_device_specs("threads").front().threads, 0);
+    EXPECT_EQ(parse_device_specs("0,threads:7").back().threads, 7);
     for (const char* bad : {"threads:", "threads:0", "threads:-1", "threads:x", "threads:99999"}) {
-        EXPECT_THROW(names_threads(bad, choice), Error) << bad;
+        EXPECT_THROW(parse_device_specs(bad), Error) << bad;
     }
 }
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "host/scene/affine.h"
-#include "host/scene/mesh_finish.h"
+#include "host/scene/geometry.h"
+#include "host/scene/mesh.h"
 
 namespace rt {
 namespace {
@@ -91,7 +91,7 @@ TEST(FinishMesh, TrianglesWithoutAreaGo) {
     mesh.face_materials = {4, 5, 6};
     const MeshLosses losses = finish_mesh(mesh, {});
     EXPECT_EQ(losses.zero_areas, 2u);
-    EXPECT_EQ(losses.zero_normals, 1u);
+    EXPECT_EQ(losses.flat_faces, 1u);
     EXPECT_EQ(mesh.faces, (Faces{{0, 1, 2}}));
     EXPECT_EQ(mesh.face_normals, (Faces{{none, none, none}}));
     EXPECT_EQ(mesh.face_materials, std::vector<int>{5});

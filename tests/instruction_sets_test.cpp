@@ -22,9 +22,9 @@ class EveryInstructionSet : public testing::TestWithParam<std::string> {
             for (const int lanes : {1, 0}) {
                 for (const bool all_features : {false, true}) {
                     ThreadsOptions options;
-                    options.isa = GetParam();
-                    options.lanes = lanes;
-                    options.all_features = all_features;
+                    options.kernels.isa = GetParam();
+                    options.kernels.lanes = lanes;
+                    if (all_features) options.kernels.features = Features{};
                     EXPECT_EQ(hash_of(render_on_threads<T>(scene, options)), hash)
                         << file << ", lanes " << lanes << ", all features " << all_features;
                 }

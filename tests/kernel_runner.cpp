@@ -98,8 +98,8 @@ class ProbeDevice {
         auto& program = programs_[(double_precision ? 1 : 0) + (fast_math ? 2 : 0)];
         if (!program) {
             ProgramOptions options;
-            options.double_precision = double_precision;
-            options.fast_math = fast_math;
+            options.precision = double_precision ? Precision::float64 : Precision::float32;
+            options.math = fast_math ? Math::fast : Math::strict;
             options.warnings_are_errors = true;
             program = build_program(context_, device_, probe_kernels, options);
         }

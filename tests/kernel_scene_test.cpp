@@ -307,8 +307,9 @@ ProbeRay<T> ray_to_light(const glm::dvec3& from, const glm::dvec3& light) {
 /// How many of the rays towards light 0 are blocked by a primitive on which it lies.
 template <typename T>
 std::ptrdiff_t blocked(FlatScene<T>& scene, const std::vector<ProbeRay<T>>& rays) {
-    for (auto& sphere : scene.spheres) sphere.touches = f32::RT_TOUCHES_FIRST_LIGHT;
-    for (auto& cone : scene.cones) cone.touches = f32::RT_TOUCHES_FIRST_LIGHT;
+    const auto bits = Index<T>{f32::RT_ON} << f32::RT_TOUCHES_FIRST_LIGHT;
+    for (auto& sphere : scene.spheres) sphere.touches = bits;
+    for (auto& cone : scene.cones) cone.touches = bits;
     count_primitives(scene);
     const auto found = run<T, Index<T>>("any_hit", rays.size(), scene, rays);
     return std::count(found.begin(), found.end(), Index<T>(1));

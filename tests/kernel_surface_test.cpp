@@ -2,6 +2,8 @@
 //
 // kernels/surface.cl and hit_surface.cl: points, normals and the offset of secondary rays against
 // 113-bit geometry. Tolerances are in roundoffs.
+#include <algorithm>
+
 #include "tests/exact.h"
 #include "tests/kernel_runner.h"
 #include "tests/test_scenes.h"
@@ -338,8 +340,35 @@ TYPED_TEST(IsOnEdge, IsWithin64RoundoffsOfATrianglesEdge) {
     EXPECT_EQ(device, (std::vector<Index<T>>{0, 0, 1, 1, 1, 0}));
 }
 
+/// How far from a hit point towards the triangle's incenter the point must move to clear the edges.
+template <typename T>
+Quad3 way_clear_of_edges(const Triangle<T>& triangle, const ProbeRay<T>& ray, const Hit<T>& hit,
+                         const Quad3& point) {
+    const Quad3 p0 = exact(triangle.p0), p1 = exact(triangle.p1), p2 = exact(triangle.p2);
+    const Quad a = length(p2 - p1), b = length(p0 - p2), c = length(p1 - p0);
+    const Quad radius = length(cross(p1 - p0, p2 - p0)) / (a + b + c);
+    Quad size = length(exact(ray.origin)) + hit.t, farthest = 0;
+    for (const Quad3& p : {p0, p1, p2}) {
+        for (const Quad x : {p.x, p.y, p.z}) farthest = std::max(farthest, x < 0 ? -x : x);
+    }
+    const Quad cosine = dot(exact(triangle.normal), exact(ray.dir));
+    const Quad sine = cosine < 0 ? -cosine : cosine, least = Quad(1) / 128;
+    const Quad roundoff = Flat<T>::roundoff, weights[] = {1 - Quad(hit.u) - hit.v, hit.u, hit.v};
+    const Quad nearest = std::min({weights[0], weights[1], weights[2]});
+    if (nearest * std::max(sine, least) >= 4096 * roundoff) return {};
+    const Quad3 sides[] = {p2 - p1, p0 - p2, p1 - p0};
+    Quad share = 0;
+    for (int i = 0; i < 3; ++i) {
+        const Quad across = length(cross(sides[i], exact(ray.dir))) / length(sides[i]);
+        const Quad away =
+            32 * roundoff * std::min(size, farthest) / (radius * std::max(sine / across, least));
+        share = std::max(share, std::min(away, Quad(1) / 64) - 2 * weights[i]);
+    }
+    return share * (1 / (a + b + c) * (a * p0 + b * p1 + c * p2) - point);
+}
+
 KERNEL_SUITE(SurfaceAt);
-TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceBackedOffATieOrAnEdge) {
+TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceMovedOffTiesAndEdges) {
     Random random(7);
     const auto scene = crowd<TypeParam>(random);
     const auto rays = rays_about<TypeParam>(random, 20000);
@@ -358,7 +387,13 @@ TYPED_TEST(SurfaceAt, IsThePrimitivesSurfaceBackedOffATieOrAnEdge) {
         const bool touches = hits[i].tied != 0 || on_edge[i] != 0;
         Quad back = touches ? Quad(-8) * own[i].offset : Quad(0);
         if (hits[i].tied != 0) back -= 32 * Quad(Flat<TypeParam>::roundoff) * hits[i].t;
-        const Quad3 expected = exact(own[i].point) + back * exact(rays[i].dir);
+        Quad3 expected = exact(own[i].point) + back * exact(rays[i].dir);
+        if (hits[i].prim >= scene.params.sphere_count) {
+            const auto& triangle =
+                scene.triangles[std::size_t(hits[i].prim - scene.params.sphere_count)];
+            expected = expected + way_clear_of_edges<TypeParam>(triangle, rays[i], hits[i],
+                                                                exact(own[i].point));
+        }
         ASSERT_LE(vector_error<TypeParam>(moved[i].point, expected, 8), 1) << i;
     }
 }

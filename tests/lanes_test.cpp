@@ -21,7 +21,7 @@ std::uint64_t hash_of_lone_rays(const Scene& scene, const std::string& name) {
     const auto [found, is_new] = known.try_emplace(name);
     if (is_new) {
         ThreadsOptions lone_rays;
-        lone_rays.lanes = 1;
+        lone_rays.kernels.lanes = 1;
         found->second = hash_of(render_on_threads<T>(scene, lone_rays));
     }
     return found->second;
@@ -38,12 +38,12 @@ class EveryLaneWidth : public testing::TestWithParam<int> {
         scene.aa = parse_aa_mode(aa).value();
         const std::uint64_t hash = hash_of_lone_rays<T>(scene, std::string(stem) + " " + aa);
         ThreadsOptions packets;
-        packets.lanes = GetParam();
-        packets.all_features = all_features;
+        packets.kernels.lanes = GetParam();
+        if (all_features) packets.kernels.features = Features{};
         EXPECT_EQ(hash_of(render_on_threads<T>(scene, packets)), hash) << stem << " " << aa;
         for (const Launch launch : launches) {
             ClOptions options = cl_options(launch, all_features);
-            options.lanes = GetParam();
+            options.kernels.lanes = GetParam();
             EXPECT_EQ(hash_of(render_on_device<T>(scene, options)), hash) << stem << " " << aa;
         }
     }

@@ -50,7 +50,7 @@ endif()
 function(add_test_program NAME LABEL)
     add_executable(${NAME} ${ARGN})
     set_target_properties(${NAME} PROPERTIES UNITY_BUILD OFF)  # test files have helpers of one name
-    target_link_libraries(${NAME} PRIVATE mirrorball_report GTest::gtest_main)
+    target_link_libraries(${NAME} PRIVATE mirrorball_print GTest::gtest_main)
     target_compile_options(${NAME} PRIVATE -O0)
     if(NOT CMAKE_CXX_COMPILER_LAUNCHER)  # ccache and precompiled headers do not go together
         if(NAME STREQUAL PRECOMPILED_BY)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/verbs/progress.h"
+#include "host/cli/progress.h"
 
 #include <gtest/gtest.h>
 

@@ -26,13 +26,17 @@ Refusal refusal_of(const Action& action) {
     return {};
 }
 
-/// The files of tests/scenes_bad whose names begin with `start` and end in `extension` (".nff").
-std::vector<std::filesystem::path> malformed_files(const std::string& extension,
+/// The files of tests/scenes_bad, which are refused, that end in `extension` (".nff").
+std::vector<std::filesystem::path> malformed_files(const std::string& extension);
+
+/// The files of tests/scenes_blemished, which give notes, whose names begin with `start`.
+std::vector<std::filesystem::path> blemished_files(const std::string& extension,
                                                    const std::string& start = "");
 
-/// Expects a refusal of input, with exactly the messages that the file itself announces: its lines
-/// "// expect TEXT", "# expect TEXT" or "comment expect TEXT" (in the header of a PLY), or the
-/// lines of the .expect file beside it. TEXT follows "FILE:" in a message.
+/// Expects exactly the messages or notes that the file itself announces: its lines "// expect
+/// TEXT", "# expect TEXT" or "comment expect TEXT" (in the header of a PLY), or the lines of the
+/// .expect file next to it. TEXT follows "FILE:" in a message.
+void expect_announced(const std::filesystem::path& file, const std::vector<std::string>& lines);
 void expect_announced(const std::filesystem::path& file, const Refusal& refusal);
 
 }  // namespace rt

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "host/flatten/flat_scene.h"
+#include "host/opencl/cl_program.h"
 #include "host/opencl/device_spec.h"
-#include "host/opencl/open_devices.h"
 #include "host/render/picture_loop.h"
 #include "host/scene/json_file.h"
 
@@ -99,8 +99,8 @@ Film<T> render_on_device(const Scene& scene, const ClOptions& options, Rect tile
 
 ClOptions cl_options(Launch launch, bool all_features) {
     ClOptions options;
-    options.launch = launch;
-    options.all_features = all_features;
+    options.kernels.launch = launch;
+    if (all_features) options.kernels.features = Features{};
     return options;
 }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page of `mirrorball report`: well-formed, alone, small, described, and without a word on the
-console of a real Chromium.
+"""The page of `mirrorball report`: well-formed, alone, small, described, its numbers those of its data, and
+without a word on the console of a real Chromium.
 
 usage: report_test.py BUILD_DIR REPO_ROOT
 """
@@ -25,12 +25,15 @@ ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 EVIL = '</title><script>alert("x")</script>'
 VOID = {"meta", "link", "img", "br", "hr", "input"}
 
-# Looks at the page as a browser lays it out in a frame of some width, and says what is wrong.
-LAYOUT = """<!doctype html><body><iframe style="width:%dpx;height:4000px;border:0" srcdoc="%s"></iframe>
-<pre id="found"></pre><script>
+# Looks at the page as a browser lays it out in frames of two widths, and says what is wrong.
+LAYOUT = """<!doctype html><body><iframe style="width:1280px;height:4000px;border:0" srcdoc="%s"></iframe>
+<iframe style="width:400px;height:4000px;border:0" srcdoc="%s"></iframe><pre id="found"></pre><script>
 onload = () => {
-  const page = document.querySelector("iframe").contentDocument, found = [];
-  const root = page.documentElement;
+ const found = [];
+ let texts = 0;
+ for (const frame of document.querySelectorAll("iframe")) {
+  const page = frame.contentDocument, root = page.documentElement;
+  texts += page.querySelectorAll("text").length;
   if (root.scrollWidth > root.clientWidth) found.push("the page is too wide: " + root.scrollWidth);
   const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
   for (const svg of page.querySelectorAll(".plot > svg")) {
@@ -42,7 +45,7 @@ onload = () => {
         found.push(svg.id + ": cut off: " + text.textContent);
       if (box.height < 9) found.push(svg.id + ": too small: " + text.textContent);
     }
-    const curves = names.filter(text => text.classList.contains("name-of-curve"));
+    const curves = names.filter(text => text.getAttribute("style").includes("font-weight"));
     for (const [i, a] of curves.entries())
       for (const b of curves.slice(i + 1))
         if (!apart(a.getBoundingClientRect(), b.getBoundingClientRect()))
@@ -51,8 +54,9 @@ onload = () => {
   const tables = "main > section > .scroll, .facts .scroll" + (root.clientWidth > 1000 ? ", .dense" : "");
   for (const part of page.querySelectorAll(tables))
     if (part.scrollWidth > part.clientWidth) found.push("a table is cut off: " + part.ariaLabel);
-  document.getElementById("found").textContent = "looked at " + page.querySelectorAll("text").length +
-    " texts\\n" + found.join("\\n");
+  if (page.querySelectorAll("figure").length < 10) found.push("elements are lost");
+ }
+ document.getElementById("found").textContent = "looked at " + texts + " texts\\n" + found.join("\\n");
 };
 </script></body>"""
 
@@ -65,7 +69,7 @@ class Page(html.parser.HTMLParser):
         super().__init__()
         self.open, self.mistakes, self.tags, self.blocks = [], [], [], {}
         self.tables, self.glance = [], []
-        self.colors, self.colored = [], []  # of the open elements; [(color, data-source)]
+        self.colored = []  # (color, data-source)
         self.block = self.cell = None
         self.feed(text)
         self.close()
@@ -73,13 +77,11 @@ class Page(html.parser.HTMLParser):
     def handle_starttag(self, tag, attrs):
         attrs = dict(attrs)
         self.tags.append((tag, attrs))
-        color = re.search(r"(?:^| )s(\d)(?: |$)", attrs.get("class", ""))
-        color = color[1] if color else next(iter(self.colors[-1:]), None)
+        color = re.search(r"var\(--s(\d)\)", attrs.get("style", ""))
         if tag not in VOID:
             self.open.append(tag)
-            self.colors.append(color)
-        if color is not None and "data-source" in attrs:
-            self.colored.append((color, attrs["data-source"]))
+        if color and "data-source" in attrs:
+            self.colored.append((color[1], attrs["data-source"]))
         if tag == "table":
             self.tables.append([])
         if tag == "tr":
@@ -99,7 +101,6 @@ class Page(html.parser.HTMLParser):
     def handle_endtag(self, tag):
         if not self.open or self.open.pop() != tag:
             self.mistakes.append(f"</{tag}> at {self.getpos()}")
-        self.colors = self.colors[:len(self.open)]
         self.block = None
         if tag in {"td", "th", "dd"}:
             self.cell = None
@@ -156,7 +157,7 @@ def setUpModule():
     (FOLDER / "scene.json").write_text(scene, encoding="utf-8")
     environment = dict(os.environ, XDG_CACHE_HOME=str(FOLDER / "cache"))
     subprocess.run([str(BUILD / "mirrorball"), "report", "scene.json", "-o", "report.html",
-                    "--size", "48", "--quick", "--stress", "-q"],
+                    "--size", "48", "--quick", "-q", "--plots", "plots"],
                    cwd=FOLDER, env=environment, check=True, timeout=HANG_LIMIT)
     TEXT = (FOLDER / "report.html").read_text(encoding="utf-8")
     PAGE = Page(TEXT)
@@ -202,19 +203,22 @@ class Report(unittest.TestCase):
     def test_the_verdict_is_in_words_and_those_of_the_data(self):
         verdict = html.unescape(re.search(r"<h1>(.*?)</h1>", TEXT, re.S)[1])
         found = re.fullmatch(r"(.*) traces? (.*) in ([\d.]+\xa0\S+?)"
-                             r"(?:: ([\d.]+) times as fast as one thread)?", verdict)
+                             r"(?:(?:: ([\d.]+) times)?,? as fast as (.*))", verdict)
         self.assertTrue(found, verdict)
         self.assertEqual(found[2], EVIL)
         rows = [row for row in self.source("bench-0#/rows")
                 if row["width"] == 48 and row["aa"] == "grid:2"]
-        fastest = min(rows, key=trace)
-        self.assert_shown(found[3], trace(fastest))
-        self.assertEqual(found[1], "PoCL" if not fastest["threads"] else
-                         f"{fastest['threads']} thread" + "s" * (fastest["threads"] > 1) +
-                         ", sample buffers" * (fastest["schedule"] == "buffers") +
-                         ", one ray at a time" * (fastest["schedule"] == "scalar"))
+        most = max(row["threads"] for row in rows)
+        device, threads = (min((row for row in rows if row["threads"] == count), key=trace) for count in (0, most))
+        fast, slow = sorted((device, threads), key=trace)
+        self.assert_shown(found[3], trace(fast))
+        for name, row in ((found[1], fast), (found[5], slow)):
+            self.assertEqual(name.partition(" (")[0], "PoCL" if not row["threads"] else
+                             f"{row['threads']} thread" + "s" * (row["threads"] > 1) +
+                             ", sample buffers" * (row["schedule"] == "buffers") +
+                             ", one ray at a time" * (row["schedule"] == "scalar"))
         if found[4]:
-            self.assert_shown(found[4], fastest["figures"]["trace_speed_up"])
+            self.assert_shown(found[4], trace(slow) / trace(fast))
         title = html.unescape(re.search(r"<title>(.*?)</title>", TEXT, re.S)[1])
         self.assertTrue(title.startswith(verdict))
         self.assertIn(self.source("environment#/cpu"), title)
@@ -223,8 +227,6 @@ class Report(unittest.TestCase):
     def test_a_color_is_a_device(self):
         devices = {}
         for color, source in PAGE.colored:
-            if source.startswith("stress#"):  # one device stands for all there
-                continue
             found = re.match(r"((?:bench|converge)-0#/(?:rows|points)/\d+)", source)
             devices.setdefault(color, set()).add(self.source(found[1])["device_name"])
         self.assertEqual([len(names) for names in devices.values()], [1] * len(devices), devices)
@@ -327,11 +329,13 @@ class Report(unittest.TestCase):
         self.assert_shown(sampling, self.source(picture)["rmse"], digits=2)
 
     def test_a_setting_has_one_total(self):
-        bars = re.findall(r'class="bar [^"]*" data-source="([^"]*/repeats)">\n<p>[^<]* <strong>(.*?)</strong>',
-                          TEXT)
-        self.assertGreaterEqual(len(bars), 2)
-        for source, shown in bars:
-            self.assert_shown(html.unescape(shown), total(self.source(source.removesuffix("/repeats"))))
+        """The bars name the totals of the largest picture's rows, in their order."""
+        bars = re.search(r'<desc id="phases-0-desc">.*?</svg>', TEXT, re.S)[0]
+        names = [html.unescape(name) for name in re.findall(r'font-weight[^>]*>([^<]*)</text>', bars)]
+        rows = [row for row in self.source("bench-0#/rows") if row["width"] == 48 and row["aa"] == "grid:2"]
+        self.assertEqual(len(names), len(rows))
+        for name, row in zip(names, rows):
+            self.assert_shown(name.rpartition("  ")[2], total(row))
 
     def test_a_picture_has_one_time(self):
         """The captions give the medians of the tables, and nothing gives another."""
@@ -362,72 +366,99 @@ class Report(unittest.TestCase):
                  "--v=0", *arguments, (FOLDER / page).as_uri()],
                 capture_output=True, timeout=HANG_LIMIT, check=False)
 
-    def test_chromium_renders_it_in_silence(self):
-        picture = FOLDER / "page.png"
-        result = self.chromium("--window-size=1000,6000", f"--screenshot={picture}")
-        log = result.stderr.decode(errors="replace")
-        self.assertEqual(result.returncode, 0, log)
-        self.assertNotIn("CONSOLE", log)
-        self.assertGreater(picture.stat().st_size, 50_000)
-
-    def test_nothing_is_cut_off(self):
-        for width in [1280, 400]:
-            with self.subTest(width=width):
-                (FOLDER / "layout.html").write_text(LAYOUT % (width, html.escape(TEXT)),
-                                                    encoding="utf-8")
-                result = self.chromium("--dump-dom", "--window-size=1400,4000", page="layout.html")
-                found = re.search(r'<pre id="found">(.*?)</pre>', result.stdout.decode(), re.S)[1]
-                self.assertRegex(found, r"^looked at [1-9]\d+ texts\n$")
+    def test_chromium_cuts_nothing_off_and_says_nothing(self):
+        (FOLDER / "layout.html").write_text(LAYOUT % ((html.escape(TEXT),) * 2), encoding="utf-8")
+        result = self.chromium("--dump-dom", "--window-size=1800,4000", page="layout.html")
+        self.assertNotIn("CONSOLE", result.stderr.decode(errors="replace"))
+        found = re.search(r'<pre id="found">(.*?)</pre>', result.stdout.decode(), re.S)[1]
+        self.assertRegex(found, r"^looked at [1-9]\d+ texts\n$")
 
     def test_it_is_short_on_paper(self):
         paper = FOLDER / "page.pdf"
         self.chromium(f"--print-to-pdf={paper}")
         self.assertLessEqual(len(re.findall(rb"/Type\s*/Page\b", paper.read_bytes())), 11)
 
-    def test_chromium_keeps_its_elements(self):
-        result = self.chromium("--dump-dom")
-        text = result.stdout.decode(errors="replace")
-        self.assertEqual(text.count("<figure"), TEXT.count("<figure"))
-        self.assertEqual(text.count("<svg"), TEXT.count("<svg"))
+    def test_the_commands_measure_the_same_rows(self):
+        commands = html.unescape(re.search(r"<pre tabindex=\"0\"><code>(.*?)</code>", TEXT, re.S)[1])
+        bench = next(line for line in commands.splitlines() if line.startswith("mirrorball bench"))
+        option = dict(re.findall(r"--(sizes|aa|precision) (\S+)", bench))
+        rows = self.source("bench-0#/rows")
+        self.assertEqual(set(option["sizes"].split(",")), {f"{row['width']}x{row['height']}" for row in rows})
+        self.assertEqual(set(option["aa"].split(",")), {row["aa"] for row in rows})
+        self.assertEqual({option["precision"]}, {row["precision"] for row in rows})
+        self.assertNotIn(str(pathlib.Path(tempfile.gettempdir()) / "mirrorball-report"), commands)
+
+    def test_slopes_have_their_noise_and_a_mark(self):
+        table = next(table for table in PAGE.tables if table[0][0][0] == "device" and table[0][1][0] == "grid")
+        converge = json.loads(PAGE.blocks["converge-0"][1])
+        for curve, shown in zip([c for c in converge["curves"] if c["family"] == "grid"], table[1:]):
+            self.assertTrue(shown[1][0].startswith(f"{curve['slope']:.2f} ± "), shown)
+            seconds = [converge["points"][i]["figures"]["seconds"] for i in curve["points"]]
+            noisy = any(one["mad"] > .2 * one["median"] for one in seconds)
+            self.assertEqual("(noisy)" in shown[1][0], noisy, seconds)
+
+    def test_plots_are_also_files(self):
+        names = set(re.findall(r'<svg [^>]*aria-labelledby="(\S+)-title', TEXT))
+        self.assertGreaterEqual(names, {"phases-0", "size-0", "size-ratio-0", "error-time-0"})
+        starts = {"svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG"}
+        found = {file.name for file in (FOLDER / "plots").iterdir()}
+        self.assertEqual(found, {f"{name}.{suffix}" for name in names for suffix in starts})
+        for file in (FOLDER / "plots").iterdir():
+            self.assertTrue(file.read_bytes().startswith(starts[file.suffix[1:]]), file)
 
 
-class Stress(unittest.TestCase):
-    """The quick suite, on all devices."""
+class Failures(unittest.TestCase):
+    """No page, the right exit code, and one line that says why."""
 
-    def test_passes(self):
-        result = json.loads(PAGE.blocks["stress"][1])
-        self.assertTrue(result["passed"])
-        self.assertIn(f"PASS: {len(result['families'])} of {len(result['families'])} families", TEXT)
-        self.assertGreater(len(result["families"]), 50)
+    def report(self, *words, **environment):
+        page = FOLDER / "none.html"
+        result = subprocess.run([str(BUILD / "mirrorball"), "report", *words, "-o", str(page), "--quick"], cwd=FOLDER,
+                                env={**os.environ, **environment}, capture_output=True, text=True, timeout=HANG_LIMIT,
+                                check=False)
+        self.assertFalse(page.exists())
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        return result.returncode, result.stderr
 
+    def test_a_scene_that_is_missing(self):
+        code, said = self.report("scene.json", "missing.json")
+        self.assertEqual(code, 3)
+        self.assertIn("missing.json: no such file", said)
 
-class Stopped(unittest.TestCase):
-    def report_stopped_at(self, step):
-        page = FOLDER / f"stopped-{step}.html"
-        command = [str(BUILD / "mirrorball"), "report", "scene.json", "-o", str(page), "--size",
-                   "64", "--devices", "threads", "--repeats", "30"]
-        environment = dict(os.environ, XDG_CACHE_HOME=str(FOLDER / "cache"))
-        with subprocess.Popen(command, cwd=FOLDER, env=environment, stderr=subprocess.PIPE,
-                              text=True) as process:
-            for line in process.stderr:
-                if step in line:
-                    break
-            process.send_signal(signal.SIGINT)
-            stderr = process.communicate(timeout=HANG_LIMIT)[1]
-        self.assertEqual(process.returncode, 130, stderr)
-        return page.read_text(encoding="utf-8")
+    def test_an_interpreter_without_matplotlib(self):
+        (FOLDER / "bare").mkdir()
+        (FOLDER / "bare" / "matplotlib.py").write_text("raise ImportError\n")
+        code, said = self.report("scene.json", PYTHONPATH=str(FOLDER / "bare"))
+        self.assertEqual(code, 5)
+        self.assertIn(shutil.which("python3"), said)
+        self.assertIn("apt install python3-matplotlib", said)
 
-    def test_keeps_what_is_finished(self):
-        for step in ["round 2", "step 2"]:  # step 3 is over before a signal can come
-            with self.subTest(step=step):
-                text = self.report_stopped_at(step)
-                page = Page(text)
-                self.assertEqual((page.mistakes, page.open), ([], []))
-                self.assertIn("Incomplete: interrupted (Ctrl-C)", text)
-                self.assertIn(" (incomplete)</title>", text)
-                rows = json.loads(page.blocks["bench-0"][1])["rows"]
-                self.assertTrue(any(row["figures"] for row in rows))
-                self.assertIn("<caption>Ray trace, ", text)
+    def test_an_interpreter_that_lacks_it_gives_way_to_debians(self):
+        (FOLDER / "bin").mkdir()
+        own = FOLDER / "bin" / "python3"
+        own.write_text("#!/bin/sh\nexit 1\n")
+        own.chmod(0o755)
+        code, said = self.report("missing.json", PATH=f"{own.parent}:{os.environ['PATH']}")
+        self.assertEqual(code, 3, said)
+
+    def test_a_folder_that_cannot_be_made(self):
+        (FOLDER / "file").write_text("")
+        code, said = self.report("scene.json", "--plots", "file/plots")
+        self.assertEqual(code, 4)
+        self.assertIn("file/plots: cannot make this folder", said)
+
+    def test_a_signal(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            command = [str(BUILD / "mirrorball"), "report", "scene.json", "-o", "stopped.html", "--size", "64",
+                       "--devices", "threads", "--repeats", "30"]
+            with subprocess.Popen(command, cwd=FOLDER, stderr=subprocess.PIPE, text=True) as process:
+                for line in process.stderr:
+                    if "round 2" in line:
+                        break
+                process.send_signal(number)
+                stderr = process.communicate(timeout=HANG_LIMIT)[1]
+            self.assertEqual(process.returncode, 128 + number, stderr)
+            self.assertIn("; no page written", stderr)
+            self.assertEqual([path for path in FOLDER.iterdir() if path.name.startswith((".mirrorball", "stopped"))], [])
 
 
 if __name__ == "__main__":

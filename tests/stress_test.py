@@ -27,11 +27,9 @@ def stress(*arguments, code=0):
 
 
 def validate(result):
-    own, used = (json.loads((ROOT / "docs" / f"{name}.schema.json").read_text())
-                 for name in ["stress", "results"])
+    own = json.loads((ROOT / "docs" / "stress.schema.json").read_text())
     jsonschema.Draft202012Validator.check_schema(own)
-    resolver = jsonschema.RefResolver.from_schema(own, store={used["$id"]: used})
-    jsonschema.Draft202012Validator(own, resolver=resolver).validate(result)
+    jsonschema.Draft202012Validator(own).validate(result)
 
 
 class Output(unittest.TestCase):
@@ -60,21 +58,12 @@ class Output(unittest.TestCase):
         self.assertEqual(*hashes)
         self.assertEqual(len(hashes[0]), 2)
 
-    def test_povray_gets_the_suites_still_life(self):
-        case = json.loads(stress("--case", "scale-2/2^0", "--device", "threads", "-q", "--json")
-                          .stdout)["families"][0]["cases"][0]
-        with tempfile.TemporaryDirectory() as folder:
-            stats = subprocess.run(
-                [str(BUILD / "mirrorball"), "render", "scripts/povray/still-life.json", "--device",
-                 "threads", "-q", "--stats=json", "-o", f"{folder}/a.pfm"], cwd=ROOT, text=True,
-                capture_output=True, timeout=HANG_LIMIT, check=True).stdout
-        self.assertIn(case["rows"][0]["picture"]["hash"], stats)
-
     def test_table(self):
         lines = stress(*self.SMALL, "--device", "threads").stdout.splitlines()
-        self.assertEqual(len(lines), 5)
-        self.assertRegex(lines[1], "^scale-2 .* pass ")
-        self.assertRegex(lines[-1], "^PASS: 3 of 3 families")
+        self.assertEqual(len(lines), 4)
+        self.assertRegex(lines[0], "^PASS: 3 of 3 families")
+        self.assertRegex(lines[1], "^pass scale-2 .* allowed")
+        self.assertLessEqual(max(map(len, lines)), 80)
 
     def test_pictures(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -51,7 +51,7 @@ std::uint64_t hash_by(RenderPixels render, int lanes, const FlatScene<float>& fl
 TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
     static_assert(feature_names.size() == std::size(rt_switches));
     ThreadsOptions everything;
-    everything.all_features = true;
+    everything.kernels.features = Features{};
     int sets = 0;
     for (int bits = 0; bits < 1 << feature_names.size(); ++bits) {
         const Features features = features_of(bits);

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "host/base/error.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 
 namespace rt {
 

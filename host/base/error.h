@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace rt {
 
@@ -36,5 +39,11 @@ class Error : public std::runtime_error {
    private:
     ExitCode exit_code_;
 };
+
+/// Rejects the command line: throws Error (ExitCode::usage) with the formatted message.
+template <typename... Values>
+[[noreturn]] void usage_error(fmt::format_string<Values...> format, Values&&... values) {
+    throw Error(ExitCode::usage, fmt::format(format, std::forward<Values>(values)...));
+}
 
 }  // namespace rt

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
+#include <time.h>
 
 #include <algorithm>
 #include <atomic>
@@ -81,6 +82,12 @@ int available_cores() {
     if (sched_getaffinity(0, sizeof mask, &mask) != 0) return 1;
     const int cores = CPU_COUNT(&mask);
     return cores > 0 ? cores : 1;
+}
+
+double processor_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 void run_on_threads(int count, const std::function<void(int)>& work) {

@@ -9,6 +9,10 @@ namespace rt {
 /// Cores this process may run on (its affinity mask), at least 1.
 int available_cores();
 
+/// Processor time of all threads of the program together, in seconds. Other load on the machine
+/// affects it less than wall-clock time.
+double processor_seconds();
+
 /// Runs work(0) .. work(count - 1), each on its own POSIX thread, and joins them all; work begins
 /// once every thread exists. Rethrows the lowest-numbered thread's exception. Throws Error
 /// (ExitCode::limit) when the system cannot start that many threads; no work is done then.

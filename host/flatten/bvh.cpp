@@ -10,11 +10,12 @@
 // Where the heuristic sees nothing to gain (coincident centers), or would go too deep, a node is
 // halved by number instead: that bounds the depth.
 //
-// This file assigns nodes to threads; bvh_split splits a node, bvh_bins and bvh_few choose the
-// plane, bvh_partition moves the boxes.
+// This file assigns nodes to threads; bvh_split splits a node.
 #include "host/flatten/bvh.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -168,5 +169,76 @@ template f32::Index build_bvh<float>(std::span<f32::BvhNode>, const BvhSettings&
                                      HugeVector<f32::BvhNode>&);
 template f64::Index build_bvh<double>(std::span<f64::BvhNode>, const BvhSettings&,
                                       HugeVector<f64::BvhNode>&);
+
+namespace {
+
+template <typename T>
+void enclose(std::span<const typename Flat<T>::BvhNode> inside, typename Flat<T>::BvhNode& node) {
+    bvh::Bounds<T> bounds = bvh::Bounds<T>::none();
+    for (const auto& box : inside) bounds.add(bvh::bounds_of<T>(box));
+    node.low = {bounds.low[0], bounds.low[1], bounds.low[2]};
+    node.high = {bounds.high[0], bounds.high[1], bounds.high[2]};
+}
+
+}  // namespace
+
+template <typename T>
+void refit_bvh(std::span<const BvhBox<T>> boxes, typename Flat<T>::Index root, int threads,
+               std::span<typename Flat<T>::BvhNode> nodes) {
+    const auto below = nodes.subspan(static_cast<std::size_t>(root));
+    constexpr std::size_t run_length = 1 << 13;
+    for_each_run(below.size(), run_length, threads, [&](std::size_t first, std::size_t last) {
+        for (auto& node : below.subspan(first, last - first)) {
+            const auto count = static_cast<std::size_t>(node.count);
+            if (count == 0) continue;
+            enclose<T>(boxes.subspan(static_cast<std::size_t>(node.first), count), node);
+        }
+    });
+    for (std::size_t i = below.size(); i-- > 0;) {  // children come after their parents
+        auto& node = below[i];
+        if (node.count > 0) continue;
+        enclose<T>(nodes.subspan(static_cast<std::size_t>(node.first), 2), node);
+    }
+}
+
+template void refit_bvh<float>(std::span<const f32::BvhNode>, f32::Index, int,
+                               std::span<f32::BvhNode>);
+template void refit_bvh<double>(std::span<const f64::BvhNode>, f64::Index, int,
+                                std::span<f64::BvhNode>);
+
+template <typename T>
+BvhShape shape_of(std::span<const typename Flat<T>::BvhNode> nodes, typename Flat<T>::Index root,
+                  const BvhSettings& settings) {
+    const auto area = [](const typename Flat<T>::BvhNode& node) {
+        const double x = double(node.high.x) - node.low.x, y = double(node.high.y) - node.low.y;
+        const double z = double(node.high.z) - node.low.z;
+        return x * (y + z) + y * z;
+    };
+    const auto start = static_cast<std::size_t>(root);
+    const double whole = area(nodes[start]);
+    BvhShape shape;
+    std::vector<std::uint8_t> depths(nodes.size() - start);  // plus one; 0: not in this hierarchy
+    depths[0] = 1;
+    for (std::size_t i = start; i < nodes.size(); ++i) {
+        const std::uint8_t depth = depths[i - start];
+        if (depth == 0) continue;
+        const auto& node = nodes[i];
+        const double share = whole > 0 ? area(node) / whole : 1;
+        shape.nodes += 1;
+        if (node.count > 0) {
+            shape.leaves += 1;
+            shape.sah_cost += share * static_cast<double>(node.count);
+            continue;
+        }
+        shape.depth = std::max<int>(shape.depth, depth);
+        shape.sah_cost += share * settings.inner_cost;
+        const auto pair = static_cast<std::size_t>(node.first) - start;
+        depths[pair] = depths[pair + 1] = static_cast<std::uint8_t>(depth + 1);
+    }
+    return shape;
+}
+
+template BvhShape shape_of<float>(std::span<const f32::BvhNode>, f32::Index, const BvhSettings&);
+template BvhShape shape_of<double>(std::span<const f64::BvhNode>, f64::Index, const BvhSettings&);
 
 }  // namespace rt

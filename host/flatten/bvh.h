@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "host/base/huge_pages.h"
+#include "host/base/memory.h"
 #include "host/flatten/flat_types.h"
 
 namespace rt {

@@ -9,12 +9,9 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/memory_limit.h"
+#include "host/base/memory.h"
 #include "host/base/parallel.h"
-#include "host/flatten/boxes.h"
 #include "host/flatten/casters.h"
-#include "host/flatten/flat_materials.h"
-#include "host/flatten/flat_params.h"
 #include "host/flatten/flat_shapes.h"
 #include "host/flatten/view_frame.h"
 
@@ -265,21 +262,19 @@ class Flattener {
         const std::size_t most = std::max(own_bits, most_pairs / primitives);
         if (light_positions_.size() > most) light_positions_.resize(most);
         const auto note = [&](auto& flat, const auto& listing, const Order& order,
-                              const auto& touches) {
+                              const auto& side_of) {
             for_each(flat.size(), [&](std::size_t i) {
                 const auto& primitive =
                     listing[order.empty() ? i : static_cast<std::size_t>(order[i])];
                 for (std::size_t light = 0; light < light_positions_.size(); ++light) {
-                    if (!touches(view_, primitive, light_positions_[light])) continue;
-                    flat[i].touches |= Index{f32::RT_TOUCHES_FIRST_LIGHT}
-                                       << std::min(light, own_bits);
+                    const Index side = side_of(view_, primitive, light_positions_[light], 64);
+                    flat[i].touches |=
+                        side << (f32::RT_TOUCHES_FIRST_LIGHT + 2 * std::min(light, own_bits));
                 }
             });
         };
-        note(flat_.spheres, scene_.spheres, spheres_order_,
-             [](const auto&... given) { return touches_light<T>(given...); });
-        note(flat_.cones, scene_.cones, cones_order_,
-             [](const auto&... given) { return touches_light(given...); });
+        note(flat_.spheres, scene_.spheres, spheres_order_, side_of_sphere<T>);
+        note(flat_.cones, scene_.cones, cones_order_, side_of_cone<T>);
     }
 
     void list_casters(const glm::dvec3& position, typename Flat<T>::Light& light) {

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "host/base/error.h"
 
@@ -34,22 +37,15 @@ double difference_error(const ViewFrame& view, const glm::dvec3& a, const glm::d
 /// What a distance of 0 from a surface this large may round to.
 double contact(double size) { return 1e-14 * size; }
 
-double gap_between(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& point) {
-    return (glm::length(sphere.center - point) - sphere.radius) * view.scale;
-}
+/// How near to a surface the eye's rays need to be told its side, in u.
+constexpr double eye_ulps = 8;
 
-/// Whether the point lies on the lateral surface of the cone, as far as double can tell.
-bool lies_on(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& point) {
-    const glm::dvec3 base = (cone.base - point) * view.scale;
-    const glm::dvec3 along = (cone.apex - point) * view.scale - base;
-    const double height = -glm::dot(base, along) / glm::dot(along, along);
-    const double base_radius = cone.base_radius * view.scale;
-    const double radius = base_radius + height * (cone.apex_radius * view.scale - base_radius);
-    const double distance = glm::length(base + height * along);
-    const double slack = contact(glm::length(base) + glm::length(along) + base_radius) +
-                         difference_error(view, cone.base, point) +
-                         difference_error(view, cone.apex, point);
-    return height >= 0 && height <= 1 && std::abs(distance - radius) <= slack;
+/// Where a point lies that is `gap` outside a surface: on it as far as double can tell, on one side
+/// but nearer than T can tell, or elsewhere (0).
+int side_of(double gap, double slack, double rounding) {
+    if (std::abs(gap) <= slack) return f32::RT_ON;
+    if (std::abs(gap) > slack + rounding) return 0;
+    return gap > 0 ? f32::RT_OUTSIDE : f32::RT_INSIDE;
 }
 
 /// How far a barycentric point may lie off the plane: 4 u extent + 6 u |vertex| per axis, seen
@@ -91,6 +87,36 @@ typename Flat<T>::Packed3 pack_position(const ViewFrame& view, const glm::dvec3&
 }
 
 template <typename T>
+int side_of_sphere(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& point,
+                   double ulps) {
+    const double radius = sphere.radius * view.scale;
+    const double gap = glm::length(sphere.center - point) * view.scale - radius;
+    const double slack = contact(radius) + difference_error(view, sphere.center, point);
+    const double distance = glm::length(view.to_view(sphere.center));
+    // Where a huge sphere is near the eye, so are the numbers that are rounded.
+    const double size =
+        is_huge(radius, distance) ? glm::length(view.to_view(point)) : radius + distance;
+    return side_of(gap, slack, ulps * static_cast<double>(Flat<T>::roundoff) * size);
+}
+
+template <typename T>
+int side_of_cone(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& point,
+                 double ulps) {
+    const glm::dvec3 base = (cone.base - point) * view.scale;
+    const glm::dvec3 along = (cone.apex - point) * view.scale - base;
+    const double length = glm::length(along), base_radius = cone.base_radius * view.scale;
+    const double height = -glm::dot(base, along) / (length * length);
+    if (height < 0 || height > 1) return 0;
+    const double growth = cone.apex_radius * view.scale - base_radius;
+    const double gap = glm::length(base + height * along) - (base_radius + height * growth);
+    const double slack = contact(glm::length(base) + length + base_radius) +
+                         difference_error(view, cone.base, point) +
+                         difference_error(view, cone.apex, point);
+    const double size = glm::length(view.to_view(cone.base)) + length + base_radius;
+    return side_of(gap, slack, ulps * static_cast<double>(Flat<T>::roundoff) * size);
+}
+
+template <typename T>
 typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphere& sphere) {
     typename Flat<T>::Sphere flat{};
     flat.center = pack_position<T>(view, sphere.center);
@@ -101,28 +127,9 @@ typename Flat<T>::Sphere flatten_sphere(const ViewFrame& view, const Scene::Sphe
     flat.radius = static_cast<T>(radius);
     flat.is_huge = is_huge(radius, distance) ? 1 : 0;
     flat.power = static_cast<T>((distance - radius) * (distance + radius));
-    const double slack = contact(radius) + difference_error(view, sphere.center, view.eye);
-    const bool touches_eye = view.is_perspective && std::abs(distance - radius) <= slack;
-    flat.touches = touches_eye ? f32::RT_TOUCHES_EYE : 0;
+    if (view.is_perspective) flat.touches = side_of_sphere<T>(view, sphere, view.eye, eye_ulps);
     flat.material = sphere.material;
     return flat;
-}
-
-template <typename T>
-bool touches_light(const ViewFrame& view, const Scene::Sphere& sphere, const glm::dvec3& light) {
-    const double gap = gap_between(view, sphere, light);
-    const double radius = sphere.radius * view.scale;
-    const double slack = contact(radius) + difference_error(view, sphere.center, light);
-    const double distance = glm::length(view.to_view(sphere.center));
-    // Where a huge sphere is near the eye, so are the numbers that are rounded.
-    const double size =
-        is_huge(radius, distance) ? glm::length(view.to_view(light)) : radius + distance;
-    const double rounding = 64 * static_cast<double>(Flat<T>::roundoff) * size;
-    return gap >= -slack && gap <= slack + rounding;
-}
-
-bool touches_light(const ViewFrame& view, const Scene::Cone& cone, const glm::dvec3& light) {
-    return lies_on(view, cone, light);
 }
 
 /// Numbers are rounded relative to the coordinates of the end that is called base: that is the
@@ -145,7 +152,7 @@ typename Flat<T>::Cone flatten_cone(const ViewFrame& view, const Scene::Cone& gi
     flat.axis = pack<T>(along / length);
     flat.length = static_cast<T>(length);
     flat.slope = static_cast<T>(std::clamp(slope, -steepest, steepest));
-    flat.touches = view.is_perspective && lies_on(view, cone, view.eye) ? f32::RT_TOUCHES_EYE : 0;
+    if (view.is_perspective) flat.touches = side_of_cone<T>(view, cone, view.eye, eye_ulps);
     flat.material = cone.material;
     flat.apex_radius = static_cast<T>(cone.apex_radius * view.scale);
     return flat;
@@ -192,8 +199,12 @@ typename Flat<T>::VertexNormals flatten_normals(const TriangleList::Corners& nor
 
 template Flat<float>::Packed3 pack_position<float>(const ViewFrame&, const glm::dvec3&);
 template Flat<float>::Sphere flatten_sphere<float>(const ViewFrame&, const Scene::Sphere&);
-template bool touches_light<float>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&);
-template bool touches_light<double>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&);
+template int side_of_sphere<float>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&,
+                                   double);
+template int side_of_cone<float>(const ViewFrame&, const Scene::Cone&, const glm::dvec3&, double);
+template int side_of_sphere<double>(const ViewFrame&, const Scene::Sphere&, const glm::dvec3&,
+                                    double);
+template int side_of_cone<double>(const ViewFrame&, const Scene::Cone&, const glm::dvec3&, double);
 template Flat<float>::Cone flatten_cone<float>(const ViewFrame&, const Scene::Cone&);
 template Flat<float>::Triangle flatten_triangle<float>(const ViewFrame&,
                                                        const TriangleList::Corners&, int);
@@ -204,5 +215,121 @@ template Flat<double>::Cone flatten_cone<double>(const ViewFrame&, const Scene::
 template Flat<double>::Triangle flatten_triangle<double>(const ViewFrame&,
                                                          const TriangleList::Corners&, int);
 template Flat<double>::VertexNormals flatten_normals<double>(const TriangleList::Corners&);
+
+namespace {
+
+/// Which materials are used by some primitive.
+std::vector<bool> worn_materials(const Scene& scene) {
+    std::vector<bool> worn(scene.materials.size(), false);
+    const auto wear = [&](int material) { worn[static_cast<std::size_t>(material)] = true; };
+    for (const auto& sphere : scene.spheres) wear(sphere.material);
+    for (const auto& cone : scene.cones) wear(cone.material);
+    for (const auto& triangle : scene.triangles) wear(triangle.material);
+    for (const auto& mesh : scene.meshes) {
+        for (const int material : mesh.face_materials) wear(material);
+    }
+    return worn;
+}
+
+/// Rounded, but not to 0, nor to a number whose reciprocal is infinite.
+template <typename T>
+T round_positive(double x) {
+    return std::max(static_cast<T>(x), std::numeric_limits<T>::min());
+}
+
+}  // namespace
+
+template <typename T>
+typename Flat<T>::Material flatten_material(const Scene::Material& material) {
+    typename Flat<T>::Material flat{};
+    flat.ambient = pack<T>(material.ambient);
+    flat.shininess = material.shininess == 0 ? T(0) : round_positive<T>(material.shininess);
+    flat.diffuse = pack<T>(material.diffuse);
+    flat.two_sided = material.two_sided ? 1 : 0;
+    flat.specular = pack<T>(material.specular);
+    flat.ior = round_positive<T>(material.ior);
+    flat.mirror = pack<T>(material.mirror);
+    flat.transmission = pack<T>(material.transmission);
+    return flat;
+}
+
+MaterialUse material_use(const Scene& scene) {
+    MaterialUse use;
+    const std::vector<bool> worn = worn_materials(scene);
+    for (std::size_t i = 0; i < worn.size(); ++i) {
+        if (!worn[i]) continue;
+        const Scene::Material& material = scene.materials[i];
+        const bool mirrors = !is_black(material.mirror);
+        const bool transmits = !is_black(material.transmission);
+        use.reflects_lights |= !is_black(material.diffuse) || !is_black(material.specular);
+        use.mirrors |= mirrors;
+        use.transmits |= transmits;
+        use.splits |= mirrors && transmits;
+    }
+    return use;
+}
+
+template f32::Material flatten_material<float>(const Scene::Material&);
+template f64::Material flatten_material<double>(const Scene::Material&);
+
+namespace {
+
+/// The box from low to high, enlarged. Adding 0 turns -0 into 0, so that a minimum of several
+/// boxes has the same bits in any order.
+template <typename T>
+BvhBox<T> enlarged(const Vec3<T>& low, const Vec3<T>& high) {
+    T largest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        largest = std::max({largest, std::fabs(low[axis]), std::fabs(high[axis])});
+    }
+    const T slack = T(box_slack) * Flat<T>::roundoff * largest;
+    BvhBox<T> box{};
+    box.low = {low.x - slack + T(0), low.y - slack + T(0), low.z - slack + T(0)};
+    box.high = {high.x + slack + T(0), high.y + slack + T(0), high.z + slack + T(0)};
+    return box;
+}
+
+template <typename T>
+Vec3<T> unpacked(const typename Flat<T>::Packed3& p) {
+    return {p.x, p.y, p.z};
+}
+
+}  // namespace
+
+template <typename T>
+BvhBox<T> box_of(const typename Flat<T>::Sphere& sphere) {
+    const Vec3<T> center = unpacked<T>(sphere.center);
+    return enlarged<T>(center - sphere.radius, center + sphere.radius);
+}
+
+template <typename T>
+BvhBox<T> box_of(const typename Flat<T>::Cone& cone) {
+    const Vec3<T> base = unpacked<T>(cone.base), axis = unpacked<T>(cone.axis);
+    const Vec3<T> end = base + cone.length * axis;
+    const T end_radius = cone.apex_radius;
+    Vec3<T> low, high;
+    for (int i = 0; i < 3; ++i) {
+        // A disc's half-width along an axis, slightly more than sqrt(1 - a^2) rounds to.
+        const T width = std::sqrt(std::max(T(0), T(1) - axis[i] * axis[i]) + 8 * Flat<T>::roundoff);
+        low[i] = std::min(base[i] - cone.base_radius * width, end[i] - end_radius * width);
+        high[i] = std::max(base[i] + cone.base_radius * width, end[i] + end_radius * width);
+    }
+    return enlarged<T>(low, high);
+}
+
+template <typename T>
+BvhBox<T> box_of(const typename Flat<T>::Packed3& a, const typename Flat<T>::Packed3& b,
+                 const typename Flat<T>::Packed3& c) {
+    return enlarged<T>(
+        {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+        {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})});
+}
+
+template f32::BvhNode box_of<float>(const f32::Sphere&);
+template f32::BvhNode box_of<float>(const f32::Cone&);
+template f32::BvhNode box_of<float>(const f32::Packed3&, const f32::Packed3&, const f32::Packed3&);
+template f64::BvhNode box_of<double>(const f64::Sphere&);
+template f64::BvhNode box_of<double>(const f64::Cone&);
+template f64::BvhNode box_of<double>(const f64::Packed3&, const f64::Packed3&, const f64::Packed3&);
 
 }  // namespace rt

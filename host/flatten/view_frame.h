@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "host/flatten/flat_types.h"
 #include "host/flatten/triangle_list.h"
 #include "host/scene/scene.h"
 
@@ -27,5 +28,10 @@ ViewFrame make_view_frame(const Scene& scene, const TriangleList& triangles, int
 
 /// Points, in scene units, whose convex hull contains the origins of all eye rays.
 std::vector<glm::dvec3> eye_ray_origins(const ViewFrame& view, const Scene& scene);
+
+/// Camera, sampling, bounces, background and ambient light; the counts of primitives and the roots
+/// of hierarchies are left 0.
+template <typename T>
+typename Flat<T>::LaunchParams flatten_params(const ViewFrame& view, const Scene& scene);
 
 }  // namespace rt

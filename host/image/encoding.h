@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 #include "host/image/picture.h"
 
 namespace rt {

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "host/image/picture.h"
+#include "host/record/describe.h"
 
 namespace rt {
 
@@ -21,7 +23,23 @@ struct ImageError {
     std::size_t over_2 = 0;      ///< ... than 2/255
     std::size_t over_8 = 0;      ///< ... than 8/255
     std::size_t non_finite = 0;  ///< pixels with a NaN or an infinity in either picture
+
+    std::vector<int> max_at() const { return {max_x, max_y}; }
 };
+
+template <typename A, Of<ImageError> X>
+void describe(A& a, X& x) {
+    a("rmse", x.rmse, "root of the mean squared difference over channels");
+    a("mean", x.mean, "mean absolute difference");
+    a("max", x.max, "largest absolute difference");
+    a("max_at", x.max_at(), "its pixel, x and y from the top left");
+    a("psnr_db", finite_or_null(x.psnr), "against a peak of 1; null for equal pictures");
+    a("rel_mse", x.rel_mse, "mean of ((a - b) / (b + 0.01))^2, b the reference");
+    a("pixels_over_1_255", x.over_1, "pixels with a channel off by more than 1/255");
+    a("pixels_over_2_255", x.over_2, "");
+    a("pixels_over_8_255", x.over_8, "");
+    a("non_finite", x.non_finite, "pixels with a NaN or an infinity in either picture");
+}
 
 /// Pixels with a NaN or an infinity in them.
 std::size_t count_non_finite(const Picture& picture);

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "host/base/error.h"
-#include "host/base/usage_error.h"
 
 namespace rt {
 namespace {
@@ -137,12 +136,17 @@ void create_output_folder(const std::string& folder) {
 }
 
 std::string partial_path(const std::string& path, int number) {
+    constexpr std::size_t longest = 255;  // names in file systems, in bytes
     const fs::path name(path);
-    fs::path partial(name);
-    partial.replace_extension();
-    partial += number == 1 ? ".partial" : ".partial-" + std::to_string(number);
-    partial += name.extension();
-    return partial.string();
+    const std::string ending = (number == 1 ? ".partial" : ".partial-" + std::to_string(number)) +
+                               name.extension().string();
+    std::string stem = name.stem().string();
+    // Whole characters of UTF-8.
+    while (stem.size() > 1 && stem.size() + ending.size() > longest) {
+        while ((stem.back() & 0xc0) == 0x80) stem.pop_back();
+        stem.pop_back();
+    }
+    return (name.parent_path() / (stem + ending)).string();
 }
 
 void InputFiles::add(const std::string& path) {

@@ -5,8 +5,8 @@
 #include <array>
 #include <limits>
 
-#include "host/base/lower.h"
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
+#include "host/base/text.h"
 
 namespace rt {
 namespace {
@@ -70,7 +70,8 @@ PictureFormat picture_format_of_name(const std::string& path) {
     if (const auto format = known_picture_format(path)) return *format;
     usage_error("{}: {}; use .png, .exr, .pfm, .tif, .jpg, .webp, .hdr, .tga, .bmp, .ppm or .dpx",
                 path,
-                extension.empty() ? "no file extension" : "unknown extension '" + extension + "'");
+                extension.empty() ? "no file extension (for standard output, name -)"
+                                  : "unknown extension '" + extension + "'");
 }
 
 std::optional<PictureFormat> picture_format_of_bytes(std::string_view first_bytes) {

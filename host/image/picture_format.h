@@ -27,7 +27,7 @@ int longest_side(PictureFormat format);
 /// The most values that a byte of a file can hold; 0: no limit. Generous where it is not exact.
 std::uintmax_t values_per_byte(PictureFormat format);
 
-/// Whether reading and writing it takes a module (module_loader.h).
+/// Whether reading and writing it takes a module (picture_module.h).
 bool needs_module(PictureFormat format);
 
 /// The format of a file name's extension, case-insensitive; empty if unknown.

@@ -55,4 +55,7 @@ Picture read_picture(const std::string& path);
 /// the format or the library. .pfm has none.
 PictureFile read_picture_file(const std::string& path);
 
+/// The same but for the pixels: size, channels, and what metadata precede them.
+PictureFile read_picture_header(const std::string& path);
+
 }  // namespace rt

@@ -8,15 +8,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <fstream>
+#include <new>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 
 namespace rt {
 
@@ -38,16 +40,17 @@ JournalWriterInfo last_writer(const std::string& path) {
     return last;
 }
 
-/// Who holds the lock: it may not have written yet.
+/// Who holds the lock.
 std::string holder(const std::string& path) {
-    constexpr int attempts = 20;
-    for (int i = 0; i < attempts; ++i) {
-        const JournalWriterInfo writer = last_writer(path);
-        if (writer.process > 0)
-            return fmt::format("process {} on {}", writer.process, printable(writer.host));
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return "another process";
+    const JournalWriterInfo writer = last_writer(path);
+    if (writer.process == 0) return "another process";
+    return fmt::format("process {} on {}", writer.process, printable(writer.host));
+}
+
+constexpr std::chrono::seconds period{1};
+
+std::array<std::int32_t, 4> numbers_of(const Rect& rect) {
+    return {rect.x, rect.y, rect.width, rect.height};
 }
 
 bool is_start_of_magic(std::string_view bytes) {
@@ -191,5 +194,174 @@ void JournalFile::make_room(const std::function<void()>& work) {
         throw;
     }
 }
+
+template <typename T>
+JournalKeeper<T>::JournalKeeper(JournalFile& file, const JournalWriterInfo& writer,
+                                const Film<T>& film, const Rect& shown, double delay,
+                                std::function<void()> failed)
+    : file_(file), film_(film), shown_(shown), delay_(delay), failed_(std::move(failed)) {
+    append_writer(writer_, writer);
+}
+
+template <typename T>
+JournalKeeper<T>::~JournalKeeper() {
+    stop();
+}
+
+/// Starts the thread when it is time. Requires the mutex.
+template <typename T>
+void JournalKeeper<T>::have_thread() {
+    if (has_thread_ || is_stopped_ || !is_time()) return;
+    has_thread_ = true;
+    try {
+        thread_ = std::thread([this] { keep(); });
+    } catch (const std::system_error&) {
+    }
+}
+
+template <typename T>
+void JournalKeeper<T>::keep() {
+    bool is_told = false;
+    std::unique_lock lock(mutex_);
+    while (!stopped_.wait_for(lock, period, [&] { return is_stopped_; })) {
+        lock.unlock();
+        std::exception_ptr failure;
+        try {
+            write();
+            if (!file_.failure().empty() && !std::exchange(is_told, true)) failed_();
+        } catch (const std::bad_alloc&) {
+            file_.give_up("out of memory");
+        } catch (const Error&) {
+            failure = std::current_exception();
+        }
+        lock.lock();
+        failure_ = failure;
+        if (failure_) return;
+    }
+}
+
+/// Requires the mutex, or that the thread has ended.
+template <typename T>
+void JournalKeeper<T>::check() const {
+    if (failure_) std::rethrow_exception(failure_);
+}
+
+template <typename T>
+void JournalKeeper<T>::claim() {
+    file_.append(std::exchange(writer_, {}));
+}
+
+template <typename T>
+void JournalKeeper<T>::tile_finished(const Rect& tile) {
+    const std::scoped_lock lock(mutex_);
+    check();
+    has_pixels_ = true;
+    tiles_.push_back(tile);
+    have_thread();
+}
+
+template <typename T>
+void JournalKeeper<T>::tile_lost(const Rect& tile) {
+    const std::scoped_lock lock(mutex_);
+    std::erase(tiles_, tile);
+    const auto numbers = numbers_of(tile);
+    append_record(records_, RecordKind::lost, std::as_bytes(std::span(numbers)));
+}
+
+/// Makes records of the finished tiles; the mutex is held.
+template <typename T>
+void JournalKeeper<T>::take_tiles() {
+    std::vector<std::byte> body;
+    for (const Rect& tile : tiles_) {
+        const auto numbers = numbers_of(tile);
+        const std::size_t row_bytes = 3 * sizeof(T) * static_cast<std::size_t>(tile.width);
+        body.resize(sizeof(numbers) + row_bytes * static_cast<std::size_t>(tile.height));
+        std::memcpy(body.data(), numbers.data(), sizeof(numbers));
+        for (int row = 0; row < tile.height; ++row) {
+            const std::size_t pixel = static_cast<std::size_t>(tile.y - shown_.y + row) *
+                                          static_cast<std::size_t>(film_.width) +
+                                      static_cast<std::size_t>(tile.x - shown_.x);
+            std::memcpy(body.data() + sizeof(numbers) + static_cast<std::size_t>(row) * row_bytes,
+                        &film_.rgb[3 * pixel], row_bytes);
+        }
+        append_record(records_, RecordKind::tile, body);
+    }
+    tiles_.clear();
+}
+
+template <typename T>
+void JournalKeeper<T>::first_pass_ended() {
+    const std::scoped_lock lock(mutex_);
+    take_tiles();
+}
+
+template <typename T>
+void JournalKeeper<T>::refined(int pass, std::span<const std::int32_t> pixels) {
+    std::vector<std::byte> body(8 + pixels.size() * (4 + 3 * sizeof(T)));
+    const std::uint32_t numbers[2] = {static_cast<std::uint32_t>(pass),
+                                      static_cast<std::uint32_t>(pixels.size())};
+    std::memcpy(body.data(), numbers, sizeof(numbers));
+    std::memcpy(body.data() + 8, pixels.data(), pixels.size_bytes());
+    std::byte* color = body.data() + 8 + pixels.size_bytes();
+    for (const std::int32_t pixel : pixels) {
+        std::memcpy(color, &film_.rgb[3 * static_cast<std::size_t>(pixel)], 3 * sizeof(T));
+        color += 3 * sizeof(T);
+    }
+    const std::scoped_lock lock(mutex_);
+    check();
+    has_pixels_ = true;
+    append_record(records_, RecordKind::refined, body);
+    have_thread();
+}
+
+/// The thread calls it, and close() after that has ended.
+template <typename T>
+void JournalKeeper<T>::write() {
+    std::vector<std::byte> records;
+    {
+        const std::scoped_lock lock(mutex_);
+        take_tiles();
+        if (records_.empty()) return;
+        records_.insert(records_.begin(), writer_.begin(), writer_.end());
+        writer_.clear();
+        records.swap(records_);
+    }
+    file_.append(records);
+}
+
+template <typename T>
+void JournalKeeper<T>::stop() {
+    {
+        const std::scoped_lock lock(mutex_);
+        is_stopped_ = true;
+        stopped_.notify_all();
+    }
+    if (thread_.joinable()) thread_.join();
+}
+
+template <typename T>
+void JournalKeeper<T>::discard() {
+    stop();
+    check();
+}
+
+template <typename T>
+void JournalKeeper<T>::close() {
+    discard();
+    if (is_time()) write();
+}
+
+template <typename T>
+void JournalKeeper<T>::close_finished() {
+    {
+        const std::scoped_lock lock(mutex_);
+        take_tiles();
+        append_record(records_, RecordKind::finished, {});
+    }
+    close();
+}
+
+template class JournalKeeper<float>;
+template class JournalKeeper<double>;
 
 }  // namespace rt

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/render/rect.h"
+#include "host/render/picture_spec.h"
 
 // A journal (.mbj) stores the tiles of a picture as they are finished, so that an interrupted
 // render can resume, and several machines can render shares of one picture.
@@ -21,7 +20,7 @@
 // override earlier ones. Nothing after the first bad record is read.
 namespace rt {
 
-inline constexpr std::string_view journal_magic = "MBJRNL01";  ///< the last two: its version
+inline constexpr std::string_view journal_magic = "MBJRNL02";  ///< the last two: its version
 
 enum class RecordKind : std::uint32_t {
     header = 1,   ///< JSON: JournalHeader
@@ -34,30 +33,48 @@ enum class RecordKind : std::uint32_t {
 
 /// What picture a journal belongs to.
 struct JournalHeader {
-    std::uint64_t key = 0;      ///< equal keys mean bit-identical pictures: picture_key
-    int width = 0, height = 0;  ///< of the whole picture, pixels
-    Rect region;                ///< the part asked for
-    Rect film;                  ///< the part rendered: the region and what refining it needs
-    bool double_precision = false;
-    bool refines = false;                     ///< adaptive: records of kind `refined` follow
-    std::string shares;                       ///< as to_string(Shares)
-    std::string scene, scene_hash, settings;  ///< as a picture's metadata have them
-    /// With the above, all that is needed to render it again. The file as given to the first
-    /// writer; may be empty.
-    std::string scene_file, aa, filter;
-    int max_bounces = 0;
-    std::optional<double> light_scale;  ///< that override the scene's light
-    std::optional<std::array<double, 3>> ambient_light;
+    std::uint64_t key = 0;  ///< equal keys mean bit-identical pictures: picture_key
+    PictureSpec picture;
+    Rect film;                      ///< the part rendered: the region and what refining it needs
+    std::string shares;             ///< as to_string(Shares)
+    std::string scene, scene_hash;  ///< as a picture's metadata have them
+    /// To render it again: the file as given to the first writer, which may be empty, and what
+    /// overrides the scene's light.
+    std::string scene_file;
+    std::optional<double> light_scale;
+    std::optional<std::vector<double>> ambient_light;
 
-    std::size_t pixel_bytes() const { return 3 * (double_precision ? 8 : 4); }
+    bool is_double() const { return picture.precision == Precision::float64; }
+    std::size_t pixel_bytes() const { return 3 * (is_double() ? 8 : 4); }
     bool operator==(const JournalHeader&) const = default;
 };
+
+template <typename A, Of<JournalHeader> X>
+void describe(A& a, X& x) {
+    a("key", x.key, "");
+    describe(a, x.picture);
+    a("film", x.film, "");
+    a("shares", x.shares, "");
+    a("scene", x.scene, "");
+    a("scene_hash", x.scene_hash, "");
+    a("scene_file", x.scene_file, "");
+    a("light_scale", x.light_scale, "");
+    a("ambient_light", x.ambient_light, "");
+}
 
 /// Which process wrote the records that follow.
 struct JournalWriterInfo {
     std::string host, device, version;
     int process = 0;
 };
+
+template <typename A, Of<JournalWriterInfo> X>
+void describe(A& a, X& x) {
+    a("host", x.host, "");
+    a("device", x.device, "");
+    a("version", x.version, "");
+    a("process", x.process, "");
+}
 
 /// A record's CRC-32 (as in zlib).
 std::uint32_t record_crc(RecordKind kind, std::span<const std::byte> body);

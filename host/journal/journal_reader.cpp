@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/memory_limit.h"
+#include "host/base/memory.h"
 
 namespace rt {
 
@@ -20,13 +20,6 @@ N number_at(std::span<const std::byte> bytes, std::size_t at) {
     N number;
     std::memcpy(&number, bytes.data() + at, sizeof(N));
     return number;
-}
-
-bool is_within(const Rect& rect, const Rect& film) {
-    return rect.width > 0 && rect.height > 0 && rect.x >= film.x && rect.y >= film.y &&
-           rect.width <= film.width && rect.height <= film.height &&
-           rect.x - film.x <= film.width - rect.width &&
-           rect.y - film.y <= film.height - rect.height;
 }
 
 Rect rect_at_start(std::span<const std::byte> body) {
@@ -97,7 +90,7 @@ bool JournalReader::interpret(JournalRecord& record) const {
             record.rect = rect_at_start(body);
             return is_within(record.rect, header_.film);
         case RecordKind::refined: {
-            if (body.size() < 8 || !header_.refines) return false;
+            if (body.size() < 8 || !header_.picture.aa.refines()) return false;
             const auto pass = number_at<std::uint32_t>(body, 0);
             const std::size_t count = number_at<std::uint32_t>(body, 4);
             if (pass >= refine_passes || body.size() != 8 + count * (4 + pixel)) return false;

@@ -9,11 +9,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "host/base/counted.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
-#include "host/base/printable.h"
-#include "host/image/input_file.h"
+#include "host/base/text.h"
+#include "host/image/built_in_formats.h"
 #include "host/journal/journal_reader.h"
 
 namespace rt {
@@ -43,27 +42,26 @@ void read_part(const std::string& path, const Read& read) {
 
 void check_same_picture(const JournalHeader& header, const std::string& first_path,
                         const JournalHeader& first) {
-    if (header.key == first.key && header.film == first.film && header.region == first.region &&
-        header.double_precision == first.double_precision && header.refines == first.refines) {
+    if (header.key == first.key && header.film == first.film && header.picture == first.picture) {
         return;
     }
     const auto what = [&]() -> std::string {
         if (header.scene_hash != first.scene_hash) return "the scene differs";
-        if (header.settings != first.settings) return "the settings differ";
+        if (header.picture != first.picture) return "the settings differ";
         return "the version of mirrorball, or the device's rounding, differs";
     };
     throw Error(ExitCode::input,
                 printable(fmt::format("is not a part of the same picture as {}: {} ({}, {}; "
                                       "{}, {})",
-                                      first_path, what(), header.scene, header.settings,
-                                      first.scene, first.settings)));
+                                      first_path, what(), header.scene, to_string(header.picture),
+                                      first.scene, to_string(first.picture))));
 }
 
 template <typename T>
 class Merger {
    public:
     explicit Merger(const JournalHeader& header)
-        : region_(header.region),
+        : region_(header.picture.region),
           film_(region_.width, region_.height),
           owner_(static_cast<std::size_t>(region_.pixels()), -1),
           blocks_(share_blocks(region_)) {}
@@ -78,7 +76,7 @@ class Merger {
                                         counted(bytes - reader.good_bytes(), "byte")));
         }
         parts_.push_back({path, known.writers});
-        if (header.refines && !known.is_finished) {
+        if (header.picture.aa.refines() && !known.is_finished) {
             notes.push_back(path + ": ignored, because it is adaptive and unfinished");
             return;
         }
@@ -241,9 +239,10 @@ MergedPicture merge_journals(const std::vector<std::string>& parts) {
         }
     }
     if (readable.empty()) throw Error(ExitCode::input, notes.front());
-    check_picture_size(readable.front(), first.region.width, first.region.height, 3);
-    return first.double_precision ? merge<double>(readable, first, std::move(notes))
-                                  : merge<float>(readable, first, std::move(notes));
+    check_picture_size(readable.front(), first.picture.region.width, first.picture.region.height,
+                       3);
+    return first.is_double() ? merge<double>(readable, first, std::move(notes))
+                             : merge<float>(readable, first, std::move(notes));
 }
 
 }  // namespace rt

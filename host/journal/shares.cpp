@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "host/base/number.h"
+#include "host/base/text.h"
 #include "host/render/picture_loop.h"
 #include "host/render/tile_queue.h"
 

@@ -4,24 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "host/base/error.h"
-#include "host/measure/bench.h"
+#include "host/record/record.h"
 #include "host/scene/text_file.h"
 
 namespace rt {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* remedy = "; write one with 'bench --json FILE'";
 constexpr std::size_t max_baseline_bytes = std::size_t{1} << 28;
-
-Spread spread_of_json(const Json& json) {
-    return {json.at("median"), json.at("mad"), json.at("min"), json.at("max")};
-}
 
 Baseline read_rows(const Json& json, const std::string& path) {
     if (json.at("format") != "mirrorball-bench" || json.at("version") != 1) {
@@ -32,8 +25,9 @@ Baseline read_rows(const Json& json, const std::string& path) {
     for (const Json& row : json.at("rows")) {
         const Json& figures = row.at("figures");
         if (figures.is_null()) continue;
-        baseline[row.at("key").get<std::string>()] = {spread_of_json(figures.at("trace")),
-                                                      spread_of_json(figures.at("total"))};
+        BaselineRow& known = baseline[row.at("key").get<std::string>()];
+        read_json(figures.at("trace"), known.trace);
+        read_json(figures.at("total"), known.total);
     }
     return baseline;
 }
@@ -78,7 +72,7 @@ std::vector<Regression> regressions(const BenchResult& result, const Baseline& b
     for (const BenchRow& row : result.rows) {
         const std::string key = key_of(row.asked);
         const auto before = baseline.find(key);
-        const auto now = figures_of(result, row);
+        const auto& now = row.figures;
         if (before == baseline.end() || !now) continue;
         const BaselineRow& old = before->second;
         if (is_slower(old.total, now->total, max_regress)) {

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/measure/bench_result.h"
-#include "host/measure/statistics.h"
+#include "host/measure/bench.h"
 
 namespace rt {
 

@@ -5,16 +5,12 @@
 
 #include <algorithm>
 
-#include "host/base/named.h"
-#include "host/measure/amdahl.h"
-
 namespace rt {
 
 namespace {
 
 bool same_picture(const BenchCase& a, const BenchCase& b) {
-    return a.scene_path == b.scene_path && a.scene_hash == b.scene_hash && a.width == b.width &&
-           a.height == b.height && a.aa == b.aa && a.double_precision == b.double_precision;
+    return a.scene.path == b.scene.path && a.scene.hash == b.scene.hash && a.picture == b.picture;
 }
 
 const BenchRow* one_thread_row(const BenchResult& result, const BenchCase& asked,
@@ -31,8 +27,6 @@ const BenchRow* base_of(const BenchResult& result, const BenchCase& asked) {
     const BenchRow* const tiles = one_thread_row(result, asked, "tiles");
     return tiles != nullptr ? tiles : one_thread_row(result, asked, "buffers");
 }
-
-}  // namespace
 
 std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow& row) {
     if (!row.has_figures()) return std::nullopt;
@@ -57,47 +51,55 @@ std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow
     return figures;
 }
 
-const BenchRow& usual_row(const BenchResult& result, const BenchRow& row) {
-    std::ptrdiff_t i = &row - result.ablation.data();
-    while (!result.ablation[static_cast<std::size_t>(i)].asked.change.empty()) --i;
-    return result.ablation[static_cast<std::size_t>(i)];
-}
-
-std::optional<AblationFigures> ablation_figures(const BenchResult& result, const BenchRow& row) {
-    const BenchRow& usual = usual_row(result, row);
-    if (!row.has_figures() || !usual.has_figures()) return std::nullopt;
-    AblationFigures figures;
-    figures.trace = spread_of(row.repeats, trace_seconds);
-    if (!row.warm_up.empty()) figures.first_build = row.warm_up.front().phases.renderer.build;
-    const double before = spread_of(usual.repeats, trace_seconds).median;
-    if (before > 0) figures.ratio = figures.trace.median / before;
-    return figures;
-}
-
-void judge_ablation(BenchResult& result) {
-    for (BenchRow& row : result.ablation) {
-        const BenchRow& usual = usual_row(result, row);
-        if (!row.has_figures() || usual.repeats.empty()) continue;
-        const std::uint64_t found = row.repeats.front().image_hash;
-        const std::uint64_t expected = usual.repeats.front().image_hash;
-        if (found == expected) continue;
+/// Judges a row of an ablation by its baseline row; both have runs.
+void judge_change(const AblationRow& baseline, AblationRow& row) {
+    if (!row.has_figures() || baseline.repeats.empty()) return;
+    const std::uint64_t found = row.repeats.front().image_hash;
+    const std::uint64_t expected = baseline.repeats.front().image_hash;
+    if (found != expected) {
         row.verdict = Verdict::wrong;
         row.why = fmt::format("image {}, but the default row's is {}", hash_text(found),
                               hash_text(expected));
     }
+    if (!row.has_figures() || !baseline.has_figures()) return;
+    AblationFigures& figures = row.figures.emplace();
+    figures.trace = spread_of(row.repeats, trace_seconds);
+    if (!row.warm_up.empty()) figures.first_build = row.warm_up.front().phases.renderer.build;
+    const double before = spread_of(baseline.repeats, trace_seconds).median;
+    if (before > 0) figures.ratio = figures.trace.median / before;
+}
+
+}  // namespace
+
+void BenchResult::judge() {
+    for (BenchRow& row : rows) row.figures = figures_of(*this, row);
+    const AblationRow* baseline = nullptr;
+    for (AblationRow& row : ablation) {
+        if (row.asked.change.empty()) baseline = &row;
+        judge_change(*baseline, row);
+    }
+}
+
+bool BenchResult::has_any(Verdict verdict) const {
+    const auto has_it = [&](const TimedRuns& row) { return row.verdict == verdict; };
+    return std::any_of(rows.begin(), rows.end(), has_it) ||
+           std::any_of(ablation.begin(), ablation.end(), has_it);
 }
 
 std::string key_of(const BenchCase& asked) {
-    return fmt::format("{} {}x{} {} {} {} {}{}{}", hash_text(asked.scene_hash), asked.width,
-                       asked.height, to_string(asked.aa), precision_name(asked.double_precision),
+    const PictureSpec& picture = asked.picture;
+    return fmt::format("{} {}x{} {} {} {} {}{}{}", hash_text(asked.scene.hash), picture.width,
+                       picture.height, to_string(picture.aa), to_string(picture.precision),
                        asked.device, asked.uses_threads ? "" : asked.device_name,
                        asked.schedule.empty() ? "" : " ", asked.schedule);
 }
 
-bool any_row(const BenchResult& result, Verdict verdict) {
-    const auto has_it = [&](const BenchRow& row) { return row.verdict == verdict; };
-    return std::any_of(result.rows.begin(), result.rows.end(), has_it) ||
-           std::any_of(result.ablation.begin(), result.ablation.end(), has_it);
+double parallel_fraction(double trace_seconds, double total_seconds) {
+    return total_seconds > 0 ? trace_seconds / total_seconds : 0;
+}
+
+double amdahl_speed_up(double parallel_fraction, int threads) {
+    return 1 / ((1 - parallel_fraction) + parallel_fraction / threads);
 }
 
 }  // namespace rt

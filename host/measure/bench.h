@@ -3,19 +3,35 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "host/measure/bench_result.h"
-#include "host/measure/statistics.h"
+#include "host/measure/runs.h"
 
 namespace rt {
+
+/// What a row of `mirrorball bench` asks for.
+struct BenchCase {
+    SceneId scene;
+    PictureSpec picture;
+    bool uses_threads = false;  ///< pthreads; else OpenCL
+    std::string device;         ///< spec for --device: "threads:2", "0"
+    std::string device_name;    ///< "threads", or the OpenCL device's own name
+    int threads = 0;            ///< asked for; 0 for OpenCL
+    std::string schedule;       ///< "tiles", "buffers" or "scalar" (tiles, one ray at a time);
+                                ///< empty for OpenCL
+    std::string change;         ///< in an ablation: what differs from the baseline row
+};
+
+/// Identifies a row across results: scene hash, size, AA, precision, device, schedule.
+std::string key_of(const BenchCase& asked);
 
 /// Figures of a right row, each computed from medians over its repeats.
 struct BenchFigures {
     Spread trace, total;         ///< seconds
     double rays_per_second = 0;  ///< rays over the median trace seconds
     int threads = 0;             ///< that ran; 0 for OpenCL
-    /// Total seconds of one thread over this row's: the same scene, size, AA and precision, in the
-    /// same schedule (for OpenCL: tiles, else buffers). Empty when one thread was not measured.
+    /// Total seconds of one thread over this row's: the same scene and picture, in the same
+    /// schedule (for OpenCL: tiles, else buffers). Empty when one thread was not measured.
     std::optional<double> speed_up;
     std::optional<double> trace_speed_up;     ///< the same of trace seconds
     std::optional<double> parallel_fraction;  ///< of that one-thread row; empty for OpenCL
@@ -23,29 +39,110 @@ struct BenchFigures {
     std::optional<double> over_amdahl;        ///< speed_up - amdahl
 };
 
-/// Empty unless the row is right and has a repeat: a wrong picture has no timing.
-std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow& row);
+template <typename A, Of<BenchFigures> X>
+void describe(A& a, X& x) {
+    a("trace", x.trace, "seconds to trace");
+    a("total", x.total, "seconds from flatten to read back");
+    a("rays_per_second", x.rays_per_second, "by the median trace seconds");
+    a("threads", x.threads, "that ran; 0 for OpenCL");
+    a("speed_up", or_null(x.speed_up), "of total, relative to one thread");
+    a("trace_speed_up", or_null(x.trace_speed_up), "of trace, relative to one thread");
+    a("parallel_fraction", or_null(x.parallel_fraction), "trace over total of one thread");
+    a("amdahl", or_null(x.amdahl), "the speed-up that Amdahl's law predicts");
+    a("over_amdahl", or_null(x.over_amdahl), "speed_up - amdahl");
+}
 
 /// Figures of a row of an ablation.
 struct AblationFigures {
     Spread trace;            ///< seconds
     double first_build = 0;  ///< seconds to build the kernels before the first picture
-    double ratio = 0;        ///< median trace over that of the usual row: above 1, slower
+    double ratio = 0;        ///< median trace over that of the baseline row: above 1, slower
 };
 
-/// The usual row that this row of result.ablation is a variation of; the row itself if it is one.
-const BenchRow& usual_row(const BenchResult& result, const BenchRow& row);
+template <typename A, Of<AblationFigures> X>
+void describe(A& a, X& x) {
+    a("trace", x.trace, "seconds to trace");
+    a("first_build", x.first_build, "seconds to build the kernels before the first picture");
+    a("ratio", x.ratio, "of the median trace to the baseline row's: above 1, slower");
+}
 
-/// Empty unless the row and the usual one are right and have a repeat.
-std::optional<AblationFigures> ablation_figures(const BenchResult& result, const BenchRow& row);
+/// A row: one case and its runs. RenderStats::error is against the double reference, on values
+/// clamped to [0,1].
+template <typename Figures>
+struct Row : TimedRuns {
+    BenchCase asked;
+    std::optional<Figures> figures;  ///< empty unless the row is right
+};
+using BenchRow = Row<BenchFigures>;
+using AblationRow = Row<AblationFigures>;
 
-/// Marks rows of the ablation whose picture differs from the usual one as wrong.
-void judge_ablation(BenchResult& result);
+template <typename A, typename X>
+void describe_row(A& a, X& x) {
+    a("key", key_of(x.asked), "identifies the row across results");
+    a("scene", x.asked.scene, "");
+    describe(a, x.asked.picture);
+    a("device", x.asked.device, "as for --device");
+    a("device_name", x.asked.device_name, "\"threads\", or the OpenCL device's name");
+    a("threads", x.asked.threads, "asked for; 0 for OpenCL");
+    a("schedule", x.asked.schedule, "tiles, buffers or scalar; empty for OpenCL");
+    describe_runs(a, x, x.figures);
+}
 
-/// Identifies a row across results: scene hash, size, AA, precision, device, schedule.
-std::string key_of(const BenchCase& asked);
+template <typename A, Of<BenchRow> X>
+void describe(A& a, X& x) {
+    describe_row(a, x);
+}
 
-/// Whether any row has this verdict.
-bool any_row(const BenchResult& result, Verdict verdict);
+template <typename A, Of<AblationRow> X>
+void describe(A& a, X& x) {
+    describe_row(a, x);
+    a("change", x.asked.change, "what differs from the baseline row; empty in that row");
+}
+
+/// A picture in double, strict, on threads, and its run.
+struct ReferenceRun : TimedRun {};
+
+template <typename A, Of<ReferenceRun> X>
+void describe(A& a, X& x) {
+    const SceneId& scene = x.scene;
+    const TimedRun& run = x;
+    a("scene", scene, "");
+    describe(a, run);
+}
+
+/// All results of `mirrorball bench`.
+struct BenchResult {
+    double load_before = -1;  ///< see other_load
+    int repeats_asked = 0;
+    bool interrupted = false;
+    std::vector<ReferenceRun> references;  ///< one per scene, size, AA mode
+    std::vector<BenchRow> rows;            ///< by scene, size, AA, precision; then devices
+    /// With --ablate (`rows` is then empty): a picture on a device as usual, the baseline row,
+    /// then with each change. Every picture must have the same bits as the baseline's.
+    std::vector<AblationRow> ablation;
+
+    /// Computes the figures of all rows, and marks rows of the ablation whose picture differs from
+    /// the baseline's as wrong.
+    void judge();
+
+    /// Whether any row has this verdict.
+    bool has_any(Verdict verdict) const;
+};
+
+template <typename A, Of<BenchResult> X>
+void describe(A& a, X& x) {
+    a("repeats", x.repeats_asked, "timed rounds asked for");
+    a("interrupted", x.interrupted, "whether a signal ended it early");
+    a("references", x.references, "double, strict, on threads; one per scene, size and AA mode");
+    a("rows", x.rows, "a device, precision and picture each");
+    a("ablation", x.ablation, "with --ablate: the baseline row, then one change at a time");
+}
+
+/// The share of a one-thread run that more threads can shorten, as the paper measures it (section
+/// 5.3): ray trace seconds over total seconds. 0 when nothing was measured.
+double parallel_fraction(double trace_seconds, double total_seconds);
+
+/// Amdahl's law: how many times faster `threads` threads can be at most, 1 / ((1 - f) + f / n).
+double amdahl_speed_up(double parallel_fraction, int threads);
 
 }  // namespace rt

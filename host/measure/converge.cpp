@@ -2,6 +2,9 @@
 #include "host/measure/converge.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace rt {
 
@@ -12,8 +15,8 @@ double build_of(const RenderStats& run) { return run.phases.renderer.build; }
 double open_of(const RenderStats& run) { return run.phases.renderer.open; }
 
 bool same_build(const ConvergeCase& a, const ConvergeCase& b) {
-    return a.device == b.device && a.double_precision == b.double_precision &&
-           a.fast_math == b.fast_math;
+    return a.device == b.device && a.picture.precision == b.picture.precision &&
+           a.picture.math == b.picture.math;
 }
 
 std::string family_of(const AaMode& aa) {
@@ -21,63 +24,48 @@ std::string family_of(const AaMode& aa) {
     return text == "none" ? "grid" : text.substr(0, text.find(':'));
 }
 
-/// Costs of the points at these indices.
-std::vector<Cost> costs_of(const ConvergeResult& result, const std::vector<std::size_t>& points) {
-    std::vector<Cost> costs;
-    for (const std::size_t i : points) {
-        const auto figures = figures_of(result, result.points[i]);
-        costs.push_back({figures->seconds.median, figures->rmse});
-    }
-    return costs;
+/// The value rounded to the three digits that tables show: what nobody sees decides nothing.
+double shown(double value) {
+    if (!(value > 0) || !std::isfinite(value)) return value;
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+    return std::round(value / unit) * unit;
+}
+
+std::optional<PointFigures> figures_of(const ConvergePoint& point, double floor) {
+    if (!point.has_figures()) return std::nullopt;
+    PointFigures figures;
+    figures.seconds = spread_of(point.repeats, picture_seconds);
+    figures.rmse = spread_of(point.repeats, rmse_of).median;
+    figures.below_floor = figures.rmse < floor;
+    return figures;
 }
 
 std::vector<std::size_t> measured_points(const ConvergeResult& result) {
     std::vector<std::size_t> points;
     for (std::size_t i = 0; i < result.points.size(); ++i) {
-        if (figures_of(result, result.points[i])) points.push_back(i);
+        if (result.points[i].figures) points.push_back(i);
     }
     return points;
 }
 
-TargetTime target_time(const ConvergeResult& result, const ConvergeCase& of, double target) {
-    TargetTime time{
-        of.device, of.device_name, target, std::nullopt, 0, target < result.reference.floor()};
-    for (const std::size_t i : measured_points(result)) {
-        const auto figures = figures_of(result, result.points[i]);
-        if (result.points[i].asked.device != of.device || figures->rmse > target) continue;
-        if (time.point && figures->seconds.median >= time.seconds) continue;
-        time.point = i;
-        time.seconds = figures->seconds.median;
+/// Costs of the points at these indices, which have figures.
+std::vector<Cost> costs_of(const ConvergeResult& result, const std::vector<std::size_t>& points) {
+    std::vector<Cost> costs;
+    for (const std::size_t i : points) {
+        const PointFigures& figures = *result.points[i].figures;
+        costs.push_back({figures.seconds.median, figures.rmse});
     }
-    return time;
-}
-
-}  // namespace
-
-std::optional<PointFigures> figures_of(const ConvergeResult& result, const ConvergePoint& point) {
-    if (!point.has_figures()) return std::nullopt;
-    PointFigures figures;
-    figures.seconds = spread_of(point.repeats, picture_seconds);
-    figures.rmse = spread_of(point.repeats, rmse_of).median;
-    figures.below_floor = figures.rmse < result.reference.floor();
-    return figures;
-}
-
-std::vector<std::size_t> front_of(const ConvergeResult& result) {
-    const std::vector<std::size_t> points = measured_points(result);
-    std::vector<std::size_t> front;
-    for (const std::size_t i : pareto_front(costs_of(result, points))) front.push_back(points[i]);
-    return front;
+    return costs;
 }
 
 std::vector<Curve> curves_of(const ConvergeResult& result) {
     std::vector<Curve> curves;
     for (const std::size_t i : measured_points(result)) {
         const ConvergeCase& asked = result.points[i].asked;
-        const std::string family = family_of(asked.aa);
+        const std::string family = family_of(asked.picture.aa);
         auto curve = std::find_if(curves.begin(), curves.end(), [&](const Curve& c) {
-            return same_build(c.of, asked) && c.of.max_bounces == asked.max_bounces &&
-                   c.family == family;
+            return same_build(c.of, asked) &&
+                   c.of.picture.max_bounces == asked.picture.max_bounces && c.family == family;
         });
         if (curve == curves.end()) curve = curves.insert(curve, Curve{asked, family, {}, {}});
         curve->points.push_back(i);
@@ -93,17 +81,28 @@ std::vector<BuildOffset> build_offsets(const ConvergeResult& result) {
             return same_build(o.of, first.asked);
         });
         if (known || first.warm_up.empty()) continue;
-        std::vector<RenderStats> repeats;
+        std::vector<TimedRun> repeats;
         for (const ConvergePoint& point : result.points) {
             if (!same_build(point.asked, first.asked)) continue;
             repeats.insert(repeats.end(), point.repeats.begin(), point.repeats.end());
         }
         const RenderStats& run = first.warm_up.front();
         offsets.push_back({first.asked, spread_of(repeats, open_of).median, build_of(run),
-                           to_string(run.phases.renderer.build_cache),
                            spread_of(repeats, build_of)});
     }
     return offsets;
+}
+
+TargetTime target_time(const ConvergeResult& result, const ConvergeCase& of, double target) {
+    TargetTime time{of.device, of.device_name, target, {}, {}, target < result.reference.floor()};
+    for (const std::size_t i : measured_points(result)) {
+        const PointFigures& figures = *result.points[i].figures;
+        if (result.points[i].asked.device != of.device || figures.rmse > target) continue;
+        if (time.seconds && figures.seconds.median >= *time.seconds) continue;
+        time.point = i;
+        time.seconds = figures.seconds.median;
+    }
+    return time;
 }
 
 std::vector<TargetTime> target_times(const ConvergeResult& result) {
@@ -118,6 +117,53 @@ std::vector<TargetTime> target_times(const ConvergeResult& result) {
         }
     }
     return times;
+}
+
+}  // namespace
+
+void ConvergeResult::summarize() {
+    for (ConvergePoint& point : points) point.figures = figures_of(point, reference.floor());
+    const std::vector<std::size_t> measured = measured_points(*this);
+    front.clear();
+    for (const std::size_t i : pareto_front(costs_of(*this, measured))) {
+        front.push_back(measured[i]);
+    }
+    curves = curves_of(*this);
+    builds = build_offsets(*this);
+    targets = target_times(*this);
+}
+
+std::vector<std::size_t> pareto_front(std::span<const Cost> costs) {
+    std::vector<std::size_t> order(costs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        const double seconds_a = shown(costs[a].seconds), seconds_b = shown(costs[b].seconds);
+        return seconds_a != seconds_b ? seconds_a < seconds_b : costs[a].rmse < costs[b].rmse;
+    });
+    std::vector<std::size_t> front;
+    double best = std::numeric_limits<double>::infinity();
+    for (const std::size_t i : order) {
+        if (!(shown(costs[i].rmse) < best)) continue;
+        best = shown(costs[i].rmse);
+        front.push_back(i);
+    }
+    return front;
+}
+
+std::optional<double> log_log_slope(std::span<const Cost> costs) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (const Cost& cost : costs) {
+        if (!(cost.seconds > 0) || !(cost.rmse > 0)) continue;
+        const double u = std::log(cost.seconds), v = std::log(cost.rmse);
+        n += 1;
+        x += u;
+        y += v;
+        xx += u * u;
+        xy += u * v;
+    }
+    const double spread = n * xx - x * x;
+    if (n < 2 || !(spread > 0)) return std::nullopt;
+    return (n * xy - x * y) / spread;
 }
 
 }  // namespace rt

@@ -4,17 +4,32 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "host/measure/converge_result.h"
-#include "host/measure/pareto.h"
-#include "host/measure/statistics.h"
+#include "host/measure/runs.h"
 
 namespace rt {
 
 /// The RMSEs that "seconds to reach" are given for.
 inline constexpr std::array<double, 4> rmse_targets{1e-2, 3e-3, 1e-3, 3e-4};
+
+/// What a point of `mirrorball converge` asks for.
+struct ConvergeCase {
+    std::string device;       ///< spec for --device: "threads", "0"
+    std::string device_name;  ///< "threads", or the OpenCL device's own name
+    PictureSpec picture;
+};
+
+/// What distinguishes a point's build from others.
+template <typename A, typename X>
+void describe_build(A& a, X& x) {
+    a("device", x.device, "as for --device");
+    a("device_name", x.device_name, "\"threads\", or the OpenCL device's name");
+    a("precision", x.picture.precision, "of the arithmetic");
+    a("math", x.picture.math, "strict or fast");
+}
 
 /// Figures of a right point.
 struct PointFigures {
@@ -23,11 +38,55 @@ struct PointFigures {
     bool below_floor = false;  ///< closer to the reference than the reference's estimated error
 };
 
-/// Empty unless the point is right and has a repeat.
-std::optional<PointFigures> figures_of(const ConvergeResult& result, const ConvergePoint& point);
+template <typename A, Of<PointFigures> X>
+void describe(A& a, X& x) {
+    a("seconds", x.seconds, "of a picture, without open and build");
+    a("rmse", x.rmse, "relative to the reference, clamped to 0..1");
+    a("below_floor", x.below_floor, "whether that is below the reference's own error");
+}
 
-/// Indices into ConvergeResult::points of the Pareto front, by increasing seconds.
-std::vector<std::size_t> front_of(const ConvergeResult& result);
+/// A point of the error-time plane and its runs. RenderStats::error is against the
+/// converged reference, on values clamped to [0,1].
+struct ConvergePoint : TimedRuns {
+    ConvergeCase asked;
+    std::optional<PointFigures> figures;  ///< empty unless the point is right
+};
+
+template <typename A, Of<ConvergePoint> X>
+void describe(A& a, X& x) {
+    describe_build(a, x.asked);
+    a("max_bounces", x.asked.picture.max_bounces, "mirror and refracted rays after the eye ray");
+    a("aa", x.asked.picture.aa, "as for --aa");
+    a("filter", x.asked.picture.filter, "reconstruction filter");
+    a("seed", x.asked.picture.seed, "of sobol samples");
+    describe_runs(a, x, x.figures);
+}
+
+/// The converged picture: the mean of two independent halves, in double with strict arithmetic.
+struct ConvergeReference {
+    std::string aa_a, aa_b;  ///< how the halves were sampled
+    int max_bounces = 0;
+    std::uint64_t hash_a = 0, hash_b = 0;  ///< of the halves' bytes as float
+    double halves_rmse = 0;                ///< between the halves, clamped to [0,1]
+    double seconds = 0;                    ///< to render the halves
+    std::string file;                      ///< --reference; then there are no halves
+
+    /// The reference's own RMSE, estimated: errors of independent halves add in quadrature, so
+    /// their mean is off by half their difference. Below it, nothing can be said about a picture.
+    double floor() const { return halves_rmse / 2; }
+};
+
+template <typename A, Of<ConvergeReference> X>
+void describe(A& a, X& x) {
+    a("file", unless_empty(x.file), "of --reference; there are then no halves");
+    a("halves", std::vector{x.aa_a, x.aa_b}, "how each half was sampled");
+    a("hashes", std::vector{hash_text(x.hash_a), hash_text(x.hash_b)}, "of the halves as float");
+    a("precision", Precision::float64, "of the arithmetic");
+    a("max_bounces", x.max_bounces, "mirror and refracted rays after the eye ray");
+    a("halves_rmse", x.halves_rmse, "between the halves, clamped to 0..1");
+    a("floor", x.floor(), "the reference's own RMSE, half of that");
+    a("seconds", x.seconds, "to render the halves");
+}
 
 /// Points that differ only in sampling, in sweep order.
 struct Curve {
@@ -37,29 +96,98 @@ struct Curve {
     std::optional<double> slope;  ///< of log RMSE over log seconds; none for a single point
 };
 
-std::vector<Curve> curves_of(const ConvergeResult& result);
+template <typename A, Of<Curve> X>
+void describe(A& a, X& x) {
+    describe_build(a, x.of);
+    a("max_bounces", x.of.picture.max_bounces, "mirror and refracted rays after the eye ray");
+    a("family", x.family, "of AA modes: grid (with none), sobol, adaptive");
+    a("points", x.points, "indices into points");
+    a("slope", or_null(x.slope), "of log RMSE over log seconds");
+}
 
 /// Extra seconds of a device's first picture.
 struct BuildOffset {
-    ConvergeCase of;          ///< its device, precision and math
-    double open = 0;          ///< median
-    double first_build = 0;   ///< of the first picture in this process ...
-    std::string first_cache;  ///< ... by RenderStats: "cold", "unknown", "none" or "warm"
-    Spread warm_build;        ///< over all repeats
+    ConvergeCase of;         ///< its device, precision and math
+    double open = 0;         ///< median
+    double first_build = 0;  ///< of the first picture, with an empty kernel cache
+    Spread warm_build;       ///< over all repeats
 };
 
-std::vector<BuildOffset> build_offsets(const ConvergeResult& result);
+template <typename A, Of<BuildOffset> X>
+void describe(A& a, X& x) {
+    describe_build(a, x.of);
+    a("open", x.open, "seconds to open the device, median");
+    a("first_build", x.first_build, "seconds of the first picture");
+    a("warm_build", x.warm_build, "seconds of later pictures");
+}
 
 /// How soon a device reaches an RMSE, with the fastest measured setting that does.
 struct TargetTime {
     std::string device, device_name;
     double target = 0;
     std::optional<std::size_t> point;  ///< empty when no setting reached it
-    double seconds = 0;                ///< its median picture_seconds
+    std::optional<double> seconds;     ///< its median picture_seconds
     bool below_floor = false;          ///< the target itself is below the floor: undecidable
 };
 
-/// Devices in the order of the points; targets from the largest down.
-std::vector<TargetTime> target_times(const ConvergeResult& result);
+template <typename A, Of<TargetTime> X>
+void describe(A& a, X& x) {
+    a("device", x.device, "as for --device");
+    a("device_name", x.device_name, "\"threads\", or the OpenCL device's name");
+    a("rmse", x.target, "to be reached");
+    a("seconds", or_null(x.seconds), "of the fastest setting that reaches it; null: none does");
+    a("point", or_null(x.point), "its index in points");
+    a("below_floor", x.below_floor, "whether the reference cannot tell");
+}
+
+/// All results of `mirrorball converge`.
+struct ConvergeResult {
+    double load_before = -1;  ///< see other_load
+    SceneId scene;
+    std::vector<std::string> notes;  ///< Scene::notes
+    int width = 0, height = 0;       ///< pixels
+    int repeats_asked = 0;
+    bool interrupted = false;
+    ConvergeReference reference;
+    std::vector<ConvergePoint> points;  ///< by device, precision, math, bounces; then AA
+
+    // Computed by summarize:
+    std::vector<std::size_t> front;  ///< points on the Pareto front, by increasing seconds
+    std::vector<Curve> curves;
+    std::vector<BuildOffset> builds;
+    std::vector<TargetTime> targets;  ///< devices in the order of the points; largest first
+
+    /// Computes the figures of all points and what follows from them.
+    void summarize();
+};
+
+template <typename A, Of<ConvergeResult> X>
+void describe(A& a, X& x) {
+    a("scene", x.scene, "");
+    a("width", x.width, "pixels");
+    a("height", x.height, "pixels");
+    a("repeats", x.repeats_asked, "timed rounds asked for");
+    a("interrupted", x.interrupted, "whether a signal ended it early");
+    a("reference", x.reference, "the mean of two independent halves");
+    a("points", x.points, "a device, precision, math and sampling each");
+    a("pareto_front", x.front, "indices into points, by increasing seconds");
+    a("curves", x.curves, "points that differ only in sampling");
+    a("builds", x.builds, "extra time for the first picture");
+    a("seconds_to_rmse", x.targets, "time to reach an RMSE");
+}
+
+/// Run time and error of one way to make a picture.
+struct Cost {
+    double seconds = 0, rmse = 0;
+};
+
+/// The Pareto front: ways for which no other is at least as fast and as accurate, and better in
+/// one, to the three digits that tables show. Indices by increasing seconds, hence decreasing
+/// error; of equals, the first.
+std::vector<std::size_t> pareto_front(std::span<const Cost> costs);
+
+/// The slope of log RMSE over log seconds, by least squares: -0.5 for plain random sampling. Costs
+/// with a 0 are left out; empty when fewer than two different times remain.
+std::optional<double> log_log_slope(std::span<const Cost> costs);
 
 }  // namespace rt

@@ -43,8 +43,9 @@ Picture heat_map(const Picture& picture, const Picture& reference, double scale)
     for (std::size_t i = 0; i < picture.pixels.size(); i += channels) {
         const double difference =
             pixel_difference(&picture.pixels[i], &reference.pixels[i], picture.channels);
-        const auto color = std::isnan(difference) ? non_finite_color
-                                                  : heat_color(scale > 0 ? difference / scale : 0);
+        const auto color = std::isnan(difference)
+                               ? non_finite_color
+                               : heat_color(scale > 0 ? std::sqrt(difference / scale) : 0);
         map.pixels.insert(map.pixels.end(), color.begin(), color.end());
     }
     return map;

@@ -15,9 +15,9 @@ constexpr std::array<float, 3> non_finite_color{0, 1, 1};
 /// its colors, interpolated linearly. Display values, red first.
 std::array<float, 3> heat_color(double share);
 
-/// The largest channel difference of each pixel as a color; `scale` is the difference at the top of
-/// the color map (0: the pictures do not differ). The pictures must have the same size and number
-/// of channels.
+/// The largest channel difference of each pixel as the color of its square root, so that small ones
+/// show; `scale` is the difference at the top of the color map (0: the pictures do not differ). The
+/// pictures must have the same size and number of channels.
 Picture heat_map(const Picture& picture, const Picture& reference, double scale);
 
 }  // namespace rt

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 
 namespace rt {
 

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/opencl/opencl.h"
 
 namespace rt {

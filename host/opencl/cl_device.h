@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "host/opencl/pocl.h"
+
 struct _cl_device_id;
 
 namespace rt {
-
-inline constexpr const char* pocl_platform = "Portable Computing Language";
 
 /// An OpenCL device and its relevant properties.
 struct ClDevice {
@@ -25,7 +25,6 @@ struct ClDevice {
     bool rounds_correctly = false;  ///< promises correctly rounded float division and sqrt
     bool keeps_subnormals = false;  ///< float
     std::string unusable;           ///< why it cannot render; empty when it can
-    std::string icd_file;  ///< if its driver works only without the others: OCL_ICD_VENDORS
     _cl_device_id* handle = nullptr;
 };
 

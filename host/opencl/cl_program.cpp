@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/opencl/kept_programs.h"
+#include "host/opencl/cl_options.h"
 #include "host/opencl/opencl.h"
-#include "host/pocl/pocl_build.h"
+#include "host/opencl/pocl.h"
 
 namespace rt {
 
@@ -44,8 +44,8 @@ std::string build_log(const cl::Program& program, const ClDevice& device) {
 std::string build_options(const ClDevice& device, const ProgramOptions& options) {
     std::string text = "-cl-std=CL1.2";
     if (options.lanes != 1) text += fmt::format(" -DRT_LANES={}", options.lanes);
-    if (options.double_precision) text += " -DRT_DOUBLE=1";
-    if (options.fast_math) {
+    if (options.precision == Precision::float64) text += " -DRT_DOUBLE=1";
+    if (options.math == Math::fast) {
         text += " -DRT_FAST_MATH=1 -cl-mad-enable";
     } else if (device.rounds_correctly) {
         text += " -cl-fp32-correctly-rounded-divide-sqrt";
@@ -65,7 +65,6 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
 cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
                           const ProgramOptions& options) {
     const std::string flags = build_options(device, options);
-    if (auto kept = kept_program(context, device, source, flags)) return *std::move(kept);
     if (auto built = built_for_pocl(context, device, source, flags)) return *built;
     const cl::Program program(context, std::string(source));
     const cl_int status = build(program, device, flags);
@@ -79,7 +78,24 @@ cl::Program build_program(const cl::Context& context, const ClDevice& device, co
                         device.name, device.driver, cl_status_text(status), advice, flags,
                         build_log(program, device)));
     }
-    keep_program(program, device, source, flags);
+    return program;
+}
+
+std::shared_ptr<OpenDevices> make_open_devices() { return std::make_shared<OpenDevices>(); }
+
+cl::Context OpenDevices::context(const ClDevice& device) {
+    const std::lock_guard lock(mutex_);
+    cl::Context& context = contexts_[device.handle];
+    if (context() == nullptr) context = cl::Context(handle_of(device));
+    return context;
+}
+
+cl::Program OpenDevices::program(const ClDevice& device, const char* source,
+                                 const ProgramOptions& options) {
+    const cl::Context of = context(device);
+    const std::lock_guard lock(mutex_);
+    cl::Program& program = programs_[{device.handle, source, build_options(device, options)}];
+    if (program() == nullptr) program = build_program(of, device, source, options);
     return program;
 }
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <mutex>
 #include <string>
+#include <tuple>
 
 #include "host/flatten/features.h"
 #include "host/opencl/cl_device.h"
 #include "host/opencl/opencl.h"
+#include "host/render/picture_spec.h"
 
 namespace rt {
 
@@ -22,8 +26,8 @@ struct EntryPoints {
 
 /// What a program is compiled for. `features` says what may be left out.
 struct ProgramOptions {
-    bool double_precision = false;
-    bool fast_math = false;            ///< let the compiler contract a * b + c
+    Precision precision = Precision::float32;
+    Math math = Math::strict;
     bool warnings_are_errors = false;  ///< for tests
     int lanes = 1;                     ///< rays of a packet: 1, 2, 4, 8 or 16
     int samples = 0;  ///< per pixel, if a packet holds them all: compiled in; 0: any number
@@ -38,6 +42,22 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
 /// compiler's log.
 cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
                           const ProgramOptions& options);
+
+/// Contexts and programs kept from picture to picture. Thread-safe.
+class OpenDevices {
+   public:
+    cl::Context context(const ClDevice& device);
+
+    /// As build_program, in that context; built once.
+    cl::Program program(const ClDevice& device, const char* source, const ProgramOptions& options);
+
+   private:
+    using Key = std::tuple<cl_device_id, const char*, std::string>;
+
+    std::mutex mutex_;
+    std::map<cl_device_id, cl::Context> contexts_;
+    std::map<Key, cl::Program> programs_;
+};
 
 /// The Error (ExitCode::device) for an OpenCL call that failed.
 [[noreturn]] void throw_device_error(const ClDevice& device, const cl::Error& error);

@@ -26,9 +26,9 @@ class ClRayTracer {
           queue_(context_, handle_of(device)),
           scene_(scene, context_, queue_, device) {
         ProgramOptions program;
-        program.double_precision = sizeof(T) == sizeof(double);
-        program.lanes = packet_lanes<T>(options.lanes, device);
-        program.fast_math = options.fast_math;
+        program.precision = precision_of<T>;
+        program.lanes = packet_lanes<T>(options.kernels.lanes, device);
+        program.math = options.math;
         program.warnings_are_errors = options.warnings_are_errors;
         program.entries = {false, false, false, true};
         lanes_ = static_cast<std::size_t>(program.lanes);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <filesystem>
 #include <memory>
 #include <span>
 
@@ -15,9 +14,8 @@
 #include "host/opencl/cl_program.h"
 #include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
-#include "host/opencl/open_devices.h"
+#include "host/opencl/pocl.h"
 #include "host/opencl/render_kernels.h"
-#include "host/pocl/pocl_cache.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
@@ -57,8 +55,8 @@ class ClRenderer : public Renderer<T> {
           params_(scene.params),
           pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
                  device.is_cpu ? cpu_most_samples : gpu_most_samples) {
-        launch_samples_ = launches_samples(options.launch, device);
-        lanes_ = packet_lanes<T>(options.lanes, device);
+        launch_samples_ = launches_samples(options.kernels.launch, device);
+        lanes_ = packet_lanes<T>(options.kernels.lanes, device);
         group_ = lanes_ == 1 ? single_group : packet_group;
         try {
             open();
@@ -198,19 +196,18 @@ class ClRenderer : public Renderer<T> {
     /// finish compiling only then.
     void build(const FlatScene<T>& scene, const ClOptions& options) {
         ProgramOptions program_options;
-        program_options.double_precision = sizeof(T) == sizeof(double);
+        program_options.precision = precision_of<T>;
         program_options.lanes = lanes_;
-        program_options.fast_math = options.fast_math;
+        program_options.math = options.math;
         program_options.warnings_are_errors = options.warnings_are_errors;
         program_options.entries = {!launch_samples_, launch_samples_, options.will_refine, false};
-        if (!options.all_features) {
-            program_options.features = either_of(scene.features, options.also);
-            const int held = shape(samples()).samples;
-            const bool is_one_packet = !launch_samples_ && held == params_.samples;
-            if (is_one_packet && !options.any_samples) program_options.samples = held;
+        const KernelChoice& kernels = options.kernels;
+        program_options.features = either_of(scene.features, kernels.features);
+        const int held = shape(samples()).samples;
+        const bool is_one_packet = !launch_samples_ && held == params_.samples;
+        if (is_one_packet && !kernels.any_samples && !kernels.has_all()) {
+            program_options.samples = held;
         }
-        const bool is_pocl = device_.platform == pocl_platform;
-        const auto start = std::filesystem::file_time_type::clock::now();
         const Stopwatch watch;
         OpenDevices* const kept = options.open_devices;
         const cl::Program program =
@@ -232,7 +229,6 @@ class ClRenderer : public Renderer<T> {
         }
         queue_.finish();
         times_.build = watch.seconds();
-        times_.build_cache = is_pocl ? pocl_build_since(start) : BuildCache::unknown;
     }
 
     /// Sets all arguments that stay the same for a picture; the tile's comes next.

@@ -41,7 +41,7 @@ ClTiles cl_tiles(const typename Flat<T>::LaunchParams& params, const ClDevice& d
                  const ClOptions& options, int film_width) {
     const auto samples = static_cast<std::size_t>(params.samples);
     const PacketShape block =
-        packet_shape(packet_lanes<T>(options.lanes, device), static_cast<int>(samples));
+        packet_shape(packet_lanes<T>(options.kernels.lanes, device), static_cast<int>(samples));
     const auto blocks = static_cast<int>(std::max<std::size_t>(
         tile_samples / (samples * static_cast<std::size_t>(block.pixels())), 1));
     const int across = (film_width + block.width - 1) / block.width;
@@ -49,8 +49,8 @@ ClTiles cl_tiles(const typename Flat<T>::LaunchParams& params, const ClDevice& d
     // A tile has no more packets than pixels, whatever its shape.
     const std::size_t items = most_items(device);
     return {{0, 0, width, std::max(blocks / across, 1) * block.height},
-            static_cast<std::int64_t>(launches_samples(options.launch, device) ? items / samples
-                                                                               : items)};
+            static_cast<std::int64_t>(
+                launches_samples(options.kernels.launch, device) ? items / samples : items)};
 }
 
 template ClTiles cl_tiles<float>(const Flat<float>::LaunchParams&, const ClDevice&,

@@ -4,25 +4,62 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <filesystem>
 #include <optional>
 #include <system_error>
 
 #include "host/base/error.h"
-#include "host/base/lower.h"
-#include "host/base/number.h"
-#include "host/base/usage_error.h"
-#include "host/opencl/gpu_nodes.h"
-#include "host/pocl/pocl_environment.h"
+#include "host/base/text.h"
 
 namespace rt {
 
 namespace {
 
+using Kind = DeviceSpec::Kind;
+
 constexpr int most_threads_asked = 4096;
 
-bool contains(const std::string& text, const std::string& part) {
-    return lower(text).find(lower(part)) != std::string::npos;
+constexpr Named<Kind> words[] = {{"", Kind::automatic}, {"auto", Kind::automatic},
+                                 {"all", Kind::all},    {"threads", Kind::threads},
+                                 {"cpu", Kind::cpu},    {"gpu", Kind::gpu},
+                                 {"pocl", Kind::pocl}};
+
+DeviceSpec parse_spec(const std::string& text) {
+    DeviceSpec spec{.text = text};
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string head = text.substr(0, colon);
+    const std::string tail = text.substr(std::min(colon + 1, text.size()));
+    const auto first = parse_number<int>(head), second = parse_number<int>(tail);
+    if (const auto kind = value_of(words, text)) {
+        spec.kind = *kind;
+    } else if (head == "threads") {
+        spec.kind = Kind::threads;
+        spec.threads = second.value_or(0);
+        if (spec.threads < 1 || spec.threads > most_threads_asked) {
+            usage_error("device '{}': expected 1 to {} threads", text, most_threads_asked);
+        }
+    } else if (head == "name" && !tail.empty()) {
+        spec.kind = Kind::name;
+        spec.name = lower(tail);
+    } else if (head == text && first && *first >= 0) {
+        spec.kind = Kind::index;
+        spec.index = *first;
+    } else if (first && second && *first >= 0 && *second >= 0) {
+        spec.kind = Kind::place;
+        spec.platform = *first;
+        spec.index = *second;
+    } else {
+        usage_error(
+            "device '{}': expected an index, platform:device, pocl, name:TEXT, cpu, gpu, "
+            "threads[:N], all or auto, or several of them separated by commas",
+            text);
+    }
+    return spec;
+}
+
+/// Whether OpenCL must be loaded.
+bool needs_opencl(const DeviceSpec& spec) {
+    return spec.kind == Kind::automatic ? gpu_may_be_here() : spec.kind != Kind::threads;
 }
 
 std::string describe_all(const std::vector<ClDevice>& devices,
@@ -36,132 +73,9 @@ std::string describe_all(const std::vector<ClDevice>& devices,
     return text.empty() ? " none (see 'mirrorball devices')" : text;
 }
 
-using Test = std::function<bool(const ClDevice&)>;
-
-/// The test for a spec that is neither threads nor "".
-Test test_for(const std::string& spec) {
-    const auto colon = spec.find(':');
-    if (const auto index = parse_number<int>(spec); index && *index >= 0) {
-        return [=](const ClDevice& device) { return device.index == *index; };
-    }
-    if (spec == "cpu") return [](const ClDevice& device) { return device.is_cpu; };
-    if (spec == "gpu") return [](const ClDevice& device) { return device.is_gpu; };
-    if (spec == "pocl") {
-        return [](const ClDevice& device) { return device.platform == pocl_platform; };
-    }
-    if (spec.rfind("name:", 0) == 0 && spec.size() > 5) {
-        const std::string text = spec.substr(5);
-        return [=](const ClDevice& device) {
-            return contains(device.name, text) || contains(device.platform, text) ||
-                   contains(device.vendor, text);
-        };
-    }
-    if (colon != std::string::npos) {
-        const auto platform = parse_number<int>(std::string_view(spec).substr(0, colon));
-        const auto index = parse_number<int>(std::string_view(spec).substr(colon + 1));
-        if (platform && index && *platform >= 0 && *index >= 0) {
-            return [=](const ClDevice& device) {
-                return device.platform_index == *platform && device.device_index == *index;
-            };
-        }
-    }
-    usage_error(
-        "device '{}': expected an index, platform:device, pocl, name:TEXT, cpu, gpu, "
-        "threads[:N], all or auto, or several of them separated by commas",
-        spec);
-}
-
-/// Resolves a list of specs, listing devices at most once.
-class DeviceFinder {
-   public:
-    DeviceFinder(int threads, const std::function<void()>& loaded)
-        : threads_(threads), loaded_(loaded) {}
-
-    std::vector<DeviceChoice> find(const std::string& list) {
-        std::vector<DeviceChoice> found;
-        for (const std::string& spec : specs_of(list)) {
-            if (spec == all_devices) {
-                add(found, threads_choice());
-                add_usable(found);
-                continue;
-            }
-            const DeviceChoice choice = find_one(spec);
-            add(found, choice);
-            // Threads trace while the automatically chosen device still compiles.
-            if (!is_auto(spec) || choice.use_threads) continue;
-            DeviceChoice helper = threads_choice();
-            helper.is_helper = true;
-            add(found, helper);
-        }
-        return found;
-    }
-
-   private:
-    /// Each device once, by however many names.
-    static void add(std::vector<DeviceChoice>& found, const DeviceChoice& choice) {
-        for (const DeviceChoice& other : found) {
-            if (choice.use_threads != other.use_threads) continue;
-            if (choice.use_threads && choice.threads != other.threads) {
-                usage_error("--device lists threads twice, with different counts; keep one");
-            }
-            if (choice.use_threads ||
-                (choice.device.index == other.device.index && choice.failure == other.failure)) {
-                return;
-            }
-        }
-        found.push_back(choice);
-    }
-
-    DeviceChoice find_one(const std::string& spec) {
-        if (const auto choice = choose_without_opencl(spec)) {
-            if (choice->threads > 0 && threads_ > 0 && choice->threads != threads_) {
-                usage_error("--threads {} contradicts --device {}; keep one", threads_, spec);
-            }
-            return *choice;
-        }
-        const std::vector<ClDevice>& devices = listed();
-        if (!failure_.empty() && !is_auto(spec) &&
-            std::none_of(devices.begin(), devices.end(), test_for(spec))) {
-            DeviceChoice unlisted;
-            unlisted.device.name = "--device " + spec;
-            unlisted.failure = unlisted.device.name + ": " + failure_;
-            return unlisted;
-        }
-        DeviceChoice choice = choose_device(spec, devices, problems_);
-        if (choice.use_threads && choice.note.empty() && !failure_.empty()) {
-            choice.note = "rendering on threads: " + failure_;
-        }
-        return choice;
-    }
-
-    void add_usable(std::vector<DeviceChoice>& found) {
-        for (const ClDevice& device : listed()) {
-            if (!device.unusable.empty()) continue;
-            DeviceChoice choice;
-            choice.device = device;
-            add(found, choice);
-        }
-    }
-
-    const std::vector<ClDevice>& listed() {
-        if (!devices_) {
-            devices_ = list_cl_devices(problems_, &failure_);
-            if (loaded_) loaded_();
-        }
-        return *devices_;
-    }
-
-    const int threads_;
-    const std::function<void()> loaded_;
-    std::optional<std::vector<ClDevice>> devices_;
-    std::vector<std::string> problems_;
-    std::string failure_;  ///< of the first driver that could not list its devices
-};
-
 /// GPUs before other accelerators; never CPUs: threads run the same kernels there.
 DeviceChoice best_device(const std::vector<ClDevice>& devices) {
-    DeviceChoice choice;
-    choice.use_threads = true;
+    DeviceChoice choice = threads_choice();
     for (const ClDevice& device : devices) {
         if (device.is_cpu) continue;
         if (!device.unusable.empty()) {
@@ -175,85 +89,172 @@ DeviceChoice best_device(const std::vector<ClDevice>& devices) {
     return choice;
 }
 
+DeviceChoice choose(const DeviceSpec& spec, const std::vector<ClDevice>& devices,
+                    const std::vector<std::string>& problems) {
+    if (spec.kind == Kind::automatic) return best_device(devices);
+    std::vector<ClDevice> fitting;
+    std::copy_if(devices.begin(), devices.end(), std::back_inserter(fitting),
+                 [&](const ClDevice& device) { return spec.fits(device); });
+    if (fitting.empty()) {
+        throw Error(ExitCode::device,
+                    fmt::format("device '{}' matches no OpenCL device; available:{}", spec.text,
+                                describe_all(devices, problems)));
+    }
+    if (fitting.size() > 1) {
+        usage_error("device '{}' matches several devices; choose one by its index:{}", spec.text,
+                    describe_all(fitting));
+    }
+    const ClDevice& device = fitting.front();
+    if (!device.unusable.empty()) {
+        throw Error(ExitCode::device, fmt::format("device {} ({}) cannot be used: {}", device.index,
+                                                  device.name, device.unusable));
+    }
+    return {.device = device};
+}
+
+/// Resolves a list of specs, listing devices at most once.
+class DeviceFinder {
+   public:
+    DeviceFinder(int threads, const std::function<void()>& loaded)
+        : threads_(threads), loaded_(loaded) {}
+
+    std::vector<DeviceChoice> find(const std::string& list) {
+        for (const DeviceSpec& spec : parse_device_specs(list)) {
+            if (spec.kind == Kind::all) {
+                add(threads_choice());
+                for (const ClDevice& device : listed()) {
+                    if (device.unusable.empty()) add({.device = device});
+                }
+                continue;
+            }
+            const DeviceChoice choice = find_one(spec);
+            add(choice);
+            // Threads trace while the automatically chosen device still compiles.
+            if (spec.kind == Kind::automatic && !choice.use_threads) {
+                add({.use_threads = true, .is_helper = true});
+            }
+        }
+        return std::move(found_);
+    }
+
+   private:
+    /// Each device once, by however many names.
+    void add(const DeviceChoice& choice) {
+        for (const DeviceChoice& other : found_) {
+            if (choice.use_threads != other.use_threads) continue;
+            if (choice.use_threads && choice.threads != other.threads) {
+                usage_error("--device lists threads twice, with different counts; keep one");
+            }
+            if (choice.use_threads ||
+                (choice.device.index == other.device.index && choice.failure == other.failure)) {
+                return;
+            }
+        }
+        found_.push_back(choice);
+    }
+
+    DeviceChoice find_one(const DeviceSpec& spec) {
+        if (spec.threads > 0 && threads_ > 0 && spec.threads != threads_) {
+            usage_error("--threads {} contradicts --device {}; keep one", threads_, spec.text);
+        }
+        if (!needs_opencl(spec)) return threads_choice(spec.threads);
+        const std::vector<ClDevice>& devices = listed();
+        const auto fits = [&](const ClDevice& device) { return spec.fits(device); };
+        if (!failure_.empty() && spec.kind != Kind::automatic &&
+            std::none_of(devices.begin(), devices.end(), fits)) {
+            DeviceChoice unlisted;
+            unlisted.device.name = "--device " + spec.text;
+            unlisted.failure = unlisted.device.name + ": " + failure_;
+            return unlisted;
+        }
+        DeviceChoice choice = choose(spec, devices, problems_);
+        if (choice.use_threads && choice.note.empty() && !failure_.empty()) {
+            choice.note = "rendering on threads: " + failure_;
+        }
+        return choice;
+    }
+
+    const std::vector<ClDevice>& listed() {
+        if (!devices_) {
+            devices_ = list_cl_devices(problems_, &failure_);
+            if (loaded_) loaded_();
+        }
+        return *devices_;
+    }
+
+    const int threads_;
+    const std::function<void()> loaded_;
+    std::vector<DeviceChoice> found_;
+    std::optional<std::vector<ClDevice>> devices_;
+    std::vector<std::string> problems_;
+    std::string failure_;  ///< of the first driver that could not list its devices
+};
+
+bool has_entry(const std::filesystem::path& folder, const char* prefix) {
+    std::error_code error;
+    std::filesystem::directory_iterator entry(folder, error);
+    return !error && std::any_of(begin(entry), end(entry), [&](const auto& file) {
+        return file.path().filename().string().starts_with(prefix);
+    });
+}
+
 }  // namespace
 
-DeviceChoice threads_choice() {
-    DeviceChoice choice;
-    choice.use_threads = true;
-    return choice;
-}
-
-bool names_threads(const std::string& spec, DeviceChoice& choice) {
-    if (spec != "threads" && spec.rfind("threads:", 0) != 0) return false;
-    choice.use_threads = true;
-    if (spec == "threads") return true;
-    const auto count = parse_number<int>(std::string_view(spec).substr(8));
-    if (!count || *count < 1 || *count > most_threads_asked) {
-        usage_error("device '{}': expected 1 to {} threads", spec, most_threads_asked);
-    }
-    choice.threads = *count;
-    return true;
-}
-
-std::vector<std::string> specs_of(const std::string& list) {
-    std::vector<std::string> specs;
-    for (std::size_t at = 0; at <= list.size();) {
-        const std::size_t end = std::min(list.find(',', at), list.size());
-        specs.push_back(list.substr(at, end - at));
-        at = end + 1;
-    }
-    if (specs.size() > 1 && std::find(specs.begin(), specs.end(), "") != specs.end()) {
-        usage_error("device '{}': an item of the list is empty", list);
-    }
-    return specs;
-}
-
-bool needs_opencl(const std::string& list) {
-    for (const std::string& spec : specs_of(list)) {
-        if (spec == all_devices || !choose_without_opencl(spec)) return true;
+bool DeviceSpec::fits(const ClDevice& device) const {
+    switch (kind) {
+        case Kind::automatic:
+        case Kind::threads:
+        case Kind::all:
+            return false;
+        case Kind::cpu:
+            return device.is_cpu;
+        case Kind::gpu:
+            return device.is_gpu;
+        case Kind::pocl:
+            return device.platform == pocl_platform;
+        case Kind::name:
+            return lower(device.name + "\n" + device.platform + "\n" + device.vendor).find(name) !=
+                   std::string::npos;
+        case Kind::index:
+            return device.index == index;
+        case Kind::place:
+            return device.platform_index == platform && device.device_index == index;
     }
     return false;
 }
 
-bool is_auto(const std::string& spec) { return spec.empty() || spec == "auto"; }
-
-std::optional<DeviceChoice> choose_without_opencl(const std::string& spec) {
-    DeviceChoice choice;
-    if (names_threads(spec, choice)) return choice;
-    if (!is_auto(spec) || gpu_may_be_here()) return std::nullopt;
-    choice.use_threads = true;
-    return choice;
+std::vector<DeviceSpec> parse_device_specs(const std::string& list) {
+    std::vector<DeviceSpec> specs;
+    for (std::size_t at = 0; at <= list.size();) {
+        const std::size_t end = std::min(list.find(',', at), list.size());
+        if (end == at && !list.empty()) {
+            usage_error("device '{}': an item of the list is empty", list);
+        }
+        specs.push_back(parse_spec(list.substr(at, end - at)));
+        at = end + 1;
+    }
+    return specs;
 }
 
-void check_device_list(const std::string& list) {
-    for (const std::string& spec : specs_of(list)) {
-        DeviceChoice ignored;
-        if (spec != all_devices && !is_auto(spec) && !names_threads(spec, ignored)) test_for(spec);
-    }
+DeviceChoice threads_choice(int threads) { return {.use_threads = true, .threads = threads}; }
+
+bool needs_opencl(const std::string& list) {
+    const std::vector<DeviceSpec> specs = parse_device_specs(list);
+    return std::any_of(specs.begin(), specs.end(),
+                       [](const DeviceSpec& spec) { return needs_opencl(spec); });
+}
+
+bool gpu_may_be_here(const std::string& folder) {
+    const std::filesystem::path dev(folder);
+    const auto is_here = [&](const char* prefix) { return has_entry(dev, prefix); };
+    constexpr const char* prefixes[] = {"nvidia", "kfd", "dxg", "mali", "pvr"};
+    return std::any_of(std::begin(prefixes), std::end(prefixes), is_here) ||
+           has_entry(dev / "dri", "renderD") || has_entry(dev / "accel", "accel");
 }
 
 DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,
                            const std::vector<std::string>& problems) {
-    if (is_auto(spec)) return best_device(devices);
-    std::vector<ClDevice> fitting;
-    std::copy_if(devices.begin(), devices.end(), std::back_inserter(fitting), test_for(spec));
-    if (fitting.empty()) {
-        throw Error(ExitCode::device,
-                    fmt::format("device '{}' matches no OpenCL device; available:{}", spec,
-                                describe_all(devices, problems)));
-    }
-    if (fitting.size() > 1) {
-        usage_error("device '{}' matches several devices; choose one by its index:{}", spec,
-                    describe_all(fitting));
-    }
-    if (!fitting.front().unusable.empty()) {
-        throw Error(ExitCode::device,
-                    fmt::format("device {} ({}) cannot be used: {}", fitting.front().index,
-                                fitting.front().name, fitting.front().unusable));
-    }
-    DeviceChoice choice;
-    choice.device = fitting.front();
-    return choice;
+    return choose(parse_spec(spec), devices, problems);
 }
 
 std::future<std::vector<DeviceChoice>> find_devices(const std::string& list, int threads,

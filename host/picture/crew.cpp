@@ -11,8 +11,6 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/low_priority.h"
-#include "host/picture/pixel_runs.h"
 #include "host/render/stopwatch.h"
 
 namespace rt {
@@ -53,236 +51,255 @@ RendererTimes without(RendererTimes times, const RendererTimes& before) {
     return times;
 }
 
+/// Runs of pixels shared out among several renderers.
+class PixelRuns {
+   public:
+    PixelRuns(std::span<const std::int32_t> pixels, std::size_t run) {
+        for (std::size_t at = 0; at < pixels.size(); at += run) {
+            runs_.push_back(pixels.subspan(at, std::min(run, pixels.size() - at)));
+        }
+    }
+    std::optional<std::span<const std::int32_t>> take() {
+        const std::scoped_lock lock(mutex_);
+        if (runs_.empty()) return std::nullopt;
+        const auto run = runs_.back();
+        runs_.pop_back();
+        return run;
+    }
+    void give_back(std::span<const std::int32_t> run) {
+        const std::scoped_lock lock(mutex_);
+        runs_.push_back(run);
+    }
+    bool empty() {
+        const std::scoped_lock lock(mutex_);
+        return runs_.empty();
+    }
+
+   private:
+    std::mutex mutex_;
+    std::vector<std::span<const std::int32_t>> runs_;
+};
+
 }  // namespace
 
 /// A member and its state.
 template <typename T>
-struct Crew<T>::Place {
+struct Crew<T>::Slot {
     CrewMember<T> member;
     std::unique_ptr<Renderer<T>> renderer;
     RendererTimes before;        ///< up to the end of its test
     double check = 0;            ///< seconds of the test
     double ready = 0;            ///< seconds until it could begin
     std::exception_ptr failure;  ///< why it does not render
-    bool failure_is_told = false;
+    bool has_warned = false;
     int last_round = 0;  ///< of jobs: the last one it took part in
     std::thread thread;
 
     bool is_able() const { return renderer != nullptr && failure == nullptr; }
-    bool is_in_the_making() const { return renderer == nullptr && failure == nullptr; }
+    bool is_opening() const { return renderer == nullptr && failure == nullptr; }
 };
 
 /// What the members' threads share. `mutex` guards all of it.
 template <typename T>
-struct Crew<T>::Team {
+struct Crew<T>::Shared {
     std::mutex mutex;
     std::condition_variable changed;
-    std::deque<Place> places;
+    std::deque<Slot> slots;
     const Job* job = nullptr;
     int round = 0;    ///< of jobs; each member takes part in one once
     int working = 0;  ///< members at work
     bool is_closed = false;
     const Stopwatch watch;
 
-    bool has_work(const Place& place) const {
-        return job != nullptr && place.is_able() && place.last_round != round;
+    bool has_work(const Slot& slot) const {
+        return job != nullptr && slot.is_able() && slot.last_round != round;
     }
     template <typename Test>
     bool any(const Test& test) const {
-        return std::any_of(places.begin(), places.end(), test);
+        return std::any_of(slots.begin(), slots.end(), test);
     }
     bool has_several() const {
-        return places.size() > 1 && any([](const Place& place) {
-                   return place.thread.joinable() && place.failure == nullptr;
+        return slots.size() > 1 && any([](const Slot& slot) {
+                   return slot.thread.joinable() && slot.failure == nullptr;
                });
     }
 };
 
 template <typename T>
-Crew<T>::Crew(std::vector<CrewMember<T>> members, std::optional<CrewMember<T>> spare, Say say)
-    : team_(std::make_shared<Team>()), spare_(std::move(spare)), say_(std::move(say)) {
+Crew<T>::Crew(std::vector<CrewMember<T>> members, std::optional<CrewMember<T>> spare, Warn warn)
+    : shared_(std::make_shared<Shared>()), spare_(std::move(spare)), warn_(std::move(warn)) {
     for (CrewMember<T>& member : members) {
-        Place& place = team_->places.emplace_back();
-        place.member = std::move(member);
-        if (place.member.failure.empty()) continue;
-        place.failure = std::make_exception_ptr(Error(ExitCode::device, place.member.failure));
+        Slot& slot = shared_->slots.emplace_back();
+        slot.member = std::move(member);
+        if (slot.member.failure.empty()) continue;
+        slot.failure = std::make_exception_ptr(Error(ExitCode::device, slot.member.failure));
     }
 }
 
 template <typename T>
 Crew<T>::~Crew() {
-    std::unique_lock lock(team_->mutex);
-    team_->is_closed = true;
-    team_->changed.notify_all();
-    for (Place& place : team_->places) {
-        if (!place.thread.joinable()) continue;
-        if (place.is_in_the_making()) {
-            place.thread.detach();
+    std::unique_lock lock(shared_->mutex);
+    shared_->is_closed = true;
+    shared_->changed.notify_all();
+    for (Slot& slot : shared_->slots) {
+        if (!slot.thread.joinable()) continue;
+        if (slot.is_opening()) {
+            slot.thread.detach();
             continue;
         }
         lock.unlock();
-        place.thread.join();
+        slot.thread.join();
         lock.lock();
     }
 }
 
+/// Creates and tests a member's renderer; the mutex is not held.
 template <typename T>
-void Crew<T>::make(Place& place) {
-    if (place.failure) std::rethrow_exception(place.failure);
-    auto renderer = place.member.make();
+void Crew<T>::make(Shared& shared, Slot& slot) {
+    if (slot.failure) std::rethrow_exception(slot.failure);
+    auto renderer = slot.member.make();
     const Stopwatch watch;
-    if (place.member.test) place.member.test(*renderer);
-    place.check = watch.seconds();
-    place.before = renderer->times();
-    place.ready = team_->watch.seconds();
-    place.renderer = std::move(renderer);
+    if (slot.member.test) slot.member.test(*renderer);
+    const double check = watch.seconds();
+    const RendererTimes before = renderer->times();
+    const std::scoped_lock lock(shared.mutex);
+    slot.check = check;
+    slot.before = before;
+    slot.ready = shared.watch.seconds();
+    slot.renderer = std::move(renderer);
+    shared.changed.notify_all();
 }
 
 template <typename T>
 void Crew<T>::open() {
-    if (team_->places.size() == 1) {
-        Place& place = team_->places.front();
+    if (shared_->slots.size() == 1) {
+        Slot& slot = shared_->slots.front();
         try {
-            make(place);
+            make(*shared_, slot);
         } catch (const Error&) {
-            replace(place, std::current_exception());
+            replace(slot, std::current_exception());
         }
         return;
     }
     {
-        const std::scoped_lock lock(team_->mutex);
-        for (Place& place : team_->places) {
-            if (place.failure) continue;
-            place.thread = std::thread([team = team_, &place] { serve(team, place); });
+        const std::scoped_lock lock(shared_->mutex);
+        for (Slot& slot : shared_->slots) {
+            if (slot.failure) continue;
+            slot.thread = std::thread([shared = shared_, &slot] { serve(shared, slot); });
         }
-        if (team_->any([](const Place& place) { return place.failure == nullptr; })) return;
+        if (shared_->any([](const Slot& slot) { return slot.failure == nullptr; })) return;
     }
-    replace(team_->places.back(), team_->places.back().failure);
+    replace(shared_->slots.back(), shared_->slots.back().failure);
 }
 
 /// A member's thread, which may outlive the crew if the member is still being created.
 template <typename T>
-void Crew<T>::serve(const std::shared_ptr<Team>& team, Place& place) {
-    const auto fail = [&] {
-        const std::scoped_lock lock(team->mutex);
-        place.failure = std::current_exception();
-        team->changed.notify_all();
-    };
-    Place made;
-    const auto make = [&] {
-        made.renderer = place.member.make();
-        const Stopwatch watch;
-        if (place.member.test) place.member.test(*made.renderer);
-        made.check = watch.seconds();
-        made.before = made.renderer->times();
-    };
+void Crew<T>::serve(const std::shared_ptr<Shared>& shared, Slot& slot) {
     try {
-        run_at_low_priority(make);
+        make(*shared, slot);
     } catch (...) {
-        return fail();
+        const std::scoped_lock lock(shared->mutex);
+        slot.failure = std::current_exception();
+        shared->changed.notify_all();
+        return;
     }
-    std::unique_lock lock(team->mutex);
-    place.renderer = std::move(made.renderer);
-    place.before = made.before;
-    place.check = made.check;
-    place.ready = team->watch.seconds();
-    team->changed.notify_all();
+    std::unique_lock lock(shared->mutex);
     for (;;) {
-        team->changed.wait(lock, [&] { return team->is_closed || team->has_work(place); });
-        if (team->is_closed) return;
-        place.last_round = team->round;
-        ++team->working;
-        const Job& job = *team->job;
+        shared->changed.wait(lock, [&] { return shared->is_closed || shared->has_work(slot); });
+        if (shared->is_closed) return;
+        slot.last_round = shared->round;
+        ++shared->working;
+        const Job& job = *shared->job;
         lock.unlock();
         std::exception_ptr failure;
         try {
-            job(*place.renderer);
+            job(*slot.renderer);
         } catch (...) {
             failure = std::current_exception();
         }
         lock.lock();
-        --team->working;
-        place.failure = failure;
-        team->changed.notify_all();
+        --shared->working;
+        slot.failure = failure;
+        shared->changed.notify_all();
         if (failure != nullptr) return;
     }
 }
 
 /// When the only or last member fails: switches to the spare, or rethrows the failure.
 template <typename T>
-void Crew<T>::replace(Place& place, std::exception_ptr failure) {
-    place.failure = failure;
-    place.failure_is_told = true;
+void Crew<T>::replace(Slot& slot, std::exception_ptr failure) {
+    slot.failure = failure;
+    slot.has_warned = true;
     if (!spare_ || !is_of_device(failure)) std::rethrow_exception(failure);
-    say_(message_of(failure));
-    say_("rendering on threads instead");
-    team_->places.emplace_back().member = *std::move(spare_);
+    warn_(message_of(failure));
+    warn_("rendering on threads instead");
+    shared_->slots.emplace_back().member = *std::move(spare_);
     spare_.reset();
     uses_spare_ = true;
-    make(team_->places.back());
+    make(*shared_, shared_->slots.back());
 }
 
 template <typename T>
 void Crew<T>::work_alone(const Job& job) {
     for (;;) {
-        Place& place = team_->places.back();
+        Slot& slot = shared_->slots.back();
         try {
-            return job(*place.renderer);
+            return job(*slot.renderer);
         } catch (const Error&) {
-            replace(place, std::current_exception());
+            replace(slot, std::current_exception());
         }
     }
 }
 
 template <typename T>
 void Crew<T>::work_together(const Job& job, const std::function<bool()>& is_unfinished) {
-    Team& team = *team_;
+    Shared& shared = *shared_;
     const Stopwatch watch;
-    std::unique_lock lock(team.mutex);
-    team.job = &job;
-    ++team.round;
-    team.changed.notify_all();
+    std::unique_lock lock(shared.mutex);
+    shared.job = &job;
+    ++shared.round;
+    shared.changed.notify_all();
     for (;;) {
-        for (Place& place : team.places) {
-            if (place.failure == nullptr || std::exchange(place.failure_is_told, true)) continue;
-            say_(message_of(place.failure) + "; continuing without it");
+        for (Slot& slot : shared.slots) {
+            if (slot.failure == nullptr || std::exchange(slot.has_warned, true)) continue;
+            warn_(message_of(slot.failure) + "; continuing without it");
         }
-        const bool is_idle = team.working == 0 &&
-                             !team.any([&](const Place& place) { return team.has_work(place); });
+        const bool is_idle = shared.working == 0 &&
+                             !shared.any([&](const Slot& slot) { return shared.has_work(slot); });
         if (is_idle) {
             if (!is_unfinished()) break;
-            if (team.any([](const Place& place) { return place.is_able(); })) {
-                ++team.round;  // one failed and gave tiles back after the others were done
-                team.changed.notify_all();
-            } else if (!team.any([](const Place& place) { return place.is_in_the_making(); })) {
+            if (shared.any([](const Slot& slot) { return slot.is_able(); })) {
+                ++shared.round;  // one failed and gave tiles back after the others were done
+                shared.changed.notify_all();
+            } else if (!shared.any([](const Slot& slot) { return slot.is_opening(); })) {
                 break;
             }
         }
-        team.changed.wait_for(lock, stop_interval);
+        shared.changed.wait_for(lock, stop_interval);
     }
-    team.job = nullptr;
+    shared.job = nullptr;
     trace_seconds_ += watch.seconds();
 }
 
 template <typename T>
 void Crew<T>::work(const Job& job, const std::function<bool()>& is_unfinished) {
     const auto several = [&] {
-        const std::scoped_lock lock(team_->mutex);
-        return team_->has_several();
+        const std::scoped_lock lock(shared_->mutex);
+        return shared_->has_several();
     };
     if (several()) {
         work_together(job, is_unfinished);
         if (several() || !is_unfinished()) return;
-        replace(team_->places.back(), team_->places.back().failure);
+        replace(shared_->slots.back(), shared_->slots.back().failure);
     }
     work_alone(job);
 }
 
 template <typename T>
 Rect Crew<T>::tile_size(int film_width) const {
-    Rect smallest = team_->places.front().member.tile;
-    for (const Place& place : team_->places) {
-        const Rect& tile = place.member.tile;
+    Rect smallest = shared_->slots.front().member.tile;
+    for (const Slot& slot : shared_->slots) {
+        const Rect& tile = slot.member.tile;
         if (tile.pixels() < smallest.pixels()) smallest = tile;
     }
     smallest.width = std::min(smallest.width, film_width);
@@ -292,7 +309,7 @@ Rect Crew<T>::tile_size(int film_width) const {
 template <typename T>
 std::int64_t Crew<T>::most_tile_pixels() const {
     std::int64_t most = std::numeric_limits<int>::max();
-    for (const Place& place : team_->places) most = std::min(most, place.member.most_tile_pixels);
+    for (const Slot& slot : shared_->slots) most = std::min(most, slot.member.most_tile_pixels);
     return most;
 }
 
@@ -305,7 +322,7 @@ void Crew<T>::render(TileQueue& queue, const Rect& region, Film<T>& film) {
 template <typename T>
 void Crew<T>::refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
                      const Rect& region, Film<T>& film) {
-    PixelRuns runs(pixels, team_->places.size() > 1 ? refine_run : pixels.size());
+    PixelRuns runs(pixels, shared_->slots.size() > 1 ? refine_run : pixels.size());
     const auto refine_runs = [&](Renderer<T>& renderer) {
         while (const auto run = runs.take()) {
             try {
@@ -321,8 +338,8 @@ void Crew<T>::refine(std::span<const std::int32_t> pixels, int grid, TileQueue& 
 
 template <typename T>
 RendererTimes Crew<T>::times() const {
-    const std::scoped_lock lock(team_->mutex);
-    const Place& last = team_->places.back();
+    const std::scoped_lock lock(shared_->mutex);
+    const Slot& last = shared_->slots.back();
     RendererTimes times;
     if (!last.thread.joinable() && last.renderer)
         times = without(last.renderer->times(), last.before);
@@ -333,14 +350,14 @@ RendererTimes Crew<T>::times() const {
 
 template <typename T>
 std::vector<DeviceShare> Crew<T>::shares() const {
-    const std::scoped_lock lock(team_->mutex);
+    const std::scoped_lock lock(shared_->mutex);
     std::vector<DeviceShare> shares;
-    for (const Place& place : team_->places) {
+    for (const Slot& slot : shared_->slots) {
         DeviceShare& share = shares.emplace_back();
-        share.name = place.member.name;
-        share.ready = place.ready;
-        if (place.renderer) share.pixels = without(place.renderer->times(), place.before).pixels;
-        if (place.failure) share.failure = message_of(place.failure);
+        share.name = slot.member.name;
+        share.ready = slot.ready;
+        if (slot.renderer) share.pixels = without(slot.renderer->times(), slot.before).pixels;
+        if (slot.failure) share.failure = message_of(slot.failure);
     }
     return shares;
 }

@@ -30,9 +30,9 @@ struct CrewMember {
 template <typename T>
 class Crew : public Renderer<T> {
    public:
-    using Say = std::function<void(const std::string& line)>;
+    using Warn = std::function<void(const std::string& line)>;
 
-    Crew(std::vector<CrewMember<T>> members, std::optional<CrewMember<T>> spare, Say say);
+    Crew(std::vector<CrewMember<T>> members, std::optional<CrewMember<T>> spare, Warn warn);
     ~Crew() override;  ///< does not wait for members still being created
 
     /// Creates a single member; starts creating several. Throws like render.
@@ -55,20 +55,20 @@ class Crew : public Renderer<T> {
     std::vector<DeviceShare> shares() const;
 
    private:
-    struct Place;
-    struct Team;
+    struct Slot;    ///< a member and its state
+    struct Shared;  ///< what the members' threads share
     using Job = std::function<void(Renderer<T>&)>;
 
     void work(const Job& job, const std::function<bool()>& is_unfinished);
     void work_together(const Job& job, const std::function<bool()>& is_unfinished);
     void work_alone(const Job& job);
-    void make(Place& place);
-    void replace(Place& place, std::exception_ptr failure);
-    static void serve(const std::shared_ptr<Team>& team, Place& place);
+    static void make(Shared& shared, Slot& slot);
+    void replace(Slot& slot, std::exception_ptr failure);
+    static void serve(const std::shared_ptr<Shared>& shared, Slot& slot);
 
-    std::shared_ptr<Team> team_;  ///< also held by the members' threads
+    std::shared_ptr<Shared> shared_;  ///< also held by the members' threads
     std::optional<CrewMember<T>> spare_;
-    Say say_;
+    Warn warn_;
     bool uses_spare_ = false;
     double trace_seconds_ = 0;  ///< with several members
 };

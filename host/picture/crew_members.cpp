@@ -1,70 +1,143 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/crew_members.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "host/base/parallel.h"
+#include "host/base/text.h"
 #include "host/opencl/cl_renderer.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/picture/tile_check.h"
 
 namespace rt {
 
-namespace {
+RenderCache::RenderCache() : devices(make_open_devices()) {}
 
-ClOptions cl_options(const RenderSettings& settings, bool refines, bool is_alone) {
-    ClOptions options;
-    options.launch = settings.launch;
-    options.lanes = settings.lanes;
-    options.fast_math = settings.fast_math;
-    options.will_refine = refines;
-    options.all_features = settings.all_features;
-    options.also = settings.also_features;
-    options.any_samples = settings.any_samples;
-    options.shares_film = !is_alone;
-    return options;
+std::string joined_names(const std::vector<DeviceChoice>& devices) {
+    std::string names;
+    for (const DeviceChoice& choice : devices) {
+        names +=
+            (names.empty() ? "" : " + ") + (choice.use_threads ? "threads" : choice.device.name);
+    }
+    return names;
 }
 
-}  // namespace
+std::string inexact_names(const std::vector<DeviceChoice>& devices) {
+    std::string names;
+    for (const DeviceChoice& choice : devices) {
+        const bool is_exact =
+            choice.use_threads || choice.device.rounds_correctly || !choice.failure.empty();
+        if (!is_exact) names += choice.device.name + "\n";
+    }
+    return names;
+}
 
-ThreadsOptions threads_options(const RenderSettings& settings, int threads) {
-    ThreadsOptions options;
-    options.threads = threads > 0 ? threads : settings.threads;
-    options.schedule = settings.schedule;
-    options.lanes = settings.lanes;
-    options.all_features = settings.all_features;
-    options.also = settings.also_features;
-    options.any_samples = settings.any_samples;
-    options.isa = settings.isa;
+void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& settings,
+                              const RenderEvents& events) {
+    const auto warn = [&](const std::string& line) {
+        if (events.message) events.message(line);
+    };
+    if (choice.use_threads) {
+        if (settings.kernels.launch != Launch::automatic) {
+            warn("--launch has no effect on threads");
+        }
+        if (settings.math == Math::fast) warn("--math fast has no effect on threads");
+        if (std::max(choice.threads, settings.threads) > available_cores()) {
+            warn("more threads than the " + counted(available_cores(), "core") +
+                 " available here; they take turns");
+        }
+        return;
+    }
+    if (settings.schedule != Schedule::tiles) {
+        warn("--schedule has no effect on OpenCL devices");
+    }
+    if (!choice.failure.empty()) return;
+    if (settings.threads > 0 && choice.device.platform != pocl_platform) {
+        warn("--threads has no effect on " + choice.device.name);
+    }
+    if (settings.math == Math::strict && !choice.device.rounds_correctly && events.detail) {
+        events.detail(choice.device.name +
+                      " does not guarantee correctly rounded division and square roots, so its "
+                      "pictures may differ in a few bits");
+    }
+}
+
+template <typename T>
+CrewMaker<T>::CrewMaker(SharedScene<T> scene, const RenderSettings& settings, const AaMode& aa,
+                        std::shared_ptr<OpenDevices> open, std::function<void()> loaded)
+    : scene_(std::move(scene)),
+      settings_(settings),
+      aa_(aa),
+      open_(std::move(open)),
+      loaded_(std::move(loaded)) {}
+
+template <typename T>
+std::vector<CrewMember<T>> CrewMaker<T>::members(const std::vector<DeviceChoice>& devices) const {
+    const bool is_alone = devices.size() == 1;
+    std::vector<CrewMember<T>> members;
+    for (const DeviceChoice& choice : devices) {
+        if (!choice.failure.empty()) {
+            CrewMember<T>& unlisted = members.emplace_back(spare());
+            unlisted.name = choice.device.name;
+            unlisted.failure = choice.failure;
+        } else if (choice.use_threads) {
+            ThreadsOptions options = threads_options(choice.threads);
+            if (!is_alone) options.schedule = Schedule::tiles;
+            members.push_back(threads_member(options));
+        } else {
+            members.push_back(device_member(choice.device, is_alone));
+        }
+    }
+    return members;
+}
+
+/// `threads`: 0 means the settings'.
+template <typename T>
+ThreadsOptions CrewMaker<T>::threads_options(int threads) const {
+    return {threads > 0 ? threads : settings_.threads, settings_.schedule, settings_.kernels};
+}
+
+template <typename T>
+ThreadsOptions CrewMaker<T>::spare_options() const {
+    ThreadsOptions options = threads_options(0);
+    options.schedule = Schedule::tiles;
+    options.kernels.lanes = 0;
     return options;
 }
 
 template <typename T>
-CrewMember<T> threads_member(const SharedScene<T>& scene, const ThreadsOptions& options) {
-    const auto make = [scene, options] { return make_threads_renderer<T>(*scene, options); };
+CrewMember<T> CrewMaker<T>::threads_member(const ThreadsOptions& options) const {
+    const auto make = [scene = scene_, options] {
+        return make_threads_renderer<T>(*scene, options);
+    };
     const auto renderer = make();
     return {"threads",
-            renderer->tile_size(static_cast<int>(scene->params.width)),
+            renderer->tile_size(static_cast<int>(scene_->params.width)),
             renderer->most_tile_pixels(),
             make,
             {}};
 }
 
 template <typename T>
-CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& settings,
-                            const ClDevice& device, bool refines, bool is_alone,
-                            const std::shared_ptr<OpenDevices>& open,
-                            const std::function<void()>& loaded) {
-    ClOptions options = cl_options(settings, refines, is_alone);
-    options.open_devices = open.get();
+CrewMember<T> CrewMaker<T>::device_member(const ClDevice& device, bool is_alone) const {
+    ClOptions options;
+    options.kernels = settings_.kernels;
+    options.math = settings_.math;
+    options.will_refine = aa_.refines();
+    options.shares_film = !is_alone;
+    options.open_devices = open_.get();
     const ClTiles tiles =
-        cl_tiles<T>(scene->params, device, options, static_cast<int>(scene->params.width));
+        cl_tiles<T>(scene_->params, device, options, static_cast<int>(scene_->params.width));
     CrewMember<T> member{device.name, tiles.best, tiles.most_pixels, {}, {}};
-    member.make = [scene, device, options, open, loaded] {
+    member.make = [scene = scene_, device, options, open = open_, loaded = loaded_] {
         auto renderer = make_cl_renderer<T>(*scene, device, options);
         if (loaded) loaded();
         return renderer;
     };
-    if (settings.self_test && !settings.fast_math) {
-        const std::string isa = settings.isa;
-        member.test = [scene, name = device.name, isa, refines](Renderer<T>& renderer) {
+    if (settings_.self_test && settings_.math == Math::strict) {
+        member.test = [scene = scene_, name = device.name, isa = settings_.kernels.isa,
+                       refines = aa_.refines()](Renderer<T>& renderer) {
             self_test(renderer, name, *scene, isa, refines);
         };
     }
@@ -72,27 +145,36 @@ CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& s
 }
 
 template <typename T>
-CrewMember<T> unlisted_member(const SharedScene<T>& scene, const ThreadsOptions& stand_in,
-                              const DeviceChoice& choice) {
-    CrewMember<T> member = threads_member<T>(scene, stand_in);
-    member.name = choice.device.name;
-    member.failure = choice.failure;
-    return member;
+DeviceStats CrewMaker<T>::threads_stats(const ThreadsOptions& options) const {
+    const NativeKernels<T>& kernels = native_kernels_for(*scene_, options);
+    DeviceStats stats;
+    stats.lanes = kernels.lanes;
+    stats.isa = kernels.isa;
+    stats.kernels = kernels.features;
+    stats.name = "threads";
+    stats.threads = thread_count(options, aa_.samples());
+    stats.schedule = to_string(options.schedule);
+    return stats;
 }
 
-template CrewMember<float> unlisted_member(const SharedScene<float>&, const ThreadsOptions&,
-                                           const DeviceChoice&);
-template CrewMember<double> unlisted_member(const SharedScene<double>&, const ThreadsOptions&,
-                                            const DeviceChoice&);
-template CrewMember<float> threads_member(const SharedScene<float>&, const ThreadsOptions&);
-template CrewMember<double> threads_member(const SharedScene<double>&, const ThreadsOptions&);
-template CrewMember<float> device_member(const SharedScene<float>&, const RenderSettings&,
-                                         const ClDevice&, bool, bool,
-                                         const std::shared_ptr<OpenDevices>&,
-                                         const std::function<void()>&);
-template CrewMember<double> device_member(const SharedScene<double>&, const RenderSettings&,
-                                          const ClDevice&, bool, bool,
-                                          const std::shared_ptr<OpenDevices>&,
-                                          const std::function<void()>&);
+template <typename T>
+DeviceStats CrewMaker<T>::stats(const std::vector<DeviceChoice>& devices) const {
+    DeviceStats stats;
+    stats.name = joined_names(devices);
+    if (devices.size() > 1) return stats;
+    if (devices.front().use_threads) {
+        return threads_stats(threads_options(devices.front().threads));
+    }
+    const ClDevice& device = devices.front().device;
+    stats.platform = device.platform;
+    stats.driver = device.driver;
+    stats.launch = launches_samples(settings_.kernels.launch, device) ? "sample" : "pixel";
+    stats.lanes = packet_lanes<T>(settings_.kernels.lanes, device);
+    stats.kernels = either_of(scene_->features, settings_.kernels.features);
+    return stats;
+}
+
+template class CrewMaker<float>;
+template class CrewMaker<double>;
 
 }  // namespace rt

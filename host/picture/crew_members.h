@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/device_spec.h"
 #include "host/picture/crew.h"
+#include "host/picture/render_picture.h"
 #include "host/picture/render_settings.h"
 #include "host/render/threads_renderer.h"
 
+// The devices that render a picture: who they are, their renderers, and what is kept for the next.
 namespace rt {
 
 class OpenDevices;
@@ -18,25 +24,66 @@ class OpenDevices;
 template <typename T>
 using SharedScene = std::shared_ptr<const FlatScene<T>>;
 
-/// The settings for the pthreads renderer. `threads`: 0 means the settings'.
-ThreadsOptions threads_options(const RenderSettings& settings, int threads);
+/// What is kept between pictures with the same settings: open devices, their programs, and the last
+/// flattened scene.
+struct RenderCache {
+    template <typename T>
+    struct Flattened {
+        std::uint64_t hash = 0;    ///< scene_hash of its scene, and
+        PictureSpec picture;       ///< the settings that flattening reads
+        std::uint64_t shapes = 0;  ///< shapes_hash of its scene
+        SharedScene<T> scene;      ///< null: none yet
+    };
 
-/// Threads, ready at once.
-template <typename T>
-CrewMember<T> threads_member(const SharedScene<T>& scene, const ThreadsOptions& options);
+    RenderCache();
 
-/// An OpenCL device, created by opening it (or reusing it from `open`), compiling and uploading,
-/// and tested by self_test. `loaded` is called after creation: drivers replace signal handlers.
-template <typename T>
-CrewMember<T> device_member(const SharedScene<T>& scene, const RenderSettings& settings,
-                            const ClDevice& device, bool refines, bool is_alone,
-                            const std::shared_ptr<OpenDevices>& open,
-                            const std::function<void()>& loaded);
+    std::shared_ptr<OpenDevices> devices;
+    std::tuple<Flattened<float>, Flattened<double>> scenes;
+};
 
-/// A device whose driver could not list it: creating its renderer throws Error
-/// (ExitCode::device).
+/// "threads + NVIDIA H100".
+std::string joined_names(const std::vector<DeviceChoice>& devices);
+
+/// The names of devices whose bits may differ from the others'; "" if there are none.
+std::string inexact_names(const std::vector<DeviceChoice>& devices);
+
+/// Warns of settings that do not apply to the device and would be dropped silently.
+void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& settings,
+                              const RenderEvents& events);
+
+/// Makes the renderers of a scene, and describes them for figures.
 template <typename T>
-CrewMember<T> unlisted_member(const SharedScene<T>& scene, const ThreadsOptions& stand_in,
-                              const DeviceChoice& choice);
+class CrewMaker {
+   public:
+    /// `open`: devices to reuse; may be null. `loaded` is called when a driver was loaded, which
+    /// may have replaced signal handlers. `settings` must outlive this.
+    CrewMaker(SharedScene<T> scene, const RenderSettings& settings, const AaMode& aa,
+              std::shared_ptr<OpenDevices> open, std::function<void()> loaded);
+
+    /// A member for each device. An OpenCL device is opened (or reused), compiled and uploaded to,
+    /// and tested by self_test; one that its driver could not list fails.
+    std::vector<CrewMember<T>> members(const std::vector<DeviceChoice>& devices) const;
+
+    /// Threads that stand in for devices, some tiles of which may be finished: they cannot render
+    /// whole sample buffers, and the settings of packets are the devices'.
+    CrewMember<T> spare() const { return threads_member(spare_options()); }
+
+    /// Of several devices, only their names.
+    DeviceStats stats(const std::vector<DeviceChoice>& devices) const;
+    DeviceStats spare_stats() const { return threads_stats(spare_options()); }
+
+   private:
+    ThreadsOptions threads_options(int threads) const;
+    ThreadsOptions spare_options() const;
+    CrewMember<T> threads_member(const ThreadsOptions& options) const;
+    CrewMember<T> device_member(const ClDevice& device, bool is_alone) const;
+    DeviceStats threads_stats(const ThreadsOptions& options) const;
+
+    const SharedScene<T> scene_;
+    const RenderSettings& settings_;
+    const AaMode aa_;
+    const std::shared_ptr<OpenDevices> open_;
+    const std::function<void()> loaded_;
+};
 
 }  // namespace rt

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/base/counted.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
+#include "host/base/text.h"
 #include "host/base/version.h"
 #include "host/opencl/render_kernels.h"
 
@@ -38,30 +38,22 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
                                   std::string inexact_devices, Say say)
     : settings_(settings),
       scene_(scene),
-      aa_(stats.aa),
-      region_(stats.region),
+      aa_(stats.picture.aa),
+      region_(stats.picture.region),
       film_rect_(film),
       inexact_devices_(std::move(inexact_devices)),
       say_(std::move(say)) {
     if (settings.shares) {
-        needs_ = share_needs(*settings.shares, region_, film, stats.aa.refines());
+        needs_ = share_needs(*settings.shares, region_, film, aa_.refines());
     }
     if (settings.journal.empty()) return;
-    if (settings.fast_math || settings.schedule != Schedule::tiles) return;
-    header_.width = stats.width;
-    header_.height = stats.height;
-    header_.region = region_;
+    if (settings.math == Math::fast || settings.schedule != Schedule::tiles) return;
+    header_.picture = stats.picture;
     header_.film = film;
-    header_.double_precision = sizeof(T) == sizeof(double);
-    header_.refines = stats.aa.refines();
     header_.shares = to_string(settings.shares.value_or(Shares{}));
     header_.scene = stats.scene.name;
     header_.scene_hash = hash_text(stats.scene.hash);
-    header_.settings = settings_text(stats);
     header_.scene_file = settings.scene_file;
-    header_.aa = to_string(stats.aa);
-    header_.filter = to_string(stats.filter);
-    header_.max_bounces = stats.max_bounces;
     header_.light_scale = settings.light.light_scale;
     if (const auto& light = settings.light.ambient_light) {
         header_.ambient_light = {light->x, light->y, light->z};
@@ -145,7 +137,7 @@ void PictureJournal<T>::read() {
     try {
         file_->read(read_if_ours);
     } catch (const DamagedJournal&) {
-        is_ours_ = settings_.fresh;  // or anybody's: nobody can resume it
+        is_ours_ = settings_.fresh;  // damaged, so --fresh may replace it
     } catch (const Error& error) {
         if (error.exit_code() != ExitCode::input) throw;  // otherwise it is of another version
     }

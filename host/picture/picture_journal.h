@@ -9,7 +9,6 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/journal/journal_file.h"
-#include "host/journal/journal_keeper.h"
 #include "host/picture/render_settings.h"
 #include "host/picture/render_stats.h"
 #include "host/render/picture_loop.h"

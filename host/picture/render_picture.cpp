@@ -5,22 +5,21 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <future>
+#include <mutex>
 #include <optional>
+#include <stop_token>
+#include <thread>
 #include <type_traits>
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/memory_limit.h"
-#include "host/base/usage_error.h"
+#include "host/base/memory.h"
 #include "host/flatten/flat_scene.h"
-#include "host/opencl/cl_tiles.h"
 #include "host/picture/crew_members.h"
-#include "host/picture/device_stats.h"
-#include "host/picture/late_message.h"
 #include "host/picture/picture_journal.h"
-#include "host/picture/render_cache.h"
 #include "host/picture/tile_check.h"
 #include "host/render/picture_loop.h"
 #include "host/render/stopwatch.h"
@@ -31,17 +30,6 @@ namespace rt {
 namespace {
 
 using Devices = std::vector<DeviceChoice>;
-
-Rect chosen_region(const Scene& scene, const RenderSettings& settings) {
-    const Rect whole{0, 0, scene.width, scene.height};
-    if (!settings.crop) return whole;
-    const Rect& crop = *settings.crop;
-    if (crop.x + crop.width > whole.width || crop.y + crop.height > whole.height) {
-        usage_error("--crop extends to {},{}, but the picture has {}x{} pixels",
-                    crop.x + crop.width, crop.y + crop.height, whole.width, whole.height);
-    }
-    return crop;
-}
 
 SceneStats scene_stats(const Scene& scene) {
     SceneStats stats;
@@ -59,11 +47,47 @@ bool has_opencl(const Devices& devices) {
                        [](const DeviceChoice& choice) { return !choice.use_threads; });
 }
 
+/// Calls `warn`, on a separate thread, unless destroyed within `patience`: for steps that are
+/// usually short.
+class LateMessage {
+   public:
+    LateMessage(std::chrono::milliseconds patience, std::function<void()> warn)
+        : thread_([patience, warn = std::move(warn)](const std::stop_token& stop) {
+              std::mutex mutex;
+              std::condition_variable_any wake;
+              std::unique_lock lock(mutex);
+              const auto is_over = [&stop] { return stop.stop_requested(); };
+              if (!wake.wait_for(lock, stop, patience, is_over)) warn();
+          }) {}
+
+   private:
+    std::jthread thread_;
+};
+
+/// Of a pixel in a picture's file, which grows by doubling as it is encoded.
+constexpr std::size_t file_bytes = 12;
+
 /// Before users learn what they are waiting for.
 constexpr std::chrono::seconds compile_patience(1);
 
 /// Tile size in pixels for checking a picture that was not rendered in this run.
 constexpr PictureSize final_tile{32, 32};
+
+/// The scene that the cache keeps if it is the same, flattened; else the cache keeps this one,
+/// built with the hierarchies of the one before if only the shapes are the same. `hash`:
+/// scene_hash.
+template <typename T>
+SharedScene<T> flattened_scene(const Scene& scene, std::uint64_t hash, PictureSpec picture,
+                               const FlattenOptions& options, RenderCache& cache) {
+    auto& kept = std::get<RenderCache::Flattened<T>>(cache.scenes);
+    picture.region = {};
+    if (kept.scene && kept.hash == hash && kept.picture == picture) return kept.scene;
+    const std::uint64_t shapes = shapes_hash(scene);
+    const FlatScene<T>* same_shapes = kept.shapes == shapes ? kept.scene.get() : nullptr;
+    auto scene_now = std::make_shared<const FlatScene<T>>(flatten<T>(scene, options, same_shapes));
+    kept = {hash, picture, shapes, std::move(scene_now)};
+    return kept.scene;
+}
 
 /// One flattened scene being rendered in the precision of T, and the figures gathered so far.
 template <typename T>
@@ -74,9 +98,9 @@ class Job {
         : settings_(settings),
           events_(events),
           stop_(stop),
-          cache_(cache),
-          region_(chosen_region(scene, settings)),
-          rendered_(region_to_render(scene.aa, region_, scene.width, scene.height)) {
+          picture_(picture_spec(scene, settings)),
+          rendered_(
+              region_to_render(picture_.aa, picture_.region, picture_.width, picture_.height)) {
         FlattenOptions options;
         options.hierarchies = settings.hierarchies;
         options.caster_lists = settings.caster_lists;
@@ -88,45 +112,38 @@ class Job {
             stats_.scene = figures.get();
         } else {
             stats_.scene = scene_stats(scene);
-            scene_ = flattened_scene<T>(scene, stats_.scene.hash, options, *cache);
+            scene_ = flattened_scene<T>(scene, stats_.scene.hash, picture_, options, *cache);
             stats_.phases.flatten = watch.seconds();
         }
+        maker_.emplace(scene_, settings, picture_.aa, cache ? cache->devices : nullptr,
+                       events.driver_loaded);
         stats_.scene.triangles = scene_->triangles.size();
         stats_.scene.smooth_triangles = scene_->vertex_normals.size();
         stats_.scene.bytes = scene_->bytes();
         stats_.scene.flatten = scene_->stats;
-        stats_.width = scene.width;
-        stats_.height = scene.height;
-        stats_.region = region_;
-        stats_.aa = scene.aa;
-        stats_.filter = scene.filter;
-        stats_.max_bounces = scene.max_bounces;
-        stats_.double_precision = sizeof(T) == sizeof(double);
-        stats_.fast_math = settings.fast_math;
-        stats_.features = scene_->features;
-        stats_.all_features = settings.all_features;
-        stats_.also_features = settings.also_features;
+        stats_.scene.features = stats_.scene.compiled = scene_->features;
+        stats_.picture = picture_;
+        stats_.kernels = settings.kernels;
         stats_.hierarchies = settings.hierarchies;
         stats_.caster_lists = settings.caster_lists;
     }
 
     RenderedPicture run(Devices devices, double wait_seconds) {
-        is_exact_ = !settings_.fast_math && inexact_names(devices).empty();
+        is_exact_ = settings_.math == Math::strict && inexact_names(devices).empty();
         if (!is_exact_) std::erase_if(devices, [](const auto& choice) { return choice.is_helper; });
         for (const DeviceChoice& choice : devices) {
-            say_ignored_settings(choice, settings_, events_);
-            if (!choice.note.empty()) say(choice.note);
+            warn_of_ignored_settings(choice, settings_, events_);
+            if (!choice.note.empty()) warn_(choice.note);
         }
         if (!is_exact_ && devices.size() > 1) {
-            say(joined_names(devices) + " may round differently, and share this picture");
+            warn_(joined_names(devices) + " may round differently, and share this picture");
         }
-        journal_.emplace(settings_, stats_, *scene_, rendered_, inexact_names(devices),
-                         [this](const std::string& line) { say(line); });
+        journal_.emplace(settings_, stats_, *scene_, rendered_, inexact_names(devices), warn_);
         stats_.resumed = journal_->share_known();
         if (journal_->is_finished()) {
             film_ = part_of(journal_->take_film(), rendered_, region_);
             tile_ = final_tile;
-            note_devices(devices);
+            stats_.device = maker_->stats(devices);
         } else {
             render_by(devices);
         }
@@ -138,33 +155,36 @@ class Job {
 
    private:
     void render_by(const Devices& devices) {
-        Crew<T> crew = make_crew(devices);
+        std::optional<CrewMember<T>> spare;
+        if (is_exact_ && !settings_.no_fallback && has_opencl(devices)) spare = maker_->spare();
+        Crew<T> crew(maker_->members(devices), std::move(spare), warn_);
         try {
             open(crew, devices);
             render_with(crew, joined_names(devices));
         } catch (const Error& error) {
             const bool can_start_over = !is_exact_ && !settings_.no_fallback && has_opencl(devices);
             if (!can_start_over || error.exit_code() != ExitCode::device) throw;
-            say(error.what());
-            say("rendering all of it on threads instead, which may round differently");
+            warn_(error.what());
+            warn_("rendering all of it on threads instead, which may round differently");
             render_again(joined_names(devices), crew.shares());
             return;
         }
-        note_devices(crew, devices);
+        stats_.shares = crew.shares();
+        stats_.device = crew.uses_spare() ? maker_->spare_stats() : maker_->stats(devices);
+        if (crew.uses_spare()) stats_.device.fallback_from = stats_.shares.front().name;
     }
 
     /// Renders the whole picture on threads, in place of devices that did these shares of it.
     void render_again(const std::string& devices, std::vector<DeviceShare> shares) {
         journal_->discard();
-        journal_.emplace(settings_, stats_, *scene_, rendered_, "",
-                         [this](const std::string& line) { say(line); });
-        Crew<T> threads({threads_member<T>(scene_, spare_threads())}, {}, {});
+        journal_.emplace(settings_, stats_, *scene_, rendered_, "", warn_);
+        Crew<T> threads({maker_->spare()}, {}, {});
         threads.open();
         stats_.resumed = 0;
         render_with(threads, "threads");
         shares.push_back(threads.shares().front());
         stats_.shares = std::move(shares);
-        stats_.device = threads_stats<T>(*scene_, stats_.aa, spare_threads());
+        stats_.device = maker_->spare_stats();
         stats_.device.fallback_from = devices;
     }
 
@@ -177,52 +197,13 @@ class Job {
         crew.open();
     }
 
-    void say(const std::string& line) const {
-        if (events_.message) events_.message(line);
-    }
-
-    /// Threads that stand in for devices, some tiles of which may be finished: they cannot render
-    /// whole sample buffers, and the settings of packets are the devices'.
-    ThreadsOptions spare_threads() const {
-        ThreadsOptions options = threads_options(settings_, 0);
-        options.schedule = Schedule::tiles;
-        options.lanes = 0;
-        return options;
-    }
-
-    Crew<T> make_crew(const Devices& devices) {
-        const bool is_alone = devices.size() == 1;
-        std::vector<CrewMember<T>> members;
-        for (const DeviceChoice& choice : devices) {
-            if (!choice.failure.empty()) {
-                members.push_back(unlisted_member<T>(scene_, spare_threads(), choice));
-                continue;
-            }
-            if (!choice.use_threads) {
-                members.push_back(device_member<T>(
-                    scene_, settings_, choice.device, stats_.aa.refines(), is_alone,
-                    cache_ == nullptr ? nullptr : cache_->devices, events_.driver_loaded));
-                continue;
-            }
-            ThreadsOptions options = threads_options(settings_, choice.threads);
-            if (!is_alone) options.schedule = Schedule::tiles;
-            members.push_back(threads_member<T>(scene_, options));
-        }
-        std::optional<CrewMember<T>> spare;
-        if (is_exact_ && !settings_.no_fallback && has_opencl(devices)) {
-            spare = threads_member<T>(scene_, spare_threads());
-        }
-        return Crew<T>(std::move(members), std::move(spare),
-                       [this](const std::string& line) { say(line); });
-    }
-
     /// Renders the region; a device that fails is left out afterwards. `names`: who renders.
     void render_with(Crew<T>& crew, const std::string& names) {
-        check_memory(
-            static_cast<std::uint64_t>(rendered_.pixels()) * 3 * (sizeof(T) + sizeof(float)),
-            fmt::format("the film of {}x{} pixels, including its file,", rendered_.width,
-                        rendered_.height),
-            "reduce --size, or render parts with --crop");
+        check_memory(static_cast<std::uint64_t>(rendered_.pixels()) *
+                         (3 * (sizeof(T) + sizeof(float)) + file_bytes),
+                     fmt::format("the film of {}x{} pixels, including its file,", rendered_.width,
+                                 rendered_.height),
+                     "reduce --size, or render parts with --crop");
         film_ = journal_->take_film();
         tile_ = tile_size(crew);
         if (events_.began) events_.began(region_.width, region_.height);
@@ -232,7 +213,7 @@ class Job {
         if (events_.started) events_.started(queue);
         RenderedAll rendered;
         try {
-            rendered = render_all<T>(crew, stats_.aa, queue, rendered_, film_, refine_events());
+            rendered = render_all<T>(crew, picture_.aa, queue, rendered_, film_, refine_events());
         } catch (...) {
             if (events_.ended) events_.ended();
             journal_->end(false);
@@ -294,28 +275,14 @@ class Job {
         return {width, std::min({asked.height, rendered_.height, most / width})};
     }
 
-    void note_devices(const Crew<T>& crew, const Devices& devices) {
-        stats_.shares = crew.shares();
-        if (crew.uses_spare()) {
-            stats_.device = threads_stats<T>(*scene_, stats_.aa, spare_threads());
-            stats_.device.fallback_from = stats_.shares.front().name;
-        } else {
-            note_devices(devices);
-        }
-    }
-
-    void note_devices(const Devices& devices) {
-        stats_.device = stats_of(devices, *scene_, stats_.aa, settings_);
-    }
-
     /// What is wrong with the devices' results: their ray count, or, if requested, a sample of the
     /// tiles. Empty if nothing is.
     std::string what_is_wrong() {
         const std::string rays = impossible_rays(stats_.rays, stats_.scene.lights,
-                                                 stats_.max_bounces, scene_->features.glass);
+                                                 picture_.max_bounces, scene_->features.glass);
         if (!rays.empty()) return "reports an impossible number of rays: " + rays;
         if (settings_.check <= 0) return "";
-        const TileCheck check = check_tiles(*scene_, stats_.aa, settings_.isa,
+        const TileCheck check = check_tiles(*scene_, picture_.aa, settings_.kernels.isa,
                                             journal_->final_tiles(tile_.width, tile_.height),
                                             settings_.check, region_, film_);
         stats_.tiles_checked = check.tiles;
@@ -335,15 +302,16 @@ class Job {
         const std::string what = by + ": " + wrong;
         if (settings_.no_fallback) {
             journal_->discard();
-            throw Error(ExitCode::device, what);
+            throw WrongPicture(what);
         }
-        say(what + "; rendering on threads instead");
+        warn_(what + "; rendering on threads instead");
         std::vector<DeviceShare> shares = stats_.shares;
         if (shares.size() == 1) shares.front().failure = wrong;
         render_again(stats_.device.name, std::move(shares));
     }
 
     RenderedPicture finished_picture() {
+        stats_.scene.compiled = either_of(stats_.scene.features, stats_.device.kernels);
         stats_.image_hash = hash_of(film_);
         RenderedPicture rendered;
         rendered.picture.width = film_.width;
@@ -362,11 +330,15 @@ class Job {
     const RenderSettings& settings_;
     const RenderEvents& events_;
     const StopFlag& stop_;
-    RenderCache* const cache_;  ///< may be null
-    const Rect region_;         ///< requested
-    const Rect rendered_;       ///< that, plus what refining it needs
-    bool is_exact_ = true;      ///< threads would give the same bits as the devices
+    const PictureSpec picture_;  ///< requested
+    const Rect& region_ = picture_.region;
+    const Rect rendered_;   ///< its region and what refining that needs
+    bool is_exact_ = true;  ///< threads would give the same bits as the devices
+    const std::function<void(const std::string& line)> warn_ = [this](const std::string& line) {
+        if (events_.message) events_.message(line);
+    };
     SharedScene<T> scene_;
+    std::optional<CrewMaker<T>> maker_;
     std::optional<PictureJournal<T>> journal_;
     Film<T> film_{0, 0};
     PictureSize tile_{};

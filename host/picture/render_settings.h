@@ -4,21 +4,15 @@
 #include <optional>
 #include <string>
 
-#include "host/flatten/features.h"
 #include "host/journal/shares.h"
-#include "host/render/launch.h"
-#include "host/render/rect.h"
+#include "host/render/kernel_choice.h"
+#include "host/render/picture_spec.h"
 #include "host/render/schedule.h"
 #include "host/scene/aa_mode.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_file.h"
 
 namespace rt {
-
-enum class Precision { float32, float64 };
-
-inline constexpr Named<Precision> precision_names[] = {{"float", Precision::float32},
-                                                       {"double", Precision::float64}};
 
 struct PictureSize {
     int width, height;
@@ -29,21 +23,16 @@ struct RenderSettings {
     std::optional<PictureSize> size;
     std::optional<AaMode> aa;
     Filter filter = Filter::box;
-    int sampling_seed = 0;  ///< of sobol samples
+    int seed = 0;  ///< of sobol samples
     std::optional<int> max_bounces;
     std::optional<Rect> crop;  ///< the part of the picture to render
     Precision precision = Precision::float32;
-    bool fast_math = false;
-    Launch launch = Launch::automatic;
-    int lanes = 0;    ///< rays of a packet; 0: as suits the device
-    std::string isa;  ///< instruction set of the threads' kernels; empty: the best
+    Math math = Math::strict;
+    KernelChoice kernels;
     Schedule schedule = Schedule::tiles;
     int threads = 0;  ///< 0: all cores
     std::optional<PictureSize> tile;
-    bool all_features = false;
-    Features also_features = no_features();  ///< compiled, needed or not
-    bool any_samples = false;                ///< compile the loop over samples, needed or not
-    std::optional<bool> hierarchies;         ///< not given: where they are faster
+    std::optional<bool> hierarchies;  ///< not given: where they are faster
     bool caster_lists = true;
     bool no_fallback = false;  ///< fail when the device fails, instead of using threads
     bool self_test = true;     ///< first compare a few of a device's pixels with threads'
@@ -58,8 +47,15 @@ struct RenderSettings {
     double check = 0;  ///< share of the tiles to trace again on threads and compare, 0 to 1
 };
 
-/// Applies the settings' overrides to the scene: size, AA, filter, bounces. Throws Error
+/// Applies the settings' overrides to the scene: size, AA, filter, seed, bounces. Throws Error
 /// (ExitCode::usage) for a filter that needs more samples.
 void apply_overrides(Scene& scene, const RenderSettings& settings);
+
+/// The picture that these settings make of a scene with their overrides applied. Throws Error
+/// (ExitCode::usage) for a crop that leaves the picture.
+PictureSpec picture_spec(const Scene& scene, const RenderSettings& settings);
+
+/// Settings that make such a picture of the scene.
+RenderSettings settings_for(const PictureSpec& spec);
 
 }  // namespace rt

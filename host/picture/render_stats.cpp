@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/render_stats.h"
 
-#include <fmt/format.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -9,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/base/named.h"
-#include "host/base/processor_time.h"
+#include "host/base/parallel.h"
+#include "host/base/text.h"
 
 namespace rt {
 
@@ -23,7 +22,7 @@ bool RenderStats::driver_took_its_time() const {
     constexpr double short_picture = 0.2;
     const RendererTimes& times = phases.renderer;
     return times.kernel > 0 && times.trace > short_picture && times.kernel < times.trace / 2 &&
-           !aa.refines();
+           !picture.aa.refines();
 }
 
 double seconds_since_process_start() {
@@ -43,22 +42,11 @@ double seconds_since_process_start() {
     return std::max(processor_seconds(), since_tick - tick);
 }
 
-std::string settings_text(const RenderStats& stats) {
-    return fmt::format("{}x{}+{}+{} of {}x{}, {}, {} filter, {} bounces, {}, {} math",
-                       stats.region.width, stats.region.height, stats.region.x, stats.region.y,
-                       stats.width, stats.height, to_string(stats.aa), to_string(stats.filter),
-                       stats.max_bounces, precision_name(stats.double_precision),
-                       math_name(stats.fast_math));
-}
-
-std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
-
-const char* to_string(BuildCache cache) {
-    static constexpr Named<BuildCache> names[] = {{"none", BuildCache::none},
-                                                  {"cold", BuildCache::cold},
-                                                  {"warm", BuildCache::warm},
-                                                  {"unknown", BuildCache::unknown}};
-    return name_of(names, cache);
+std::vector<HierarchyStats> hierarchies_of(const FlattenStats& stats) {
+    std::vector<HierarchyStats> list{
+        {"spheres", stats.spheres}, {"cones", stats.cones}, {"triangles", stats.triangles}};
+    std::erase_if(list, [](const HierarchyStats& one) { return one.shape.nodes == 0; });
+    return list;
 }
 
 }  // namespace rt

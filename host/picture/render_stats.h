@@ -7,13 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "host/flatten/features.h"
+#include "host/base/hash.h"
+#include "host/base/text.h"
 #include "host/flatten/flat_scene.h"
 #include "host/image/image_error.h"
+#include "host/render/kernel_choice.h"
+#include "host/render/picture_spec.h"
 #include "host/render/ray_counts.h"
 #include "host/render/renderer.h"
-#include "host/scene/aa_mode.h"
 
+// What a rendering reports: its structs, each with its fields' names in JSON (host/record).
 namespace rt {
 
 /// Who rendered.
@@ -30,6 +33,20 @@ struct DeviceStats {
     Features kernels = no_features();  ///< compiled into its kernels; none for several devices
 };
 
+template <typename A, Of<DeviceStats> X>
+void describe(A& a, X& x) {
+    const bool is_opencl = !x.platform.empty();
+    a("name", x.name, "\"threads\", or the OpenCL device's name");
+    a("platform", unless_empty(x.platform), "of OpenCL");
+    a("driver", is_opencl ? std::optional(x.driver) : std::nullopt, "its version");
+    a("launch", is_opencl ? std::optional(x.launch) : std::nullopt, "what a work item renders");
+    a("threads", is_opencl ? std::nullopt : std::optional(x.threads), "of the pthreads renderer");
+    a("schedule", is_opencl ? std::nullopt : std::optional(x.schedule), "tiles or buffers");
+    a("lanes", x.lanes, "rays of a packet");
+    a("isa", unless_empty(x.isa), "instruction set of the threads' kernels");
+    a("fallback_from", unless_empty(x.fallback_from), "the device that failed before");
+}
+
 /// What one of several devices did, or a device that failed.
 struct DeviceShare {
     std::string name;
@@ -38,15 +55,74 @@ struct DeviceShare {
     std::string failure;      ///< empty when it did not fail
 };
 
-/// What was rendered.
-struct SceneStats {
+template <typename A, Of<DeviceShare> X>
+void describe(A& a, X& x) {
+    a("name", x.name, "of the device");
+    a("pixels", x.pixels, "rendered, not counting refined ones");
+    a("ready", or_null(x.ready > 0 ? std::optional(x.ready) : std::nullopt),
+      "seconds until it could begin; null: never");
+    a("failure", unless_empty(x.failure), "how it failed");
+}
+
+/// Which scene.
+struct SceneId {
     std::string path, name;
     std::uint64_t hash = 0;
+};
+
+template <typename A, Of<SceneId> X>
+void describe(A& a, X& x) {
+    a("path", printable(x.path), "of its file");
+    a("name", x.name, "");
+    a("hash", hash_text(x.hash), "of what it says");
+}
+
+/// What was rendered.
+struct SceneStats : SceneId {
     std::size_t spheres = 0, cones = 0, triangles = 0, smooth_triangles = 0, lights = 0,
                 materials = 0;
     std::size_t bytes = 0;  ///< flattened
     FlattenStats flatten;
+    Features features;  ///< what it needs of the kernels
+    Features compiled;  ///< that, and what was compiled in although it is not needed
 };
+
+/// The hierarchy over one kind of primitive.
+struct HierarchyStats {
+    std::string over;  ///< "spheres"
+    BvhShape shape;
+};
+
+template <typename A, Of<HierarchyStats> X>
+void describe(A& a, X& x) {
+    a("over", x.over, "a kind of primitive");
+    a("nodes", x.shape.nodes, "");
+    a("leaves", x.shape.leaves, "");
+    a("depth", x.shape.depth, "levels");
+    a("sah_cost", x.shape.sah_cost, "by the surface area heuristic");
+}
+
+/// Of the kinds that have one.
+std::vector<HierarchyStats> hierarchies_of(const FlattenStats& stats);
+
+template <typename A, Of<SceneStats> X>
+void describe(A& a, X& x) {
+    const SceneId& id = x;
+    describe(a, id);
+    a("spheres", x.spheres, "");
+    a("cones", x.cones, "");
+    a("triangles", x.triangles, "those of meshes included");
+    a("smooth_triangles", x.smooth_triangles, "those with vertex normals");
+    a("lights", x.lights, "");
+    a("materials", x.materials, "");
+    a("flat_bytes", x.bytes, "of the arrays that renderers read");
+    a("hierarchies", hierarchies_of(x.flatten), "bounding volume hierarchies");
+    a("hierarchy_seconds", x.flatten.bvh_seconds, "to build them");
+    a("shadow_casters", x.flatten.casters, "pairs of a light and a triangle that may shadow it");
+    a("lit_triangles", x.flatten.lit_triangles, "all pairs of a light and a triangle");
+    a("features_used", names_of(x.features, true), "what the scene needs of the kernels");
+    a("features_left_out", names_of(x.compiled, false), "what was not compiled in");
+}
 
 /// Wall-clock seconds. Set-up, as in the paper, is everything before `trace`; `resolve_and_write`
 /// is everything after it.
@@ -64,23 +140,35 @@ struct PhaseStats {
     double resolve_and_write() const { return renderer.resolve + renderer.read_back + write; }
 };
 
+template <typename A, Of<PhaseStats> X>
+void describe(A& a, X& x) {
+    a("start", x.start, "seconds before main");
+    a("load", x.load, "seconds to read the scene");
+    a("flatten", x.flatten, "seconds to make the renderers' arrays");
+    a("open", x.renderer.open, "seconds to find and open the device");
+    a("build", x.renderer.build, "seconds to compile or load the kernels");
+    a("upload", x.renderer.upload, "seconds to copy the scene to the device");
+    a("self_test", x.renderer.check, "seconds of the device's self-test");
+    a("trace", x.renderer.trace, "seconds from the first ray to the last");
+    a("kernel", x.renderer.kernel, "seconds of that in kernels, by the device's own clock");
+    a("resolve", x.renderer.resolve, "seconds to average sample buffers");
+    a("read_back", x.renderer.read_back, "seconds to copy the film to the host");
+    a("write", x.write, "seconds to write the picture");
+    a("total", x.total, "seconds");
+    a("set_up", x.set_up(), "seconds before trace, as in the paper");
+    a("resolve_and_write", x.resolve_and_write(), "seconds after trace");
+}
+
 /// One rendering, as data: what --stats prints and the benchmarks collect.
 struct RenderStats {
     SceneStats scene;
+    PictureSpec picture;
+    KernelChoice kernels;             ///< requested
+    std::optional<bool> hierarchies;  ///< requested; empty: where they are faster
+    bool caster_lists = true;
     DeviceStats device;
     std::vector<DeviceShare> shares;  ///< of each device, those that failed included
     PhaseStats phases;
-    int width = 0, height = 0;  ///< of the whole picture
-    Rect region;                ///< the part that was rendered
-    AaMode aa;
-    Filter filter = Filter::box;
-    int max_bounces = 0;
-    bool double_precision = false, fast_math = false;
-    Features features;                       ///< what the scene needs
-    bool all_features = false;               ///< compiled with everything anyway
-    Features also_features = no_features();  ///< compiled anyway
-    std::optional<bool> hierarchies;         ///< requested; empty: where they are faster
-    bool caster_lists = true;
     RayCounts rays;
     std::size_t tiles = 0, tiles_finished = 0;
     double resumed = 0;             ///< share of the film's pixels that a journal had, 0 to 1
@@ -89,7 +177,6 @@ struct RenderStats {
     std::uint64_t image_hash = 0;
     std::size_t non_finite = 0;  ///< pixels
     std::optional<ImageError> error;
-    std::optional<double> started;  ///< of a benchmark's runs: seconds since the first began
 
     /// Rays per second while tracing; 0 when nothing was traced.
     double rays_per_second() const;
@@ -102,16 +189,47 @@ struct RenderStats {
     bool complete() const { return refined && tiles_finished == tiles; }
 };
 
+/// What the runs of a benchmark repeat of RenderStats.
+template <typename A, typename X>
+void describe_run(A& a, X& x) {
+    a.group("settings", [&](auto& inner) {
+        describe(inner, x.picture);
+        const Features added = x.kernels.has_all() ? no_features() : x.kernels.features;
+        inner("features", std::string(x.kernels.has_all() ? "all" : "auto"),
+              "what is compiled: what the scene needs, or everything");
+        inner("features_added", names_of(added, true), "compiled although not needed");
+        inner("hierarchies",
+              std::string(!x.hierarchies   ? "auto"
+                          : *x.hierarchies ? "on"
+                                           : "off"),
+              "requested");
+        inner("caster_lists", std::string(x.caster_lists ? "on" : "off"), "requested");
+    });
+    a("device", x.device, "who rendered");
+    a("seconds", x.phases, "wall-clock time by phase");
+    a("rays", x.rays, "traced, by kind");
+    a("rays_per_second", x.rays_per_second(), "while tracing");
+    a.group("image", [&](auto& inner) {
+        inner("hash", hash_text(x.image_hash), "of every bit of the picture");
+        inner("non_finite", x.non_finite, "pixels with a NaN or an infinity");
+    });
+}
+
+template <typename A, Of<RenderStats> X>
+void describe(A& a, X& x) {
+    const auto if_positive = [](auto n) { return n > 0 ? std::optional(n) : std::nullopt; };
+    a("scene", x.scene, "what was rendered");
+    describe_run(a, x);
+    a("complete", x.complete(), "false if it was stopped early");
+    a("devices", x.shares.size() > 1 ? std::optional(x.shares) : std::nullopt,
+      "what each of several devices did");
+    a("resumed", if_positive(x.resumed), "share of the pixels that a journal had, 0 to 1");
+    a("tiles_checked", if_positive(x.tiles_checked), "traced again on threads");
+    a("error", x.error, "relative to --reference");
+}
+
 /// Seconds since the system started this process: its processor time, if its one thread has not
 /// waited; else up to 0.01 s too little, the resolution of the system's own record.
 double seconds_since_process_start();
-
-/// All that defines what was rendered except the scene, for picture metadata.
-std::string settings_text(const RenderStats& stats);
-
-/// 16 hexadecimal digits.
-std::string hash_text(std::uint64_t hash);
-
-const char* to_string(BuildCache cache);
 
 }  // namespace rt

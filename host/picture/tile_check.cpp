@@ -9,7 +9,6 @@
 #include <numeric>
 #include <random>
 
-#include "host/base/error.h"
 #include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 
@@ -25,7 +24,7 @@ const StopFlag never_stopped = 0;
 template <typename T>
 std::unique_ptr<Renderer<T>> checking_renderer(const FlatScene<T>& scene, const std::string& isa) {
     ThreadsOptions options;
-    options.isa = isa;
+    options.kernels.isa = isa;
     return make_threads_renderer(scene, options);
 }
 
@@ -106,10 +105,10 @@ void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>&
         }
     }
     if (wrong == 0) return;
-    throw Error(ExitCode::device,
-                fmt::format("{} fails its self-test: {} of {} pixels differ from those of threads; "
-                            "clear its kernel cache, update its driver, or use --device threads",
-                            name, wrong, pixels));
+    throw WrongPicture(fmt::format(
+        "{} fails its self-test: {} of {} pixels differ from those of threads; clear its "
+        "kernel cache, update its driver, or use --device threads",
+        name, wrong, pixels));
 }
 
 template <typename T>

@@ -4,14 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/renderer.h"
 #include "host/scene/aa_mode.h"
 
 namespace rt {
 
+/// What a device computed is not what threads compute: its picture is wrong.
+struct WrongPicture : Error {
+    explicit WrongPicture(const std::string& message) : Error(ExitCode::device, message) {}
+};
+
 /// Renders four strips across the picture on the device and on threads, and refines them if the
-/// picture will be. Throws Error (ExitCode::device) unless the bits are the same: the driver, or
+/// picture will be. Throws WrongPicture unless the bits are the same: the driver, or
 /// the kernel it keeps in its cache, is broken. Strict arithmetic only. At most 33,000 samples, a
 /// millisecond or two.
 template <typename T>

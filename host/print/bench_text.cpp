@@ -4,12 +4,9 @@
 
 #include <map>
 
-#include "host/base/named.h"
-#include "host/base/printable.h"
-#include "host/measure/bench.h"
+#include "host/base/text.h"
 #include "host/measure/machine_load.h"
-#include "host/print/print_bench.h"
-#include "host/print/rounds_text.h"
+#include "host/print/print_run.h"
 
 namespace rt {
 
@@ -19,8 +16,10 @@ constexpr std::size_t device_columns = 19;
 
 /// The heading of a group of rows.
 std::string group_of(const BenchCase& asked) {
-    return fmt::format("{} {}x{}, {}, {}", printable(asked.scene_path), asked.width, asked.height,
-                       to_string(asked.aa), precision_name(asked.double_precision));
+    const PictureSpec& picture = asked.picture;
+    return fmt::format("{} {}x{}, {}, {} filter, {}", printable(asked.scene.path), picture.width,
+                       picture.height, to_string(picture.aa), to_string(picture.filter),
+                       to_string(picture.precision));
 }
 
 std::string device_text(const BenchCase& asked) {
@@ -36,9 +35,9 @@ std::string ratio_cell(const std::optional<double>& ratio) {
     return fmt::format("{:.{}f}", *ratio, digits);
 }
 
-std::string row_text(const BenchResult& result, const BenchRow& row) {
+std::string row_text(const BenchRow& row) {
     const std::string head = fmt::format(" {:<19}", device_text(row.asked));
-    const auto figures = figures_of(result, row);
+    const auto& figures = row.figures;
     if (!figures) {
         const bool timed = row.verdict == Verdict::right || row.verdict == Verdict::unfinished;
         return head +
@@ -73,10 +72,10 @@ std::string header_text() {
                        "RMSE");
 }
 
-std::string ablation_row_text(const BenchResult& result, const BenchRow& row) {
+std::string ablation_row_text(const AblationRow& row) {
     const bool usual = row.asked.change.empty();
     const std::string head = fmt::format(" {:<31}", usual ? "default" : row.asked.change);
-    const auto figures = ablation_figures(result, row);
+    const auto& figures = row.figures;
     if (figures) {
         return head + fmt::format(" {:>8.5f} {:>3.0f} {:>5.2f} {:>7.3f}  {}\n",
                                   figures->trace.median, figures->trace.noise_percent(),
@@ -94,14 +93,14 @@ constexpr const char* ablation_legend =
 
 std::string ablation_text(const BenchResult& result) {
     std::string text;
-    for (const BenchRow& row : result.ablation) {
+    for (const AblationRow& row : result.ablation) {
         if (row.asked.change.empty()) {
             text += fmt::format("{}{}, {}\n {:<31} {:>8} {:>3} {:>5} {:>7}  {}\n",
                                 text.empty() ? "" : "\n", group_of(row.asked),
                                 row.asked.uses_threads ? row.asked.device : row.asked.device_name,
                                 "", "trace s", "+-%", "ratio", "build", "image");
         }
-        text += ablation_row_text(result, row);
+        text += ablation_row_text(row);
     }
     return text;
 }
@@ -125,16 +124,18 @@ std::string bench_text(const BenchResult& result) {
             images.clear();
             group = next;
         }
-        text += row_text(result, row);
+        text += row_text(row);
         if (row.repeats.empty()) continue;
         const std::string schedule = row.asked.schedule.empty() ? "" : "/" + row.asked.schedule;
         images[hash_text(row.repeats.back().image_hash)].push_back(row.asked.device + schedule);
     }
     text += images_text(images) + ablation_text(result);
-    text += fmt::format("\n{}; load before {:.2f}\n{}",
-                        rounds_text(result.ablation.empty() ? result.rows : result.ablation,
-                                    result.repeats_asked, result.interrupted),
-                        result.load_before, result.ablation.empty() ? legend : ablation_legend);
+    text +=
+        fmt::format("\n{}; other load {:.2f}\n{}",
+                    result.ablation.empty()
+                        ? rounds_text(result.rows, result.repeats_asked, result.interrupted)
+                        : rounds_text(result.ablation, result.repeats_asked, result.interrupted),
+                    result.load_before, result.ablation.empty() ? legend : ablation_legend);
     return text;
 }
 

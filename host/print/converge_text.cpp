@@ -3,13 +3,9 @@
 
 #include <algorithm>
 
-#include "host/base/counted.h"
-#include "host/base/named.h"
-#include "host/base/printable.h"
-#include "host/measure/converge.h"
+#include "host/base/text.h"
 #include "host/measure/machine_load.h"
-#include "host/print/print_converge.h"
-#include "host/print/rounds_text.h"
+#include "host/print/print_run.h"
 
 namespace rt {
 
@@ -23,19 +19,20 @@ std::string device_text(const std::string& device, const std::string& name) {
 /// "0 pthread-AMD EP float  strict"
 std::string who(const ConvergeCase& of) {
     return fmt::format("{:<16} {:<6} {:<6}", device_text(of.device, of.device_name).substr(0, 16),
-                       precision_name(of.double_precision), math_name(of.fast_math));
+                       to_string(of.picture.precision), to_string(of.picture.math));
 }
 
 /// The heading of the points of one setting.
 std::string group_of(const ConvergeCase& of) {
     return fmt::format("{}, {}, {}, {}", device_text(of.device, of.device_name),
-                       precision_name(of.double_precision), of.fast_math ? "fast math" : "strict",
-                       counted(static_cast<std::size_t>(of.max_bounces), "bounce"));
+                       to_string(of.picture.precision),
+                       of.picture.math == Math::fast ? "fast math" : "strict",
+                       counted(of.picture.max_bounces, "bounce"));
 }
 
-std::string point_text(const ConvergeResult& result, const ConvergePoint& point, bool on_front) {
-    const std::string head = fmt::format("  {:<16}", to_string(point.asked.aa));
-    const auto figures = figures_of(result, point);
+std::string point_text(const ConvergePoint& point, bool on_front) {
+    const std::string head = fmt::format("  {:<16}", to_string(point.asked.picture.aa));
+    const auto& figures = point.figures;
     if (!figures) return fmt::format("{} {} {}\n", head, to_string(point.verdict), point.why);
     return fmt::format("{} {:>9.5f} {:>4.1f} {:>9.5f} {:>9.2e} {}{}\n", head,
                        figures->seconds.median, figures->seconds.noise_percent(),
@@ -45,15 +42,14 @@ std::string point_text(const ConvergeResult& result, const ConvergePoint& point,
 
 std::string points_text(const ConvergeResult& result) {
     std::string text, group;
-    const auto front = front_of(result);
     for (std::size_t i = 0; i < result.points.size(); ++i) {
         if (const std::string next = group_of(result.points[i].asked); next != group) {
             text += fmt::format("{}\n  {:<16} {:>9} {:>4} {:>9} {:>9}\n", next, "AA", "seconds",
                                 "+-%", "slowest", "RMSE");
             group = next;
         }
-        const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
-        text += point_text(result, result.points[i], on_front);
+        const bool on_front = std::count(result.front.begin(), result.front.end(), i) > 0;
+        text += point_text(result.points[i], on_front);
     }
     return text +
            "* on the Pareto front; < below the reference's own error, not resolved.\n"
@@ -62,11 +58,11 @@ std::string points_text(const ConvergeResult& result) {
 
 std::string curves_text(const ConvergeResult& result) {
     std::string text = "\nslope of log RMSE over log seconds\n";
-    for (const Curve& curve : curves_of(result)) {
+    for (const Curve& curve : result.curves) {
         if (!curve.slope) continue;
         text += fmt::format("{} {:<10} {:<10} {:>6.2f}\n", who(curve.of),
-                            counted(static_cast<std::size_t>(curve.of.max_bounces), "bounce"),
-                            curve.family, *curve.slope);
+                            counted(curve.of.picture.max_bounces, "bounce"), curve.family,
+                            *curve.slope);
     }
     return text;
 }
@@ -75,12 +71,12 @@ std::string builds_text(const ConvergeResult& result) {
     std::string text = fmt::format(
         "\n"
         "extra time for the first picture, seconds\n"
-        "{:<30} {:>9} {:>11} {:<8} {:>11} {:>4}\n",
-        "", "open", "first build", "cache", "later build", "+-%");
-    for (const BuildOffset& offset : build_offsets(result)) {
-        text += fmt::format("{} {:>9.5f} {:>11.5f} {:<8} {:>11.5f} {:>4.1f}\n", who(offset.of),
-                            offset.open, offset.first_build, offset.first_cache,
-                            offset.warm_build.median, offset.warm_build.noise_percent());
+        "{:<30} {:>9} {:>11} {:>11} {:>4}\n",
+        "", "open", "first build", "later build", "+-%");
+    for (const BuildOffset& offset : result.builds) {
+        text += fmt::format("{} {:>9.5f} {:>11.5f} {:>11.5f} {:>4.1f}\n", who(offset.of),
+                            offset.open, offset.first_build, offset.warm_build.median,
+                            offset.warm_build.noise_percent());
     }
     return text;
 }
@@ -89,13 +85,13 @@ std::string target_text(const ConvergeResult& result, const TargetTime& time) {
     if (time.below_floor) return "below the floor";
     if (!time.point) return "not reached";
     const ConvergeCase& of = result.points[*time.point].asked;
-    return fmt::format("{:>8.4f} s  {}{}", time.seconds, to_string(of.aa),
-                       of.double_precision ? " in double" : "");
+    return fmt::format("{:>8.4f} s  {}{}", *time.seconds, to_string(of.picture.aa),
+                       of.picture.precision == Precision::float64 ? " in double" : "");
 }
 
 std::string targets_text(const ConvergeResult& result) {
     std::string text = "\ntime to reach an RMSE, with the fastest setting that reaches it\n";
-    for (const TargetTime& time : target_times(result)) {
+    for (const TargetTime& time : result.targets) {
         text += fmt::format("{:<24} {:>5.0e}  {}\n",
                             device_text(time.device, time.device_name).substr(0, 24), time.target,
                             target_text(result, time));
@@ -108,10 +104,10 @@ std::string targets_text(const ConvergeResult& result) {
 std::string converge_text(const ConvergeResult& result) {
     const ConvergeReference& reference = result.reference;
     std::string text = fmt::format(
-        "{}\n{}x{}, {}; load before {:.2f}\n"
+        "{}\n{}x{}, {}; other load {:.2f}\n"
         "reference: mean of {} and {} in double, {} bounces\n"
         "its halves differ by RMSE {:.2e}: floor {:.2e}; values clamped to [0,1]\n\n",
-        printable(result.scene_path), result.width, result.height,
+        printable(result.scene.path), result.width, result.height,
         rounds_text(result.points, result.repeats_asked, result.interrupted), result.load_before,
         reference.aa_a, reference.aa_b, reference.max_bounces, reference.halves_rmse,
         reference.floor());

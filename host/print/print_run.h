@@ -1,44 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
-#include <span>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string>
 
-#include "host/measure/bench_result.h"
-#include "host/measure/statistics.h"
-#include "host/picture/render_stats.h"
+#include "host/measure/bench.h"
+#include "host/measure/converge.h"
+#include "host/record/record.h"
 
+// The results of bench and converge as text, JSON and CSV.
 namespace rt {
 
 /// The first bytes of every result of this format.
 std::string json_start(const std::string& format);
 
-/// A run of a benchmark: settings, device, seconds, rays, rays per second, image and error, as in
-/// stats_json.
-nlohmann::ordered_json run_json(const RenderStats& run);
-
-nlohmann::ordered_json runs_json(std::span<const RenderStats> runs);
-
-/// Adds verdict, why, `figures`, warm-up and repeats.
-void add_runs(nlohmann::ordered_json& json, const TimedRuns& runs, nlohmann::ordered_json figures);
-
-/// {"path", "name", "hash"}
-nlohmann::ordered_json scene_json(const std::string& path, const std::string& name,
-                                  std::uint64_t hash);
-
-/// {"median", "mad", "min", "max"}
-nlohmann::ordered_json spread_json(const Spread& spread);
+/// A result's format, version 1, environment and fields, as text.
+template <typename T>
+std::string result_json(const std::string& format, Json environment, const T& result) {
+    Json json{{"format", format}, {"version", 1}, {"environment", std::move(environment)}};
+    json.update(json_of(result));
+    return json_text(json);
+}
 
 /// environment_json plus the load before the measurements and whether it makes the machine busy;
 /// "load" itself is from after them.
-nlohmann::ordered_json bench_environment_json(double load_before);
+Json bench_environment_json(double load_before);
+
+/// How many rounds the rows have: "4 rounds after a warm-up", or with an interrupt
+/// "1 of 4 rounds after a warm-up, interrupted".
+template <typename Row>
+std::string rounds_text(const std::vector<Row>& rows, int asked, bool interrupted) {
+    std::size_t done = 0;
+    for (const Row& row : rows) done = std::max(done, row.repeats.size());
+    const std::string rounds = counted(static_cast<std::size_t>(asked), "round");
+    return interrupted ? fmt::format("{} of {} after a warm-up, interrupted", done, rounds)
+                       : rounds + " after a warm-up";
+}
+
+/// Human-readable tables, at most 100 columns wide.
+std::string bench_text(const BenchResult& result);
+std::string converge_text(const ConvergeResult& result);
+
+/// Format "mirrorball-bench", version 1 (docs/bench.schema.json), and "mirrorball-converge",
+/// version 1 (docs/converge.schema.json): every raw run, and the figures computed from them.
+std::string bench_json(const BenchResult& result);
+std::string converge_json(const ConvergeResult& result);
 
 /// The first line of the CSV of bench and converge, without its newline.
 std::string run_csv_header();
 
-/// A line for each run, warm-up (round 0) and repeats; text with a comma or a quote in it is quoted
-/// (RFC 4180). `device`: spec.
-std::string runs_csv(const TimedRuns& runs, const std::string& device);
+/// A header and a line per run, warm-up (round 0) and repeats.
+std::string bench_csv(const BenchResult& result);
+std::string converge_csv(const ConvergeResult& result);
 
 }  // namespace rt

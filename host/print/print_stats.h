@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "host/flatten/features.h"
 #include "host/picture/render_stats.h"
+#include "host/record/record.h"
 
 namespace rt {
 
@@ -13,13 +13,21 @@ namespace rt {
 std::string names_text(const Features& features, bool used);
 
 /// "4 spheres, 4 cones, 128 triangles, 2 lights, mirrors, glass": what the scene holds.
-std::string holdings_text(const RenderStats& stats);
+std::string holdings_text(const SceneStats& scene);
+
+/// What flatten built: "BVH: triangles (1059607 nodes, 23 deep), built in 0.330 s", and how many
+/// light-triangle pairs cast shadows. A line each.
+std::string flatten_text(const FlattenStats& stats);
 
 /// One line: what was rendered where, how fast, and the picture's hash.
 std::string summary_line(const RenderStats& stats);
 
 /// One line: every figure of an image error.
 std::string error_line(const ImageError& error);
+
+/// The table of `compare`: one line per figure of an image error between pictures with that many
+/// pixels. If no pixel was finite in both, it says so instead.
+std::string error_table(const ImageError& error, std::size_t pixels);
 
 /// If stats.driver_took_its_time(): what that means for the speed shown.
 std::string driver_time_text(const RenderStats& stats);
@@ -28,11 +36,7 @@ std::string driver_time_text(const RenderStats& stats);
 /// by kind, and what the scene needed and did not need.
 std::string stats_text(const RenderStats& stats);
 
-/// A JSON value as indented text with a newline; invalid UTF-8 (a file name may hold it) becomes
-/// replacement characters.
-std::string json_text(const nlohmann::ordered_json& json);
-
 /// One rendering in format "mirrorball-render", version 1 (docs/results-format.md).
-nlohmann::ordered_json stats_json(const RenderStats& stats);
+Json stats_json(const RenderStats& stats);
 
 }  // namespace rt

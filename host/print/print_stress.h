@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -9,20 +8,14 @@
 
 namespace rt {
 
-/// A line per family: cases, worst figures, tolerance, verdict, why it matters; the broken cases
-/// below their family. Verbose: a line per case and renderer.
+/// The verdict, then a line per family: its worst figures next to what is allowed, the broken cases
+/// below. Verbose: also why a family matters, and a line per case and renderer.
 std::string stress_text(const StressResult& result, bool verbose);
 
 /// The names of the families and their cases; those of --quick are marked.
 std::string stress_list(const std::vector<StressFamily>& families);
 
-/// A tolerance in a few words: "0 wrong, 1e-04".
-std::string tolerance_text(const StressTolerance& tolerance);
-
-/// The loosest tolerance of a family's cases.
-StressTolerance loosest_tolerance(const StressFamilyResult& family);
-
 /// Format "mirrorball-stress", version 1 (docs/stress.schema.json).
-nlohmann::ordered_json stress_json(const StressResult& result);
+std::string stress_json(const StressResult& result);
 
 }  // namespace rt

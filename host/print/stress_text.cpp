@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
+#include "host/print/print_run.h"
 #include "host/print/print_stress.h"
 
 namespace rt {
@@ -13,20 +14,21 @@ namespace {
 
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
-std::string count_text(std::size_t count) {
-    return count == no_limit ? "any" : std::to_string(count);
+/// "4000 allowed", or "any" where there is no limit.
+std::string allowed_text(std::size_t count) {
+    return count == no_limit ? "any" : fmt::format("{} allowed", count);
 }
 
-bool has_rays(const StressFamilyResult& family) {
-    return std::any_of(family.cases.begin(), family.cases.end(), [](const StressCaseResult& one) {
-        return !one.rows.empty() && one.rows.front().rays.has_value();
-    });
-}
-
-bool has_texts(const StressFamilyResult& family) {
-    return std::any_of(family.cases.begin(), family.cases.end(), [](const StressCaseResult& one) {
-        return !one.rows.empty() && one.rows.front().refused + one.rows.front().rendered > 0;
-    });
+/// The row of a family's trials of rays, among those that are judged, in which most fail.
+const StressRow* worst_of_rays(const StressFamilyResult& family) {
+    const StressRow* worst = nullptr;
+    for (const StressCaseResult& one : family.cases) {
+        for (const StressRow& row : one.rows) {
+            if (!row.rays || !row.judged) continue;
+            if (worst == nullptr || row.rays->failures > worst->rays->failures) worst = &row;
+        }
+    }
+    return worst;
 }
 
 std::string worst_text(const PictureFigures& worst) {
@@ -37,20 +39,33 @@ std::string worst_text(const PictureFigures& worst) {
     return text;
 }
 
-std::string family_worst(const StressFamilyResult& family) {
-    const PictureFigures worst = worst_figures(family);
-    if (has_texts(family)) return fmt::format("{} NaN, {} inf", worst.nans, worst.infinities);
-    if (has_rays(family)) return fmt::format("{} fail, {:.1e}", worst.wrong, worst.max_error);
-    return worst_text(worst);
+/// The loosest tolerance of a family's cases.
+StressTolerance loosest_tolerance(const StressFamilyResult& family) {
+    StressTolerance loosest{0, 0, 0, false, true};
+    for (const StressCaseResult& one : family.cases) {
+        loosest.most_wrong = std::max(loosest.most_wrong, one.tolerance.most_wrong);
+        loosest.most_wrong_at_edges =
+            std::max(loosest.most_wrong_at_edges, one.tolerance.most_wrong_at_edges);
+        loosest.max_error = std::max(loosest.max_error, one.tolerance.max_error);
+    }
+    return loosest;
 }
 
-std::string family_bar(const StressFamilyResult& family) {
-    if (has_texts(family)) return "refused, or no NaN";
-    return tolerance_text(loosest_tolerance(family));
+/// The worst of a family next to what is allowed: "987 of 100000 rays wrong, 4000 allowed".
+std::string family_figures(const StressFamilyResult& family) {
+    const PictureFigures worst = worst_figures(family);
+    const StressTolerance allowed = loosest_tolerance(family);
+    if (const StressRow* const row = worst_of_rays(family)) {
+        return fmt::format("{} of {} rays wrong, {}", row->rays->failures, row->rays->rays,
+                           allowed_text(allowed.most_wrong));
+    }
+    if (worst.nans + worst.infinities > 0) return worst_text(worst);
+    return fmt::format("{} pixels wrong, {}; error {:.0e} of {:.0e}", worst.wrong,
+                       allowed_text(allowed.most_wrong), worst.max_error, allowed.max_error);
 }
 
 std::string row_name(const StressRow& row) {
-    return fmt::format("{} {}", row.renderer, precision_name(row.double_precision));
+    return fmt::format("{} {}", row.renderer, to_string(row.precision));
 }
 
 std::string row_figures(const StressRow& row) {
@@ -97,10 +112,10 @@ std::string broken_lines(const StressFamilyResult& family) {
 }
 
 std::string family_lines(const StressFamilyResult& family, bool verbose) {
-    std::string text = fmt::format("{:<20} {:>3}  {:<36} {:<20} {:<4}  {}\n", family.name,
-                                   family.cases.size(), family_worst(family), family_bar(family),
-                                   family.passed() ? "pass" : "FAIL", family.why);
+    std::string text = fmt::format("{:<4} {:<20} {}\n", family.passed() ? "pass" : "FAIL",
+                                   family.name, family_figures(family));
     if (verbose) {
+        text += fmt::format("     {}\n", family.why);
         for (const StressCaseResult& one : family.cases) text += case_lines(one);
         return text;
     }
@@ -109,39 +124,18 @@ std::string family_lines(const StressFamilyResult& family, bool verbose) {
 
 }  // namespace
 
-std::string tolerance_text(const StressTolerance& tolerance) {
-    std::string text =
-        fmt::format("{} wrong, {:.0e}", count_text(tolerance.most_wrong), tolerance.max_error);
-    if (tolerance.most_wrong_at_edges != no_limit) {
-        text += fmt::format(", {} at edges", tolerance.most_wrong_at_edges);
-    }
-    return text;
-}
-
-StressTolerance loosest_tolerance(const StressFamilyResult& family) {
-    StressTolerance loosest{0, 0, 0, false, true};
-    for (const StressCaseResult& one : family.cases) {
-        loosest.most_wrong = std::max(loosest.most_wrong, one.tolerance.most_wrong);
-        loosest.most_wrong_at_edges =
-            std::max(loosest.most_wrong_at_edges, one.tolerance.most_wrong_at_edges);
-        loosest.max_error = std::max(loosest.max_error, one.tolerance.max_error);
-    }
-    return loosest;
-}
-
 std::string stress_text(const StressResult& result, bool verbose) {
-    std::string text = fmt::format("{:<20} {:>3}  {:<36} {:<20} {:<4}  {}\n", "family", "n",
-                                   "worst", "tolerance", "", "why");
-    for (const StressFamilyResult& family : result.families) {
-        text += family_lines(family, verbose);
-    }
     const auto passed =
         std::count_if(result.families.begin(), result.families.end(),
                       [](const StressFamilyResult& family) { return family.passed(); });
-    return text + fmt::format("{}: {} of {} families, {:.0f} s{}\n",
-                              result.passed() ? "PASS" : "FAIL", passed,
-                              result.families.size() + result.unfinished, result.seconds,
-                              result.interrupted ? ", interrupted" : "");
+    std::string text =
+        fmt::format("{}: {} of {} families, {:.0f} s{}\n", result.passed() ? "PASS" : "FAIL",
+                    passed, result.families.size() + result.unfinished, result.seconds,
+                    result.interrupted ? ", interrupted" : "");
+    for (const StressFamilyResult& family : result.families) {
+        text += family_lines(family, verbose);
+    }
+    return text;
 }
 
 std::string stress_list(const std::vector<StressFamily>& families) {
@@ -153,6 +147,10 @@ std::string stress_list(const std::vector<StressFamily>& families) {
         }
     }
     return text;
+}
+
+std::string stress_json(const StressResult& result) {
+    return result_json("mirrorball-stress", bench_environment_json(result.load_before), result);
 }
 
 }  // namespace rt

@@ -14,7 +14,7 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/image/temporary_file.h"
+#include "host/image/atomic_file.h"
 
 namespace rt {
 
@@ -30,7 +30,7 @@ struct StopSignal {
 StopFlag received = 0;
 std::atomic<bool> stops_quietly = false, is_working = false;
 std::atomic<int> stops_at_once = 0;
-std::atomic<pid_t> worker = 0, boss = 0;    ///< where to forward signals, and whose to handle
+std::atomic<pid_t> worker = 0, parent = 0;  ///< where to forward signals, and whose to handle
 std::atomic<std::int64_t> received_at = 0;  ///< ms
 void (*exit_listener)(int status) = nullptr;
 std::atomic<int> passed_on = 0;     ///< the last signal forwarded
@@ -94,8 +94,8 @@ int forwarding_signal() { return SIGRTMIN; }
 
 /// The number of the stop signal; 0: it was not meant for us. Time limits apply to each process.
 int meant_number(int number, const siginfo_t* info) {
-    if (boss == 0 || number == SIGXCPU || number == SIGALRM) return number;
-    const bool is_forwarded = number == forwarding_signal() && info->si_pid == boss;
+    if (parent == 0 || number == SIGXCPU || number == SIGALRM) return number;
+    const bool is_forwarded = number == forwarding_signal() && info->si_pid == parent;
     return is_forwarded ? info->si_value.sival_int : 0;
 }
 
@@ -119,8 +119,11 @@ void stop_working(int number, siginfo_t* info, void* context) {
     int none = 0;
     if (received.compare_exchange_strong(none, number)) {
         received_at = milliseconds_now();
-        if (!stops_quietly)
+        if (!stops_quietly && signal.by_hand) {
             write_line("stopping, saving what is finished; interrupt again to quit at once", "");
+        } else if (!stops_quietly) {
+            write_line(signal.reason, "; saving what is finished");
+        }
     } else if (signal.by_hand && milliseconds_now() - received_at > echo) {
         end_by(signal);
     }
@@ -132,7 +135,10 @@ void pass_on(int number, siginfo_t* info, void* context) {
     passed_on = number;
     sigval value{};
     value.sival_int = number;
-    if (const pid_t to = worker; to > 0) ::sigqueue(to, forwarding_signal(), value);
+    if (const pid_t to = worker; to > 0) {
+        ::sigqueue(to, forwarding_signal(), value);
+        ::kill(to, SIGCONT);  // one that is stopped would not save anything
+    }
     if (is_working) stop_working(number, info, context);  // this process has work of its own
     errno = saved;
 }
@@ -151,7 +157,7 @@ void handle_stop_signals(Handler handler) {
         sigaction(number, &action, nullptr);
     };
     for (const StopSignal& signal : stop_signals) handle(signal.number, signal.ignored);
-    if (boss != 0) handle(forwarding_signal(), false);
+    if (parent != 0) handle(forwarding_signal(), false);
 }
 
 }  // namespace
@@ -221,9 +227,9 @@ int passed_stop_signal() { return passed_on; }
 
 void end_by_stop_signal(int number) { end_by(of_number(number)); }
 
-void heed_stop_signals_of(pid_t process, void (*listener)(int status)) {
+void accept_signals_from(pid_t sender, void (*listener)(int status)) {
     exit_listener = listener;
-    boss = process;
+    parent = sender;
     restore_stop_signals();
 }
 

@@ -30,7 +30,7 @@ void restore_stop_signals();
 /// ignored. Call it after OpenCL has started: its runtimes replace existing handlers.
 void install_stop_signals();
 
-/// From now on a stop signal ends this process without a word.
+/// From now on a stop signal ends this process silently.
 void uninstall_stop_signals();
 
 /// Sends this process SIGALRM after so many seconds.
@@ -39,8 +39,8 @@ void stop_after(double seconds);
 /// The exit code of a program stopped by this signal number.
 int exit_code_of_stop(int number);
 
-/// While one that is to be so exists, a stop signal ends the program at once, and so does one that
-/// has come before: for what may take for ever, such as writing to a pipe.
+/// While one exists with at_once set, a pending or new stop signal ends the program immediately;
+/// for writes that may block.
 class StopsAtOnce {
    public:
     explicit StopsAtOnce(bool at_once);
@@ -56,7 +56,7 @@ class StopsAtOnce {
 bool stop_quietly(bool quietly = true);
 
 /// Forwards stop signals to the process that `start` returns, from its creation on, instead of
-/// handling them. If it returns 0, they are handled here again.
+/// handling them, and continues it if it is stopped. If it returns 0, they are handled here again.
 void pass_stop_signals_to(const std::function<pid_t()>& start);
 
 /// The last signal forwarded; 0: none.
@@ -65,9 +65,9 @@ int passed_stop_signal();
 /// Ends this process as this stop signal would.
 [[noreturn]] void end_by_stop_signal(int number);
 
-/// Handles stop signals only when that process sent them, or its own time limit ran out: terminals
-/// and most batch systems signal every process of a job, and a second signal means to quit at once.
+/// Handles stop signals only when `sender` sent them, or its own time limit ran out: terminals and
+/// most batch systems signal every process of a job, and a second signal means to quit at once.
 /// When SIGXCPU, SIGUSR1 or SIGALRM ends this process, `listener` gets the exit code, in a handler.
-void heed_stop_signals_of(pid_t process, void (*listener)(int status));
+void accept_signals_from(pid_t sender, void (*listener)(int status));
 
 }  // namespace rt

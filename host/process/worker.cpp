@@ -12,19 +12,18 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <climits>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <optional>
+#include <mutex>
 #include <sstream>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
-#include "host/base/file_descriptor.h"
+#include "host/base/files.h"
 #include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
 
@@ -32,15 +31,13 @@ namespace rt {
 
 namespace {
 
-// The worker's messages: one byte each, except that the exit code follows `ended`, and a text that
-// ends with a zero `began`.
-constexpr char watched = 'w', unwatched = 'u', progressed = 'p', ended = 'e', began = 'b';
+// A worker's messages are a letter and a text, which a zero ends.
+constexpr char is_doing = 't', progressed = 'p', told = 'r', ended = 'e';
 
 constexpr double poll_seconds = 0.2;
 
-/// A driver may compute for ever. Though it is busy, its first progress is overdue after so many
-/// deadlines, and any other after so many and this many times the longest wait so far.
-constexpr double first_deadlines = 60, later_deadlines = 6, longest_gaps = 10;
+/// A driver may never finish: even while busy, its progress is due within so many deadlines.
+constexpr double busy_deadlines = 60;
 
 /// Processor time that mere waiting may use up within a deadline.
 constexpr double idle_seconds = 0.1;
@@ -50,17 +47,13 @@ constexpr const char* link_name = "MIRRORBALL_WORKER";
 std::atomic<int> link_pipe = -1;
 double link_seconds = 0;
 
-void tell(std::string_view bytes) {
-    if (link_pipe < 0) return;
-    while (::write(link_pipe, bytes.data(), bytes.size()) < 0 && errno == EINTR) {
+void send(std::string_view message) {
+    while (link_pipe >= 0 && !message.empty()) {
+        const ssize_t sent = ::write(link_pipe, message.data(), message.size());
+        if (sent < 0 && errno != EINTR) return;
+        if (sent > 0) message.remove_prefix(static_cast<std::size_t>(sent));
     }
 }
-
-/// A process's state, from /proc.
-struct ProcessState {
-    bool is_busy = false;  ///< a thread runs, waits for a disk or a child, or is stopped
-    double processor_seconds = 0;
-};
 
 /// The fields of a stat file, starting at the state.
 std::istringstream fields_of(const std::string& file) {
@@ -71,83 +64,75 @@ std::istringstream fields_of(const std::string& file) {
     return std::istringstream(name_end == text.npos ? "" : text.substr(name_end + 1));
 }
 
-ProcessState state_of(pid_t process) {
-    ProcessState result;
+/// A process and all its descendants, such as a driver's compiler and linker.
+struct ProcessTree {
+    std::vector<pid_t> processes;
+    bool is_busy = false;  ///< a thread runs, waits for a disk, or is stopped
+    double processor_seconds = 0;
+};
+
+void add_process(ProcessTree& tree, pid_t process) {
+    tree.processes.push_back(process);
     const std::string folder = fmt::format("/proc/{}/", process);
     std::istringstream fields = fields_of(folder + "stat");
     std::string skipped;
     for (int i = 0; i < 11; ++i) fields >> skipped;
-    double ticks = 0, more = 0;
-    for (int i = 0; i < 4; ++i) {  // user and system, its own and of the children that have ended
-        if (fields >> more) ticks += more;
+    double ticks = 0;
+    for (int i = 0; i < 4 && fields >> ticks; ++i) {  // its own, and of children that have ended
+        tree.processor_seconds += ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
     }
-    result.processor_seconds = ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
     std::error_code error;
     for (std::filesystem::directory_iterator task(folder + "task", error), end;
          !error && task != end; task.increment(error)) {
         char state = '?';
         fields_of(task->path() / "stat") >> state;
-        std::string child;
-        std::ifstream(task->path() / "children") >> child;
-        result.is_busy |= std::string_view("RDTt").find(state) != std::string_view::npos;
-        result.is_busy |= !child.empty();
+        tree.is_busy |= std::string_view("RDTt").find(state) != std::string_view::npos;
+        std::ifstream children(task->path() / "children");
+        for (pid_t child = 0; children >> child;) add_process(tree, child);
     }
-    return result;
 }
 
-/// Detects that a watched process has been idle, or busy without progress, for too long.
+ProcessTree tree_of(pid_t process) {
+    ProcessTree tree;
+    add_process(tree, process);
+    return tree;
+}
+
+/// Detects that a worker takes too long, or its driver makes no progress.
 class Watchdog {
    public:
-    Watchdog(pid_t process, double deadline, double longest, const StopFlag* enough)
-        : process_(process), deadline_(deadline), longest_(longest), enough_(enough) {}
+    Watchdog(pid_t process, const WorkerCommand& command)
+        : process_(process), deadline_(command.deadline), longest_(command.longest) {}
 
-    void hear(char byte) {
-        if (byte == progressed) {
-            longest_gap_ = std::max(longest_gap_, gap_);
-            has_progressed_ = true;
-        } else {
-            is_watched_ = byte == watched;
-            longest_gap_ = 0;
-            has_progressed_ = false;
-        }
-        gap_ = idle_ = 0;
+    /// From now on, and from the last progress on, time counts.
+    void watch(bool is_watched) {
+        is_watched_ = is_watched;
+        waited_ = idle_ = 0;
     }
+    void note_progress() { waited_ = idle_ = 0; }
 
-    bool is_overdue() const { return total_.seconds() > longest_; }
-
-    /// Call at least every poll_seconds. Time in which this process did not run does not count.
-    bool is_late() {
+    /// Empty, or why it should be killed. Time in which this process did not run does not count.
+    std::string complaint() {
         const double passed = std::min(watch_.lap(), 2 * poll_seconds);
-        if (is_overdue() || (enough_ != nullptr && *enough_ != 0)) return true;
-        if (!is_watched_) return false;
-        gap_ += passed;
-        const ProcessState now = state_of(process_);
+        if (total_.seconds() > longest_) return "did not end in time";
+        if (!is_watched_) return "";
+        waited_ += passed;
+        const ProcessTree now = tree_of(process_);
         const bool has_computed = now.processor_seconds - processor_before_ >= idle_seconds;
-        if (now.is_busy || has_computed) {
-            idle_ = 0;
-            processor_before_ = now.processor_seconds;
-        } else {
-            idle_ += passed;
-        }
-        const double longest_busy = has_progressed_
-                                        ? later_deadlines * deadline_ + longest_gaps * longest_gap_
-                                        : first_deadlines * deadline_;
-        return idle_ >= deadline_ || gap_ >= longest_busy;
+        idle_ = now.is_busy || has_computed ? 0 : idle_ + passed;
+        if (idle_ == 0) processor_before_ = now.processor_seconds;
+        if (idle_ < deadline_ && waited_ < busy_deadlines * deadline_) return "";
+        return fmt::format("made no progress for {:.0f} s", idle_ < deadline_ ? waited_ : idle_);
     }
-
-    /// Since the last progress, or since it was last watched.
-    double seconds_without_progress() const { return gap_; }
 
    private:
     const pid_t process_;
     const double deadline_, longest_;
-    const StopFlag* const enough_;  ///< may be null
     const Stopwatch total_;
     Stopwatch watch_;
     bool is_watched_ = false;
-    double gap_ = 0, idle_ = 0, processor_before_ = 0;
-    bool has_progressed_ = false;
-    double longest_gap_ = 0;  ///< without progress
+    double waited_ = 0, idle_ = 0;  ///< seconds without progress, and without computing
+    double processor_before_ = 0;
 };
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
@@ -170,8 +155,9 @@ std::vector<std::string> changed_environment(const std::vector<std::string>& cha
     return variables;
 }
 
-/// Returns 0 if none could be started.
-pid_t start(std::vector<std::string> command, const std::vector<std::string>& changes) {
+/// Returns 0, and says how, if none could be started.
+pid_t start(std::vector<std::string> command, const std::vector<std::string>& changes,
+            std::string& how) {
     std::vector<std::string> variables = changed_environment(changes);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
@@ -180,9 +166,11 @@ pid_t start(std::vector<std::string> command, const std::vector<std::string>& ch
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     pid_t process = 0;
-    const int error = ::posix_spawn(&process, "/proc/self/exe", nullptr, &attributes,
-                                    pointers(command).data(), pointers(variables).data());
+    constexpr const char* own = "/proc/self/exe";
+    const int error = ::posix_spawn(&process, own, nullptr, &attributes, pointers(command).data(),
+                                    pointers(variables).data());
     posix_spawnattr_destroy(&attributes);
+    if (error != 0) how = fmt::format("could not be started ({}: {})", own, std::strerror(error));
     return error == 0 ? process : 0;
 }
 
@@ -192,37 +180,45 @@ bool has_ended(pid_t process) {
            info.si_pid == process;
 }
 
-/// Listens to the worker until it reports its end, is gone, or is late. Returns the exit code it
-/// reported, if any.
-std::optional<int> listen(int pipe, pid_t process, Watchdog& watchdog, WorkerEnd& end) {
-    bool is_end_next = false, is_in_text = false;
-    for (;;) {
+void hear(std::string_view message, Watchdog& watchdog, WorkerEnd& end) {
+    const std::string text(message.substr(1));
+    switch (message.front()) {
+        case is_doing:
+            end.task = text;
+            return watchdog.watch(!text.empty());
+        case progressed:
+            return watchdog.note_progress();
+        case told:
+            return end.records.push_back(text);
+        case ended:
+            end.is_regular = true;
+            std::from_chars(text.data(), text.data() + text.size(), end.status);
+    }
+}
+
+/// Listens to the worker until it reports its end, is gone, or is killed.
+void listen(int pipe, pid_t process, Watchdog& watchdog, WorkerEnd& end) {
+    std::string unread;
+    while (!end.is_regular) {
         const bool is_gone = has_ended(process);  // its last message is in the pipe by then
         pollfd waited{pipe, POLLIN, 0};
         const int patience = is_gone ? 0 : static_cast<int>(1000 * poll_seconds);
         if (::poll(&waited, 1, patience) > 0) {
-            char bytes[256];
+            char bytes[4096];
             const ssize_t got = ::read(pipe, bytes, sizeof(bytes));
-            if (got == 0) return std::nullopt;
-            for (ssize_t i = 0; i < got; ++i) {
-                if (is_end_next) return static_cast<unsigned char>(bytes[i]);
-                if (is_in_text) {
-                    is_in_text = bytes[i] != '\0';
-                    if (is_in_text) end.task += bytes[i];
-                    continue;
-                }
-                is_end_next = bytes[i] == ended;
-                is_in_text = bytes[i] == began;
-                if (is_in_text) end.task.clear();
-                if (!is_end_next && !is_in_text) watchdog.hear(bytes[i]);
+            if (got == 0) return;
+            if (got > 0) unread.append(bytes, static_cast<std::size_t>(got));
+            for (std::size_t zero; (zero = unread.find('\0')) != unread.npos;) {
+                hear(std::string_view(unread).substr(0, zero), watchdog, end);
+                unread.erase(0, zero + 1);
             }
-            continue;
+        } else if (is_gone) {
+            return;
         }
-        if (is_gone) return std::nullopt;
-        if (watchdog.is_late()) {
-            end.is_hung = true;
-            return std::nullopt;
-        }
+        end.how = end.is_regular ? "" : watchdog.complaint();
+        if (end.how.empty()) continue;
+        for (const pid_t one : tree_of(process).processes) ::kill(one, SIGKILL);
+        return;
     }
 }
 
@@ -233,47 +229,43 @@ std::string name_of_signal(int number) {
 
 }  // namespace
 
-WorkerEnd run_worker(const std::vector<std::string>& command,
-                     const std::vector<std::string>& changes, double deadline,
-                     double seconds_before, double longest, const StopFlag* enough) {
+WorkerEnd run_worker(WorkerCommand command) {
     int ends[2];
     WorkerEnd end;
-    end.how = "could not be started";
-    if (::pipe2(ends, O_CLOEXEC) != 0) return end;
+    if (::pipe2(ends, O_CLOEXEC) != 0) {
+        end.how = "could not be started (no pipe)";
+        return end;
+    }
     const FileDescriptor ours(ends[0]);
     FileDescriptor theirs(ends[1]);
     ::fcntl(theirs.number(), F_SETFD, 0);
-    std::vector<std::string> all = changes;
-    all.push_back(
-        fmt::format("{}={},{},{:.6f}", link_name, theirs.number(), ::getpid(), seconds_before));
+    command.changes.push_back(fmt::format("{}={},{},{:.6f}", link_name, theirs.number(), ::getpid(),
+                                          command.seconds_before));
     pid_t process = 0;
-    pass_stop_signals_to([&] { return process = start(command, all); });
+    pass_stop_signals_to(
+        [&] { return process = start(command.arguments, command.changes, end.how); });
     theirs = FileDescriptor();
     if (process == 0) return end;
-    Watchdog watchdog(process, deadline, longest, enough);
-    const std::optional<int> status = listen(ours.number(), process, watchdog, end);
-    if (end.is_hung) ::kill(process, SIGKILL);
+    end.is_started = true;
+    Watchdog watchdog(process, command);
+    listen(ours.number(), process, watchdog, end);
     int wait_status = 0;
     while (::waitpid(process, &wait_status, 0) < 0 && errno == EINTR) {
     }
     const int passed = passed_stop_signal();
     pass_stop_signals_to([] { return 0; });
-    if (status) {
-        end.is_regular = true;
-        end.status = *status;
-        return end;
-    }
+    if (end.is_regular) return end;
     end.stop_signal = passed;
-    if (end.is_hung) {
-        end.how = watchdog.is_overdue() ? "did not end in time"
-                                        : fmt::format("made no progress for {:.0f} s",
-                                                      watchdog.seconds_without_progress());
-    } else if (WIFSIGNALED(wait_status)) {
-        end.how = "was killed by " + name_of_signal(WTERMSIG(wait_status));
-    } else {
-        end.how = fmt::format("ended with exit code {}", WEXITSTATUS(wait_status));
-    }
+    if (!end.how.empty()) return end;
+    end.how = WIFSIGNALED(wait_status)
+                  ? "was killed by " + name_of_signal(WTERMSIG(wait_status))
+                  : fmt::format("ended with exit code {}", WEXITSTATUS(wait_status));
     return end;
+}
+
+void end_if_stopped(const WorkerEnd& end) {
+    const int number = end.is_regular ? end.status - 128 : end.stop_signal;
+    if (number > 0) end_by_stop_signal(number);
 }
 
 bool become_worker(const std::string& link) {
@@ -286,7 +278,7 @@ bool become_worker(const std::string& link) {
     ::prctl(PR_SET_NAME, "mirrorball");     // not "exe"
     if (::getppid() != parent) ::_exit(1);  // it has already ended
     link_pipe = pipe;
-    heed_stop_signals_of(parent, note_worker_end);
+    accept_signals_from(parent, note_worker_end);
     return true;
 }
 
@@ -294,10 +286,12 @@ bool is_worker() { return link_pipe >= 0; }
 
 double seconds_before_worker() { return link_pipe < 0 ? 0 : link_seconds; }
 
-void watch_worker(bool is_watched) { tell({is_watched ? &watched : &unwatched, 1}); }
+void watch_worker(const std::string& task) { send(is_doing + task + '\0'); }
 
-void note_worker_task(const std::string& task) {
-    tell(began + task.substr(0, PIPE_BUF - 2) + '\0');  // at once, or not among other messages
+void tell_parent(const std::string& record) {
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);  // a long one is sent in pieces
+    send(told + record + '\0');
 }
 
 /// Sends at most ten messages a second, so that the pipe never fills up.
@@ -305,19 +299,13 @@ void note_worker_progress() {
     static const Stopwatch watch;
     static std::atomic<std::int64_t> last = -1;
     const auto now = static_cast<std::int64_t>(10 * watch.seconds());
-    if (last.exchange(now) != now) tell({&progressed, 1});
+    if (last.exchange(now) != now) send({"p", 2});
 }
-
-WorkerTask::WorkerTask(const std::string& task, bool is_driver) {
-    note_worker_task(task);
-    watch_worker(is_driver);
-}
-
-WorkerTask::~WorkerTask() { watch_worker(false); }
 
 void note_worker_end(int status) {
-    const char bytes[2] = {ended, static_cast<char>(status)};
-    tell({bytes, 2});
+    char message[8] = {ended};
+    const char* const end = std::to_chars(message + 1, std::end(message) - 1, status).ptr;
+    send({message, static_cast<std::size_t>(end - message) + 1});
 }
 
 }  // namespace rt

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/base/huge_pages.h"
+#include "host/base/memory.h"
 #include "host/render/rect.h"
 
 namespace rt {

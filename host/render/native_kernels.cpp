@@ -9,7 +9,6 @@
 #include <span>
 
 #include "host/base/error.h"
-#include "host/base/usage_error.h"
 #include "native_table.h"
 
 // The entry points of every variant, as native.cl declares them.
@@ -85,10 +84,10 @@ bool processor_has([[maybe_unused]] const std::string& isa) {
 }
 
 template <typename T>
-bool serves(const NativeKernels<T>& kernels, const NativeChoice& choice) {
+bool serves(const NativeKernels<T>& kernels, const KernelChoice& choice, int samples) {
     const int lanes = choice.lanes == 0 ? kernels.isa_lanes : choice.lanes;
     return kernels.isa == choice.isa && kernels.lanes == lanes &&
-           (kernels.samples == 0 || kernels.samples == choice.samples) &&
+           (kernels.samples == 0 || kernels.samples == samples) &&
            either_of(kernels.features, choice.features) == kernels.features;
 }
 
@@ -115,9 +114,9 @@ std::vector<std::string> native_isas() {
 bool has_fast_fma(const std::string& isa) { return isa != "x86-64-v2" && isa != "x86-64"; }
 
 template <typename T>
-const NativeKernels<T>& choose_native(const NativeChoice& choice) {
+const NativeKernels<T>& choose_native(const KernelChoice& choice, int samples) {
     const std::vector<std::string> isas = native_isas();
-    NativeChoice wanted = choice;
+    KernelChoice wanted = choice;
     if (wanted.isa.empty() && !isas.empty()) wanted.isa = isas.front();
     if (std::find(isas.begin(), isas.end(), wanted.isa) == isas.end()) {
         throw Error(ExitCode::device,
@@ -126,7 +125,7 @@ const NativeKernels<T>& choose_native(const NativeChoice& choice) {
                                 isas.empty() ? "none" : fmt::format("{}", fmt::join(isas, ", "))));
     }
     for (const NativeKernels<T>& kernels : all_kernels<T>()) {
-        if (serves(kernels, wanted)) return kernels;
+        if (serves(kernels, wanted, samples)) return kernels;
     }
     usage_error("--lanes {} is not available for {}; use --lanes 1 or auto", wanted.lanes,
                 wanted.isa);
@@ -134,7 +133,7 @@ const NativeKernels<T>& choose_native(const NativeChoice& choice) {
 
 template NativeView<float> native_view(const FlatScene<float>&);
 template NativeView<double> native_view(const FlatScene<double>&);
-template const NativeKernels<float>& choose_native(const NativeChoice&);
-template const NativeKernels<double>& choose_native(const NativeChoice&);
+template const NativeKernels<float>& choose_native(const KernelChoice&, int);
+template const NativeKernels<double>& choose_native(const KernelChoice&, int);
 
 }  // namespace rt

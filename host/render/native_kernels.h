@@ -7,6 +7,7 @@
 
 #include "host/flatten/features.h"
 #include "host/flatten/flat_scene.h"
+#include "host/render/kernel_choice.h"
 
 // The kernels as machine code, compiled ahead of time (cmake/native_kernels.cmake): what pthreads
 // run.
@@ -51,23 +52,15 @@ struct NativeKernels {
                        Index count, Index first, Index end);
 };
 
-/// Which kernels to run.
-struct NativeChoice {
-    int lanes = 0;      ///< 1, 2, 4, 8 or 16; 0: as many as a vector of this processor holds
-    std::string isa;    ///< an instruction set that native_isas names; empty: the best here
-    Features features;  ///< at least these
-    int samples = 0;    ///< per pixel
-};
-
 /// The instruction sets that have kernels and that this processor supports, best first.
 std::vector<std::string> native_isas();
 
 /// Whether fma is one instruction there; otherwise it is a call, with the same result.
 bool has_fast_fma(const std::string& isa);
 
-/// The leanest kernels that satisfy the choice. Throws Error (ExitCode::device) if this processor
-/// cannot run the instruction set.
+/// The leanest kernels that satisfy the choice and render `samples` per pixel (0: any number).
+/// Throws Error (ExitCode::device) if this processor cannot run the instruction set.
 template <typename T>
-const NativeKernels<T>& choose_native(const NativeChoice& choice);
+const NativeKernels<T>& choose_native(const KernelChoice& choice, int samples);
 
 }  // namespace rt

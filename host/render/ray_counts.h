@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "host/record/describe.h"
+
 namespace rt {
 
 /// Rays traced, by kind.
@@ -18,5 +20,14 @@ struct RayCounts {
         return *this;
     }
 };
+
+template <typename A, Of<RayCounts> X>
+void describe(A& a, X& x) {
+    a("primary", x.primary, "eye rays");
+    a("shadow", x.shadow, "towards lights");
+    a("mirror", x.mirror, "reflected");
+    a("transmitted", x.transmitted, "refracted");
+    a("total", x.total(), "");
+}
 
 }  // namespace rt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace rt {
@@ -12,5 +13,25 @@ struct Rect {
     std::int64_t pixels() const { return std::int64_t{width} * height; }
     bool operator==(const Rect&) const = default;
 };
+
+/// Whether `part` holds a pixel, and only pixels of `whole`; safe for any numbers in `part`.
+inline bool is_within(const Rect& part, const Rect& whole) {
+    return part.width > 0 && part.height > 0 && part.x >= whole.x && part.y >= whole.y &&
+           part.width <= whole.width && part.height <= whole.height &&
+           part.x - whole.x <= whole.width - part.width &&
+           part.y - whole.y <= whole.height - part.height;
+}
+
+/// [x, y, width, height]
+template <typename Json>
+void to_json(Json& json, const Rect& rect) {
+    json = Json::array({rect.x, rect.y, rect.width, rect.height});
+}
+template <typename Json>
+void from_json(const Json& json, Rect& rect) {
+    std::array<int, 4> n;
+    json.get_to(n);
+    rect = {n[0], n[1], n[2], n[3]};
+}
 
 }  // namespace rt

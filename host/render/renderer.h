@@ -12,9 +12,6 @@
 
 namespace rt {
 
-/// Whether the driver compiled the program or took it from its cache.
-enum class BuildCache { none, cold, warm, unknown };
-
 /// Where a renderer's time went, in wall-clock seconds; 0 for steps it does not have.
 struct RendererTimes {
     double open = 0;          ///< find the device, make context and queue
@@ -26,7 +23,6 @@ struct RendererTimes {
     double resolve = 0;       ///< average sample buffers, where that is a pass of its own
     double read_back = 0;     ///< film to host
     std::int64_t pixels = 0;  ///< rendered, not counting refined ones
-    BuildCache build_cache = BuildCache::none;
 };
 
 /// One flattened scene on one device, ready to render. A tile's pixels depend on the flat scene

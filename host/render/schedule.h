@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 
 namespace rt {
 
@@ -13,5 +13,7 @@ enum class Schedule {
 
 inline constexpr Named<Schedule> schedule_names[] = {{"tiles", Schedule::tiles},
                                                      {"buffers", Schedule::buffers}};
+constexpr auto& enum_names(Schedule) { return schedule_names; }
+inline const char* to_string(Schedule schedule) { return name_of(schedule_names, schedule); }
 
 }  // namespace rt

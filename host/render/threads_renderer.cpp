@@ -6,7 +6,7 @@
 #include <atomic>
 #include <limits>
 
-#include "host/base/memory_limit.h"
+#include "host/base/memory.h"
 #include "host/base/parallel.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
@@ -212,14 +212,10 @@ int thread_count(const ThreadsOptions& options, int samples) {
 template <typename T>
 const NativeKernels<T>& native_kernels_for(const FlatScene<T>& scene,
                                            const ThreadsOptions& options) {
-    NativeChoice choice;
-    choice.lanes = options.lanes;
-    choice.isa = options.isa;
-    if (!options.all_features) {
-        choice.features = either_of(scene.features, options.also);
-        if (!options.any_samples) choice.samples = static_cast<int>(scene.params.samples);
-    }
-    return choose_native<T>(choice);
+    KernelChoice choice = options.kernels;
+    choice.features = either_of(scene.features, choice.features);
+    const bool any_samples = choice.any_samples || options.kernels.has_all();
+    return choose_native<T>(choice, any_samples ? 0 : static_cast<int>(scene.params.samples));
 }
 
 template <typename T>
@@ -230,10 +226,9 @@ std::unique_ptr<Renderer<T>> make_threads_renderer(const FlatScene<T>& scene,
 
 template <typename T>
 RayTracer<T> make_threads_ray_tracer(const FlatScene<T>& scene, const ThreadsOptions& options) {
-    NativeChoice choice;
-    choice.lanes = options.lanes;
-    choice.isa = options.isa;
-    const NativeKernels<T>& kernels = choose_native<T>(choice);
+    KernelChoice choice = options.kernels;
+    choice.features = Features{};
+    const NativeKernels<T>& kernels = choose_native<T>(choice, 0);
     const int threads = thread_count({options.threads}, 1);
     return [&kernels, threads, view = native_view(scene)](auto queries, auto answers) {
         constexpr std::size_t run = 4096;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "host/flatten/flat_scene.h"
 #include "host/render/native_kernels.h"
@@ -15,11 +14,7 @@ namespace rt {
 struct ThreadsOptions {
     int threads = 0;  ///< 0: all cores, or one per sample buffer with Schedule::buffers
     Schedule schedule = Schedule::tiles;
-    int lanes = 0;                  ///< rays per packet: 1, 2, 4, 8 or 16; 0: a vector's
-    std::string isa = {};           ///< instruction set of the kernels; empty: the best here
-    bool all_features = false;      ///< run kernels that include what the scene does not need
-    Features also = no_features();  ///< and these, needed or not
-    bool any_samples = false;       ///< run kernels for any number of samples
+    KernelChoice kernels = {};
 };
 
 /// Threads that will run for these options and sampling.

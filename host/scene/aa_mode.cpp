@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "host/base/number.h"
+#include "host/base/text.h"
 
 namespace rt {
 
 namespace {
 
-std::optional<AaMode> counted(AaMode::Pattern pattern, std::string_view text, int most) {
+std::optional<AaMode> with_count(AaMode::Pattern pattern, std::string_view text, int most) {
     const auto count = parse_number<int>(text);
     if (!count || *count < 1 || *count > most) return std::nullopt;
     return AaMode{pattern, *count, 0};
@@ -34,8 +34,8 @@ std::optional<AaMode> parse_aa_mode(std::string_view text) {
     const auto colon = text.find(':');
     if (colon == std::string_view::npos) return std::nullopt;
     const std::string_view name = text.substr(0, colon), value = text.substr(colon + 1);
-    if (name == "grid") return counted(AaMode::Pattern::grid, value, AaMode::max_grid);
-    if (name == "sobol") return counted(AaMode::Pattern::sobol, value, AaMode::max_sobol);
+    if (name == "grid") return with_count(AaMode::Pattern::grid, value, AaMode::max_grid);
+    if (name == "sobol") return with_count(AaMode::Pattern::sobol, value, AaMode::max_sobol);
     if (name == "adaptive") return adaptive(value);
     return std::nullopt;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/base/named.h"
+#include "host/base/text.h"
 
 namespace rt {
 
@@ -28,6 +28,11 @@ struct AaMode {
     /// Samples per pixel; in adaptive modes, in the first pass.
     int samples() const;
 
+    /// Samples per pixel where every pixel has as many.
+    std::optional<int> fixed_samples() const {
+        return refines() ? std::nullopt : std::optional(samples());
+    }
+
     /// Whether a first pass is followed by refinement.
     bool refines() const { return pattern == Pattern::adaptive; }
 
@@ -47,6 +52,15 @@ inline constexpr const char* aa_mode_help =
 /// The text that parse_aa_mode reads back.
 std::string to_string(const AaMode& mode);
 
+template <typename Json>
+void to_json(Json& json, const AaMode& mode) {
+    json = to_string(mode);
+}
+template <typename Json>
+void from_json(const Json& json, AaMode& mode) {
+    mode = parse_aa_mode(json.template get<std::string>()).value();
+}
+
 /// How a pixel's samples are weighted (kernels/sampling.cl).
 enum class Filter { box, tent, gaussian, mitchell };
 
@@ -55,6 +69,7 @@ inline constexpr Named<Filter> filter_names[] = {{"box", Filter::box},
                                                  {"gaussian", Filter::gaussian},
                                                  {"mitchell", Filter::mitchell}};
 
+constexpr auto& enum_names(Filter) { return filter_names; }
 inline const char* to_string(Filter filter) { return name_of(filter_names, filter); }
 
 }  // namespace rt

@@ -4,164 +4,343 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
 #include <unordered_map>
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/utf8.h"
-#include "host/scene/json_plain.h"
-#include "host/scene/json_syntax.h"
+#include "host/base/text.h"
 #include "host/scene/words.h"
 
 namespace rt {
 namespace {
 
-/// Builds a JsonValue tree from nlohmann's SAX events. These carry no positions, but each is one
-/// token, so a second scan of the text, one token per event, finds where each starts.
-class TreeBuilder {
+constexpr std::string_view delimiters = " \t\r\n,:[]{}\"/";
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Whether a text is -?(0|[1-9][0-9]*)(.[0-9]+)?([eE][+-]?[0-9]+)?.
+bool is_json_number(std::string_view text) {
+    std::size_t i = text.starts_with('-') ? 1 : 0;
+    const auto digits = [&] {
+        const std::size_t start = i;
+        while (i < text.size() && is_digit(text[i])) ++i;
+        return i - start;
+    };
+    const bool zero = i < text.size() && text[i] == '0';
+    const std::size_t whole = digits();
+    if (whole == 0 || (zero && whole > 1)) return false;
+    if (i < text.size() && text[i] == '.') {
+        ++i;
+        if (digits() == 0) return false;
+    }
+    if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+        ++i;
+        if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
+        if (digits() == 0) return false;
+    }
+    return i == text.size();
+}
+
+void append_utf8(std::uint32_t code, std::string& text) {
+    const auto add = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
+    if (code < 0x80) return add(code);
+    if (code < 0x800) {
+        add(0xC0 | code >> 6);
+    } else if (code < 0x10000) {
+        add(0xE0 | code >> 12);
+        add(0x80 | (code >> 6 & 0x3F));
+    } else {
+        add(0xF0 | code >> 18);
+        add(0x80 | (code >> 12 & 0x3F));
+        add(0x80 | (code >> 6 & 0x3F));
+    }
+    add(0x80 | (code & 0x3F));
+}
+
+class Parser {
    public:
-    explicit TreeBuilder(Mistakes& mistakes) : mistakes_(mistakes), text_(mistakes.text()) {
-        if (text_.starts_with(utf8_byte_order_mark)) end_ = utf8_byte_order_mark.size();
+    explicit Parser(Mistakes& mistakes) : mistakes_(mistakes), text_(mistakes.text()) {
+        if (text_.starts_with(utf8_byte_order_mark)) at_ = utf8_byte_order_mark.size();
     }
 
-    JsonValue take_root() { return std::move(root_); }
-
-    bool null() { return add_value(std::monostate{}); }
-    bool boolean(bool value) { return add_value(value); }
-    bool number_integer(std::int64_t value) { return add_value(static_cast<double>(value)); }
-    bool number_unsigned(std::uint64_t value) { return add_value(static_cast<double>(value)); }
-    bool number_float(double value, const std::string&) { return add_value(value); }
-    bool string(std::string& value) { return add_value(std::move(value)); }
-    bool binary(nlohmann::json::binary_t&) { return false; }
-
-    bool start_object(std::size_t) { return open(JsonValue::Object{}, JsonState::object_opened); }
-    bool start_array(std::size_t) { return open(JsonValue::Array{}, JsonState::array_opened); }
-    bool end_array() { return close(); }
-    bool end_object() {
-        note_repeated_keys(std::get<JsonValue::Object>(open_.back()->data));
-        return close();
-    }
-
-    bool key(std::string& name) {
-        auto& members = std::get<JsonValue::Object>(open_.back()->data);
-        members.push_back({std::move(name), next_token(), {}});
-        state_ = JsonState::after_key;
-        return true;
-    }
-
-    template <class Exception>
-    bool parse_error(std::size_t characters_read, const std::string&, const Exception& exception) {
-        constexpr int number_overflow = 406;
-        if (exception.id == number_overflow) {
-            const std::size_t start = next_token();
-            mistakes_.add(start, fmt::format("number {} is too large; write one from -1e30 to 1e30",
-                                             in_quotes(text_.substr(start, end_ - start))));
-        } else {
-            const std::size_t offset = characters_read > 0 ? characters_read - 1 : 0;
-            JsonSyntaxMistake mistake = explain_json_syntax(text_, end_, state_, offset);
-            mistakes_.add(mistake.offset, std::move(mistake.message));
-        }
-        mistakes_.throw_if_any();
-        return false;
+    JsonValue read_document() {
+        JsonValue root;
+        read_value(root, "'{' to open the scene", 0);
+        skip_blanks();
+        if (at_ != text_.size()) fail_here("nothing after the scene's closing bracket");
+        return root;
     }
 
    private:
-    /// Skips the current event's token and returns where it starts.
-    std::uint32_t next_token() {
-        std::size_t start = skip_json_blanks(text_, end_);
-        if (start < text_.size() && (text_[start] == ',' || text_[start] == ':')) {
-            start = skip_json_blanks(text_, start + 1);
-        }
-        end_ = json_token_end(text_, start);
-        return static_cast<std::uint32_t>(start);
+    char here() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+
+    /// Throws the mistake, along with those noted before.
+    void fail(std::size_t offset, std::string message) {
+        mistakes_.add(offset, std::move(message));
+        mistakes_.throw_if_any();
     }
 
-    template <class T>
-    JsonValue& append(T&& data) {
+    /// Skips blanks and comments.
+    void skip_blanks() {
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == ' ' || c == '\n' || c == '\t' || c == '\r') {
+                ++at_;
+            } else if (c == '/') {
+                skip_comment();
+            } else {
+                return;
+            }
+        }
+    }
+
+    void skip_comment() {
+        const std::string_view opening = text_.substr(at_, 2);
+        if (opening == "//") {
+            at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
+        } else if (opening == "/*") {
+            const std::size_t end = text_.find("*/", at_ + 2);
+            if (end == text_.npos) fail(at_, "the comment is not closed; add */");
+            at_ = end + 2;
+        } else {
+            fail(at_, "unexpected '/'; comments are // or /* */");
+        }
+    }
+
+    bool take(char c) {
+        skip_blanks();
+        if (here() != c || at_ == text_.size()) return false;
+        ++at_;
+        return true;
+    }
+
+    /// The number, word or bracket that starts here.
+    std::string_view token() const {
+        const std::size_t end = std::min(text_.find_first_of(delimiters, at_), text_.size());
+        return text_.substr(at_, std::max(end, at_ + 1) - at_);
+    }
+
+    /// Says what stands here in place of `wanted`.
+    void fail_here(std::string_view wanted) {
+        if (at_ >= text_.size()) {
+            fail(text_.size(), wanted.starts_with("'{' to")
+                                   ? "the file has no scene; write one such as { \"camera\": ... }"
+                                   : fmt::format("the file ends too early; expected {}", wanted));
+        }
+        if (here() == '\'') {
+            fail(at_, "JSON strings are written in double quotes; replace the ' with \"");
+        }
+        if (here() == '#') fail(at_, "'#' does not start a comment; use // or /* */");
+        const std::string_view found =
+            here() == '"' ? text_.substr(at_, string_end() - at_) : token();
+        fail(at_, fmt::format("unexpected {}; expected {}", in_quotes(found), wanted));
+    }
+
+    void read_value(JsonValue& value, std::string_view wanted, std::size_t depth) {
+        skip_blanks();
+        value.offset = static_cast<std::uint32_t>(at_);
         if (++value_count_ > max_json_values) {
             throw Error(ExitCode::limit, fmt::format("{}: the file has more than {} values; "
                                                      "split or shrink the scene",
-                                                     mistakes_.place(end_), max_json_values));
+                                                     mistakes_.place(at_), max_json_values));
         }
-        JsonValue value{std::forward<T>(data), next_token()};
-        if (open_.empty()) return root_ = std::move(value);
-        if (auto* items = std::get_if<JsonValue::Array>(&open_.back()->data)) {
-            return items->emplace_back(std::move(value));
+        const char c = here();
+        if (c == '{') return read_object(value.data.emplace<JsonValue::Object>(), depth + 1);
+        if (c == '[') return read_array(value.data.emplace<JsonValue::Array>(), depth + 1);
+        if (c == '"') return read_string(value.data.emplace<std::string>());
+        if (is_digit(c) || c == '-' || c == '+' || c == '.') {
+            return read_number(value.data.emplace<double>());
         }
-        auto& members = std::get<JsonValue::Object>(open_.back()->data);
-        return members.back().value = std::move(value);
+        if (!is_letter(c)) fail_here(wanted);
+        read_word(value);
     }
 
-    template <class T>
-    bool add_value(T&& data) {
-        append(std::forward<T>(data));
-        settle();
+    void read_word(JsonValue& value) {
+        const std::string_view word = token();
+        if (word == "true" || word == "false") {
+            value.data = word == "true";
+        } else if (word != "null") {
+            constexpr std::string_view literals[] = {"true", "false", "null"};
+            const std::string_view literal = nearest_word(word, literals);
+            const std::string_view advice = "put text in double quotes";
+            if (word == "NaN" || word == "nan" ||
+                nearest_word(word, {{"Infinity"}}) == "Infinity") {
+                fail_number();
+            }
+            fail(at_, fmt::format("unknown word {}; {}", in_quotes(word),
+                                  literal.empty() ? std::string(advice)
+                                                  : fmt::format("did you mean {}?", literal)));
+        }
+        at_ += word.size();
+    }
+
+    void fail_number() {
+        fail(at_, fmt::format("{} is not a JSON number; write {}", in_quotes(token()),
+                              is_letter(here()) ? "a finite number" : "it like 5, -0.5 or 1e-3"));
+    }
+
+    void read_number(double& number) {
+        const std::string_view word = token();
+        if (!is_json_number(word)) fail_number();
+        const auto result = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (result.ec != std::errc()) number = std::strtod(std::string(word).c_str(), nullptr);
+        if (!std::isfinite(number)) {
+            fail(at_, fmt::format("number {} is too large; write one from -1e30 to 1e30",
+                                  in_quotes(word)));
+        }
+        if (word.find_first_of(".eE") == word.npos) number += 0.0;  // -0 is the whole number 0
+        at_ += word.size();
+    }
+
+    /// End offset of the string that starts here; the text's end if it is not closed.
+    std::size_t string_end() const {
+        for (std::size_t i = at_ + 1; i < text_.size(); ++i) {
+            if (text_[i] == '"') return i + 1;
+            if (text_[i] == '\\') ++i;
+        }
+        return text_.size();
+    }
+
+    void read_string(std::string& string) {
+        std::size_t start = at_ + 1, end = start;  // of the part not yet taken over
+        while (end < text_.size() && text_[end] != '"') {
+            if (static_cast<unsigned char>(text_[end]) < 0x20) fail_string(end, true);
+            if (text_[end] != '\\') {
+                ++end;
+                continue;
+            }
+            string += text_.substr(start, end - start);
+            start = end = read_escape(end + 1, string);
+        }
+        if (end >= text_.size()) fail_string(end, true);
+        string += text_.substr(start, end - start);
+        at_ = end + 1;
+    }
+
+    void fail_string(std::size_t place, bool is_control) {
+        const std::size_t line_end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+        const std::size_t end = string_end();
+        if (end > line_end || text_[end - 1] != '"' || end == at_ + 1) {
+            fail(at_, "the string is not closed on the same line; add the closing '\"'");
+        }
+        fail(place, is_control
+                        ? "the string contains a control character; write it as \\uXXXX"
+                        : "invalid escape in the string; JSON has \\\" \\\\ \\/ \\b \\f \\n \\r "
+                          "\\t and \\uXXXX (surrogates in pairs)");
+    }
+
+    /// Appends what the escape after a backslash means; returns where it ends.
+    std::size_t read_escape(std::size_t at, std::string& string) {
+        constexpr std::string_view letters = "\"\\/bfnrt", meanings = "\"\\/\b\f\n\r\t";
+        const char c = at < text_.size() ? text_[at] : '\0';
+        if (const std::size_t known = letters.find(c); known != letters.npos) {
+            string += meanings[known];
+            return at + 1;
+        }
+        if (c != 'u') fail_string(at, false);
+        std::uint32_t code = read_hex(at + 1);
+        at += 5;
+        if (code >= 0xD800 && code < 0xE000) {
+            const bool paired = code < 0xDC00 && text_.substr(at, 2) == "\\u";
+            if (!paired) fail_string(std::min(at, text_.size() - 1), false);
+            const std::uint32_t low = read_hex(at + 2);
+            if (low < 0xDC00 || low >= 0xE000) fail_string(at + 5, false);
+            code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
+            at += 6;
+        }
+        append_utf8(code, string);
+        return at;
+    }
+
+    std::uint32_t read_hex(std::size_t at) {
+        std::uint32_t code = 0;
+        for (std::size_t i = at; i < at + 4; ++i) {
+            const auto digit =
+                std::string_view("0123456789abcdefABCDEF").find(i < text_.size() ? text_[i] : '\0');
+            if (digit == std::string_view::npos) fail_string(std::min(i, text_.size() - 1), false);
+            code = code * 16 + static_cast<std::uint32_t>(digit < 16 ? digit : digit - 6);
+        }
+        return code;
+    }
+
+    void open_bracket(std::size_t depth) {
+        if (depth > max_json_depth) {
+            fail(at_, fmt::format("brackets are nested more than {} deep; flatten the file",
+                                  max_json_depth));
+        }
+        ++at_;
+    }
+
+    /// Takes a comma, unless none is there; refuses one before a closing bracket.
+    bool take_comma() {
+        if (!take(',')) return false;
+        const std::size_t comma = at_ - 1;
+        skip_blanks();
+        if (at_ < text_.size() && (here() == '}' || here() == ']')) {
+            fail(comma, fmt::format("unexpected comma before '{}'; remove it", here()));
+        }
         return true;
     }
 
-    template <class T>
-    bool open(T&& data, JsonState state) {
-        // Only the innermost container grows, so the pointers to the outer ones stay good.
-        open_.push_back(&append(std::forward<T>(data)));
-        if (open_.size() > max_json_depth) {
-            mistakes_.add(open_.back()->offset,
-                          fmt::format("brackets are nested more than {} deep; flatten the file",
-                                      max_json_depth));
-            mistakes_.throw_if_any();
-        }
-        state_ = state;
-        return true;
+    void read_array(JsonValue::Array& items, std::size_t depth) {
+        open_bracket(depth);
+        if (take(']')) return;
+        do {
+            if (items.size() == 1) items.reserve(3);  // vectors and colors, in the main
+            const std::string_view wanted = items.empty() ? "a value or ']'" : "a value";
+            read_value(items.emplace_back(), wanted, depth);
+        } while (take_comma());
+        if (!take(']')) fail_here("',' or ']'");
     }
 
-    bool close() {
-        next_token();
-        open_.pop_back();
-        settle();
-        return true;
-    }
-
-    /// A value is complete; its container determines what may follow.
-    void settle() {
-        if (open_.empty()) {
-            state_ = JsonState::done;
-        } else {
-            state_ =
-                open_.back()->as<JsonValue::Array>() ? JsonState::in_array : JsonState::in_object;
-        }
+    void read_object(JsonValue::Object& members, std::size_t depth) {
+        open_bracket(depth);
+        if (take('}')) return;
+        do {
+            skip_blanks();
+            if (here() != '"') {
+                fail_here(members.empty() ? "a key in double quotes or '}'"
+                                          : "a key in double quotes");
+            }
+            JsonMember& member = members.emplace_back();
+            member.key_offset = static_cast<std::uint32_t>(at_);
+            read_string(member.key);
+            if (!take(':')) fail_here("':' after the key");
+            read_value(member.value, "a value", depth);
+        } while (take_comma());
+        if (!take('}')) fail_here("',' or '}'");
+        note_repeated_keys(members);
     }
 
     void note_repeated_keys(const JsonValue::Object& members) {
         constexpr std::size_t few = 12;  // where comparing all pairs beats a hash table
-        if (members.size() > few) {
-            std::unordered_map<std::string_view, const JsonMember*> first;
-            for (const JsonMember& member : members) {
-                const auto [known, is_new] = first.emplace(member.key, &member);
-                if (!is_new) note_repeated(member, *known->second);
-            }
-            return;
-        }
+        std::unordered_map<std::string_view, const JsonMember*> seen;
         for (auto member = members.begin(); member != members.end(); ++member) {
-            const auto same = [&](const JsonMember& other) { return other.key == member->key; };
-            const auto first = std::find_if(members.begin(), member, same);
-            if (first != member) note_repeated(*member, *first);
+            const JsonMember* first = nullptr;
+            if (members.size() > few) {
+                first = seen.emplace(member->key, &*member).first->second;
+            } else {
+                const auto same = [&](const JsonMember& other) { return other.key == member->key; };
+                first = &*std::find_if(members.begin(), member, same);
+            }
+            if (first == &*member) continue;
+            const SourcePosition position = position_of(text_, first->key_offset);
+            mistakes_.add(member->key_offset,
+                          "key {} is repeated, first at {}:{}; keep one of them",
+                          in_quotes(member->key), position.line, position.column);
         }
-    }
-
-    void note_repeated(const JsonMember& member, const JsonMember& first) {
-        const SourcePosition position = position_of(text_, first.key_offset);
-        mistakes_.add(member.key_offset,
-                      fmt::format("key {} is repeated, first at {}:{}; keep one of them",
-                                  in_quotes(member.key), position.line, position.column));
     }
 
     Mistakes& mistakes_;
     std::string_view text_;
-    std::size_t end_ = 0;  ///< just after the last token seen
+    std::size_t at_ = 0;
     std::size_t value_count_ = 0;
-    JsonState state_ = JsonState::start;
-    JsonValue root_;
-    std::vector<JsonValue*> open_;  ///< the containers around the current place
 };
 
 }  // namespace
@@ -177,17 +356,7 @@ JsonValue parse_json(Mistakes& mistakes) {
         mistakes.add(*invalid, "the file is not UTF-8 text; save it as UTF-8");
         mistakes.throw_if_any();
     }
-    if (auto root = parse_plain_json(text)) return std::move(*root);
-    return parse_json_carefully(mistakes);
-}
-
-JsonValue parse_json_carefully(Mistakes& mistakes) {
-    const std::string_view text = mistakes.text();
-    TreeBuilder builder(mistakes);
-    constexpr bool strict = true, ignore_comments = true;
-    nlohmann::json::sax_parse(text.begin(), text.end(), &builder,
-                              nlohmann::json::input_format_t::json, strict, ignore_comments);
-    return builder.take_root();
+    return Parser(mistakes).read_document();
 }
 
 std::string_view kind_of(const JsonValue& value) {

@@ -41,14 +41,10 @@ inline constexpr std::size_t max_json_values = std::size_t{1} << 25;
 inline constexpr std::size_t max_json_depth = 64;
 
 /// Parses a JSON text (RFC 8259, with // and /* */ comments; skips a byte order mark). Notes
-/// repeated keys in `mistakes`; a syntax error is thrown along with earlier mistakes. Numbers are
-/// doubles, even integers beyond 64 bits; refuses overflow. Throws Error with ExitCode::limit for a
+/// repeated keys in `mistakes`; a syntax error is thrown along with earlier mistakes. All numbers
+/// are doubles; refuses overflow. Throws Error with ExitCode::limit for a
 /// text beyond the sizes above.
 JsonValue parse_json(Mistakes& mistakes);
-
-/// The slow general parser, for valid UTF-8 within the size limit: parse_json falls back to it for
-/// texts that parse_plain_json does not handle.
-JsonValue parse_json_carefully(Mistakes& mistakes);
 
 /// The kind of a value, for messages: "a number", "an array".
 std::string_view kind_of(const JsonValue& value);

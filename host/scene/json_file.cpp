@@ -3,49 +3,45 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
+#include <initializer_list>
+#include <optional>
 #include <utility>
 
-#include "host/base/printable.h"
-#include "host/scene/json_camera.h"
-#include "host/scene/json_document.h"
-#include "host/scene/json_meshes.h"
-#include "host/scene/json_path.h"
-#include "host/scene/json_reader.h"
-#include "host/scene/json_shapes.h"
-#include "host/scene/scene_limits.h"
-#include "host/scene/scene_name.h"
-#include "host/scene/text_file.h"
+#include "host/base/text.h"
+#include "host/scene/geometry.h"
+#include "host/scene/json_objects.h"
+#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
 namespace {
 
+using Fixed = Scene::FieldOfView::Fixed;
+
 constexpr int max_max_bounces = 100000;
 
 constexpr std::string_view scene_keys[] = {
-    "$schema", "name",      "camera",  "image", "max_bounces", "background", "ambient_light",
-    "lights",  "materials", "spheres", "cones", "triangles",   "meshes",     "path"};
+    "$schema",     "description", "name",          "camera", "image",
+    "max_bounces", "background",  "ambient_light", "lights", "materials",
+    "spheres",     "cones",       "triangles",     "meshes", "path"};
 constexpr std::string_view image_keys[] = {"width", "height", "aa"};
+constexpr std::string_view camera_keys[] = {"type",     "from",   "at",     "up",   "fov_degrees",
+                                            "fov_axis", "window", "height", "width"};
+constexpr std::string_view path_keys[] = {"interpolation", "keys"};
+constexpr std::string_view key_keys[] = {"frame",       "from",   "at",   "up",
+                                         "fov_degrees", "height", "width"};
 
-std::optional<AaMode> read_aa(const JsonValue& value, std::string_view name, Mistakes& mistakes) {
-    const std::string* text = read_string(value, name, mistakes);
+std::optional<AaMode> read_aa(const JsonField& field) {
+    const auto text = read_string(field);
     if (!text) return std::nullopt;
     const auto mode = parse_aa_mode(*text);
-    if (!mode) {
-        mistakes.add(value.offset,
-                     fmt::format("unknown aa {}; write {}", in_quotes(*text), aa_mode_help));
-    }
+    if (!mode) field.refuse("unknown aa {}; write {}", in_quotes(*text), aa_mode_help);
     return mode;
 }
 
-std::optional<int> read_side(const JsonValue& value, std::string_view name, Mistakes& mistakes) {
-    return read_integer(value, name, 1, max_image_side, mistakes);
-}
-
-std::optional<int> read_bounces(const JsonValue& value, std::string_view name, Mistakes& mistakes) {
-    return read_integer(value, name, 0, max_max_bounces, mistakes);
+std::optional<int> read_side(const JsonField& field) {
+    return read_integer(field, 1, max_image_side);
 }
 
 void read_image(const JsonValue& value, Scene& scene, Mistakes& mistakes) {
@@ -55,19 +51,201 @@ void read_image(const JsonValue& value, Scene& scene, Mistakes& mistakes) {
     reader.optional("aa", scene.aa, read_aa);
     const auto pixels = static_cast<std::int64_t>(scene.width) * scene.height;
     if (pixels <= max_image_pixels) return;
-    mistakes.add(value.offset, fmt::format("the image has {} pixels; make it {} at most", pixels,
-                                           max_image_pixels));
+    mistakes.add(value.offset, "the image has {} pixels; make it {} at most", pixels,
+                 max_image_pixels);
+}
+
+std::optional<Scene::Projection> read_projection(const JsonField& field) {
+    const auto is_perspective = read_choice(field, "camera type", "perspective", "orthographic");
+    if (!is_perspective) return std::nullopt;
+    return *is_perspective ? Scene::Projection::perspective : Scene::Projection::orthographic;
+}
+
+std::optional<Fixed> read_fov_axis(const JsonField& field) {
+    const auto is_x = read_choice(field, field.name, "x", "y");
+    if (!is_x) return std::nullopt;
+    return *is_x ? Fixed::horizontal : Fixed::vertical;
+}
+
+std::optional<Scene::Window> read_window(const JsonField& field) {
+    const auto* items = read_array(field, 4);
+    if (!items) return std::nullopt;
+    double sides[4] = {};
+    for (int i = 0; i < 4; ++i) {
+        const auto number = read_number(field.item((*items)[i]));
+        if (!number) return std::nullopt;
+        sides[i] = *number;
+    }
+    const auto [left, right, bottom, top] = sides;
+    if (left < right && bottom < top) return Scene::Window{left, right, bottom, top};
+    return field.refuse(
+        "the window is empty or mirrored; write [left, right, bottom, top] with left < right and "
+        "bottom < top");
+}
+
+/// Notes every key that does not apply to this kind of camera.
+void refuse_keys(const ObjectReader& camera, std::initializer_list<std::string_view> unwanted,
+                 std::string_view where, std::string_view advice) {
+    for (const std::string_view key : unwanted) {
+        if (const JsonMember* member = camera.find_member(key)) {
+            camera.mistakes().add(member->key_offset, "{} is not allowed in {}; {}", in_quotes(key),
+                                  where, advice);
+        }
+    }
+}
+
+/// The one of the keys that is present; notes it if there is none, or more.
+std::optional<std::string_view> find_only(const ObjectReader& camera, const JsonValue& value,
+                                          std::initializer_list<std::string_view> wanted,
+                                          std::string_view names) {
+    std::optional<std::string_view> only;
+    int count = 0;
+    for (const std::string_view key : wanted) {
+        if (!camera.find(key)) continue;
+        only = key;
+        ++count;
+    }
+    if (count == 1) return only;
+    camera.mistakes().add(value.offset, "the camera gives {} of {}; give exactly one", count,
+                          names);
+    return std::nullopt;
+}
+
+void read_perspective(const ObjectReader& reader, const JsonValue& value, Scene::Camera& camera) {
+    refuse_keys(reader, {"width", "height"}, "a perspective camera",
+                "use fov_degrees or window, or \"type\": \"orthographic\"");
+    const auto key =
+        find_only(reader, value, {"fov_degrees", "window"}, "'fov_degrees' and 'window'");
+    if (key == "window") {
+        refuse_keys(reader, {"fov_axis"}, "a camera with a window", "remove it or use fov_degrees");
+    } else if (key) {
+        camera.field_of_view.fixed = Fixed::vertical;
+        reader.optional("fov_axis", camera.field_of_view.fixed, read_fov_axis);
+        reader.optional("fov_degrees", camera.field_of_view.amount, read_angle);
+    }
+}
+
+void read_orthographic(const ObjectReader& reader, const JsonValue& value, Scene::Camera& camera) {
+    refuse_keys(reader, {"fov_degrees", "fov_axis"}, "an orthographic camera",
+                "use height, width or window, or \"type\": \"perspective\"");
+    const auto key =
+        find_only(reader, value, {"height", "width", "window"}, "'height', 'width' and 'window'");
+    if (!key || key == "window") return;
+    camera.field_of_view.fixed = key == "height" ? Fixed::view_height : Fixed::view_width;
+    reader.optional(*key, camera.field_of_view.amount, read_positive);
+}
+
+/// Reads the "camera" object; camera_window computes the window unless the file gives one.
+Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes) {
+    Scene::Camera camera;
+    const ObjectReader reader(value, "the camera", camera_keys, mistakes);
+    if (!reader.is_object()) return camera;
+    const std::size_t before = mistakes.count();
+    reader.required("from", "\"from\": [x, y, z], where the eye is", camera.from, read_vec3);
+    reader.required("at", "\"at\": [x, y, z], where it looks", camera.at, read_vec3);
+    reader.optional("up", camera.up, read_vec3);
+    if (mistakes.count() == before) {
+        if (const auto mistake = find_axes_mistake(camera.from, camera.at, camera.up)) {
+            const JsonValue* up = mistake->is_up ? reader.find("up") : nullptr;
+            mistakes.add((up ? up : reader.find("at"))->offset, mistake->message);
+        }
+    }
+    reader.optional("window", camera.window, read_window);
+    const std::size_t before_type = mistakes.count();
+    reader.optional("type", camera.projection, read_projection);
+    if (mistakes.count() != before_type) return camera;  // the valid keys are unknown
+    if (camera.projection == Scene::Projection::perspective) {
+        read_perspective(reader, value, camera);
+    } else {
+        read_orthographic(reader, value, camera);
+    }
+    return camera;
+}
+
+/// The key for the field of view of this kind of camera; "" if it has a window.
+std::string_view extent_key(const Scene::Camera& camera) {
+    switch (camera.field_of_view.fixed) {
+        case Fixed::horizontal:
+        case Fixed::vertical:
+            return "fov_degrees";
+        case Fixed::view_width:
+            return "width";
+        case Fixed::view_height:
+            return "height";
+        case Fixed::window:
+            break;
+    }
+    return "";
+}
+
+void read_extent(const ObjectReader& reader, Scene::Camera& camera) {
+    const std::string_view own = extent_key(camera);
+    for (const std::string_view key : {"fov_degrees", "width", "height"}) {
+        const JsonMember* member = reader.find_member(key);
+        if (member == nullptr || key == own) continue;
+        reader.mistakes().add(member->key_offset,
+                              "{} is not allowed here: the scene's camera gives {}", in_quotes(key),
+                              own.empty() ? "a window" : in_quotes(own));
+    }
+    if (own.empty()) return;
+    reader.optional(own, camera.field_of_view.amount,
+                    own == "fov_degrees" ? read_angle : read_positive);
+}
+
+Scene::CameraPath::Key read_key(const JsonField& item, const Scene::Camera& camera) {
+    Scene::CameraPath::Key key{0, camera};
+    const ObjectReader reader(item.value, "a key of the path", key_keys, item.mistakes);
+    if (!reader.is_object()) return key;
+    const std::size_t before = item.mistakes.count();
+    reader.required("frame", "\"frame\": 1", key.frame, read_number);
+    reader.optional("from", key.camera.from, read_vec3);
+    reader.optional("at", key.camera.at, read_vec3);
+    reader.optional("up", key.camera.up, read_vec3);
+    read_extent(reader, key.camera);
+    if (item.mistakes.count() != before) return key;
+    if (const auto mistake = find_axes_mistake(key.camera.from, key.camera.at, key.camera.up)) {
+        item.refuse("{}", mistake->message);
+    }
+    return key;
+}
+
+/// Reads "path". Keys inherit what they omit from `camera`, the scene's own.
+Scene::CameraPath read_camera_path(const JsonValue& value, const Scene::Camera& camera,
+                                   Mistakes& mistakes) {
+    Scene::CameraPath path;
+    const ObjectReader reader(value, "the path", path_keys, mistakes);
+    reader.optional("interpolation", path.is_smooth, [](const JsonField& field) {
+        return read_choice(field, field.name, "catmull-rom", "linear");
+    });
+    const JsonValue* keys =
+        reader.require("keys", "\"keys\": [{\"frame\": 1, \"from\": [0, 0, 5]}]");
+    const auto* items = keys ? read_array({*keys, "keys", mistakes}) : nullptr;
+    if (!items) return path;
+    if (items->empty()) mistakes.add(keys->offset, "the path has no keys; give one or more");
+    for (const JsonValue& value_of_key : *items) {
+        const JsonField item{value_of_key, "keys", mistakes};
+        const std::size_t before = mistakes.count();
+        const Scene::CameraPath::Key key = read_key(item, camera);
+        if (mistakes.count() != before) continue;
+        if (!path.keys.empty() && key.frame <= path.keys.back().frame) {
+            item.refuse("frame {} comes after frame {}; put the keys in order", key.frame,
+                        path.keys.back().frame);
+            continue;
+        }
+        path.keys.push_back(key);
+    }
+    return path;
 }
 
 /// Appends read(item) for every item of the array under `key`, if it is there.
 template <class T, class Read>
 void read_list(const ObjectReader& reader, std::string_view key, std::vector<T>& target,
-               Mistakes& mistakes, Read read) {
+               Read read) {
     const JsonValue* value = reader.find(key);
-    const auto* items = value ? read_array(*value, key, -1, mistakes) : nullptr;
+    const auto* items = value ? read_array({*value, key, reader.mistakes()}) : nullptr;
     if (!items) return;
     target.reserve(items->size());
-    for (const JsonValue& item : *items) target.push_back(read(item));
+    for (const JsonValue& item : *items) target.push_back(read({item, key, reader.mistakes()}));
 }
 
 /// A scene without its meshes, which are loaded only if all else is valid.
@@ -76,33 +254,25 @@ struct SceneText {
     std::vector<MeshRequest> meshes;
 };
 
-void read_objects(const ObjectReader& reader, const SceneFolder& folder, SceneText& text,
-                  Mistakes& mistakes) {
+void read_objects(const ObjectReader& reader, const SceneFolder& folder, SceneText& text) {
     Scene& scene = text.scene;
-    MaterialTable materials(reader.find("materials"), mistakes);
-    read_list(reader, "lights", scene.lights, mistakes,
-              [&](const JsonValue& item) { return read_light(item, mistakes); });
-    read_list(reader, "spheres", scene.spheres, mistakes,
-              [&](const JsonValue& item) { return read_sphere(item, materials, mistakes); });
-    read_list(reader, "cones", scene.cones, mistakes,
-              [&](const JsonValue& item) { return read_cone(item, materials, mistakes); });
-    read_list(reader, "triangles", scene.triangles, mistakes,
-              [&](const JsonValue& item) { return read_triangle(item, materials, mistakes); });
-    read_list(reader, "meshes", text.meshes, mistakes,
-              [&](const JsonValue& item) { return read_mesh(item, materials, folder, mistakes); });
+    MaterialTable materials(reader.find("materials"), reader.mistakes());
+    const auto with_materials = [&](auto read) {
+        return [&materials, read](const JsonField& item) { return read(item, materials); };
+    };
+    read_list(reader, "lights", scene.lights, read_light);
+    read_list(reader, "spheres", scene.spheres, with_materials(read_sphere));
+    read_list(reader, "cones", scene.cones, with_materials(read_cone));
+    read_list(reader, "triangles", scene.triangles, with_materials(read_triangle));
+    read_list(reader, "meshes", text.meshes,
+              [&](const JsonField& item) { return read_mesh(item, materials, folder); });
     scene.materials = materials.take();
 }
 
-void read_name(const ObjectReader& reader, Scene& scene, Mistakes& mistakes) {
-    if (const JsonValue* schema = reader.find("$schema")) read_string(*schema, "$schema", mistakes);
-    if (const JsonValue* value = reader.find("name")) {
-        const std::string* name = read_string(*value, "name", mistakes);
-        if (name && printable(*name) != *name) {
-            mistakes.add(value->offset, "'name' contains a control character; use plain text");
-        } else if (name) {
-            scene.name = *name;
-        }
-    }
+std::optional<std::string> read_name(const JsonField& field) {
+    const auto name = read_string(field);
+    if (!name || printable(*name) == *name) return name;
+    return field.refuse("'name' contains a control character; use plain text");
 }
 
 SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes& mistakes) {
@@ -110,7 +280,10 @@ SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes&
     Scene& scene = text.scene;
     const ObjectReader reader(root, "the scene", scene_keys, mistakes);
     if (!reader.is_object()) return text;
-    read_name(reader, scene, mistakes);
+    std::string ignored;  // for editors and people
+    reader.optional("$schema", ignored, read_string);
+    reader.optional("description", ignored, read_string);
+    reader.optional("name", scene.name, read_name);
     constexpr std::string_view example =
         "\"camera\": {\"from\": [0, 0, 5], \"at\": [0, 0, 0], \"fov_degrees\": 60}";
     if (const JsonValue* camera = reader.require("camera", example)) {
@@ -122,17 +295,20 @@ SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes&
         }
     }
     if (const JsonValue* image = reader.find("image")) read_image(*image, scene, mistakes);
-    reader.optional("max_bounces", scene.max_bounces, read_bounces);
+    reader.optional("max_bounces", scene.max_bounces,
+                    [](const JsonField& field) { return read_integer(field, 0, max_max_bounces); });
     reader.optional("background", scene.background, read_color);
     reader.optional("ambient_light", scene.ambient_light, read_color);
-    read_objects(reader, folder, text, mistakes);
+    read_objects(reader, folder, text);
     return text;
 }
 
 }  // namespace
 
 Scene load_json_scene(const std::string& path) {
-    return parse_json_scene(read_text_file(path, max_json_bytes).view(), path);
+    const FileText text = read_text_file(path, max_json_bytes);
+    refuse_foreign(path, text.view());
+    return parse_json_scene(text.view(), path);
 }
 
 Scene parse_json_scene(std::string_view text, const std::string& file_name) {

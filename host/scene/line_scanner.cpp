@@ -10,14 +10,27 @@
 #include <cstring>
 #include <string>
 #include <system_error>
+#include <utility>
 
-#include "host/scene/scene_limits.h"
+#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+/// Offset after the first unescaped line feed at or after `at`; the text's end if there is none.
+std::size_t next_cut(std::string_view text, std::size_t at) {
+    while (true) {
+        const std::size_t feed = text.find('\n', at);
+        if (feed == text.npos) return text.size();
+        const std::string_view before = text.substr(0, feed);
+        const bool joined = before.ends_with('\\') || before.ends_with("\\\r");
+        if (!joined) return feed + 1;
+        at = feed + 1;
+    }
+}
 
 }  // namespace
 
@@ -30,7 +43,7 @@ std::size_t LineScanner::continuation() const {
 }
 
 bool LineScanner::at_word_end() const {
-    return at_line_end() || is_blank(*at_) || continuation() > 0;
+    return at_line_end() || is_blank(*at_) || *at_ == '#' || continuation() > 0;
 }
 
 bool LineScanner::word_follows() {
@@ -125,19 +138,31 @@ std::optional<std::int64_t> LineScanner::integer() {
     return std::nullopt;
 }
 
-std::optional<double> read_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes) {
-    constexpr std::string_view wanted = "write a number from -1e30 to 1e30";
+std::optional<double> scan_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes,
+                                  const Remedy* remedy, std::size_t count) {
     const bool there = scanner.word_follows();
     const std::size_t offset = scanner.offset();
-    if (!there) {
-        mistakes.add(offset, fmt::format("{} is missing; {}", name, wanted));
-        return std::nullopt;
-    }
-    const auto number = scanner.number();
+    const auto number = there ? scanner.number() : std::nullopt;
     if (number && std::abs(*number) <= max_scene_number) return number;
-    const std::string found = number ? fmt::format("{}", *number) : in_quotes(scanner.word());
-    mistakes.add(offset, fmt::format("{} is {}; {}", name, found, wanted));
+    const std::string found = !there   ? "missing"
+                              : number ? fmt::format("{}", *number)
+                                       : in_quotes(scanner.word());
+    std::string message = fmt::format("{} is {}; write a number from -1e30 to 1e30", name, found);
+    if (remedy) {
+        mistakes.note_in({}, *remedy, offset, std::move(message), count);
+    } else {
+        mistakes.add(offset, std::move(message));
+    }
     return std::nullopt;
+}
+
+std::vector<std::size_t> line_cuts(std::string_view text, std::size_t chunk_bytes) {
+    std::vector<std::size_t> cuts{0};
+    while (cuts.back() < text.size()) {
+        const std::size_t at = std::min(cuts.back() + chunk_bytes, text.size()) - 1;
+        cuts.push_back(next_cut(text, at));
+    }
+    return cuts;
 }
 
 }  // namespace rt

@@ -5,15 +5,17 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
-#include "host/base/utf8.h"
+#include "host/base/parallel.h"
+#include "host/base/text.h"
 #include "host/scene/mistakes.h"
 
 namespace rt {
 
 /// Reads a text whose statements are lines of words (OBJ, MTL, PLY). Lines end with \n, \r\n or
-/// \r; a backslash before the end of a line joins it to the next; a word that starts with # ends
-/// the line. Nothing is copied.
+/// \r; a backslash before the end of a line joins it to the next; # ends the
+/// line. Nothing is copied.
 class LineScanner {
    public:
     explicit LineScanner(std::string_view text, std::size_t start = 0)
@@ -56,8 +58,20 @@ class LineScanner {
     const char *begin_, *at_, *end_;
 };
 
-/// The next number, within max_scene_number; notes anything else. `name` is what messages call it:
-/// "a coordinate".
-std::optional<double> read_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes);
+/// The next number, within max_scene_number. Otherwise nothing, and a note (or, without a remedy,
+/// an error) says why; a word that is no number is skipped. `name` is what messages call it.
+std::optional<double> scan_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes,
+                                  const Remedy* remedy = nullptr, std::size_t count = 1);
+
+/// How a large file is read: with how many threads, in chunks of about how many bytes. Neither
+/// affects the result or the notes.
+struct ReadPace {
+    int threads = available_cores();
+    std::size_t chunk_bytes = std::size_t{1} << 20;
+};
+
+/// Offsets at which a text of lines may be split, including 0 and its end: after a line feed that
+/// is not escaped by a backslash.
+std::vector<std::size_t> line_cuts(std::string_view text, std::size_t chunk_bytes);
 
 }  // namespace rt

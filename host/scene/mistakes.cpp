@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/printable.h"
-#include "host/base/utf8.h"
+#include "host/base/text.h"
 
 namespace rt {
 
@@ -30,24 +30,42 @@ SourcePosition position_of(std::string_view text, std::size_t offset) {
 Mistakes::Mistakes(std::string_view text, std::string_view file_name)
     : text_(text), file_name_(printable(file_name)) {}
 
-void Mistakes::add(std::size_t offset, std::string message) {
-    add_in({}, offset, std::move(message));
-}
-
 void Mistakes::add_in(std::string where, std::size_t offset, std::string message) {
-    if (is_part_ && is_full()) return;
     found_.push_back({offset, std::move(message), std::move(where)});
-    if (!is_part_ && is_full()) throw_if_any();
+    if (found_.size() >= max_count) throw_if_any();
 }
 
-Mistakes Mistakes::part() const {
-    Mistakes part(text_, file_name_);
-    part.is_part_ = true;
-    return part;
+void Mistakes::note_in(std::string where, const Remedy& remedy, std::size_t offset,
+                       std::string message, std::size_t count) {
+    const auto same = std::ranges::find(notes_, &remedy, &Note::remedy);
+    if (same != notes_.end()) {
+        same->count += count;
+    } else {
+        notes_.push_back({{offset, std::move(message), std::move(where)}, &remedy, count});
+    }
 }
 
-void Mistakes::add_all(const Mistakes& part) {
-    found_.insert(found_.end(), part.found_.begin(), part.found_.end());
+void Mistakes::take_notes(const Mistakes& part) {
+    for (const auto& [first, remedy, count] : part.notes_) {
+        note_in(first.where, *remedy, first.offset, first.message, count);
+    }
+}
+
+std::vector<std::string> Mistakes::notes() const {
+    std::vector<Note> sorted;
+    std::ranges::copy_if(notes_, std::back_inserter(sorted), &Note::count);
+    std::ranges::stable_sort(sorted, {}, [](const Note& note) { return note.first.offset; });
+    std::vector<std::string> lines;
+    for (const Note& note : sorted) {
+        lines.push_back(fmt::format("{} ({})", line(note.first),
+                                    counted(note.count, note.remedy->one, note.remedy->many)));
+    }
+    return lines;
+}
+
+void Mistakes::refuse_notes() {
+    for (const Note& note : notes_) found_.push_back(note.first);
+    throw_if_any();
 }
 
 std::string Mistakes::place(std::size_t offset) const {
@@ -55,19 +73,30 @@ std::string Mistakes::place(std::size_t offset) const {
     return fmt::format("{}:{}:{}", file_name_, position.line, position.column);
 }
 
+std::string Mistakes::line(const Mistake& mistake) const {
+    const std::string where =
+        mistake.where.empty() ? place(mistake.offset) : file_name_ + ": " + mistake.where;
+    return where + ": " + mistake.message;
+}
+
 void Mistakes::throw_if_any() const {
     if (found_.empty()) return;
     std::vector<Mistake> sorted = found_;
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const Mistake& a, const Mistake& b) { return a.offset < b.offset; });
-    if (sorted.size() > max_count) sorted.erase(sorted.begin() + max_count, sorted.end());
+    std::ranges::stable_sort(sorted, {}, &Mistake::offset);
     std::string lines;
     for (const Mistake& mistake : sorted) {
         if (!lines.empty()) lines += '\n';
-        lines += mistake.where.empty() ? place(mistake.offset) : file_name_ + ": " + mistake.where;
-        lines += ": " + mistake.message;
+        lines += line(mistake);
     }
     throw Error(ExitCode::input, lines);
+}
+
+void limit_notes(std::vector<std::string>& notes) {
+    constexpr std::size_t most = Mistakes::max_count;
+    if (notes.size() <= most) return;
+    const std::size_t more = notes.size() - most;
+    notes.resize(most);
+    notes.push_back(fmt::format("and {}", counted(more, "more note", "more notes")));
 }
 
 }  // namespace rt

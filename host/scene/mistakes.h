@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rt {
@@ -15,8 +18,13 @@ struct SourcePosition {
 
 SourcePosition position_of(std::string_view text, std::size_t offset);
 
-/// Collects the errors in one text file, so that its author sees several at once. The text must
-/// outlive it.
+/// What is done about a blemish, to be counted: "face left out", "faces left out".
+struct Remedy {
+    const char *one, *many;
+};
+
+/// Collects what is wrong in one text file, so that its author sees several things at once: errors,
+/// and notes on blemishes that do not keep the file from being read. The text must outlive it.
 class Mistakes {
    public:
     static constexpr std::size_t max_count = 20;
@@ -24,7 +32,14 @@ class Mistakes {
     Mistakes(std::string_view text, std::string_view file_name);
 
     /// Notes "what is wrong; what to do" at a byte offset. Throws when max_count is reached.
-    void add(std::size_t offset, std::string message);
+    void add(std::size_t offset, std::string message) { add_in({}, offset, std::move(message)); }
+
+    /// The same with a message to be formatted.
+    template <typename... Args>
+    requires(sizeof...(Args) > 0) void add(std::size_t offset, fmt::format_string<Args...> message,
+                                           Args&&... args) {
+        add(offset, fmt::format(message, std::forward<Args>(args)...));
+    }
 
     /// The same for data without lines: `where` ("element 'face' 17") replaces line and column in
     /// the message.
@@ -32,15 +47,34 @@ class Mistakes {
 
     std::size_t count() const { return found_.size(); }
 
-    /// An empty one for a part of the same text: it keeps its first max_count and never throws.
-    Mistakes part() const;
-    bool is_full() const { return found_.size() >= max_count; }
+    /// Notes a blemish. Of those with the same remedy, the first is kept and all are counted, so
+    /// that a million of them are one line.
+    void note(const Remedy& remedy, std::size_t offset, std::string message) {
+        note_in({}, remedy, offset, std::move(message), 1);
+    }
+    template <typename... Args>
+    requires(sizeof...(Args) > 0) void note(const Remedy& remedy, std::size_t offset,
+                                            fmt::format_string<Args...> message, Args&&... args) {
+        note(remedy, offset, fmt::format(message, std::forward<Args>(args)...));
+    }
 
-    /// Takes over a part's mistakes without throwing; throw_if_any then reports the file's first
-    /// max_count.
-    void add_all(const Mistakes& part);
+    /// A `count` of 0 only gives the reason for later ones; `where` is as for add_in.
+    void note_in(std::string where, const Remedy& remedy, std::size_t offset, std::string message,
+                 std::size_t count);
+
+    bool has_notes() const { return !notes_.empty(); }
+
+    /// Takes over the notes of a later part of the same text.
+    void take_notes(const Mistakes& part);
+
+    /// "file:line:column: message (3 faces left out)", in file order.
+    std::vector<std::string> notes() const;
+
+    /// Throws the notes as errors, if there are any: they are why nothing is left.
+    void refuse_notes();
 
     std::string_view text() const { return text_; }
+    const std::string& file_name() const { return file_name_; }
 
     /// "file:line:column", for a message that points at a second place.
     std::string place(std::size_t offset) const;
@@ -55,10 +89,21 @@ class Mistakes {
         std::string where;  ///< empty: use line and column of the offset
     };
 
+    struct Note {
+        Mistake first;
+        const Remedy* remedy;
+        std::size_t count;
+    };
+
+    std::string line(const Mistake& mistake) const;
+
     std::string_view text_;
     std::string file_name_;
-    bool is_part_ = false;
     std::vector<Mistake> found_;
+    std::vector<Note> notes_;
 };
+
+/// Keeps a scene's notes few: the first 20, then "and 5 more notes".
+void limit_notes(std::vector<std::string>& notes);
 
 }  // namespace rt

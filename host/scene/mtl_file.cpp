@@ -4,72 +4,80 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <filesystem>
+#include <iterator>
 #include <optional>
-#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
-#include "host/base/counted.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/line_scanner.h"
-#include "host/scene/scene_limits.h"
+#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
 namespace {
 
+constexpr Remedy mtl_ignored{"statement ignored", "statements ignored"};
+constexpr Remedy unsupported = mtl_ignored;
+constexpr Remedy value_ignored{"value ignored", "values ignored"};
+constexpr Remedy value_limited{"value limited", "values limited"};
+constexpr Remedy kd_is_ambient{"material affected", "materials affected"};
+constexpr Remedy unknown{"material is gray", "materials are gray"};
+constexpr Remedy missing{"library missing", "libraries missing"};
+
 /// A material as the file gives it.
 struct Mtl {
     std::string name;
-    glm::dvec3 ambient{0}, diffuse{0}, specular{0}, filter{1};
+    std::optional<glm::dvec3> ambient, diffuse;
+    glm::dvec3 specular{0}, filter{1};
     double shininess = 1, ior = 1;
     std::optional<double> dissolve, transparency;
     int illum = 2;
-    std::size_t ior_offset = 0;  ///< of the Ni statement
+    std::size_t ambient_offset = 0, ior_offset = 0;  ///< of the Ka and Ni statements
 };
 
-bool is_glass(int illum) { return illum == 4 || illum == 6 || illum == 7 || illum == 9; }
-
-double opacity_of(const Mtl& mtl) {
-    return mtl.dissolve.value_or(1.0 - mtl.transparency.value_or(0.0));
-}
-
-bool is_clear(const Mtl& mtl) { return is_glass(mtl.illum) && opacity_of(mtl) < 1; }
-
 /// Illumination models 3 to 8 trace reflections; 4, 6, 7 and 9 are glass; below 2 there are no
-/// highlights.
-Scene::Material to_material(const Mtl& mtl) {
-    const double opacity = opacity_of(mtl);
-    const bool clear = is_clear(mtl);
+/// highlights. Nor are there with exponents near 0, which exporters write for "none".
+Scene::Material to_material(const Mtl& mtl, Mistakes& mistakes) {
+    constexpr double least_shininess = 0.5;
+    const int illum = mtl.illum;
+    const double opacity = mtl.dissolve.value_or(1.0 - mtl.transparency.value_or(0.0));
+    const bool clear = (illum == 4 || illum == 6 || illum == 7 || illum == 9) && opacity < 1;
     Scene::Material material;
     material.name = mtl.name;
-    material.ambient = clear ? opacity * mtl.ambient : mtl.ambient;
-    material.diffuse = clear ? opacity * mtl.diffuse : mtl.diffuse;
-    if (mtl.illum >= 2) material.specular = mtl.specular;
-    if (mtl.illum >= 3 && mtl.illum <= 8) material.mirror = mtl.specular;
-    if (clear) material.transmission = (1.0 - opacity) * mtl.filter;
-    if (clear) material.ior = mtl.ior;
+    material.ambient = mtl.ambient.value_or(glm::dvec3(0));
+    material.diffuse = mtl.diffuse.value_or(glm::dvec3(0));
+    if (material.ambient == glm::dvec3(1) && mtl.diffuse && *mtl.diffuse != glm::dvec3(1)) {
+        mistakes.note(kd_is_ambient, mtl.ambient_offset,
+                      "Ka is 1 whatever the color is, as exporters write it; Kd takes its place");
+        material.ambient = material.diffuse;
+    }
+    if (illum >= 2 && mtl.shininess >= least_shininess) material.specular = mtl.specular;
+    if (illum >= 3 && illum <= 8) material.mirror = mtl.specular;
     material.shininess = mtl.shininess;
     material.two_sided = !clear;
+    if (!clear) return material;
+    material.ambient *= opacity;
+    material.diffuse *= opacity;
+    material.transmission = (1.0 - opacity) * mtl.filter;
+    material.ior = mtl.ior > 0 ? mtl.ior : 1;
+    if (mtl.ior == 0) {
+        mistakes.note(value_ignored, mtl.ior_offset,
+                      "Ni is 0; write an index of refraction above 0, like 1.5");
+    }
     return material;
 }
 
 class MtlReader {
    public:
     MtlReader(std::string_view text, const std::string& file_name)
-        : scanner_(text), mistakes_(text, file_name), file_name_(file_name) {}
+        : scanner_(text), mistakes_(text, file_name) {}
 
     MtlLibrary read() {
         for (; scanner_.find_word(); scanner_.next_line()) read_statement();
-        for (const Mtl& mtl : found_) check_ior(mtl);
-        mistakes_.throw_if_any();
-        MtlLibrary library;
-        for (const Mtl& mtl : found_) library.materials.push_back(to_material(mtl));
-        if (left_out_ > 0) {
-            library.notes.push_back(fmt::format(
-                "{}: ignored {}, the first {}: textures and extensions are not supported",
-                file_name_, counted(left_out_, "statement"), in_quotes(first_left_out_)));
-        }
-        return library;
+        finish_material();
+        return {std::move(materials_), mistakes_.notes()};
     }
 
    private:
@@ -77,144 +85,235 @@ class MtlReader {
         const std::size_t offset = scanner_.offset();
         const std::string_view word = scanner_.word();
         if (word == "newmtl") return start_material(offset);
-        if (!known(word)) {
-            if (left_out_++ == 0) first_left_out_ = word;
-            return;
+        if (!mtl_) {
+            mistakes_.note(mtl_ignored, offset,
+                           "{} comes before the first newmtl; write newmtl and a name "
+                           "above it",
+                           in_quotes(word));
+        } else if (!read_value(word, *mtl_)) {
+            mistakes_.note(unsupported, offset,
+                           "unknown statement {}: textures and extensions are not "
+                           "supported",
+                           in_quotes(word));
         }
-        if (found_.empty()) {
-            mistakes_.add(offset, fmt::format("{} comes before the first newmtl; write newmtl and "
-                                              "a name above it",
-                                              in_quotes(word)));
-            return;
-        }
-        read_value(word, found_.back());
     }
 
-    static bool known(std::string_view word) {
-        constexpr std::string_view words[] = {"Ka", "Kd", "Ks", "Ns",   "Ni",
-                                              "Tf", "d",  "Tr", "illum"};
-        return std::ranges::find(words, word) != std::end(words);
-    }
-
-    void read_value(std::string_view word, Mtl& mtl) {
-        if (word == "Ka") return read_color(word, mtl.ambient);
-        if (word == "Kd") return read_color(word, mtl.diffuse);
-        if (word == "Ks") return read_color(word, mtl.specular);
-        if (word == "Tf") return read_color(word, mtl.filter);
-        if (word == "Ns") return read_amount(word, 0, max_scene_number, mtl.shininess);
-        if (word == "Ni") return read_ior(mtl);
-        if (word == "illum") return read_illum(mtl);
-        double amount = 1;
-        if (word == "d") skip_halo();
-        read_amount(word, 0, 1, amount);
-        (word == "d" ? mtl.dissolve : mtl.transparency) = amount;
+    bool read_value(std::string_view word, Mtl& mtl) {
+        if (word == "Ka") {
+            mtl.ambient_offset = scanner_.offset();
+            read_color(word, mtl.ambient);
+        } else if (word == "Kd") {
+            read_color(word, mtl.diffuse);
+        } else if (word == "Ks" || word == "Tf") {
+            std::optional<glm::dvec3> color;
+            read_color(word, color);
+            if (color) (word == "Ks" ? mtl.specular : mtl.filter) = *color;
+        } else if (word == "Ns") {
+            read_amount(word, max_scene_number, mtl.shininess);
+        } else if (word == "Ni") {
+            mtl.ior_offset = scanner_.offset();
+            read_amount(word, max_scene_number, mtl.ior);
+        } else if (word == "illum") {
+            read_illum(mtl);
+        } else if (word == "d" || word == "Tr") {
+            if (LineScanner ahead = scanner_; ahead.word() == "-halo") scanner_ = ahead;
+            double amount = -1;
+            read_amount(word, 1, amount);
+            if (amount >= 0) (word == "d" ? mtl.dissolve : mtl.transparency) = amount;
+        } else {
+            return false;
+        }
+        return true;
     }
 
     void start_material(std::size_t offset) {
-        const std::string name = printable(scanner_.rest());
-        if (name.empty()) mistakes_.add(offset, "newmtl gives no name; write one after it");
-        const auto [first, is_new] = offsets_.emplace(name, offset);
-        if (!is_new) {
-            mistakes_.add(offset, fmt::format("material {} is defined twice, first at {}; keep "
-                                              "one of them",
-                                              in_quotes(name), mistakes_.place(first->second)));
+        finish_material();
+        mtl_ = Mtl();
+        mtl_->name = printable(scanner_.rest());
+        if (mtl_->name.empty()) {
+            mistakes_.note(mtl_ignored, offset, "newmtl gives no name; write one after it");
+            return;
         }
-        found_.emplace_back().name = name;
+        const auto [first, is_new] = offsets_.emplace(mtl_->name, offset);
+        if (is_new) return;
+        mistakes_.note(mtl_ignored, offset,
+                       "material {} is defined twice, first at {}; the first counts",
+                       in_quotes(mtl_->name), mistakes_.place(first->second));
+        mtl_->name.clear();
+    }
+
+    /// Keeps the material above, unless it has no name of its own.
+    void finish_material() {
+        if (mtl_ && !mtl_->name.empty()) materials_.push_back(to_material(*mtl_, mistakes_));
     }
 
     /// Three numbers, or one for gray.
-    void read_color(std::string_view word, glm::dvec3& color) {
-        const bool there = scanner_.word_follows();
-        const std::size_t offset = scanner_.offset();
-        LineScanner ahead = scanner_;
-        const std::string_view kind = ahead.word();
-        if (there && (kind == "spectral" || kind == "xyz")) {
-            mistakes_.add(offset, fmt::format("{} colors are not supported; write {} r g b",
-                                              in_quotes(kind), word));
-            return;
-        }
-        std::array<double, 3> rgb{};
+    void read_color(std::string_view word, std::optional<glm::dvec3>& color) {
+        glm::dvec3 rgb{0};
         int count = 0;
-        while (count < 3 && (count == 0 || scanner_.word_follows())) {
-            if (!read_within(word, 0, max_reflectance, rgb[static_cast<std::size_t>(count)]))
-                return;
-            ++count;
+        for (; count < 3 && (count == 0 || scanner_.word_follows()); ++count) {
+            double channel = -1;
+            read_amount(word, max_reflectance, channel);
+            if (channel < 0) return;
+            rgb[count] = channel;
         }
         if (count == 2) {
-            mistakes_.add(offset,
-                          fmt::format("{} has two numbers; write one for a gray, or three", word));
-            return;
+            mistakes_.note(value_ignored, scanner_.offset(),
+                           "{} has two numbers; write one for a gray, or three", word);
+        } else {
+            color = count == 1 ? glm::dvec3(rgb[0]) : rgb;
         }
-        color = count == 1 ? glm::dvec3(rgb[0]) : glm::dvec3(rgb[0], rgb[1], rgb[2]);
-        require_end(word);
     }
 
-    void read_amount(std::string_view word, double low, double high, double& target) {
-        if (read_within(word, low, high, target)) require_end(word);
-    }
-
-    bool read_within(std::string_view word, double low, double high, double& target) {
+    /// Reads a number from 0 to `most` into `target`; one beyond is limited.
+    void read_amount(std::string_view word, double most, double& target) {
         scanner_.word_follows();
         const std::size_t offset = scanner_.offset();
-        const auto number = read_number(scanner_, word, mistakes_);
-        if (!number) return false;
-        target = *number;
-        if (*number >= low && *number <= high) return true;
-        mistakes_.add(offset, fmt::format("{} is {}; write a number from {} to {}", word, *number,
-                                          low, high));
-        return false;
-    }
-
-    void read_ior(Mtl& mtl) {
-        scanner_.word_follows();
-        mtl.ior_offset = scanner_.offset();
-        read_amount("Ni", 0, max_scene_number, mtl.ior);
-    }
-
-    /// Programs write "Ni 0" for opaque materials.
-    void check_ior(const Mtl& mtl) {
-        if (mtl.ior > 0 || !is_clear(mtl)) return;
-        mistakes_.add(mtl.ior_offset, "Ni is 0; write an index of refraction above 0, like 1.5");
+        const auto number = scan_number(scanner_, word, mistakes_, &value_ignored);
+        if (!number) return;
+        target = std::clamp(*number, 0.0, most);
+        if (target == *number) return;
+        mistakes_.note(value_limited, offset, "{} is {}; write a number from 0 to {}", word,
+                       *number, most);
     }
 
     void read_illum(Mtl& mtl) {
+        constexpr int last = 10;
         const bool there = scanner_.word_follows();
         const std::size_t offset = scanner_.offset();
-        LineScanner ahead = scanner_;
         const auto number = there ? scanner_.integer() : std::nullopt;
-        if (number && *number >= 0 && *number <= 10) {
+        if (number && *number >= 0 && *number <= last) {
             mtl.illum = static_cast<int>(*number);
-            return require_end("illum");
+            return;
         }
-        const std::string found = there ? in_quotes(ahead.word()) : "missing";
-        mistakes_.add(offset, fmt::format("illum is {}; write a whole number from 0 to 10", found));
-    }
-
-    void skip_halo() {
-        LineScanner ahead = scanner_;
-        if (ahead.word() == "-halo") scanner_ = ahead;
-    }
-
-    void require_end(std::string_view word) {
-        if (!scanner_.word_follows()) return;
-        const std::size_t offset = scanner_.offset();
-        mistakes_.add(offset, fmt::format("unexpected {} after the numbers of {}; remove it",
-                                          in_quotes(scanner_.word()), word));
+        const std::string found = !there   ? "missing"
+                                  : number ? fmt::format("{}", *number)
+                                           : in_quotes(scanner_.word());
+        mistakes_.note(value_ignored, offset, "illum is {}; write a whole number from 0 to {}",
+                       found, last);
     }
 
     LineScanner scanner_;
     Mistakes mistakes_;
-    std::string file_name_;
-    std::vector<Mtl> found_;
+    std::optional<Mtl> mtl_;  ///< the one being read
+    std::vector<Scene::Material> materials_;
     std::unordered_map<std::string, std::size_t> offsets_;
-    std::size_t left_out_ = 0;
-    std::string_view first_left_out_;
+};
+
+/// Reads libraries into a model: each file once, and the first material of each name.
+class Libraries {
+   public:
+    Libraries(Model& model, const OpenLibrary& open, const std::string& obj_name)
+        : model_(model), open_(open), obj_name_(obj_name) {}
+
+    /// Adds what an mtllib statement names: one file, if there is one of that name (names may hold
+    /// blanks), else one per word. If there is none, exporters on other systems may have written a
+    /// path of theirs; else the library may be called as the model is. Returns the problem, if any.
+    std::string add_all(const std::string& names) {
+        const std::string problem = add(names);
+        if (problem.empty()) return {};
+        std::vector<std::string> words;
+        for (LineScanner scanner(names); scanner.word_follows();)
+            words.emplace_back(scanner.word());
+        const auto adds = [&](const std::string& name) { return add(name).empty(); };
+        if (words.size() > 1 && std::ranges::all_of(words, adds)) return {};
+        words.push_back(names);
+        for (std::string name : words) {
+            std::ranges::replace(name, '\\', '/');
+            if (adds(name) || adds(name.substr(name.rfind('/') + 1))) return {};
+        }
+        const std::string of_model = std::filesystem::path(obj_name_).stem().string() + ".mtl";
+        return adds(of_model) ? "" : problem;
+    }
+
+   private:
+    std::string add(const std::string& name) {
+        const auto [known, is_new] = problems_.try_emplace(name);
+        if (!is_new) return known->second;
+        const LibraryFile file = open_(name);
+        known->second = file.problem;
+        if (!file.problem.empty()) return file.problem;
+        model_.library_files.push_back(file.path);
+        MtlLibrary library = parse_mtl(file.text, printable(file.path));
+        for (Scene::Material& material : library.materials) {
+            if (known_.insert(material.name).second)
+                model_.materials.push_back(std::move(material));
+        }
+        std::ranges::move(library.notes, std::back_inserter(model_.notes));
+        return {};
+    }
+
+    Model& model_;
+    const OpenLibrary& open_;
+    const std::string& obj_name_;
+    std::unordered_map<std::string, std::string> problems_;  ///< of each name that was tried
+    std::unordered_set<std::string> known_;
 };
 
 }  // namespace
 
 MtlLibrary parse_mtl(std::string_view text, const std::string& file_name) {
     return MtlReader(text, file_name).read();
+}
+
+int ObjMaterials::use(const Use& material) {
+    if (material.name.empty()) return -1;
+    const auto [found, is_new] = numbers_.emplace(material.name, static_cast<int>(used_.size()));
+    if (is_new) used_.push_back(material);
+    return found->second;
+}
+
+void ObjMaterials::assign(Model& model, const OpenLibrary& open, Mistakes& mistakes) {
+    constexpr int most_missing = 100;  // so that a file full of them takes no time
+    Libraries libraries(model, open, mistakes.file_name());
+    int lacking = 0;
+    for (const Use& statement : libraries_) {
+        const bool tries = lacking < most_missing;
+        const std::string problem = tries ? libraries.add_all(statement.name) : "not looked for";
+        if (problem.empty()) continue;
+        ++lacking;
+        mistakes.note(missing, statement.offset, problem + "; until then its materials are gray");
+    }
+    std::unordered_map<std::string_view, int> known;
+    std::vector<std::string_view> names;
+    for (const Scene::Material& material : model.materials) {
+        known.emplace(material.name, static_cast<int>(known.size()));
+        names.push_back(material.name);
+    }
+    const auto fallback = static_cast<int>(model.materials.size());
+    std::vector<int> indices;
+    std::vector<const Use*> unknown_ones;
+    for (const Use& use : used_) {
+        const auto found = known.find(use.name);
+        indices.push_back(found == known.end() ? fallback : found->second);
+        if (found == known.end() && lacking == 0) unknown_ones.push_back(&use);
+    }
+    if (!unknown_ones.empty()) {
+        const Use& first = *unknown_ones[0];
+        std::string advice = "the libraries contain none";
+        if (libraries_.empty()) advice = "the file has no mtllib";
+        if (!names.empty()) advice = suggestion(first.name, names, "the libraries contain");
+        mistakes.note_in({}, unknown, first.offset,
+                         fmt::format("unknown material {}; {}", in_quotes(first.name), advice),
+                         unknown_ones.size());
+    }
+    std::vector<int>& faces = model.mesh.face_materials;
+    if (libraries_.empty()) {
+        faces = {-1};
+        return;
+    }
+    for (int& face : faces) face = face < 0 ? fallback : indices[static_cast<std::size_t>(face)];
+    if (std::ranges::find(faces, fallback) != faces.end()) {
+        model.materials.push_back(default_material());
+    }
+}
+
+Scene::Material default_material() {
+    Scene::Material material;
+    material.name = "default";
+    material.ambient = material.diffuse = glm::dvec3(0.7);
+    material.two_sided = true;
+    return material;
 }
 
 }  // namespace rt

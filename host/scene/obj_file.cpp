@@ -1,53 +1,356 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/obj_file.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
 #include <utility>
+#include <variant>
 
-#include "host/base/counted.h"
-#include "host/scene/mesh_builder.h"
-#include "host/scene/obj_chunk.h"
-#include "host/scene/obj_materials.h"
+#include "host/base/text.h"
+#include "host/scene/mesh.h"
+#include "host/scene/mistakes.h"
+#include "host/scene/model.h"
+#include "host/scene/mtl_file.h"
+#include "host/scene/words.h"
 
 namespace rt {
 namespace {
+
+using Face = Scene::Mesh::Face;
+using Positions = std::vector<glm::dvec3>;
+
+constexpr Remedy bad_face{"face left out", "faces left out"};
+constexpr Remedy bad_vertex = bad_face;
+constexpr Remedy bad_corner_normal{"face made flat", "faces made flat"};
+constexpr Remedy bad_normal = bad_corner_normal;
+constexpr Remedy obj_ignored{"statement ignored", "statements ignored"};
+constexpr Remedy not_drawn = obj_ignored;
+
+/// Statements that do not affect the picture: texture coordinates, names, hints for other programs.
+constexpr std::string_view ignored_words[] = {
+    "vt",       "g",      "o",      "s",          "mg",        "lod",   "bevel", "c_interp",
+    "d_interp", "usemap", "maplib", "shadow_obj", "trace_obj", "stech", "ctech"};
+constexpr std::string_view free_form_words[] = {
+    "vp",   "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim",
+    "hole", "scrv",   "sp",  "end",  "con",  "bsp",  "bzp",   "cdc",  "cdp",  "res"};
+constexpr std::string_view known_words[] = {"v", "vn", "vt", "f",      "g",     "o",
+                                            "s", "l",  "p",  "usemtl", "mtllib"};
+
+bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
+    return std::ranges::find(words, word) != words.end();
+}
+
+/// A face that is neither a triangle nor a quadrilateral that passes parts_well.
+struct Polygon {
+    std::vector<std::uint32_t> corners, normals;
+};
+
+/// What interrupts the triangles of a chunk: a polygon, or a usemtl.
+struct Event {
+    std::size_t faces_before = 0;
+    std::variant<Polygon, ObjMaterials::Use> what;
+};
+
+/// The number of vertices defined above a statement.
+struct Counts {
+    std::size_t positions = 0, normals = 0;
+};
+
+/// A chunk of lines of an OBJ, read in two passes, so that faces are read when all vertices are
+/// known.
+struct Chunk {
+    Mistakes notes;
+    std::size_t begin = 0, end = 0;  ///< offsets in the text
+
+    Positions positions, normals;  ///< NaN where they cannot be read
+    std::vector<Face> faces;
+    std::vector<Face> face_normals;  ///< one for each face, or none
+    std::vector<Event> events;
+    std::vector<ObjMaterials::Use> libraries;
+};
+
+/// Why a vector cannot be read is kept for faces that use it.
+glm::dvec3 read_three(LineScanner& scanner, std::string_view name, const Remedy& remedy,
+                      Mistakes& notes) {
+    glm::dvec3 v(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto number = scan_number(scanner, name, notes, &remedy, 0);
+        if (!number) return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+        v[axis] = *number;
+    }
+    return v;
+}
+
+/// The first pass. What follows the three numbers, such as a color, is obj_ignored.
+void read_vertices(Chunk& chunk) {
+    LineScanner scanner(chunk.notes.text().substr(0, chunk.end), chunk.begin);
+    for (; scanner.find_word(); scanner.next_line()) {
+        const std::string_view word = scanner.word();
+        if (word == "v") {
+            chunk.positions.push_back(read_three(scanner, "a coordinate", bad_vertex, chunk.notes));
+        } else if (word == "vn") {
+            chunk.normals.push_back(read_three(scanner, "a normal", bad_normal, chunk.notes));
+        }
+    }
+}
+
+/// "1", "1/2", "1//3" or "1/2/3" as the file says it, or with nothing after a slash: "1/", "1//",
+/// "1/2/". A normal that is no number is 0, which no index is.
+struct Corner {
+    std::int64_t position = 0, normal = 0;
+    bool has_normal = false;
+    std::size_t offset = 0;
+};
+
+/// Reads up to 9 digits.
+std::int64_t take_digits(const char*& at, const char* end) {
+    const char* const stop = end - at > 9 ? at + 9 : end;
+    std::int64_t number = 0;
+    for (; at != stop && *at >= '0' && *at <= '9'; ++at) number = 10 * number + (*at - '0');
+    return number;
+}
+
+bool take_slash(const char*& at, const char* end) {
+    if (at == end || *at != '/') return false;
+    ++at;
+    return true;
+}
+
+/// A fast path for the corner at the start of a line, if it consists of short positive numbers, as
+/// nearly all do: returns its length, or 0 where parse_corner must parse it.
+std::size_t parse_plain_corner(std::string_view line, Corner& corner) {
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    corner = {take_digits(at, end)};
+    if (corner.position != 0 && take_slash(at, end)) {
+        take_digits(at, end);
+        corner.has_normal = take_slash(at, end);
+        if (corner.has_normal) corner.normal = take_digits(at, end);
+    }
+    const bool ended = at != end && (*at == ' ' || *at == '\n') && at[-1] != '/';
+    return ended && corner.position != 0 ? static_cast<std::size_t>(at - line.data()) : 0;
+}
+
+bool parse_corner(std::string_view text, Corner& corner) {
+    const char* const end = text.data() + text.size();
+    corner = {};
+    const auto result = std::from_chars(text.data(), end, corner.position);
+    if (result.ec != std::errc() || (result.ptr != end && *result.ptr != '/')) return false;
+    const char* slash = std::find(result.ptr, end, '/');
+    if (slash != end) slash = std::find(slash + 1, end, '/');
+    corner.has_normal = end - slash > 1;
+    if (!corner.has_normal) return true;
+    const auto normal = std::from_chars(slash + 1, end, corner.normal);
+    if (normal.ec != std::errc() || normal.ptr != end) corner.normal = 0;
+    return true;
+}
+
+/// The second pass: all other statements.
+class FaceReader {
+   public:
+    /// `above` counts the vertices in earlier chunks; `positions` and `normals` hold all of the
+    /// file's.
+    FaceReader(Chunk& chunk, Counts above, const Positions& positions, const Positions& normals,
+               bool all_readable)
+        : chunk_(chunk),
+          notes_(chunk.notes),
+          above_(above),
+          positions_(positions),
+          all_normals_(normals),
+          all_readable_(all_readable),
+          scanner_(notes_.text().substr(0, chunk.end), chunk.begin) {}
+
+    void read() {
+        for (; scanner_.find_word(); scanner_.next_line()) read_statement();
+        chunk_.faces.shrink_to_fit();
+        chunk_.face_normals.shrink_to_fit();
+    }
+
+   private:
+    void read_statement() {
+        const std::size_t offset = scanner_.offset();
+        const std::string_view word = scanner_.word();
+        if (word == "f") return read_face(offset);
+        if (word == "v") return static_cast<void>(++above_.positions);
+        if (word == "vn") return static_cast<void>(++above_.normals);
+        if (word == "usemtl") {
+            ObjMaterials::Use use = rest();
+            use.name = printable(use.name);
+            Event& event = chunk_.events.emplace_back();
+            event.faces_before = chunk_.faces.size();
+            event.what.emplace<ObjMaterials::Use>(std::move(use));
+        } else if (word == "mtllib") {
+            chunk_.libraries.push_back(rest());
+        } else if (word == "l" || word == "p") {
+            notes_.note(not_drawn, offset, "points and lines (p, l) are not drawn");
+        } else if (!is_one_of(word, ignored_words)) {
+            notes_.note(obj_ignored, offset, unknown_text(word));
+        }
+    }
+
+    ObjMaterials::Use rest() {
+        scanner_.word_follows();
+        const std::size_t offset = scanner_.offset();
+        return {std::string(scanner_.rest()), offset};
+    }
+
+    static std::string unknown_text(std::string_view word) {
+        std::string advice = suggestion(word, known_words, "known statements are");
+        if (is_one_of(word, free_form_words)) {
+            advice = "curves and surfaces are not supported; export polygons";
+        } else if (word == "call" || word == "csh") {
+            advice = "including files and running commands is not supported";
+        }
+        return fmt::format("unknown statement {}; {}", in_quotes(word), advice);
+    }
+
+    /// Converts an index from 1, or from -1 backward, to one from 0, and appends it; notes one that
+    /// is wrong.
+    bool resolve(std::int64_t index, std::size_t count, std::string_view what, std::size_t offset,
+                 const Remedy& remedy, std::vector<std::uint32_t>& target) {
+        const auto size = static_cast<std::int64_t>(count);
+        if (index >= -size && index <= size && index != 0) {
+            target.push_back(static_cast<std::uint32_t>(index > 0 ? index - 1 : size + index));
+            return true;
+        }
+        if (index == 0) {
+            notes_.note(remedy, offset, "{} 0 does not exist; indices start at 1", what);
+        } else {
+            notes_.note(remedy, offset,
+                        "{} {} does not exist, only {} defined above; correct the number", what,
+                        index, count);
+        }
+        return false;
+    }
+
+    bool read_corner() {
+        Corner& corner = parsed_.emplace_back();
+        const std::size_t offset = scanner_.offset();
+        if (const std::size_t length = parse_plain_corner(scanner_.left(), corner)) {
+            scanner_.advance(length);
+        } else if (const std::string_view word = scanner_.word(); !parse_corner(word, corner)) {
+            notes_.note(bad_face, offset,
+                        "{} is not a face corner; write v, v/vt, v//vn or v/vt/vn in whole numbers",
+                        in_quotes(word));
+            return false;
+        }
+        corner.offset = offset;
+        return resolve(corner.position, above_.positions, "vertex", offset, bad_face, corners_);
+    }
+
+    void read_face(std::size_t offset) {
+        parsed_.clear();
+        corners_.clear();
+        normals_.clear();
+        while (scanner_.word_follows() && corners_.size() <= max_face_corners) {
+            if (!read_corner()) return;
+        }
+        if (corners_.size() < 3) {
+            notes_.note(bad_face, offset, "the face has {}; write three or more",
+                        counted(corners_.size(), "corner"));
+        } else if (corners_.size() > max_face_corners) {
+            notes_.note(bad_face, offset, "the face has more than {} corners; split it",
+                        max_face_corners);
+        } else if (!all_readable_ && has_unreadable(corners_, positions_)) {
+            notes_.note(bad_vertex, offset, {});
+        } else {
+            if (!read_normals(offset)) normals_.clear();
+            add_face();
+        }
+    }
+
+    static bool has_unreadable(const std::vector<std::uint32_t>& indices, const Positions& all) {
+        return std::ranges::any_of(indices, [&](std::uint32_t i) { return std::isnan(all[i].x); });
+    }
+
+    /// The face is flat without a note if none of its corners has a normal.
+    bool read_normals(std::size_t offset) {
+        if (std::ranges::none_of(parsed_, &Corner::has_normal)) return false;
+        const auto lacking = std::ranges::find(parsed_, false, &Corner::has_normal);
+        if (lacking != parsed_.end()) {
+            notes_.note(bad_corner_normal, lacking->offset,
+                        "only some corners of the face have normals; give normals to all or none");
+            return false;
+        }
+        for (const Corner& corner : parsed_) {
+            if (!resolve(corner.normal, above_.normals, "normal", corner.offset, bad_corner_normal,
+                         normals_)) {
+                return false;
+            }
+        }
+        if (all_readable_ || !has_unreadable(normals_, all_normals_)) return true;
+        notes_.note(bad_normal, offset, {});
+        return false;
+    }
+
+    /// Triangles, and quadrilaterals that part well, are the usual faces.
+    void add_face() {
+        const auto& c = corners_;
+        if (c.size() == 3) return add_triangle(0, 1, 2);
+        const bool parts = c.size() == 4 && parts_well({positions_[c[0]], positions_[c[1]],
+                                                        positions_[c[2]], positions_[c[3]]});
+        if (parts) {
+            add_triangle(0, 1, 2);
+            return add_triangle(0, 2, 3);
+        }
+        Event& event = chunk_.events.emplace_back();
+        event.faces_before = chunk_.faces.size();
+        event.what.emplace<Polygon>(Polygon{corners_, normals_});
+    }
+
+    void add_triangle(std::size_t a, std::size_t b, std::size_t c) {
+        const Face face = {corners_[a], corners_[b], corners_[c]};
+        if (normals_.empty()) return append_face(face, nullptr, chunk_.faces, chunk_.face_normals);
+        const Face normals = {normals_[a], normals_[b], normals_[c]};
+        append_face(face, &normals, chunk_.faces, chunk_.face_normals);
+    }
+
+    Chunk& chunk_;
+    Mistakes& notes_;
+    Counts above_;
+    const Positions &positions_, &all_normals_;
+    const bool all_readable_;  ///< the vertices of the file
+    LineScanner scanner_;
+    std::vector<Corner> parsed_;                    ///< of the face being read
+    std::vector<std::uint32_t> corners_, normals_;  ///< their indices from 0
+};
 
 /// Reads the chunks of a file in parallel, first vertices, then faces, and joins them in file
 /// order.
 class ObjReader {
    public:
     ObjReader(std::string_view text, const std::string& file_name, const ReadPace& pace)
-        : mistakes_(text, file_name), file_name_(file_name), pace_(pace) {
+        : mistakes_(text, file_name), pace_(pace) {
         const std::vector<std::size_t> cuts = line_cuts(text, pace.chunk_bytes);
         for (std::size_t i = 1; i < cuts.size(); ++i) {
-            chunks_.emplace_back(mistakes_, cuts[i - 1], cuts[i]);
+            chunks_.push_back(
+                {Mistakes(text, file_name), cuts[i - 1], cuts[i], {}, {}, {}, {}, {}, {}});
         }
     }
 
     Model read(const OpenLibrary& open) {
         read_chunks();
         std::size_t triangles = 0;
-        for (const ObjChunk& chunk : chunks_) triangles += chunk.faces.size();
+        for (const Chunk& chunk : chunks_) triangles += chunk.faces.size();
         builder_.mesh.faces.reserve(triangles);
-        for (ObjChunk& chunk : chunks_) add(chunk);
+        for (Chunk& chunk : chunks_) add(chunk);
         Model model;
-        if (open) model = materials_.load(open, mistakes_);
-        const bool no_materials = model.materials.empty() && !materials_.lacks_library();
         model.mesh = builder_.take();
-        for (std::string& note : builder_.notes(file_name_)) model.notes.push_back(std::move(note));
-        if (no_materials) {
-            model.mesh.face_materials = {-1};
+        if (model.mesh.faces.empty()) mistakes_.refuse_notes();
+        if (open) {
+            materials_.assign(model, open, mistakes_);
         } else {
-            materials_.resolve(model, mistakes_);
-            mistakes_.throw_if_any();
+            model.mesh.face_materials = {-1};
         }
-        if (left_out_ > 0) {
-            model.notes.push_back(
-                fmt::format("{}: ignored {} (p, l)", file_name_,
-                            counted(left_out_, "point or line", "points or lines")));
-        }
+        const auto add_notes = [&](const std::vector<std::string>& notes) {
+            model.notes.insert(model.notes.begin(), notes.begin(), notes.end());
+        };
+        add_notes(builder_.notes(mistakes_.file_name()));
+        add_notes(mistakes_.notes());
         return model;
     }
 
@@ -59,60 +362,65 @@ class ObjReader {
     }
 
     void read_chunks() {
-        for_each_chunk([&](std::size_t i) { read_obj_vertices(chunks_[i]); });
-        std::vector<ObjCounts> above{{}};
-        for (const ObjChunk& chunk : chunks_) {
+        for_each_chunk([&](std::size_t i) { read_vertices(chunks_[i]); });
+        std::vector<Counts> above{{}};
+        bool all_readable = true;
+        for (const Chunk& chunk : chunks_) {
             above.push_back({above.back().positions + chunk.positions.size(),
                              above.back().normals + chunk.normals.size()});
+            all_readable = all_readable && !chunk.notes.has_notes();
         }
-        std::vector<glm::dvec3>& positions = builder_.mesh.positions;
-        std::vector<glm::dvec3>& normals = builder_.mesh.normals;
+        Positions& positions = builder_.mesh.positions;
+        Positions& normals = builder_.mesh.normals;
         positions.resize(above.back().positions);
         normals.resize(above.back().normals);
         for_each_chunk([&](std::size_t i) {
             move_to(chunks_[i].positions, positions.data() + above[i].positions);
             move_to(chunks_[i].normals, normals.data() + above[i].normals);
         });
-        for_each_chunk([&](std::size_t i) { read_obj_faces(chunks_[i], above[i], positions); });
-        for (const ObjChunk& chunk : chunks_) mistakes_.add_all(chunk.mistakes);
-        mistakes_.throw_if_any();
+        for_each_chunk([&](std::size_t i) {
+            FaceReader(chunks_[i], above[i], positions, normals, all_readable).read();
+        });
+        if (all_readable) return;
+        for (Positions* all : {&positions, &normals}) {  // no face uses them
+            std::ranges::replace_if(
+                *all, [](const glm::dvec3& v) { return std::isnan(v.x); }, glm::dvec3(0, 0, 1));
+        }
     }
 
     /// Moves the items and frees their memory.
-    static void move_to(std::vector<glm::dvec3>& items, glm::dvec3* target) {
+    static void move_to(Positions& items, glm::dvec3* target) {
         std::ranges::copy(items, target);
-        std::vector<glm::dvec3>().swap(items);
+        Positions().swap(items);
     }
 
-    void add(ObjChunk& chunk) {
-        const std::span<const Scene::Mesh::Face> faces = chunk.faces, normals = chunk.face_normals;
+    void add(Chunk& chunk) {
+        const std::span<const Face> faces = chunk.faces, normals = chunk.face_normals;
         std::size_t done = 0;
         const auto add_up_to = [&](std::size_t end) {
             builder_.add_triangles(faces.subspan(done, end - done),
                                    normals.empty() ? normals : normals.subspan(done, end - done));
             done = end;
         };
-        for (const ObjEvent& event : chunk.events) {
+        for (const Event& event : chunk.events) {
             add_up_to(event.faces_before);
-            if (const auto* polygon = std::get_if<ObjPolygon>(&event.what)) {
+            if (const auto* polygon = std::get_if<Polygon>(&event.what)) {
                 builder_.add_face(polygon->corners, polygon->normals);
             } else {
-                builder_.use_material(materials_.use(std::get<ObjMaterialUse>(event.what)));
+                builder_.use_material(materials_.use(std::get<ObjMaterials::Use>(event.what)));
             }
         }
         add_up_to(faces.size());
-        for (const ObjLibraryUse& library : chunk.libraries) materials_.note_library(library);
-        left_out_ += chunk.left_out;
-        chunk = ObjChunk(mistakes_, 0, 0);
+        for (const ObjMaterials::Use& library : chunk.libraries) materials_.use_library(library);
+        mistakes_.take_notes(chunk.notes);
+        chunk = {Mistakes({}, {}), 0, 0, {}, {}, {}, {}, {}, {}};
     }
 
     Mistakes mistakes_;
-    std::string file_name_;
     ReadPace pace_;
-    std::vector<ObjChunk> chunks_;
+    std::vector<Chunk> chunks_;
     MeshBuilder builder_;
     ObjMaterials materials_;
-    std::size_t left_out_ = 0;
 };
 
 }  // namespace

@@ -1,311 +1,419 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/ply_file.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
 #include <span>
-#include <type_traits>
+#include <string>
 #include <utility>
 
-#include "host/scene/mesh_builder.h"
-#include "host/scene/ply_blocks.h"
-#include "host/scene/ply_header.h"
-#include "host/scene/ply_rows.h"
-#include "host/scene/scene_limits.h"
+#include "host/scene/mesh.h"
+#include "host/scene/model.h"
+#include "host/scene/ply.h"
 #include "host/scene/words.h"
 
 namespace rt {
 namespace {
 
-constexpr std::string_view vertex_columns[] = {"x", "y", "z", "nx", "ny", "nz"};
-constexpr std::size_t column_count = std::size(vertex_columns);
-constexpr std::size_t not_used = column_count;
+constexpr Remedy bad_ply_face{"face left out", "faces left out"};
+constexpr Remedy bad_ply_vertex = bad_ply_face;
+constexpr Remedy bad_strip_vertex = bad_ply_face;
+constexpr Remedy bad_ply_normal{"normal ignored", "normals ignored"};
+constexpr Remedy bad_row{"row ignored", "rows ignored"};
+constexpr Remedy extra_value{"value ignored", "values ignored"};
+constexpr Remedy extra_line{"line ignored", "lines ignored"};
+constexpr Remedy extra_byte{"byte ignored", "bytes ignored"};
 
-bool is_corner_list(const PlyProperty& property) {
-    return property.name == "vertex_indices" || property.name == "vertex_index";
-}
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view column_names[] = {"x", "y", "z", "nx", "ny", "nz"};
 
-/// Notes required properties that the header does not declare.
-void check_vertex(const PlyElement& vertex, Mistakes& mistakes) {
-    for (const std::string_view name : vertex_columns) {
-        const PlyProperty* property = vertex.find(name);
-        if (property && property->count_type) {
-            mistakes.add(vertex.offset,
-                         fmt::format("property {} of the vertices is a list; declare one number",
-                                     in_quotes(name)));
-        } else if (!property && name.size() == 1) {
-            mistakes.add(vertex.offset, fmt::format("the vertices have no property {}; declare "
-                                                    "x, y and z",
-                                                    in_quotes(name)));
-        }
-    }
-}
+using Vectors = std::vector<glm::dvec3>;
+using Places = std::array<std::size_t, 6>;  ///< of properties in an element
 
-/// Checks the list of faces or strips.
-void check_corners(const PlyElement& element, std::string_view what, Mistakes& mistakes) {
-    const auto list = std::ranges::find_if(element.properties, is_corner_list);
-    if (list == element.properties.end()) {
-        mistakes.add(element.offset,
-                     fmt::format("the {} have no property 'vertex_indices'; declare 'property "
-                                 "list uchar int vertex_indices'",
-                                 what));
-    } else if (!list->count_type || !is_whole(list->type)) {
-        mistakes.add(element.offset, fmt::format("property {} of the {} is not a list of whole "
-                                                 "numbers; declare 'property list uchar int {}'",
-                                                 in_quotes(list->name), what, list->name));
-    }
-}
-
-void check_header(const PlyHeader& header, Mistakes& mistakes) {
-    const PlyElement* vertex = header.find("vertex");
-    const PlyElement* face = header.find("face");
-    const PlyElement* strips = header.find("tristrips");
-    if (!vertex) mistakes.add(0, "the header declares no element 'vertex'; use a mesh");
-    if (!face && !strips) {
-        mistakes.add(0,
-                     "the header declares no element 'face'; points alone cannot be drawn; use a "
-                     "mesh");
-    }
-    if (vertex) check_vertex(*vertex, mistakes);
-    if (face) check_corners(*face, "faces", mistakes);
-    if (strips) check_corners(*strips, "strips", mistakes);
-    for (const PlyElement* element : {face, strips}) {
-        if (!vertex || !element || element > vertex) continue;
-        mistakes.add(element->offset,
-                     fmt::format("the {} come before the vertices; save the vertices first",
-                                 element == face ? "faces" : "strips"));
-    }
-    mistakes.throw_if_any();
-}
-
-template <typename Rows>
-class BodyReader {
+/// Reads the rows of elements one by one: of text, where each has its own line, or of bytes in
+/// either order. A text row that cannot be read is noted; bytes that are missing are an error.
+class Rows {
    public:
-    BodyReader(const PlyHeader& header, Rows rows, Mistakes& mistakes, const ReadPace& pace)
-        : header_(header), rows_(std::move(rows)), mistakes_(mistakes), pace_(pace) {}
+    Rows(const PlyHeader& header, Mistakes& mistakes)
+        : scanner_(mistakes.text(), header.data_offset),
+          is_text_(header.format == PlyFormat::ascii),
+          swapped_((header.format == PlyFormat::little_endian) !=
+                   (std::endian::native == std::endian::little)),
+          mistakes_(&mistakes) {}
 
-    Model read(const std::string& file_name) {
-        for (const PlyElement& element : header_.elements) {
-            check_count(element);
-            read_element(element);
+    bool is_text() const { return is_text_; }
+    bool swapped() const { return swapped_; }
+    std::string_view left() const { return scanner_.left(); }
+    void advance(std::size_t bytes) { scanner_.advance(bytes); }
+
+    /// Only the values of `wanted` properties are kept.
+    void start_element(const PlyElement& element, std::span<const std::size_t> wanted) {
+        element_ = &element;
+        const bool is_face = element.name == "face" || element.name == "tristrips";
+        remedy_ = element.name == "vertex" ? &bad_ply_vertex : is_face ? &bad_ply_face : &bad_row;
+        wanted_.assign(element.properties.size(), 0);
+        for (const std::size_t i : wanted) {
+            if (i < wanted_.size()) wanted_[i] = 1;
         }
-        const std::string leftover = rows_.leftover();
-        mistakes_.throw_if_any();
-        Model model;
-        model.mesh = builder_.take();
-        model.notes = builder_.notes(file_name);
-        model.mesh.face_materials = {-1};
-        if (!model.mesh.normals.empty()) model.mesh.face_normals = model.mesh.faces;
-        if (!leftover.empty()) model.notes.push_back(file_name + ": " + leftover);
-        return model;
+        firsts_.resize(wanted_.size() + 1);
+    }
+
+    /// For messages about rows that are read another way.
+    void set_row(std::uint64_t row) {
+        row_ = row;
+        is_good_ = true;
+    }
+
+    /// Returns whether the file has this row; is_good says whether all values could be read.
+    bool read(std::uint64_t row) {
+        set_row(row);
+        values_.clear();
+        if (is_text_ && !scanner_.find_word()) {
+            fail(fmt::format("the file ends before {}, of {}; save the model again", row_name(),
+                             element_->count),
+                 element_->count - row);
+            return false;
+        }
+        start_ = scanner_.offset();
+        for (std::size_t i = 0; is_good_ && i < wanted_.size(); ++i) {
+            firsts_[i] = values_.size();
+            read_property(element_->properties[i], wanted_[i] != 0);
+        }
+        firsts_.back() = values_.size();
+        if (is_text_) end_line();
+        return true;
+    }
+
+    [[nodiscard]] bool is_good() const { return is_good_; }
+    /// What was read of a property: one value, or the items of a list.
+    std::span<const double> values(std::size_t property) const {
+        return std::span(values_).subspan(firsts_[property],
+                                          firsts_[property + 1] - firsts_[property]);
+    }
+    double value(std::size_t property) const { return values_[firsts_[property]]; }
+
+    /// Notes what is wrong with the row at hand.
+    void note(const Remedy& remedy, std::string message, std::size_t count = 1) {
+        mistakes_->note_in(is_text_ ? "" : row_name(), remedy, start_, std::move(message), count);
+    }
+
+    /// Notes what follows the last row, save for a line end left by an editor or a program.
+    void note_rest() {
+        const char* message = "more data follows than the header declares; correct its counts";
+        constexpr std::size_t few = 4;
+        const bool is_blank = left().find_first_not_of("\r\n \t") == left().npos;
+        start_ = scanner_.offset();
+        if (!is_text_ && (left().size() > few || !is_blank)) {
+            return note(extra_byte, message, left().size());
+        }
+        for (; is_text_ && scanner_.find_word(); scanner_.next_line()) {
+            start_ = scanner_.offset();
+            note(extra_line, message);
+        }
     }
 
    private:
-    /// Checks a declared row count against the bytes that are left.
+    /// Says "element 'face' 17" (rows count from 0, as indices do).
+    std::string row_name() const {
+        return element_ ? fmt::format("element {} {}", in_quotes(element_->name), row_) : "end";
+    }
+
+    /// Gives the row up.
+    void fail(std::string message, std::size_t count = 1) {
+        is_good_ = false;
+        mistakes_->note_in(is_text_ ? "" : row_name(), *remedy_, scanner_.offset(),
+                           std::move(message), remedy_ == &bad_ply_vertex ? 0 : count);
+    }
+
+    void refuse(std::string message) {
+        mistakes_->add_in(row_name(), scanner_.offset(), std::move(message));
+        mistakes_->throw_if_any();
+    }
+
+    void read_property(const PlyProperty& property, bool is_wanted) {
+        if (!property.is_list()) return read_values(property.type, 1, is_wanted);
+        read_values(*property.count_type, 1, true);
+        if (!is_good_) return;
+        const double length = values_.back();
+        values_.pop_back();
+        constexpr double most = 1e15;
+        if (length >= 0 && length <= most && length == std::floor(length)) {
+            return read_values(property.type, static_cast<std::uint64_t>(length), is_wanted);
+        }
+        std::string message = fmt::format("the length of list {} is {}; write a whole number",
+                                          in_quotes(property.name), length);
+        // Of bytes, it is not known where the next row begins.
+        if (!is_text_ && !left().empty()) refuse(message);
+        fail(std::move(message));
+    }
+
+    void read_values(PlyType type, std::uint64_t count, bool is_wanted) {
+        if (is_text_) return read_words(type, count, is_wanted);
+        const std::size_t size = size_of(type);
+        const char* at = left().data();
+        if (left().size() / size < count)
+            refuse("the file ends before it does; save the model again");
+        for (std::uint64_t i = 0; is_wanted && i < count; ++i, at += size) {
+            values_.push_back(ply_number(at, type, swapped_));
+        }
+        advance(size * count);
+    }
+
+    void read_words(PlyType type, std::uint64_t count, bool is_wanted) {
+        for (std::uint64_t i = 0; i < count; ++i) {
+            if (!scanner_.word_follows()) {
+                return fail(
+                    fmt::format("the line of {} ends too early; write all values of its "
+                                "properties and a line for each row",
+                                row_name()));
+            }
+            if (!is_wanted) {
+                scanner_.word();
+            } else if (const auto whole = is_whole(type) ? scanner_.integer() : std::nullopt) {
+                values_.push_back(static_cast<double>(*whole));
+            } else if (const auto number = scanner_.number()) {
+                values_.push_back(*number);
+            } else {
+                return fail(fmt::format("a value of {} is {}; write a number", row_name(),
+                                        in_quotes(LineScanner(scanner_).word())));
+            }
+        }
+    }
+
+    void end_line() {
+        if (is_good_ && scanner_.word_follows()) {
+            const std::size_t offset = scanner_.offset();
+            mistakes_->note(extra_value, offset, "unexpected {} after the values of {}; remove it",
+                            in_quotes(scanner_.word()), row_name());
+        }
+        scanner_.next_line();
+    }
+
+    LineScanner scanner_;
+    bool is_text_, swapped_;
+    Mistakes* mistakes_;
+    const PlyElement* element_ = nullptr;
+    const Remedy* remedy_ = nullptr;  ///< for rows that cannot be read
+    std::vector<char> wanted_;
+    std::uint64_t row_ = 0;
+    std::size_t start_ = 0;            ///< of the row at hand
+    bool is_good_ = true;              ///< nothing was wrong with it
+    std::vector<double> values_;       ///< of it
+    std::vector<std::size_t> firsts_;  ///< where the values of each property begin
+};
+
+class BodyReader {
+   public:
+    BodyReader(const PlyHeader& header, Mistakes& mistakes, const ReadPace& pace)
+        : header_(header), rows_(header, mistakes), mistakes_(mistakes), pace_(pace) {}
+
+    /// Faces above the vertices are skipped, and read after them.
+    Model read() {
+        std::vector<std::pair<const PlyElement*, Rows>> waiting;
+        bool has_vertices = false;
+        for (const PlyElement& element : header_.elements) {
+            check_count(element);
+            if (element.properties.empty()) continue;
+            const bool is_shape = element.name == "face" || element.name == "tristrips";
+            if (element.name == "vertex") {
+                has_vertices = true;
+                read_vertices(element);
+            } else if (is_shape && has_vertices) {
+                read_shapes(element);
+            } else {
+                if (is_shape) waiting.emplace_back(&element, rows_);
+                read_rows(element, {}, [] {});
+            }
+        }
+        rows_.note_rest();
+        for (const auto& [element, rows] : waiting) {
+            rows_ = rows;
+            read_shapes(*element);
+        }
+        return finish();
+    }
+
+   private:
+    Model finish() {
+        Model model;
+        model.mesh = builder_.take();
+        model.mesh.face_materials = {-1};
+        if (model.mesh.faces.empty()) mistakes_.refuse_notes();
+        for (glm::dvec3& p : model.mesh.positions) {
+            if (!all_readable_ && std::isnan(p.x)) p = glm::dvec3(0);  // no face uses it
+        }
+        if (!model.mesh.normals.empty()) model.mesh.face_normals = model.mesh.faces;
+        model.notes = mistakes_.notes();
+        std::ranges::move(builder_.notes(mistakes_.file_name()), std::back_inserter(model.notes));
+        return model;
+    }
+
+    /// Checks a declared row count against the bytes that are left; faces at the end of a text may
+    /// be missing.
     void check_count(const PlyElement& element) {
         const std::size_t least = element.least_bytes(header_.format);
-        if (least == 0) return;
-        const std::uint64_t most = (rows_.bytes_left() + 1) / least;
+        if (least == 0 || (rows_.is_text() && element.name != "vertex")) return;
+        const std::uint64_t most = (rows_.left().size() + 1) / least;
         if (element.count <= most) return;
         mistakes_.add(
             element.offset,
-            fmt::format("element {} declares {} rows, but the rest of the file holds at most {}; "
-                        "correct the count or save the model again",
-                        in_quotes(element.name), element.count, most));
+            "element {} declares {} rows, but the rest of the file holds at most {}; correct the "
+            "count or save the model again",
+            in_quotes(element.name), element.count, most);
         mistakes_.throw_if_any();
     }
 
-    void read_element(const PlyElement& element) {
-        if (element.properties.empty()) return;
-        if (element.name == "vertex") return read_vertices(element);
-        if (element.name == "face") return read_faces(element);
-        if (element.name == "tristrips") return read_strips(element);
-        read_rows(element, [&] {
-            return std::ranges::all_of(element.properties,
-                                       [&](const PlyProperty& property) { return skip(property); });
-        });
-    }
-
-    /// Calls read_row for each row. Throws if a row is truncated.
-    template <typename ReadRow>
-    void read_rows(const PlyElement& element, ReadRow read_row) {
-        for (std::uint64_t row = 0; row < element.count; ++row) {
-            rows_.start_row(element, row);
-            if (!rows_.lost()) read_row();
-            if (rows_.lost()) mistakes_.throw_if_any();
-            rows_.end_row();
-        }
-    }
-
-    /// Reads the length of a list; throws if it is negative.
-    std::optional<std::uint64_t> list_length(const PlyProperty& list) {
-        const auto length = rows_.integer(*list.count_type);
-        if (!length) return std::nullopt;
-        if (*length >= 0) return static_cast<std::uint64_t>(*length);
-        rows_.note(fmt::format("the length of list {} is {}; write 0 or more", in_quotes(list.name),
-                               *length));
-        mistakes_.throw_if_any();
-        return std::nullopt;
-    }
-
-    bool skip(const PlyProperty& property) {
-        if (!property.count_type) return rows_.skip(property.type, 1);
-        const auto length = list_length(property);
-        return length && rows_.skip(property.type, *length);
-    }
-
-    /// Reads all rows in parallel if they are uniform and valid; returns whether it did.
-    bool read_vertices_side_by_side(const PlyElement& element) {
-        if constexpr (std::is_same_v<Rows, BinaryRows>) {
-            const auto rows = fixed_rows(rows_.left(), element);
-            if (!rows) return false;
-            auto block = read_vertex_block(*rows, element, rows_.swapped(), pace_);
-            if (!block) return false;
-            builder_.mesh.positions = std::move(block->positions);
-            builder_.mesh.normals = std::move(block->normals);
-            rows_.advance(rows->size());
-            return true;
-        }
-        return false;
-    }
-
-    bool read_faces_side_by_side(const PlyElement& element) {
-        if constexpr (std::is_same_v<Rows, BinaryRows>) {
-            auto block = read_face_block(rows_.left(), element, rows_.swapped(),
-                                         builder_.mesh.positions, pace_);
-            if (!block) return false;
-            if (builder_.mesh.faces.empty()) {
-                builder_.mesh.faces = std::move(block->faces);
-            } else {
-                builder_.add_triangles(block->faces, {});
-            }
-            rows_.advance(block->bytes);
-            return true;
-        }
-        return false;
+    template <typename UseRow>
+    void read_rows(const PlyElement& element, std::span<const std::size_t> wanted, UseRow use_row) {
+        rows_.start_element(element, wanted);
+        for (std::uint64_t row = 0; row < element.count && rows_.read(row); ++row) use_row();
     }
 
     void read_vertices(const PlyElement& element) {
-        if (read_vertices_side_by_side(element)) return;
-        const bool smooth = element.find("nx") && element.find("ny") && element.find("nz");
-        const std::span<const std::string_view> used(vertex_columns, smooth ? column_count : 3);
-        std::vector<std::size_t> columns;
-        for (const PlyProperty& property : element.properties) {
-            const auto found = std::ranges::find(used, property.name);
-            columns.push_back(found == used.end() ? not_used
-                                                  : static_cast<std::size_t>(found - used.begin()));
+        Places places{};
+        for (std::size_t i = 0; i < places.size(); ++i) places[i] = element.find(column_names[i]);
+        const bool smooth = std::all_of(places.begin() + 3, places.end(), [&](std::size_t place) {
+            return place < element.properties.size() && !element.properties[place].is_list();
+        });
+        const std::span<const std::size_t> wanted(places.data(), smooth ? 6 : 3);
+        Vectors& positions = builder_.mesh.positions;
+        Vectors& normals = builder_.mesh.normals;
+        const auto bytes = rows_.is_text() ? std::nullopt : fixed_rows(rows_.left(), element);
+        if (bytes) {
+            rows_.start_element(element, wanted);
+            read_block(*bytes, element, places, 0, positions);
+            if (smooth) read_block(*bytes, element, places, 3, normals);
+            return rows_.advance(bytes->size());
         }
-        Scene::Mesh& mesh = builder_.mesh;
-        mesh.positions.reserve(element.count);
-        if (smooth) mesh.normals.reserve(element.count);
-        read_rows(element, [&] {
-            std::array<double, column_count> values{};
-            read_vertex(element, columns, values);
-            mesh.positions.emplace_back(values[0], values[1], values[2]);
-            if (smooth) mesh.normals.emplace_back(values[3], values[4], values[5]);
+        positions.reserve(element.count);
+        if (smooth) normals.reserve(element.count);
+        read_rows(element, wanted, [&] {
+            const auto vector = [&](std::size_t first) {
+                if (!rows_.is_good()) return glm::dvec3(nan);
+                return glm::dvec3(rows_.value(places[first]), rows_.value(places[first + 1]),
+                                  rows_.value(places[first + 2]));
+            };
+            positions.push_back(checked(vector(0), 0));
+            if (smooth) normals.push_back(checked(vector(3), 3));
         });
     }
 
-    void read_vertex(const PlyElement& element, const std::vector<std::size_t>& columns,
-                     std::array<double, column_count>& values) {
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            const PlyProperty& property = element.properties[i];
-            if (columns[i] == not_used) {
-                if (!skip(property)) return;
-                continue;
-            }
-            const auto number = rows_.number(property.type);
-            if (!number) return;
-            values[columns[i]] = *number;
-            if (std::abs(*number) <= max_scene_number) continue;
-            rows_.note(fmt::format("{} is {}; write a number from -1e30 to 1e30",
-                                   in_quotes(property.name), *number));
+    void read_block(std::string_view bytes, const PlyElement& element, const Places& places,
+                    std::size_t first, Vectors& target) {
+        const bool good =
+            read_columns(bytes, element, {places[first], places[first + 1], places[first + 2]},
+                         rows_.swapped(), target, pace_);
+        for (std::size_t i = 0; !good && i < target.size(); ++i) {
+            rows_.set_row(i);
+            target[i] = checked(target[i], first);
         }
     }
 
-    void read_faces(const PlyElement& element) {
+    /// The vector of the row at hand, whose columns start with `first`; NaN, or for a normal 0,
+    /// where a number is not within the limit, with a note.
+    glm::dvec3 checked(const glm::dvec3& v, std::size_t first) {
+        const bool is_normal = first > 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double number = v[static_cast<int>(axis)];
+            if (std::abs(number) <= max_scene_number) continue;
+            if (rows_.is_good()) {
+                rows_.note(is_normal ? bad_ply_normal : bad_ply_vertex,
+                           fmt::format("{} is {}; write a number from -1e30 to 1e30",
+                                       in_quotes(column_names[first + axis]), number),
+                           is_normal ? 1 : 0);
+            }
+            if (!is_normal) all_readable_ = false;
+            return is_normal ? glm::dvec3(0) : glm::dvec3(nan);
+        }
+        return v;
+    }
+
+    void read_shapes(const PlyElement& element) {
+        const std::size_t list[] = {element.find_corners()};
+        if (element.name == "tristrips") {
+            return read_rows(element, list, [&] {
+                if (rows_.is_good()) add_strip(rows_.values(list[0]));
+            });
+        }
         if (read_faces_side_by_side(element)) return;
         constexpr std::uint64_t triangle_bytes = 8;  // "3 0 1 2\n"; usual binary rows take more
-        const std::uint64_t triangles =
-            std::min(element.count, rows_.bytes_left() / triangle_bytes);
-        builder_.mesh.faces.reserve(triangles);
-        const auto list = std::ranges::find_if(element.properties, is_corner_list);
-        read_rows(element, [&] {
-            for (auto property = element.properties.begin(); property != element.properties.end();
-                 ++property) {
-                if (!(property == list ? read_corners(*property) : skip(*property))) return;
-            }
-            if (mistakes_.count() == 0) builder_.add_face(corners_, {});
+        builder_.mesh.faces.reserve(std::min(element.count, rows_.left().size() / triangle_bytes));
+        read_rows(element, list, [&] {
+            if (rows_.is_good()) add_face(rows_.values(list[0]));
         });
     }
 
-    /// Returns whether the next value can be read; invalid indices are only noted.
-    bool read_corners(const PlyProperty& list) {
-        const auto length = list_length(list);
-        if (!length) return false;
-        if (*length < 3 || *length > max_face_corners) {
-            rows_.note(
-                fmt::format("the face has {} corners; use 3 to {}", *length, max_face_corners));
-            return rows_.skip(list.type, *length);
+    bool read_faces_side_by_side(const PlyElement& element) {
+        if (rows_.is_text() || !all_readable_) return false;
+        auto block =
+            read_face_block(rows_.left(), element, rows_.swapped(), builder_.mesh.positions, pace_);
+        if (!block) return false;
+        if (builder_.mesh.faces.empty()) {
+            builder_.mesh.faces = std::move(block->faces);
+        } else {
+            builder_.add_triangles(block->faces, {});
         }
-        corners_.clear();
-        for (std::uint64_t i = 0; i < *length; ++i) {
-            const auto index = rows_.integer(list.type);
-            if (!index) return false;
-            check_index(*index);
-            corners_.push_back(static_cast<std::uint32_t>(*index));
-        }
+        rows_.advance(block->bytes);
         return true;
     }
 
-    void check_index(std::int64_t index) {
-        const std::size_t count = builder_.mesh.positions.size();
-        if (index >= 0 && static_cast<std::uint64_t>(index) < count) return;
-        rows_.note(fmt::format(
-            "vertex {} does not exist, there are {}, counted from 0; correct the number", index,
-            count));
+    void add_face(std::span<const double> indices) {
+        if (indices.size() < 3 || indices.size() > max_face_corners) {
+            return rows_.note(bad_ply_face, fmt::format("the face has {} corners; use 3 to {}",
+                                                        indices.size(), max_face_corners));
+        }
+        corners_.clear();
+        for (const double index : indices) {
+            if (!take_corner(index, bad_ply_face, 1)) return;
+        }
+        builder_.add_face(corners_, {});
     }
 
-    void read_strips(const PlyElement& element) {
-        read_rows(element, [&] {
-            for (const PlyProperty& property : element.properties) {
-                if (!(is_corner_list(property) ? read_strip(property) : skip(property))) return;
-            }
-        });
+    /// Appends a vertex to corners_ if it exists and can be read; notes it otherwise.
+    bool take_corner(double index, const Remedy& remedy, std::size_t count) {
+        const Vectors& all = builder_.mesh.positions;
+        if (!(index >= 0 && index < static_cast<double>(all.size())) ||
+            index != std::floor(index)) {
+            rows_.note(
+                remedy,
+                fmt::format("vertex {} does not exist, there are {}, counted from 0; correct "
+                            "the number",
+                            index, all.size()),
+                count);
+            return false;
+        }
+        corners_.push_back(static_cast<std::uint32_t>(index));
+        if (all_readable_ || !std::isnan(all[corners_.back()].x)) return true;
+        count > 0 ? rows_.note(bad_ply_vertex, {})
+                  : rows_.note(remedy, "a vertex of the strip cannot be read", 0);
+        return false;
     }
 
     /// Triangles of three consecutive vertices, with alternating winding. -1 starts a new strip.
-    /// Triangles with a repeated vertex are skipped.
-    bool read_strip(const PlyProperty& list) {
-        const auto length = list_length(list);
-        if (!length) return false;
-        corners_.clear();
-        bool turned = false;
-        for (std::uint64_t i = 0; i < *length; ++i) {
-            const auto index = rows_.integer(list.type);
-            if (!index) return false;
-            if (*index == -1) {
-                corners_.clear();
-                turned = false;
+    /// Triangles with a repeated vertex are skipped; a bad vertex takes three triangles with it.
+    void add_strip(std::span<const double> indices) {
+        std::size_t seen = 0, good = 0;  // in this strip; good ones in a row
+        for (const double index : indices) {
+            if (index == -1) {
+                seen = good = 0;
                 continue;
             }
-            check_index(*index);
-            corners_.push_back(static_cast<std::uint32_t>(*index));
-            if (corners_.size() < 3) continue;
-            if (mistakes_.count() == 0) add_strip_triangle(turned);
-            corners_.erase(corners_.begin());
-            turned = !turned;
+            if (good == 0) corners_.clear();
+            good = take_corner(index, bad_strip_vertex, 0) ? good + 1 : 0;
+            if (++seen < 3) continue;
+            if (good < 3) {
+                rows_.note(bad_strip_vertex, {});
+                continue;
+            }
+            const auto last = std::span(corners_).last(3);
+            const auto [a, b, c] = std::array{last[0], last[1], last[2]};
+            if (a == b || b == c || c == a) continue;
+            builder_.add_face(seen % 2 == 0 ? std::array{b, a, c} : std::array{a, b, c}, {});
         }
-        return true;
-    }
-
-    void add_strip_triangle(bool turned) {
-        const auto [a, b, c] = std::array{corners_[0], corners_[1], corners_[2]};
-        if (a == b || b == c || c == a) return;
-        builder_.add_face(turned ? std::array{b, a, c} : std::array{a, b, c}, {});
     }
 
     const PlyHeader& header_;
@@ -313,7 +421,8 @@ class BodyReader {
     Mistakes& mistakes_;
     ReadPace pace_;
     MeshBuilder builder_;
-    std::vector<std::uint32_t> corners_;  ///< of the face being read
+    std::vector<std::uint32_t> corners_;  ///< of the face or strip being read
+    bool all_readable_ = true;            ///< no position is NaN
 };
 
 }  // namespace
@@ -321,11 +430,7 @@ class BodyReader {
 Model parse_ply(std::string_view text, const std::string& file_name, const ReadPace& pace) {
     Mistakes mistakes(text, file_name);
     const PlyHeader header = parse_ply_header(mistakes);
-    check_header(header, mistakes);
-    if (header.format == PlyFormat::ascii) {
-        return BodyReader(header, TextRows(text, header, mistakes), mistakes, pace).read(file_name);
-    }
-    return BodyReader(header, BinaryRows(text, header, mistakes), mistakes, pace).read(file_name);
+    return BodyReader(header, mistakes, pace).read();
 }
 
 }  // namespace rt

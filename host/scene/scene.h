@@ -13,6 +13,17 @@
 
 namespace rt {
 
+/// The largest magnitude of any number in a scene or model file: it fits a float, with headroom for
+/// the differences that rendering computes.
+inline constexpr double max_scene_number = 1e30;
+
+/// The largest reflectance or transmission: light of 1e30 is still a float after one surface.
+inline constexpr double max_reflectance = 1e6;
+
+// The largest picture a scene file may ask for, in pixels.
+inline constexpr int max_image_side = 65536;
+inline constexpr int max_image_pixels = 1 << 28;
+
 /// A scene file's contents, in double precision and in the author's own units. Right-handed; y is
 /// up by default; light is linear RGB. A reader (scene_file) validates all it fills in: numbers are
 /// finite, radii positive, materials exist. Renderers never see it: flatten makes a FlatScene of
@@ -144,5 +155,13 @@ Scene::Window camera_window(const Scene::Camera& camera, int width, int height);
 
 /// Sets the scene's picture size (pixels) and updates the camera's window to match.
 void set_image_size(Scene& scene, int width, int height);
+
+/// The default name of a scene: its file name without the extension.
+std::string name_of_file(const std::string& path);
+
+/// The scene's camera at a frame: on its path between the keys, clamped to the first and last key.
+/// Throws Error (ExitCode::input) for a scene without a path, and where the view direction or up
+/// vector is degenerate.
+Scene::Camera camera_at(const Scene& scene, double frame);
 
 }  // namespace rt

@@ -6,13 +6,11 @@
 #include <string_view>
 
 #include "host/base/error.h"
-#include "host/base/lower.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_file.h"
-#include "host/scene/model_file.h"
-#include "host/scene/nff_file.h"
-#include "host/scene/stdin_text.h"
+#include "host/scene/mistakes.h"
+#include "host/scene/model.h"
 #include "host/scene/text_file.h"
 
 namespace rt {
@@ -27,6 +25,7 @@ bool may_be_json(std::string_view text) {
 /// A JSON scene with any extension.
 Scene load_renamed(const std::string& path, const std::string& ending) {
     const FileText text = read_text_file(path, max_json_bytes);
+    refuse_foreign(path, text.view());
     if (!may_be_json(text.view())) {
         throw Error(ExitCode::input,
                     fmt::format("{}: unknown extension '{}'; use .json, .nff, .obj or .ply",
@@ -48,6 +47,7 @@ Scene load(const std::string& path) {
 
 Scene load_scene(const std::string& path, const LightOverrides& light) {
     Scene scene = load(path);
+    limit_notes(scene.notes);
     override_light(scene, light);
     return scene;
 }

@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
 
-#include "host/scene/in_view.h"
+#include "host/scene/geometry.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -29,6 +33,30 @@ bool anything_shines(const Scene& scene) {
             brightest(scene.background) > 0 && brightest(m.mirror + m.transmission) > 0;
         return ambient || direct || mirrored;
     });
+}
+
+/// Whether the shapes' bounding box lies behind the eye or beyond one side of the window. The
+/// sides are planes through the eye, or for an orthographic camera parallel to its view.
+bool nothing_in_view(const Scene& scene) {
+    const Scene::Camera& camera = scene.camera;
+    const glm::dvec3 forward = unit_direction(camera.at - camera.from).value_or(glm::dvec3(0));
+    const glm::dvec3 sideways = glm::cross(forward, camera.up);
+    const glm::dvec3 right = unit_direction(sideways).value_or(glm::dvec3(0));
+    const glm::dvec3 up = glm::cross(right, forward);
+    const auto [low, high] = bounding_box(scene);
+    bool outside[5] = {true, true, true, true, true};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p((corner & 1 ? high : low).x, (corner & 2 ? high : low).y,
+                           (corner & 4 ? high : low).z);
+        const glm::dvec3 to = p - camera.from;
+        const double depth = glm::dot(to, forward), x = glm::dot(to, right), y = glm::dot(to, up);
+        const double scale = camera.projection == Scene::Projection::perspective ? depth : 1;
+        const Scene::Window& w = camera.window;
+        const bool beyond[5] = {depth<0, x> w.right * scale, x<w.left * scale, y> w.top * scale,
+                                y < w.bottom * scale};
+        for (int i = 0; i < 5; ++i) outside[i] = outside[i] && beyond[i];
+    }
+    return std::ranges::any_of(outside, [](bool all) { return all; });
 }
 
 /// Whether all channels are integers, and one is too large for a fraction.
@@ -76,6 +104,28 @@ std::vector<std::string> colors_of_bytes(const Scene& scene) {
 
 }  // namespace
 
+std::pair<glm::dvec3, glm::dvec3> bounding_box(const Scene& scene) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    const auto add = [&](const glm::dvec3& p, double radius = 0) {
+        low = glm::min(low, p - radius);
+        high = glm::max(high, p + radius);
+    };
+    for (const Scene::Sphere& sphere : scene.spheres) add(sphere.center, sphere.radius);
+    for (const Scene::Cone& cone : scene.cones) {
+        add(cone.base, cone.base_radius);
+        add(cone.apex, cone.apex_radius);
+    }
+    for (const Scene::Triangle& triangle : scene.triangles) {
+        for (const glm::dvec3& vertex : triangle.vertices) add(vertex);
+    }
+    for (const Scene::Mesh& mesh : scene.meshes) {
+        for (const Scene::Mesh::Face& face : mesh.faces) {
+            for (const std::uint32_t i : face) add(mesh.positions[i]);
+        }
+    }
+    return {low, high};
+}
+
 std::vector<std::string> scene_warnings(const Scene& scene) {
     std::vector<std::string> warnings;
     if (has_shapes(scene) && !anything_shines(scene)) {
@@ -83,7 +133,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
             "no light reaches any surface, so all of them are black; add lights, or ambient light "
             "and ambient colors");
     }
-    if (has_shapes(scene) && !is_anything_in_view(scene)) {
+    if (has_shapes(scene) && nothing_in_view(scene)) {
         warnings.emplace_back(
             "nothing is in view; check the camera's from, at, and angle or window");
     }

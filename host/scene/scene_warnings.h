@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/scene/scene.h"
@@ -11,5 +13,8 @@ namespace rt {
 /// Warnings about valid but rarely intended input, one sentence each: no light at all, nothing in
 /// view, colors of 0 to 255, mirrors that brighten. No false alarms, but not exhaustive.
 std::vector<std::string> scene_warnings(const Scene& scene);
+
+/// The lowest and the highest corner of all shapes; without any, infinities.
+std::pair<glm::dvec3, glm::dvec3> bounding_box(const Scene& scene);
 
 }  // namespace rt

@@ -3,16 +3,23 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
-#include "host/base/printable.h"
+#include "host/base/text.h"
+#include "host/scene/json_document.h"
+#include "host/scene/words.h"
 
 namespace rt {
 namespace {
@@ -62,10 +69,78 @@ FileText read_unsized(const FileDescriptor& file, const std::string& path, std::
     return {std::move(bytes), size};
 }
 
+struct Foreign {
+    std::string_view start, message;
+};
+
+constexpr std::string_view utf16 = "is UTF-16 text; save it as UTF-8";
+
+/// Letter case is ignored.
+constexpr Foreign foreign_starts[] = {
+    {"version https://git-lfs", "is a Git LFS pointer, not the file itself; run 'git lfs pull'"},
+    {"<", "is a web page or XML; download the file itself, or export another format"},
+    {"\x1f\x8b", "is compressed; unpack it with gunzip"},
+    {"BZh", "is compressed; unpack it with bunzip2"},
+    {"\xfd\x37zXZ", "is compressed; unpack it with unxz"},
+    {"\x28\xb5\x2f\xfd", "is compressed; unpack it with unzstd"},
+    {"PK\x03\x04", "is a ZIP archive; unpack it with unzip"},
+    {"\xff\xfe", utf16},
+    {"\xfe\xff", utf16},
+    {"solid ", "is an STL model; export it as OBJ or PLY"},
+    {"glTF", "is a glTF model; export it as OBJ or PLY"},
+    {"Kaydara FBX", "is an FBX model; export it as OBJ or PLY"},
+    {"BLENDER", "is a Blender file; export it as OBJ or PLY"},
+    {"#VRML", "is a VRML model; export it as OBJ or PLY"},
+    {"bplist", "is a binary property list; export the model as OBJ or PLY"},
+    {"%PDF", "is a PDF document; use a scene or a model"},
+    {"\x89PNG", "is a picture; use a scene or a model"},
+    {"\xff\xd8\xff", "is a picture; use a scene or a model"}};
+
 struct stat status_of(const FileDescriptor& file, const std::string& path) {
     struct stat status {};
     if (fstat(file.number(), &status) != 0) refuse_read(path, errno);
     return status;
+}
+
+[[noreturn]] void refuse(const char* what) {
+    throw Error(ExitCode::input, fmt::format("stdin: {} ({})", what, std::strerror(errno)));
+}
+
+/// Whether stdin is already our copy: nothing else is sealed.
+bool is_kept() {
+    const int seals = fcntl(STDIN_FILENO, F_GET_SEALS);
+    return seals != -1 && (seals & F_SEAL_WRITE) != 0;
+}
+
+namespace fs = std::filesystem;
+
+/// "" means the working folder, which canonical() does not accept.
+fs::path folder_or_here(const fs::path& folder) { return folder.empty() ? "." : folder; }
+
+bool climbs(const fs::path& name) {
+    return name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end();
+}
+
+bool lies_in(const fs::path& file, const fs::path& root) {
+    return std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
+}
+
+/// Opens a path of plain names component by component, following no links: like openat2 with
+/// RESOLVE_BENEATH and RESOLVE_NO_SYMLINKS, but on any kernel. None on failure.
+FileDescriptor open_steps(const fs::path& root, const fs::path& steps) {
+    constexpr int flags = O_RDONLY | O_NOFOLLOW | O_CLOEXEC;
+    FileDescriptor at(open(root.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    for (auto step = steps.begin(); at && step != steps.end(); ++step) {
+        const bool last = std::next(step) == steps.end();
+        const int kind = last ? O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
+        at = FileDescriptor(openat(at.number(), step->c_str(), flags | kind));
+    }
+    return at;
+}
+
+bool is_regular(const FileDescriptor& file) {
+    struct stat status {};
+    return fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode);
 }
 
 }  // namespace
@@ -82,7 +157,8 @@ FileDescriptor open_text_file(const std::string& path) {
     if (!file) refuse_open(path, errno);
     const mode_t mode = status_of(file, path).st_mode;
     if (S_ISDIR(mode)) refuse(path, "is a directory; name a scene file in it");
-    if (!S_ISREG(mode)) refuse(path, "is not a regular file; save the scene to a file first");
+    if (!S_ISREG(mode))
+        refuse(path, "is not a regular file; save the scene to a file, or pipe JSON to -");
     return file;
 }
 
@@ -106,6 +182,77 @@ FileText read_text_file(const FileDescriptor& file, const std::string& path,
 
 FileText read_text_file(const std::string& path, std::size_t max_bytes) {
     return read_text_file(open_text_file(path), path, max_bytes);
+}
+
+void refuse_foreign(const std::string& path, std::string_view text) {
+    const std::size_t blanks = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+    const std::string start = lower(std::string(text.substr(blanks, 32)));
+    for (const Foreign& foreign : foreign_starts) {
+        if (start.starts_with(lower(std::string(foreign.start))))
+            refuse(path, std::string(foreign.message));
+    }
+    const bool wide =
+        text.size() > 3 && text[0] != 0 && text[1] == 0 && text[2] != 0 && text[3] == 0;
+    if (wide) refuse(path, std::string(utf16));
+}
+
+void keep_stdin() {
+    if (is_kept()) return;
+    const FileDescriptor copy(memfd_create("scene", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    bool good = static_cast<bool>(copy);
+    std::vector<char> bytes(1 << 16);
+    std::size_t size = 0;
+    while (const ssize_t got = read(STDIN_FILENO, bytes.data(), bytes.size())) {
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) refuse("cannot be read; send a scene to it");
+        size += static_cast<std::size_t>(got);
+        require_size("stdin", size, max_json_bytes);
+        good = good && write(copy.number(), bytes.data(), static_cast<std::size_t>(got)) == got;
+    }
+    constexpr int seals = F_SEAL_WRITE | F_SEAL_GROW | F_SEAL_SHRINK | F_SEAL_SEAL;
+    if (!good || fcntl(copy.number(), F_ADD_SEALS, seals) != 0 ||
+        dup2(copy.number(), STDIN_FILENO) < 0) {
+        refuse("cannot be kept in memory; save the scene to a file");
+    }
+}
+
+FileText read_stdin() {
+    keep_stdin();
+    const FileDescriptor file(fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
+    return read_text_file(file, "stdin", max_json_bytes);
+}
+
+SceneFolder SceneFolder::of(const std::string& scene_path) {
+    const fs::path folder = fs::path(scene_path).parent_path();
+    return {folder, folder};
+}
+
+OpenedFile open_beneath(const SceneFolder& folder, const std::string& name) {
+    const auto problem = [&](std::string_view what) {
+        return OpenedFile{FileDescriptor(), {}, fmt::format("{} {}", in_quotes(name), what)};
+    };
+    constexpr std::string_view outside = "is outside the scene's folder; move it into that folder";
+    const std::string unreachable = fmt::format("cannot be found or opened in {}; check the name",
+                                                in_quotes(folder_or_here(folder.base).string()));
+    if (name.empty()) return problem("is not a file name; write one");
+    if (climbs(name)) return problem(outside);
+    const fs::path path = folder.base / name;
+    std::error_code error;
+    const fs::path real = name.find('\0') == name.npos ? fs::canonical(path, error) : fs::path();
+    if (error || real.empty()) return problem(unreachable);
+    const fs::path root = fs::canonical(folder_or_here(folder.root), error);
+    if (error || !lies_in(real, root)) return problem(outside);
+    FileDescriptor file = open_steps(root, real.lexically_relative(root));
+    if (!file && errno == EACCES) return problem("cannot be read; check its permissions");
+    if (!file && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENXIO)) {
+        return problem(unreachable);
+    }
+    if (!file) {
+        throw Error(ExitCode::limit, fmt::format("{}: cannot be opened: {}; raise the limit",
+                                                 in_quotes(name), std::strerror(errno)));
+    }
+    if (!is_regular(file)) return problem("is not a regular file; name one");
+    return {std::move(file), path.string(), {}};
 }
 
 }  // namespace rt

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 
-#include "host/base/file_descriptor.h"
+#include "host/base/files.h"
 
 namespace rt {
 
@@ -39,5 +40,38 @@ FileText read_text_file(const FileDescriptor& file, const std::string& path, std
 
 /// Opens and reads a file.
 FileText read_text_file(const std::string& path, std::size_t max_bytes);
+
+/// Throws Error (ExitCode::input) for a text that begins as another kind of file does: a web page,
+/// a Git LFS pointer, an archive, UTF-16, another model format. Says what it is and what to do.
+void refuse_foreign(const std::string& path, std::string_view text);
+
+/// Reads standard input to its end and replaces it with a copy that this process and its children
+/// can reread. Later calls do nothing. Throws Error: ExitCode::input when it cannot be read,
+/// ExitCode::limit when it is too large for a scene.
+void keep_stdin();
+
+/// All of standard input. Throws like keep_stdin.
+FileText read_stdin();
+
+/// Where the files that a scene refers to may be.
+struct SceneFolder {
+    std::filesystem::path root;  ///< nothing outside of it is read
+    std::filesystem::path base;  ///< names are relative to it
+
+    /// For the scene in this file: both are the folder that contains it.
+    static SceneFolder of(const std::string& scene_path);
+};
+
+/// An open file, or why it could not be opened.
+struct OpenedFile {
+    FileDescriptor file;
+    std::string path;     ///< for messages
+    std::string problem;  ///< "what is wrong; what to do"; empty on success
+};
+
+/// Opens the regular file that a scene calls `name`. Refuses absolute names, "..", and symbolic
+/// links that lead out of the folder. The opened file lies beneath the folder even if files and
+/// links are replaced meanwhile. Throws Error (ExitCode::limit) if the system allows no more files.
+OpenedFile open_beneath(const SceneFolder& folder, const std::string& name);
 
 }  // namespace rt

@@ -7,8 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "host/base/printable.h"
-#include "host/base/utf8.h"
+#include "host/base/text.h"
 
 namespace rt {
 namespace {
@@ -59,7 +58,10 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
             best = candidate;
         }
     }
-    return best;
+    const auto contains = [&](std::string_view name) { return name.find(word) != name.npos; };
+    if (!best.empty() || word.size() < 3) return best;
+    const auto longer = std::ranges::find_if(known, contains);
+    return longer == known.end() ? best : *longer;
 }
 
 std::string guess_text(const std::string& word, const std::vector<std::string>& known) {

@@ -11,7 +11,8 @@ namespace rt {
 /// 'text' for a message, made printable and truncated if long.
 std::string in_quotes(std::string_view text);
 
-/// The known word closest to a misspelled one, or an empty view when none is close.
+/// The known word closest to a misspelled one, or else one that contains it; an empty view when
+/// there is none.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
 
 /// What a mistyped word may have meant: "; did you mean '--size'?", or "" if nothing is close.

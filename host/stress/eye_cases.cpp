@@ -37,7 +37,12 @@ StressFamily eyes_in_and_between() {
          {"just-above-the-floor", InQuick::no, seen_from({0, 0x1p-20, 6}, {0, 0.5, 0})},
          {"below-the-floor", InQuick::no, seen_from({0, -1, 6}, {0, 0.5, 0})},
          {"in-a-tube", InQuick::yes, with_tube({3, 1, 2.25}, {1, 0.5, 1})},
-         {"just-off-a-tube", InQuick::no, with_tube({3.5 + 0x1p-20, 1, 2}, {4, 1, 6})}});
+         {"just-off-a-tube", InQuick::no, with_tube({3.5 + 0x1p-20, 1, 2}, {4, 1, 6})},
+         {"1e-9-off-a-tube", InQuick::yes, with_tube({3.5 + 1e-9, 1, 2}, {0, 0.5, 2.5})},
+         {"1e-9-off-a-tube-looking-away", InQuick::no, with_tube({3.5 + 1e-9, 1, 2}, {4, 1, 6})},
+         {"1e-9-in-a-tube", InQuick::yes, with_tube({3.5 - 1e-9, 1, 2}, {4, 1, 6})},
+         {"1e-9-in-a-tube-looking-in", InQuick::no, with_tube({3.5 - 1e-9, 1, 2}, {0, 0.5, 2.5})},
+         {"1e-9-off-a-ball", InQuick::no, seen_from({-1.5, 2 + 1e-9, 0}, {-1.25, 0, 0.5})}});
 }
 
 /// Rays from such an eye start with the surface's primitive index.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/counted.h"
+#include "host/base/text.h"
 
 namespace rt {
 

@@ -17,6 +17,15 @@ struct PictureFigures {
     std::size_t nans = 0, infinities = 0;  ///< pixels with one
 };
 
+template <typename A, Of<PictureFigures> X>
+void describe(A& a, X& x) {
+    a("wrong", x.wrong, "pixels off by over 1/255, or NaN, away from edges");
+    a("wrong_at_edges", x.wrong_at_edges, "and at edges");
+    a("max_error", finite_or_null(x.max_error), "away from edges");
+    a("nan", x.nans, "pixels with a NaN");
+    a("infinite", x.infinities, "pixels with an infinity");
+}
+
 /// Edges are looked up only for pixels off by more than 2e-5; all others count as away from edges.
 PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& reference);
 

@@ -19,6 +19,18 @@ Scene lit_tube(glm::dvec3 light) {
     return scene;
 }
 
+/// A cone over a floor, the light at its tip.
+Scene lit_from_a_tip() {
+    Scene scene = bare_scene();
+    add_floor(scene, {0, -1, 0}, 12, add_matt(scene, glm::dvec3(0.5)));
+    const int red = add_matt(scene, {0.875, 0.25, 0.125}, 0);
+    for (auto& material : scene.materials) material.two_sided = true;
+    add_cone(scene, {0.5, -1, 0}, 0.84375, {0.5, 0.015625, 0}, 0, red);
+    scene.lights = {{{0.5, 0.015625, 0}, glm::dvec3(0.625)}};
+    set_view(scene, {0, 6, 6}, {0, -1, 0}, 40);
+    return scene;
+}
+
 StressFamily light_places() {
     const auto tube = [](glm::dvec3 light) {
         return picture_case([=] { return lit_tube(light); });
@@ -41,6 +53,11 @@ StressFamily light_places() {
                    {"on-a-tube", InQuick::yes, tube({0.75, 1.5, 0})},
                    {"on-a-tubes-rim", InQuick::no, tube({-0.75, 2.75, 0})},
                    {"in-a-tube", InQuick::no, tube({0.25, 1.5, -1})},
+                   {"1e-9-off-a-ball", InQuick::yes, at({-1.5, 2 + 1e-9, 0})},
+                   {"1e-9-in-a-ball", InQuick::yes, at({-1.5, 2 - 1e-9, 0})},
+                   {"1e-9-off-a-tube", InQuick::yes, tube({0.75 + 6e-10, 1.5, 8e-10})},
+                   {"1e-9-in-a-tube", InQuick::yes, tube({0.75 - 6e-10, 1.5, -8e-10})},
+                   {"at-a-cones-tip", InQuick::yes, picture_case(lit_from_a_tip)},
                    {"at-the-eye", InQuick::yes, at({0, 2, 8})},
                    {"1e5-away", InQuick::no, at({-6e4, 8e4, 1e4})},
                    {"1e7-away", InQuick::no, at({-6e6, 8e6, 1e6})},

@@ -104,6 +104,26 @@ StressMesh needle_mesh(int clusters, int needles, double gap) {
     return hubs_and_rim(angles);
 }
 
+StressMesh wedge_mesh(double degrees) {
+    const double half = degrees * std::numbers::pi / 360, x = std::cos(half), y = std::sin(half);
+    return {
+        {{0, 0, -1}, {x, -y, -1}, {x, y, -1}, {0, 0, 1}, {x, -y, 1}, {x, y, 1}},
+        {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}}};
+}
+
+StressMesh box_mesh() {
+    StressMesh mesh;
+    for (int i = 0; i < 8; ++i) {
+        mesh.vertices.push_back({(i & 1) * 2 - 1, (i & 2) - 1, (i & 4) / 2 - 1});
+    }
+    for (const auto& [a, b, c, d] :
+         {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
+          std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
+        mesh.faces.insert(mesh.faces.end(), {{a, b, c}, {a, c, d}});
+    }
+    return mesh;
+}
+
 StressMesh placed(StressMesh mesh, double scale, glm::dvec3 to) {
     for (auto& vertex : mesh.vertices) vertex = scale * vertex + to;
     return mesh;

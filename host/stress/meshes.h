@@ -27,6 +27,12 @@ StressMesh fan_mesh(int spokes);
 /// A fan whose rim points come in clusters `gap` wide: needles of length 1 among wide triangles.
 StressMesh needle_mesh(int clusters, int needles, double gap);
 
+/// A prism along z over a triangle: two sides of length 1 that meet at this angle.
+StressMesh wedge_mesh(double degrees);
+
+/// A box from -1 to 1.
+StressMesh box_mesh();
+
 /// Scaled, then moved.
 StressMesh placed(StressMesh mesh, double scale, glm::dvec3 to);
 

@@ -35,7 +35,7 @@ StressFamily mirror_walls() {
                  });
 }
 
-/// The eye inside a mirror ball, off its center, with a lit ball beside it.
+/// The eye inside a mirror ball, off its center, with a lit ball next to it.
 Scene mirror_ball(int bounces) {
     Scene scene = bare_scene();
     set_image_size(scene, 80, 60);

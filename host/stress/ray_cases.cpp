@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "host/stress/families.h"
@@ -58,6 +59,42 @@ StressFamily t_junctions() {
                    {"vertices", InQuick::no, aimed(scene, RayAim::vertices, any)}});
 }
 
+/// Slanted, so that no coordinate is exact.
+StressMesh slanted(StressMesh mesh) {
+    const glm::dvec3 x = glm::normalize(glm::dvec3(5, 3, -2));
+    const glm::dvec3 y = glm::normalize(glm::cross(x, glm::dvec3(1, -4, 2)));
+    const glm::dvec3 z = glm::cross(x, y);
+    for (auto& p : mesh.vertices) p = p.x * x + p.y * y + p.z * z;
+    return mesh;
+}
+
+StressFamily edge_escapes() {
+    StressFamily family{"leaving-edges", "closed mesh, side",
+                        "secondary rays from an edge start beyond the neighboring face"};
+    const auto add = [&](const std::string& label, const StressMesh& mesh, glm::dvec3 eye) {
+        for (const MeshSide side : {MeshSide::inside, MeshSide::outside}) {
+            const Scene scene = mesh_scene(mesh, eye);
+            StressCase one = ray_case(
+                both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+                    return count_edge_escapes<T>(scene, side, rays, caster);
+                }));
+            one.label = label + (side == MeshSide::inside ? "-inside" : "-outside");
+            one.value = static_cast<double>(family.cases.size());
+            std::get<RayTrial>(one.trial).rays = 1'000'000;
+            one.quick = true;
+            family.cases.push_back(std::move(one));
+        }
+    };
+    add("box", box_mesh(), {0.5, -0.25, 0.99});
+    add("slanted-box", slanted(box_mesh()), {3, 2, 1});
+    for (const int degrees : {1, 3, 10, 30, 60, 90, 120, 150, 170, 179}) {
+        add(fmt::format("wedge-{}", degrees), slanted(wedge_mesh(degrees)), {0.5, 0.25, 0.125});
+    }
+    add("ball", ball_mesh(2), {0.125, 0.25, 0.5});
+    add("fine-ball", ball_mesh(4), {0, 0, 3});
+    return family;
+}
+
 /// A sphere this far from the eye.
 Scene sphere_scene(double radius, double distance) {
     return scene_to_aim_at(distance, [=](Scene& scene, const glm::dvec3& middle) {
@@ -93,6 +130,7 @@ StressFamilies ray_families() {
                   RayAim::edges),
         leak_rays("rays-at-vertices", "three roundings meet at a vertex", RayAim::vertices),
         t_junctions(),
+        edge_escapes(),
         leaving_spheres("leaving-sphere", 3,
                         "an absolute epsilon causes acne on large balls and holes in small ones"),
         leaving_spheres("leaving-far-sphere", 1000, "the same with the ball a thousand radii away"),

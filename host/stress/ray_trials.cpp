@@ -57,7 +57,7 @@ Quad far_side(const P& normal, const P& dir, const Sphere& sphere) {
 
 RayCaster threads_ray_caster(int lanes) {
     ThreadsOptions options;
-    options.lanes = lanes;
+    options.kernels.lanes = lanes;
     return {[=](const auto& scene) { return make_threads_ray_tracer<float>(scene, options); },
             [=](const auto& scene) { return make_threads_ray_tracer<double>(scene, options); }};
 }

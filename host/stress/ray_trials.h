@@ -18,6 +18,15 @@ enum class RayAim { edges, vertices };
 template <typename T>
 RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays, const RayCaster& caster);
 
+enum class MeshSide { inside, outside };
+
+/// Rays to points within 64 u of the edges and vertices of a closed, convex mesh, from steep down
+/// to a slope of 1e-6 against one of the faces there, and secondary rays from there. From inside,
+/// they must meet the mesh; from outside, they must not.
+template <typename T>
+RayFigures count_edge_escapes(const Scene& mesh, MeshSide side, std::uint64_t rays,
+                              const RayCaster& caster);
+
 /// Rays from the eye to the scene's first sphere, and secondary rays from there: outwards, from
 /// steep down to 1e-6 rad above the surface, which must not hit it again; inwards, down to
 /// `shallowest` rad, which must find its far side within 0.1 %.

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/base/usage_error.h"
+#include "host/base/error.h"
 #include "host/stress/families.h"
 
 namespace rt {

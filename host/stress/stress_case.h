@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "host/record/describe.h"
 #include "host/scene/scene.h"
 #include "host/stress/ray_caster.h"
 
@@ -24,6 +26,19 @@ struct StressTolerance {
     bool may_overflow = false;  ///< infinities count as saturated; NaN never does
     bool in_float = true;       ///< false: float is measured but not judged
 };
+
+template <typename A, Of<StressTolerance> X>
+void describe(A& a, X& x) {
+    const auto limit = [](std::size_t most) {
+        return or_null(most == std::numeric_limits<std::size_t>::max() ? std::nullopt
+                                                                       : std::optional(most));
+    };
+    a("wrong", limit(x.most_wrong), "pixels or rays allowed to be wrong, away from edges");
+    a("wrong_at_edges", limit(x.most_wrong_at_edges), "and at edges; null: any number");
+    a("max_error", x.max_error, "allowed away from edges");
+    a("may_overflow", x.may_overflow, "infinities count as saturated");
+    a("in_float", x.in_float, "false: float is measured but not judged");
+}
 
 /// The arithmetic of the reference.
 enum class ReferenceKind {
@@ -53,6 +68,13 @@ struct RayFigures {
     std::uint64_t failures = 0;  ///< leaks, false hits, missed hits: whatever the family counts
     double max_error = 0;        ///< relative error of a distance, where the trial measures it
 };
+
+template <typename A, Of<RayFigures> X>
+void describe(A& a, X& x) {
+    a("traced", x.rays, "");
+    a("failures", x.failures, "leaks, false hits, missed hits: whatever the family counts");
+    a("max_error", finite_or_null(x.max_error), "relative error of a distance");
+}
 
 /// Rays without a picture. The tolerance's most_wrong counts failures.
 struct RayTrial {

@@ -2,79 +2,133 @@
 #include "host/view/terminal_viewer.h"
 
 #include <fmt/format.h>
+#include <langinfo.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <clocale>
 #include <cmath>
 #include <cstdio>
-
-#include "host/image/picture_io.h"
-#include "host/view/terminal_pictures.h"
+#include <string_view>
+#include <utility>
 
 namespace rt {
 
 namespace {
 
-constexpr int kitty_id = 4212;
 constexpr int lines_below = 2;  ///< left free for the shell's prompt
+
+/// Whether the locale's encoding is UTF-8.
+bool is_utf8() {
+    const locale_t locale = newlocale(LC_CTYPE_MASK, "", nullptr);
+    if (locale == nullptr) return false;
+    const bool result = std::string_view(nl_langinfo_l(CODESET, locale)) == "UTF-8";
+    freelocale(locale);
+    return result;
+}
+
+/// Brightness levels of the cube of xterm's colors 16 to 231.
+constexpr std::array<int, 6> xterm_levels{0, 95, 135, 175, 215, 255};
+
+int nearest_level(int value) {
+    int best = 0;
+    for (int i = 1; i < 6; ++i) {
+        if (std::abs(xterm_levels[i] - value) < std::abs(xterm_levels[best] - value)) best = i;
+    }
+    return best;
+}
+
+/// "38;2;R;G;B" or "38;5;N"; 48 for what lies behind.
+std::string color_code(int layer, const std::uint8_t* rgb, bool true_color) {
+    if (true_color) return fmt::format("{};2;{};{};{}", layer, rgb[0], rgb[1], rgb[2]);
+    const int cube = 36 * nearest_level(rgb[0]) + 6 * nearest_level(rgb[1]) + nearest_level(rgb[2]);
+    return fmt::format("{};5;{}", layer, 16 + cube);
+}
+
+/// Downsamples, each pixel the mean of those that it covers; 1 x 1 at least.
+Picture shrink(const Picture& picture, int width, int height) {
+    Picture small{width, height, 3, {}};
+    small.pixels.reserve(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const auto edge = [](int i, int parts, int whole) {
+        return static_cast<int>(std::int64_t{i} * whole / parts);
+    };
+    for (int y = 0; y < height; ++y) {
+        const int top = edge(y, height, picture.height);
+        const int bottom = std::max(edge(y + 1, height, picture.height), top + 1);
+        for (int x = 0; x < width; ++x) {
+            const int left = edge(x, width, picture.width);
+            const int right = std::max(edge(x + 1, width, picture.width), left + 1);
+            double sum[3]{};
+            for (int row = top; row < bottom; ++row) {
+                const float* at = picture.pixels.data() +
+                                  3 * (static_cast<std::size_t>(row) * picture.width + left);
+                for (int i = 0; i < 3 * (right - left); ++i) sum[i % 3] += at[i];
+            }
+            const double count = double(bottom - top) * (right - left);
+            for (const double value : sum)
+                small.pixels.push_back(static_cast<float>(value / count));
+        }
+    }
+    return small;
+}
+
+/// Rows that end in "\n". Under an odd last row is the terminal's background.
+std::string half_blocks(std::span<const std::uint8_t> rgb, int width, bool true_color) {
+    const std::size_t row = 3 * static_cast<std::size_t>(width);
+    std::string text;
+    for (std::size_t top = 0; top < rgb.size(); top += 2 * row) {
+        const bool has_lower = top + row < rgb.size();
+        std::string before;
+        for (std::size_t x = 0; x < row; x += 3) {
+            std::string code = color_code(38, &rgb[top + x], true_color);
+            if (has_lower) code += ";" + color_code(48, &rgb[top + row + x], true_color);
+            if (code != before) text += "\x1b[" + code + "m";
+            text += "▀";
+            before = std::move(code);
+        }
+        text += "\x1b[0m\n";
+    }
+    return text;
+}
 
 }  // namespace
 
-PreviewMode preview_mode(const Terminal& terminal, PreviewMode asked) {
-    if (asked != PreviewMode::automatic) return asked;
-    if (terminal.shows_kitty) return PreviewMode::kitty;
-    return terminal.shows_sixels ? PreviewMode::sixel : PreviewMode::half;
+TerminalSize terminal_size() {
+    TerminalSize result;
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0) return result;
+    if (size.ws_col > 0) result.columns = size.ws_col;
+    if (size.ws_row > 0) result.rows = size.ws_row;
+    return result;
 }
 
+bool has_half_blocks(const TerminalNames& names) {
+    return !names.kind.empty() && names.kind != "dumb" && !names.without_colors && is_utf8();
+}
+
+TerminalViewer::TerminalViewer(const TerminalNames& names, Encoding encoding)
+    : has_true_color_(names.colors == "truecolor" || names.colors == "24bit" ||
+                      names.kind.ends_with("-direct")),
+      encoding_(encoding) {}
+
 void TerminalViewer::begin(int width, int height) {
-    const bool blocks = mode_ == PreviewMode::half;
-    // Pixels per cell: two half blocks, or the terminal's real ones.
-    const int cell_width = blocks ? 1 : terminal_.size.cell_width;
-    const int cell_height = blocks ? 2 : terminal_.size.cell_height;
-    const double room_x = double(terminal_.size.columns) * cell_width;
-    const double room_y = double(std::max(terminal_.size.rows - lines_below, 1)) * cell_height;
-    const double scale = std::min({1.0, room_x / width, room_y / height});
+    const TerminalSize size = terminal_size();
+    const double room = 2.0 * std::max(size.rows - lines_below, 1);
+    const double scale = std::min({1.0, double(size.columns) / width, room / height});
     width_ = std::max(static_cast<int>(std::floor(width * scale)), 1);
     height_ = std::max(static_cast<int>(std::floor(height * scale)), 1);
-    columns_ = (width_ + cell_width - 1) / cell_width;
-    rows_ = (height_ + cell_height - 1) / cell_height;
     is_drawn_ = false;
 }
 
-std::string TerminalViewer::drawn(const Picture& picture) const {
-    const Picture small = shrink(picture, width_, height_);
-    if (mode_ == PreviewMode::kitty) {
-        return kitty_picture(encode_png(small, encoding_), kitty_id, columns_, rows_);
-    }
-    const std::vector<std::uint8_t> rgb = encode_8bit(small, encoding_);
-    return mode_ == PreviewMode::sixel ? sixel_picture(rgb, width_)
-                                       : half_blocks(rgb, width_, terminal_.true_color);
-}
-
-/// Graphics protocols differ in where they leave the cursor: so make room first, save and restore
-/// the cursor, and then move it below the picture.
 void TerminalViewer::draw(const Picture& picture) {
     std::string text;
-    if (!is_drawn_ && mode_ != PreviewMode::half)
-        text.append(static_cast<std::size_t>(rows_), '\n');
-    if (is_drawn_ || mode_ != PreviewMode::half) text += fmt::format("\x1b[{}A\r", rows_);
-    if (mode_ == PreviewMode::half) {
-        text += drawn(picture);
-    } else {
-        text +=
-            "\x1b"
-            "7" +
-            drawn(picture) +
-            "\x1b"
-            "8" +
-            fmt::format("\x1b[{}B\r", rows_);
-    }
-    is_drawn_ = true;
+    if (std::exchange(is_drawn_, true)) text = fmt::format("\x1b[{}A\r", (height_ + 1) / 2);
+    text += half_blocks(encode_8bit(shrink(picture, width_, height_), encoding_), width_,
+                        has_true_color_);
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }
-
-void TerminalViewer::update(const Picture& picture, std::span<const Rect>) { draw(picture); }
-
-void TerminalViewer::finish(const Picture& picture) { draw(picture); }
 
 }  // namespace rt

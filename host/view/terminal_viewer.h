@@ -1,40 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
-#include "host/image/encoding.h"
-#include "host/view/terminal.h"
-#include "host/view/view_settings.h"
 #include "host/view/viewer.h"
 
 namespace rt {
 
-/// Draws the picture in stderr's terminal, scaled down to fit but never up, redrawing it in the
-/// same place.
-class TerminalViewer : public Viewer {
-   public:
-    /// `mode` must not be automatic.
-    TerminalViewer(const Terminal& terminal, PreviewMode mode, Encoding encoding)
-        : terminal_(terminal), mode_(mode), encoding_(encoding) {}
-
-    void begin(int width, int height) override;
-    void update(const Picture& picture, std::span<const Rect> changed) override;
-    void finish(const Picture& picture) override;
-
-   private:
-    std::string drawn(const Picture& picture) const;
-    void draw(const Picture& picture);
-
-    const Terminal terminal_;
-    const PreviewMode mode_;
-    const Encoding encoding_;
-    int columns_ = 0, rows_ = 0;  ///< cells that it takes
-    int width_ = 0, height_ = 0;  ///< pixels that are sent
-    bool is_drawn_ = false;
+struct TerminalSize {
+    int columns = 80, rows = 24;
 };
 
-/// Resolves `automatic`: the graphics protocol the terminal reported, else half blocks.
-PreviewMode preview_mode(const Terminal& terminal, PreviewMode asked);
+/// The size of stderr's terminal; defaults as above for what it does not report.
+TerminalSize terminal_size();
+
+/// Whether a terminal of these names, in this locale, shows colors and characters beyond ASCII.
+bool has_half_blocks(const TerminalNames& names);
+
+/// Draws the picture in stderr's terminal in upper half blocks, two pixels each, scaled down to
+/// fit but never up, redrawing it in the same place.
+class TerminalViewer : public Viewer {
+   public:
+    TerminalViewer(const TerminalNames& names, Encoding encoding);
+
+    void begin(int width, int height) override;
+    void update(const Picture& picture, std::span<const Rect>) override { draw(picture); }
+    void finish(const Picture& picture) override { draw(picture); }
+
+   private:
+    void draw(const Picture& picture);
+
+    const bool has_true_color_;  ///< 24 bits; else xterm's 256 colors
+    const Encoding encoding_;
+    int width_ = 0, height_ = 0;  ///< pixels that are drawn
+    bool is_drawn_ = false;
+};
 
 }  // namespace rt

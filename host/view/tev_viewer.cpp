@@ -15,8 +15,6 @@
 #include <memory>
 #include <utility>
 
-#include "host/view/cut.h"
-
 namespace rt {
 
 namespace {

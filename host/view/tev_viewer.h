@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/file_descriptor.h"
-#include "host/view/view_settings.h"
+#include "host/base/files.h"
 #include "host/view/viewer.h"
 
 namespace rt {
@@ -26,8 +25,6 @@ std::vector<std::byte> tev_update_image(const std::string& name, const Picture& 
 /// `finish`, reports that once and sends no more of that picture.
 class TevViewer : public Viewer {
    public:
-    using Say = std::function<void(const std::string& line)>;
-
     TevViewer(TevAddress address, std::string name, Say say);
 
     void begin(int width, int height) override;

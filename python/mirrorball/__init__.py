@@ -6,14 +6,15 @@ with `_` for `-`. What fails raises Error, or its subclass for the program's exi
 """
 from .errors import (DeviceError, Error, InputError, InternalError, LimitError, MissingPartsError,
                      NonFiniteError, OutputError, UsageError)
-from .measures import Rows, bench, compare, converge, devices, doctor, options, scene_info
+from .measures import (Rows, bench, compare, converge, devices, doctor, explain, options, scene_info,
+                       stress)
 from .picture import Picture, read_pfm, write_pfm
 from .program import find_program
-from .rendering import render
-from .scenes import scene
+from .rendering import aov, render
+from .scenes import load, scene
 
 __all__ = ["DeviceError", "Error", "InputError", "InternalError", "LimitError",
            "MissingPartsError", "NonFiniteError", "OutputError", "Picture", "Rows", "UsageError",
-           "bench", "compare", "converge", "devices", "doctor", "find_program", "options",
-           "read_pfm", "render", "scene", "scene_info", "write_pfm"]
+           "aov", "bench", "compare", "converge", "devices", "doctor", "explain", "find_program", "load",
+           "options", "read_pfm", "render", "scene", "scene_info", "stress", "write_pfm"]
 __version__ = "0.1.0"

@@ -11,6 +11,7 @@ from .picture import as_file
 from .program import option_words, run, run_json
 from .rendering import NOT_HERE
 from .scenes import Scene, scene_path
+from .texts import renderer_name
 
 
 class Rows(List[Dict[str, Any]]):
@@ -37,14 +38,16 @@ def bench(*scenes: Scene, **options: Any) -> Rows:
     """`mirrorball bench`: a row for each device, size, mode and schedule.
 
     Options are, for example, sizes=[100, 200], devices=["pocl", "threads:2"], aa=["none", "grid:2"],
-    repeats=5. Without a scene, it measures the paper's. `verdict` says which rows' pictures are wrong.
+    repeats=5. Without a scene, it measures the paper's. `verdict` says which rows' pictures are wrong,
+    `renderer` is its device's short name, such as PoCL (AMD EPYC), and `asked` what of `devices` it is.
     Raises Error.
     """
     with contextlib.ExitStack() as stack:
         paths = [stack.enter_context(scene_path(scene)) for scene in scenes]
         report = run_json(["bench", *paths, "--json", "-q", *option_words(options)],
                           accepted=(0, 1))
-    return Rows([_flat(row) for row in report["rows"] + report.get("ablation", [])], report)
+    rows = report["rows"] + report.get("ablation", [])
+    return Rows([{**_flat(row), **_names(row, report["rows"], options.get("devices"))} for row in rows], report)
 
 
 def converge(scene: Scene, **options: Any) -> Rows:
@@ -55,7 +58,40 @@ def converge(scene: Scene, **options: Any) -> Rows:
     """
     with scene_path(scene) as path:
         report = run_json(["converge", path, "--json", "-q", *option_words(options)])
-    return Rows([_flat(point) for point in report["points"]], report)
+    points = report["points"]
+    return Rows([{**_flat(point), **_names(point, points, options.get("devices"))} for point in points], report)
+
+
+def _names(row: dict[str, Any], rows: list[dict[str, Any]], devices: Any) -> dict[str, str]:
+    """Who rendered a row, in short, and what of `devices` asked for it; "all" where it was not named."""
+    asked = devices.split(",") if isinstance(devices, str) else [str(one) for one in devices or ["all"]]
+    opencl = [spec for spec in asked if not spec.startswith(("threads", "all"))]
+    found = list(dict.fromkeys(one["device"] for one in rows if one["device_name"] != "threads"))
+    if row["device_name"] == "threads":
+        named = next((spec for spec in asked if spec == row["device"]), None) or \
+            next((spec for spec in asked if spec == "threads"), "all")
+    else:
+        named = opencl[found.index(row["device"])] if len(opencl) == len(found) else row["device"]
+    return {"renderer": renderer_name(row), "asked": named}
+
+
+def stress(**options: Any) -> Rows:
+    """`mirrorball stress`: a row for each family, case and renderer, such as case="needles,scale-*", quick=True.
+
+    `verdict` is pass, fail or not judged. Raises Error.
+    """
+    report = run_json(["stress", "--json", "-q", *option_words(options)], accepted=(0, 1))
+    return Rows(({"family": family["name"], "parameter": family["parameter"], "case": case["label"],
+                  "value": case["value"], **_flat(row)}
+                 for family in report["families"] for case in family["cases"] for row in case["rows"]), report)
+
+
+def explain(scene: Scene, x: int, y: int, **options: Any) -> dict[str, Any]:
+    """`mirrorball explain`: the tree of the rays of pixel x, y, counted from 0 at the top left, and what each
+    light adds. Options are, for example, size=100 and aa="grid:2". Raises Error.
+    """
+    with scene_path(scene) as path:
+        return run_json(["explain", path, "--pixel", f"{x},{y}", "--json", *option_words(options)])
 
 
 def compare(picture: Any, reference: Any, **options: Any) -> dict[str, Any]:

@@ -5,10 +5,13 @@ from __future__ import annotations
 import os
 import pathlib
 import struct
+import tempfile
 import zlib
 from typing import Any, Union
 
 import numpy
+
+from .program import run
 
 
 def read_pfm(path: Union[str, "os.PathLike[str]"]) -> numpy.ndarray:
@@ -78,14 +81,13 @@ class Picture:
         return dict(self.stats["seconds"])
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes the picture as .pfm (every bit) or .png (8 bits a channel)."""
-        suffix = pathlib.Path(path).suffix.lower()
-        if suffix == ".pfm":
+        """Writes the picture in the format of the name's ending: .pfm and .exr (every bit), .png, .tif, .jpg
+        and the others of `mirrorball render -o`. Raises Error."""
+        if pathlib.Path(path).suffix.lower() == ".pfm":
             write_pfm(path, self.array)
-        elif suffix == ".png":
-            pathlib.Path(path).write_bytes(png_of(self.array))
-        else:
-            raise ValueError(f"{path}: give a name that ends in .png or .pfm")
+            return
+        with tempfile.TemporaryDirectory(prefix="mirrorball-") as folder:
+            run(["merge", as_file(self.array, folder, "picture.pfm"), "-o", path, "-q"])
 
     def _repr_png_(self) -> bytes:
         return png_of(self.array)

@@ -88,7 +88,7 @@ def _stop(process: subprocess.Popen[str]) -> None:
 
 
 def _listen(process: subprocess.Popen[str], progress: Optional[Progress], said: list[str],
-            raised: list[BaseException]) -> None:
+            raised: list[BaseException], echo: bool) -> None:
     """Takes the lines of stderr: shares of progress, and everything else. What `progress` raises
     stops the program, which must not wait for a reader of its messages."""
     assert process.stderr is not None
@@ -97,6 +97,8 @@ def _listen(process: subprocess.Popen[str], progress: Optional[Progress], said: 
             fraction = float(json.loads(line)["fraction"])
         except (ValueError, TypeError, KeyError):
             said.append(line)
+            if echo:
+                print(line, end="", file=sys.stderr, flush=True)
             continue
         if progress is None or raised:
             continue
@@ -108,8 +110,8 @@ def _listen(process: subprocess.Popen[str], progress: Optional[Progress], said: 
 
 
 def run(words: Iterable[Any], progress: Optional[Progress] = None,
-        accepted: Iterable[int] = (0,)) -> str:
-    """What the program prints on stdout.
+        accepted: Iterable[int] = (0,), echo: bool = False) -> str:
+    """What the program prints on stdout; `echo` passes its messages on to stderr as they come.
 
     Raises Error if its exit code is not among the accepted. An interrupt, and what `progress` raises,
     first stops the program and is then raised again.
@@ -120,7 +122,7 @@ def run(words: Iterable[Any], progress: Optional[Progress] = None,
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, text=True, errors="replace") as process:
         assert process.stdout is not None
-        listener = threading.Thread(target=_listen, args=(process, progress, said, raised),
+        listener = threading.Thread(target=_listen, args=(process, progress, said, raised, echo),
                                     daemon=True)
         listener.start()
         try:
@@ -139,9 +141,9 @@ def run(words: Iterable[Any], progress: Optional[Progress] = None,
 
 
 def run_json(words: Iterable[Any], progress: Optional[Progress] = None,
-             accepted: Iterable[int] = (0,)) -> dict[str, Any]:
+             accepted: Iterable[int] = (0,), echo: bool = False) -> dict[str, Any]:
     """The JSON object that the program prints."""
-    printed = run(words, progress, accepted)
+    printed = run(words, progress, accepted, echo)
     try:
         return dict(json.loads(printed))
     except ValueError as error:

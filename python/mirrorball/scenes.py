@@ -6,13 +6,26 @@ import contextlib
 import json
 import os
 import pathlib
+import re
 import tempfile
 from typing import IO, Any, Dict, Iterator, Union
 
-from .errors import OutputError
+from .errors import Error, OutputError
 from .program import find_program
 
 Scene = Union[str, "os.PathLike[str]", Dict[str, Any]]
+
+
+def load(name: Union[str, "os.PathLike[str]"]) -> Dict[str, Any]:
+    """A JSON scene as a dict to change and render: one that comes with the program, by its name, or a file.
+
+    Names of meshes stay relative to the scene's folder: render such a dict from there. Raises
+    FileNotFoundError, and ValueError for a file that is no JSON.
+    """
+    path = pathlib.Path(name)
+    text = (path if path.suffix else pathlib.Path(scene(str(name)))).read_text(encoding="utf-8")
+    plain = re.sub(r'("(?:[^"\\]|\\.)*")|//[^\n]*|/\*.*?\*/', lambda m: m[1] or "", text, flags=re.S)
+    return dict(json.loads(plain))
 
 
 def scene(name: str) -> str:
@@ -60,4 +73,8 @@ def scene_path(scene: Scene) -> Iterator[str]:
         with _new_file(place) as file:
             json.dump({"name": "scene", **scene}, file, default=_plain)
             file.flush()
-            yield file.name
+            try:
+                yield file.name
+            except Error as error:  # the file's one line says nothing
+                said = re.sub(re.escape(file.name) + r"(:\d+:\d+)?", "the scene's dict", str(error))
+                raise type(error)(said, error.exit_code) from None

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import stat
 import subprocess
@@ -55,14 +56,15 @@ def test_saved_pngs_have_the_programs_pixels(tmp_path):
     subprocess.run([mirrorball.find_program(), "render", PAPER, "--device", "threads:1", "--size",
                     "24", "--aa", "none", "-q", "-o", tmp_path / "theirs.png"], check=True)
     assert mirrorball.compare(tmp_path / "ours.png", tmp_path / "theirs.png")["identical"]
-    assert picture._repr_png_() == (tmp_path / "ours.png").read_bytes()
+    (tmp_path / "shown.png").write_bytes(picture._repr_png_())
+    assert mirrorball.compare(tmp_path / "shown.png", tmp_path / "theirs.png")["identical"]
 
 
 def test_saved_pfms_keep_every_bit(tmp_path):
     picture = mirrorball.render(PAPER, **SMALL)
     picture.save(tmp_path / "box.pfm")
     assert numpy.array_equal(mirrorball.read_pfm(tmp_path / "box.pfm"), picture.array)
-    with pytest.raises(ValueError):
+    with pytest.raises(mirrorball.UsageError):
         picture.save(tmp_path / "box.xyz")
 
 
@@ -214,3 +216,61 @@ def test_scenes_come_with_the_program():
     assert pathlib.Path(mirrorball.scene("cornell-box")).name == "cornell-box.json"
     with pytest.raises(FileNotFoundError):
         mirrorball.scene("nothing")
+
+
+@pytest.mark.parametrize("ending", ["exr", "tif", "jpg"])
+def test_pictures_are_saved_in_the_programs_formats(tmp_path, ending):
+    picture = mirrorball.render(mirrorball.scene("cornell-box"), size=40, device="threads")
+    path = tmp_path / f"box.{ending}"
+    try:
+        picture.save(path)
+    except mirrorball.OutputError as error:
+        pytest.skip(str(error))
+    assert mirrorball.compare(path, picture)["error"]["rmse"] <= (.05 if ending == "jpg" else 0)
+
+
+def test_aovs_are_arrays():
+    scene = {"camera": {"from": [0, 0, 5], "at": [0, 0, 0], "fov_degrees": 40}, "lights": [{"position": [0, 0, 9]}],
+             "materials": {"m": {"diffuse": 1}}, "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "m"}]}
+    found = mirrorball.aov(scene, "depth,normal,id,rays,samples", size=(21, 33), aa="none", device="threads")
+    assert found["depth"].shape == (33, 21) and found["normal"].shape == (33, 21, 3)
+    assert found["depth"][16, 10] == pytest.approx(4, abs=1e-2)
+    assert found["normal"][16, 10] == pytest.approx([0, 0, 1], abs=5e-2)
+    assert found["normal"][12, 10][1] > .1 > -.1 > found["normal"][20, 10][1]
+    assert found["rays"][0, 0] == 1 and (found["samples"] == 1).all()
+    assert found["id"][16, 10] != found["id"][0, 0]
+
+
+def test_explain_and_stress_give_what_they_find():
+    tree = mirrorball.explain(mirrorball.scene("cornell-box"), 30, 20, size=40)
+    assert tree["format"] == "mirrorball-explain"
+    rows = mirrorball.stress(case="needles", device="threads", quick=True)
+    assert {row["family"] for row in rows} == {"needles"} and {row["verdict"] for row in rows} == {"pass"}
+    assert rows.report["passed"] and {row["precision"] for row in rows} == {"float", "double"}
+
+
+def test_mistakes_in_a_dict_name_the_dict():
+    with pytest.raises(mirrorball.InputError) as caught:
+        mirrorball.render({"spheers": []})
+    assert "the scene's dict: " in str(caught.value) and "spheers" in str(caught.value)
+    assert ".json" not in str(caught.value) and ":1:" not in str(caught.value)
+
+
+def test_shipped_scenes_are_dicts(tmp_path):
+    scene = mirrorball.load("cornell-box")
+    assert scene["name"] and len(scene["spheres"]) == 2
+    assert mirrorball.render(scene, size=40).hash == mirrorball.render(mirrorball.scene("cornell-box"), size=40).hash
+    (tmp_path / "own.json").write_text('// a comment\n{"name": "http://x /* y */", /* another */ "spheres": []}')
+    assert mirrorball.load(tmp_path / "own.json") == {"name": "http://x /* y */", "spheres": []}
+
+
+def test_help_lists_the_options():
+    assert set(mirrorball.options("render")) <= set(re.findall(r"\w+", mirrorball.render.__doc__))
+
+
+def test_rows_say_in_short_who_rendered_and_what_was_asked_for():
+    rows = mirrorball.bench(mirrorball.scene("cornell-box"), sizes=[16], aa="none", repeats=1, precision="float",
+                            devices=["pocl", "threads:1"], schedules="tiles")
+    assert [row["asked"] for row in rows if row["device_name"] != "threads"] == ["pocl"]
+    assert [(row["asked"], row["renderer"]) for row in rows if row["device_name"] == "threads"] == [("threads:1", "1 thread")]
+    assert all(row["renderer"].startswith("PoCL") for row in rows if row["asked"] == "pocl")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the cells of docs/paper.ipynb, on smaller pictures."""
+"""Runs the cells of the notebooks in docs, on smaller pictures."""
 import json
 import pathlib
 import sys
@@ -10,8 +10,8 @@ SMALLER = {"SIZES = [100, 200, 300, 400, 500]": "SIZES = [16, 24]", "REPEATS = 5
            "THREADS = os.cpu_count()": "THREADS = 2", "reference_samples=256": "reference_samples=16"}
 
 
-def code_cells():
-    notebook = json.loads((ROOT / "docs" / "paper.ipynb").read_text(encoding="utf-8"))
+def code_cells(name):
+    notebook = json.loads((ROOT / "docs" / name).read_text(encoding="utf-8"))
     return ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
 
 
@@ -35,7 +35,7 @@ def pyplot(monkeypatch):
 def test_the_papers_evaluation_runs(monkeypatch, tmp_path):
     drawn = pyplot(monkeypatch)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    source = "\n".join(code_cells())
+    source = "\n".join(code_cells("paper.ipynb"))
     for long, short in SMALLER.items():
         assert long in source
         source = source.replace(long, short)
@@ -43,5 +43,16 @@ def test_the_papers_evaluation_runs(monkeypatch, tmp_path):
     exec(compile(source, "paper.ipynb", "exec"), variables)
     assert len(variables["rows"]) > 0
     assert all(row["verdict"] == "right" for row in variables["rows"])
-    assert len(variables["points"]) == 6
+    assert len(variables["points"]) == 12
     assert drawn() >= 5
+
+
+def test_the_sliders_move_the_scene(monkeypatch):
+    monkeypatch.setitem(sys.modules, "ipywidgets", mock.MagicMock())
+    variables = {}
+    source = "\n".join(code_cells("sliders.ipynb")).replace("size=320", "size=24")
+    exec(compile(source, "sliders.ipynb", "exec"), variables)
+    hashes = {variables["render"](**moved).hash for moved in ({}, {"radius": .6}, {"x": .5}, {"mirror": 0}, {"samples": 1})}
+    assert len(hashes) == 5
+    interact = sys.modules["ipywidgets"].interact.call_args
+    assert interact.args == (variables["render"],) and set(interact.kwargs) == {"radius", "x", "mirror", "samples", "bounces"}

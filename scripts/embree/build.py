@@ -2,23 +2,14 @@
 """Builds scripts/embree against the libraries of a mirrorball build folder."""
 import pathlib
 import subprocess
-import sys
+
+from lib.program import ROOT, run
 
 SOURCES = pathlib.Path(__file__).resolve().parent
-ROOT = SOURCES.parent.parent
 COMPILER = ["g++", "-std=c++20", "-O3", "-march=native", "-mprefer-vector-width=512",
             "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-Wall", "-Wextra",
-            "-Wno-maybe-uninitialized", "-Wno-psabi", "-Wno-unknown-pragmas"]
+            "-Wno-maybe-uninitialized", "-Wno-psabi"]
 LIBRARIES = ["threads", "scene", "base"]
-
-
-def run(command):
-    """What the command prints; ends the script where the command fails."""
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True,
-                            cwd=ROOT, check=False)
-    if result.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}\n{result.stdout[-1000:]}{result.stderr[-2000:]}")
-    return result.stdout
 
 
 def is_installed():
@@ -31,8 +22,7 @@ def build(folder):
     """The Embree renderer, rebuilt when it is older than its sources or the libraries."""
     program = folder / "embree-bench"
     libraries = [folder / f"libmirrorball_{name}.a" for name in LIBRARIES]
-    kernels = (ROOT / "kernels").glob("*.*")
-    inputs = [*SOURCES.glob("*.cpp"), *SOURCES.glob("*.h"), *kernels, *libraries]
+    inputs = [*SOURCES.glob("*.cpp"), *SOURCES.glob("*.h"), *libraries]
     if not program.exists() or any(f.stat().st_mtime > program.stat().st_mtime for f in inputs):
         run([*COMPILER, f"-I{ROOT}", *sorted(SOURCES.glob("*.cpp")), "-Wl,--start-group",
              *libraries, "-Wl,--end-group", "-lfmt", "-lembree3", "-pthread", "-ldl", "-o", program])

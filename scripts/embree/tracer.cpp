@@ -53,32 +53,16 @@ void fill(Ray& ray, const Rays& rays) {
     stored(Ints{}, ray.flags);
 }
 
-/// One lane of a packet as a ray of its own.
-RTCRay lane_of(const RTCRay16& rays, int i) {
-    RTCRay ray{};
-    ray.org_x = rays.org_x[i];
-    ray.org_y = rays.org_y[i];
-    ray.org_z = rays.org_z[i];
-    ray.tnear = rays.tnear[i];
-    ray.dir_x = rays.dir_x[i];
-    ray.dir_y = rays.dir_y[i];
-    ray.dir_z = rays.dir_z[i];
-    ray.tfar = rays.tfar[i];
-    ray.mask = rays.mask[i];
-    return ray;
-}
-
-/// Embree's answers for packets, however it is asked.
-template <Mode mode>
+/// Embree's answers for packets.
 class Asker {
    public:
-    explicit Asker(RTCScene scene) : scene_(scene) {
+    Asker(RTCScene scene, MirrorRays mirror_rays) : scene_(scene) {
         rtcInitIntersectContext(&coherent_);
         rtcInitIntersectContext(&mirrors_);
-        const auto coherent = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        const auto incoherent = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-        coherent_.flags = mode == Mode::incoherent ? incoherent : coherent;
-        mirrors_.flags = mode == Mode::coherent ? coherent : incoherent;
+        coherent_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        mirrors_.flags = mirror_rays == MirrorRays::coherent
+                             ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                             : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     }
 
     Hits nearest(Ints live, const Rays& rays, bool after_mirror) {
@@ -87,15 +71,8 @@ class Asker {
         fill(query.ray, rays);
         stored(ints(-1), query.hit.geomID);
         stored(ints(-1), query.hit.instID[0]);
-        RTCIntersectContext& context = context_of(after_mirror);
-        if constexpr (mode == Mode::single) {
-            for (unsigned left = lane_bits(live); left != 0; left &= left - 1) {
-                nearest_of_lane(query, __builtin_ctz(left), context);
-            }
-        } else {
-            stored(live, valid);
-            rtcIntersect16(valid, scene_, &context, &query);
-        }
+        stored(live, valid);
+        rtcIntersect16(valid, scene_, context_of(after_mirror), &query);
         Hits hits;
         hits.t = loaded<Reals>(query.ray.tfar);
         hits.normal = {loaded<Reals>(query.hit.Ng_x), loaded<Reals>(query.hit.Ng_y),
@@ -110,38 +87,14 @@ class Asker {
         alignas(64) std::int32_t valid[lanes];
         RTCRay16 query;
         fill(query, rays);
-        RTCIntersectContext& context = context_of(after_mirror);
-        if constexpr (mode == Mode::single) {
-            for (unsigned left = lane_bits(live); left != 0; left &= left - 1) {
-                const int i = __builtin_ctz(left);
-                RTCRay ray = lane_of(query, i);
-                rtcOccluded1(scene_, &context, &ray);
-                query.tfar[i] = ray.tfar;
-            }
-        } else {
-            stored(live, valid);
-            rtcOccluded16(valid, scene_, &context, &query);
-        }
+        stored(live, valid);
+        rtcOccluded16(valid, scene_, context_of(after_mirror), &query);
         return live & (loaded<Reals>(query.tfar) < 0.0f);
     }
 
    private:
-    RTCIntersectContext& context_of(bool after_mirror) {
-        return after_mirror ? mirrors_ : coherent_;
-    }
-
-    void nearest_of_lane(RTCRayHit16& query, int i, RTCIntersectContext& context) {
-        RTCRayHit one;
-        one.ray = lane_of(query.ray, i);
-        one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene_, &context, &one);
-        query.ray.tfar[i] = one.ray.tfar;
-        query.hit.Ng_x[i] = one.hit.Ng_x;
-        query.hit.Ng_y[i] = one.hit.Ng_y;
-        query.hit.Ng_z[i] = one.hit.Ng_z;
-        query.hit.geomID[i] = one.hit.geomID;
-        query.hit.primID[i] = one.hit.primID;
+    RTCIntersectContext* context_of(bool after_mirror) {
+        return after_mirror ? &mirrors_ : &coherent_;
     }
 
     RTCScene scene_;
@@ -161,11 +114,10 @@ struct Surface {
     Materials material;
 };
 
-template <Mode mode>
 class PacketTracer {
    public:
-    PacketTracer(const FlatScene& flat, const EmbreeScene& embree)
-        : flat_(flat), materials_(embree.materials().data()), asker_(embree.handle()) {
+    PacketTracer(const FlatScene& flat, const EmbreeScene& embree, MirrorRays mirror_rays)
+        : flat_(flat), materials_(embree.materials().data()), asker_(embree.handle(), mirror_rays) {
         first_triangle_ = static_cast<std::int32_t>(flat.spheres.size());
     }
 
@@ -298,14 +250,13 @@ class PacketTracer {
     const FlatScene& flat_;
     const std::int32_t* materials_;
     std::int32_t first_triangle_;
-    Asker<mode> asker_;
+    Asker asker_;
 };
 
 /// One thread's share of the picture, in packets of 2x2 pixels x 4 samples where there are four.
-template <typename Tracer>
 class TileRenderer {
    public:
-    TileRenderer(const FlatScene& flat, Tracer& tracer, std::vector<float>& rgb)
+    TileRenderer(const FlatScene& flat, PacketTracer& tracer, std::vector<float>& rgb)
         : params_(flat.params),
           tracer_(tracer),
           rgb_(rgb),
@@ -367,14 +318,23 @@ class TileRenderer {
     }
 
     const rt::Flat<float>::LaunchParams params_;
-    Tracer& tracer_;
+    PacketTracer& tracer_;
     std::vector<float>& rgb_;
     const rt::PacketShape shape_;
     Ints column_, row_, sample_;
 };
 
-template <Mode mode>
-TracedPicture trace_with(const FlatScene& flat, const EmbreeScene& embree, int threads) {
+}  // namespace
+
+RayCounts& RayCounts::operator+=(const RayCounts& other) {
+    primary += other.primary;
+    shadow += other.shadow;
+    mirror += other.mirror;
+    return *this;
+}
+
+TracedPicture trace(const FlatScene& flat, const EmbreeScene& embree, MirrorRays mirror_rays,
+                    int threads) {
     TracedPicture picture;
     const int across = (flat.params.width + tile_side - 1) / tile_side;
     const int down = (flat.params.height + tile_side - 1) / tile_side;
@@ -385,7 +345,7 @@ TracedPicture trace_with(const FlatScene& flat, const EmbreeScene& embree, int t
     std::atomic<int> next = 0;
     const auto run = [&](std::size_t number) {
         _mm_setcsr(_mm_getcsr() | 0x8040);  // flush subnormals, as Embree advises
-        PacketTracer<mode> tracer(flat, embree);
+        PacketTracer tracer(flat, embree, mirror_rays);
         TileRenderer renderer(flat, tracer, picture.rgb);
         for (int tile = next++; tile < across * down; tile = next++) {
             renderer.render(tile % across * tile_side, tile / across * tile_side);
@@ -400,29 +360,6 @@ TracedPicture trace_with(const FlatScene& flat, const EmbreeScene& embree, int t
     picture.seconds = taken.count();
     for (const RayCounts& counts : rays) picture.rays += counts;
     return picture;
-}
-
-}  // namespace
-
-RayCounts& RayCounts::operator+=(const RayCounts& other) {
-    primary += other.primary;
-    shadow += other.shadow;
-    mirror += other.mirror;
-    return *this;
-}
-
-TracedPicture trace(const FlatScene& flat, const EmbreeScene& embree, Mode mode, int threads) {
-    switch (mode) {
-        case Mode::coherent:
-            return trace_with<Mode::coherent>(flat, embree, threads);
-        case Mode::incoherent:
-            return trace_with<Mode::incoherent>(flat, embree, threads);
-        case Mode::mixed:
-            return trace_with<Mode::mixed>(flat, embree, threads);
-        case Mode::single:
-            break;
-    }
-    return trace_with<Mode::single>(flat, embree, threads);
 }
 
 }  // namespace embree_bench

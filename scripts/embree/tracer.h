@@ -9,9 +9,9 @@
 
 namespace embree_bench {
 
-/// How Embree is asked: packets of 16 rays, called coherent or incoherent; coherent but for mirror
-/// rays; or one ray after the other.
-enum class Mode { coherent, incoherent, mixed, single };
+/// What Embree is told of the rays after a mirror, which it gets in packets of 16, as all others.
+/// Eye rays and their shadow rays are coherent.
+enum class MirrorRays { coherent, incoherent };
 
 struct RayCounts {
     std::uint64_t primary = 0, shadow = 0, mirror = 0;
@@ -28,7 +28,7 @@ struct TracedPicture {
 
 /// Renders the picture of the flat scene: mirrorball's eye rays, samples and shading, Embree's
 /// hits.
-TracedPicture trace(const rt::FlatScene<float>& flat, const EmbreeScene& embree, Mode mode,
-                    int threads);
+TracedPicture trace(const rt::FlatScene<float>& flat, const EmbreeScene& embree,
+                    MirrorRays mirror_rays, int threads);
 
 }  // namespace embree_bench

@@ -4,8 +4,8 @@
 
   sphere-flake DEPTH    mirror balls, each carrying nine a third its size: 1 + 9 + 81 + ...
   bumpy-mesh N          a bumpy ring of N triangles (N even) on a mirror floor, with mirror balls;
-                        the mesh goes into a .ply file next to the scene (--plain: into the scene);
-                        --mirror: makes the mesh a mirror, too
+                        the mesh goes into a .ply file next to the scene; --mirror: makes the
+                        mesh a mirror, too
   mirror-lattice N      N x N x N mirror balls
 """
 import argparse
@@ -133,29 +133,16 @@ def write_ring(path, triangles):
             file.write(row.pack(*numbers))
 
 
-def ring_triangles(triangles, material):
-    """The ring as triangles of the scene, with the very coordinates of the .ply file."""
-    around, along = mesh_sides(triangles)
-    numbers = ring_points(around, along)
-    points = [list(numbers[i:i + 3]) for i in range(0, len(numbers), 3)]
-    return [{"vertices": [points[k] for k in corners[i:i + 3]], "material": material}
-            for corners in ring_faces(around, along) for i in range(0, len(corners), 3)]
-
-
-def bumpy_mesh(triangles, output, mirror, plain):
+def bumpy_mesh(triangles, output, mirror):
     material = "polished" if mirror else "clay"
     materials = {"mirror": MIRROR, "floor": FLOOR, material: POLISHED if mirror else CLAY}
     around = [sphere((1.9 * math.cos(a), 0.3, 1.9 * math.sin(a)), 0.3)
               for a in (2 * math.pi * i / 7 for i in range(7))]
     mesh = output.with_suffix(".ply")
-    if plain:
-        more = {"triangles": floor_triangles(0) + ring_triangles(triangles, material)}
-    else:
-        write_ring(mesh, triangles)
-        more = {"triangles": floor_triangles(0),
-                "meshes": [{"file": mesh.name, "material": material}]}
+    write_ring(mesh, triangles)
     return scene("bumpy-mesh", [2.6, 2.4, 3.8], [0, 0.2, 0], materials=materials,
-                 spheres=around + [sphere((0, 0.4, 0), 0.4)], **more)
+                 spheres=around + [sphere((0, 0.4, 0), 0.4)], triangles=floor_triangles(0),
+                 meshes=[{"file": mesh.name, "material": material}])
 
 
 SCENES = {"sphere-flake": (sphere_flake, 0, 7), "bumpy-mesh": (bumpy_mesh, 18, 200000000),
@@ -169,17 +156,15 @@ def main():
     parser.add_argument("size", type=int)
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="scene file, .json")
     parser.add_argument("--mirror", action="store_true", help="bumpy-mesh: the mesh is a mirror")
-    parser.add_argument("--plain", action="store_true",
-                        help="bumpy-mesh: triangles in the scene, no .ply file")
     arguments = parser.parse_args()
     make, least, most = SCENES[arguments.name]
     if not least <= arguments.size <= most:
         parser.error(f"size of {arguments.name}: give {least} to {most}")
     if arguments.output.suffix != ".json":
         parser.error("-o: name a .json file")
-    if (arguments.mirror or arguments.plain) and arguments.name != "bumpy-mesh":
-        parser.error("--mirror and --plain are for bumpy-mesh")
-    result = make(arguments.size, arguments.output, arguments.mirror, arguments.plain)
+    if arguments.mirror and arguments.name != "bumpy-mesh":
+        parser.error("--mirror is for bumpy-mesh")
+    result = make(arguments.size, arguments.output, arguments.mirror)
     with open(arguments.output, "w", encoding="utf-8") as file:
         json.dump(result, file, separators=(",", ":"))
         file.write("\n")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Changes a copy of the tree (removes something or introduces a fault), builds what the tests need, and
-runs them. A change has a name, edits and tests, as in guards.py and mutants.py.
-"""
+"""Introduces a fault into a copy of the tree, builds what its tests need, and runs them."""
+import contextlib
+import dataclasses
 import pathlib
 import shutil
 import subprocess
@@ -14,6 +14,24 @@ PROGRAMS = {"stress": ["mirrorball"], "cli": ["mirrorball"], "py": ["mirrorball"
             "kernel": ["kernel_tests"]}
 
 
+@dataclasses.dataclass
+class Fault:
+    """`edits`: (file, text that stands in it once, text in its place). `tests`: a file's tests or a
+    test program's with a filter, or "stress" with cases, or "cli" or a FILE.py with a test's name; each
+    of them must fail."""
+    name: str
+    edits: list
+    tests: list
+
+    def misplaced(self):
+        """What is wrong with where the fault is to go; empty when nothing is."""
+        for file, old, _ in self.edits:
+            found = (ROOT / file).read_text().count(old) if (ROOT / file).is_file() else 0
+            if found != 1:
+                return f"{self.name}: {found} times in {file}: {old}"
+        return ""
+
+
 def one_isa():
     """Native kernels for one instruction set: a change to the kernels compiles them all again."""
     with_avx2 = " avx2 " in (pathlib.Path("/proc/cpuinfo").read_text() + " ")
@@ -21,10 +39,10 @@ def one_isa():
 
 
 class Tree:
-    """The files git knows of as they are now, in build/NAME, with a build folder of their own."""
+    """The files git knows of as they are now, in build/mutants, with a build folder of their own."""
 
-    def __init__(self, name):
-        self.root = ROOT / "build" / name
+    def __init__(self):
+        self.root = ROOT / "build" / "mutants"
         self.build_folder = self.root / "build"
         self.root.mkdir(parents=True, exist_ok=True)
         files = self.must("git", "ls-files", "--cached", "--others", "--exclude-standard", cwd=ROOT)
@@ -85,21 +103,9 @@ class Tree:
             sys.exit(f"{kind} has no test {what}")
         return done
 
-    def texts_with(self, change):
-        """The files of a change, as they are with it."""
-        texts = {}
-        for file, old, new in change.edits:
-            text = texts.get(file) or (self.root / file).read_text()
-            if old not in text:
-                sys.exit(f"{change.name}: not found in {file}: {old}")
-            texts[file] = text.replace(old, new)
-        return texts
-
-    def check_unchanged(self, changes):
-        """All texts are found, and all tests pass as long as nothing is changed."""
-        for change in changes:
-            self.texts_with(change)
-        tests = sorted({test for change in changes for test in change.tests})
+    def check_unchanged(self, faults):
+        """All tests pass as long as nothing is changed."""
+        tests = sorted({test for fault in faults for test in fault.tests})
         built, said = self.build(tests)
         if not built:
             sys.exit(said)
@@ -107,25 +113,28 @@ class Tree:
         if failing:
             sys.exit("fails with nothing changed: " + ", ".join(failing))
 
-    def changed(self, change):
-        return Changed(self, change)
+    @contextlib.contextmanager
+    def changed(self, fault):
+        """The tree with a fault, while it lasts."""
+        before = {file: (self.root / file).read_text() for file, _, _ in fault.edits}
+        try:
+            for file, old, new in fault.edits:
+                path = self.root / file
+                path.write_text(path.read_text().replace(old, new))
+            yield
+        finally:
+            for file, text in before.items():
+                (self.root / file).write_text(text)
 
-
-class Changed:
-    """The tree with a change, while it lasts."""
-
-    def __init__(self, tree, change):
-        self.tree = tree
-        self.texts = tree.texts_with(change)
-        self.before = {file: (tree.root / file).read_text() for file in self.texts}
-
-    def __enter__(self):
-        for file, text in self.texts.items():
-            (self.tree.root / file).write_text(text)
-
-    def __exit__(self, *_):
-        for file, text in self.before.items():
-            (self.tree.root / file).write_text(text)
+    def verdict_on(self, fault):
+        """Nothing when every test notices the fault; what is wrong otherwise."""
+        with self.changed(fault):
+            built, said = self.build(fault.tests)
+            if not built:
+                print(said, file=sys.stderr)
+                return "does not build"
+            unaware = [name_of(test) for test in fault.tests if self.passes(test)]
+        return f"not noticed by {', '.join(unaware)}" if unaware else ""
 
 
 def targets_of(test):

@@ -32,8 +32,7 @@ class SeveralScenes(BatchTest):
 
     def test_what_differs_in_settings_alone_is_not_mistaken_for_the_scene_before(self):
         changes = [{}, {"width": 24}, {"aa": "grid:3"}, {"aa": "sobol:4"}, {"max_bounces": 1}]
-        lines = pathlib.Path(scene_path("glass")).read_text().splitlines()
-        scene = json.loads("".join(line for line in lines if not line.startswith("//")))
+        scene = json.loads(pathlib.Path(scene_path("glass")).read_text())
         names = []
         for i, image in enumerate(changes):
             max_bounces = image.pop("max_bounces", 8)

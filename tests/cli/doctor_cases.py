@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """mirrorball doctor: what is installed works, or is named with what to do."""
 import json
+import subprocess
 
-from harness import SETTINGS, CliTest, image_hash, scene_path, unwritable_folder
+from hang_limit import HANG_LIMIT
+from harness import POCL_DRIVER, SETTINGS, CliTest, image_hash, scene_path, unwritable_folder
 
 
 class Doctor(CliTest):
@@ -17,12 +19,12 @@ class Doctor(CliTest):
     def test_finds_nothing_where_all_is_well(self):
         findings = self.findings(0)
         for name, finding in findings.items():
-            optional = name in ["windows (--show)", "MPI (--mpi)"] and finding["state"] == "missing"
+            optional = name == "windows (--show)" and finding["state"] == "missing"
             self.assertTrue(optional or finding["state"] == "ok", finding)
         devices = [name for name in findings if name.startswith("device ")]
         self.assertEqual(len(devices), 1)
         for name in ["processor", "driver", "threads", "kernel cache", "EXR pictures",
-                     "windows (--show)", "MPI (--mpi)"]:
+                     "windows (--show)"]:
             self.assertIn(name, findings)
         text = self.run_cli("doctor").stdout.splitlines()
         self.assertEqual(text[-1], "everything installed works")
@@ -30,7 +32,7 @@ class Doctor(CliTest):
 
     def test_knows_the_picture(self):
         """The bits that it holds devices to are those of `render`, which other tests hold to more."""
-        for precision, known in [("float", "7263fc593b53fdc8"), ("double", "668173dac9fdc30f")]:
+        for precision, known in [("float", "303e5fab0252b3bc"), ("double", "77e0bc0cd7798ce4")]:
             result = self.run_cli("render", scene_path("cornell-box"), "--size", "100",
                                   "--precision", precision, "--device", "threads")
             self.assertEqual(image_hash(result.stderr), known)
@@ -53,6 +55,22 @@ class Doctor(CliTest):
         self.assertEqual(findings["driver"]["state"], "broken")
         self.assertIn("libz.so.1", findings["driver"]["verdict"])
 
+    def test_names_the_library_of_a_gpu_that_no_file_names(self):
+        (self.folder / "libnvidia-opencl.so.1").touch()
+        env = {"LD_LIBRARY_PATH": str(self.folder), "OCL_ICD_VENDORS": str(self.folder)}
+        finding = self.findings(0, **env)["driver"]
+        self.assertEqual(finding["state"], "missing")
+        self.assertIn(f"set OCL_ICD_VENDORS={self.folder}/libnvidia-opencl.so.1", finding["verdict"])
+        self.write_text("nvidia.icd", "libnvidia-opencl.so.1\n")
+        self.assertNotIn("no .icd file", self.run_cli("doctor", env=env).stdout)
+
+    def test_takes_a_library_for_a_driver(self):
+        """As the loader does."""
+        with open(POCL_DRIVER, encoding="ascii") as file:
+            library = file.readline().strip()
+        findings = self.findings(0, OCL_ICD_VENDORS=library)
+        self.assertTrue(any(name.startswith("device 0") for name in findings), findings)
+
     def test_names_a_kernel_cache_that_cannot_be_written(self):
         findings = self.findings(5, POCL_CACHE_DIR=unwritable_folder(self.folder))
         self.assertEqual(findings["kernel cache"]["state"], "broken")
@@ -64,6 +82,15 @@ class Doctor(CliTest):
         findings = self.findings(0, POCL_CACHE_DIR=str(cache), POCL_KERNEL_CACHE="0")
         self.assertEqual(findings["kernel cache"]["state"], "missing")
         self.assertIn("POCL_KERNEL_CACHE", findings["kernel cache"]["verdict"])
+
+    def test_names_a_missing_proc(self):
+        command = "umount -l /proc && exec \"$0\" doctor"
+        result = subprocess.run(["unshare", "-m", "sh", "-c", command, SETTINGS["program"]], text=True,
+                                capture_output=True, timeout=HANG_LIMIT, check=False)
+        if "BROKEN" not in result.stdout:
+            self.skipTest(f"cannot unmount /proc: {result.stderr}")
+        self.assertEqual(len(result.stdout.splitlines()), 3, result.stdout)
+        self.assertIn("BROKEN   /proc: is not mounted", result.stdout)
 
     def test_tests_one_device(self):
         for spec in ["threads", "pocl"]:

@@ -49,6 +49,25 @@ class Explain(CliTest):
         self.assertIn("    light 1 ", text)
         self.assertNotIn("nan", text)
 
+    def test_begins_with_what_the_pixel_shows(self):
+        for pixel, words in [(BOX[3], r"\d+ % \w+ mirrored in mirror"), ("1,1", "100 % ")]:
+            text = self.explain(scene_path("cornell-box"), "--size", "40", "--pixel", pixel)
+            self.assertRegex(text.splitlines()[1], words)
+
+    def test_leaves_out_what_nobody_sees(self):
+        """Unless asked for all: rays between two mirrors that return little."""
+        wall = [[-99, -99, -2], [99, -99, -2], [0, 99, -2]]
+        path = self.write_scene(
+            camera={"from": [0, 0, 0], "at": [0, 0, -1], "fov_degrees": 20}, max_bounces=9,
+            materials={"dim": {"mirror": 0.1, "two_sided": True}},
+            triangles=[{"vertices": [[x, y, z * side] for x, y, z in wall], "material": "dim"}
+                       for side in (1, -1)])
+        pixel = [path, "--pixel", "1,1"]
+        self.assertEqual(self.explain(*pixel, "-v").count(" ray hits "), 10)
+        text = self.explain(*pixel)
+        self.assertEqual(text.count(" ray hits "), 3)
+        self.assertIn("7 rays of weight below 0.004", text)
+
     def test_has_a_tree_for_each_sample(self):
         answer = json.loads(self.explain(scene_path("cornell-box"), *BOX, "--json", "--aa", "sobol:3"))
         self.assertEqual([sample["sample"] for sample in answer["samples"]], [0, 1, 2])

@@ -62,6 +62,9 @@ def image_hash(text):
     return found[1] if found else None
 
 
+PROGRESS = re.compile(r"(?m)^ *\d+ %.*  ETA \S+\n")
+
+
 def clean_environment(changes):
     """This process's environment without what changes mirrorball, and with PoCL alone."""
     variables = dict(os.environ)
@@ -82,11 +85,15 @@ class CliTest(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
 
     def run_cli(self, *arguments, env=None, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **more):
-        """Runs the program in the test's folder; output as text."""
-        return subprocess.run(
+        """Runs the program in the test's folder; output as text, without the lines of progress that
+        it prints where the machine is slow."""
+        result = subprocess.run(
             [SETTINGS["program"], *map(str, arguments)], cwd=self.folder, stdout=stdout,
             stderr=stderr, stdin=subprocess.DEVNULL, env=clean_environment(env or {}),
             timeout=HANG_LIMIT, text=True, check=False, **more)
+        if result.stderr and not {"-q", "--progress"} & set(arguments):
+            result.stderr = PROGRESS.sub("", result.stderr)
+        return result
 
     def succeed(self, *arguments, **more):
         """A run that must exit with 0."""

@@ -97,6 +97,14 @@ class Shares(JournalTest):
         self.assert_refused(result, 3, "b.mbj: is not a part of the same picture as a.mbj: the settings differ")
         self.assertEqual(result.stderr.count("b.mbj"), 1)
 
+    def test_of_which_one_is_whole_are_its_picture(self):
+        for name in ["whole.pfm", "whole.png"]:
+            self.run_cli("render", scene_path("cornell-box"), *SMALL, "-o", name)
+        self.merge("whole.pfm", "-o", "again.png", "-q")
+        result = self.run_cli("compare", "again.png", "whole.png", "--max-abs", "0")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assert_refused(self.run_cli("merge", "missing.pfm", "-o", "none.png"), 3, "missing.pfm")
+
     def test_fit_together_whatever_finds_their_hits(self):
         self.run_cli("render", scene_path("mirror-hall"), *SMALL, "-o", "whole.pfm")
         self.share("0/2", "a.mbj", *SMALL, "--hierarchies", "on", scene="mirror-hall")
@@ -196,11 +204,7 @@ class Shares(JournalTest):
                           ["--shard", "0/2", "-o", "a.mbj", "--math", "fast"],
                           ["--shard", "0/2", "-o", "a.mbj", "--schedule", "buffers", "--device",
                            "threads"], ["--fresh", "--resume"],
-                          ["--shard", "0/2", "-o", "a.mbj", scene],
-                          ["--mpi"], ["--mpi", "-o", "-"], ["--mpi", "-o", "a.png", scene],
-                          ["--mpi", "-o", "a.mbj", "--shard", "0/2"],
-                          ["--mpi", "-o", "a.png", "--stats"],
-                          ["--mpi", "-o", "a.png", "--math", "fast"]]:
+                          ["--shard", "0/2", "-o", "a.mbj", scene]]:
             self.assert_refused(self.run_cli("render", scene, *arguments), 2)
         self.assert_refused(self.run_cli("render", scene, "--shard", "0/2", "-o", "no/a.mbj"), 4)
         self.assertEqual(self.files(), [])

@@ -92,11 +92,10 @@ class WrongName(CliTest):
                     "-o", "out.webp")
         self.assertEqual(self.files(), ["out.webp"])
 
-    def test_name_too_long_for_a_partial_picture(self):
-        """Otherwise an interrupted picture would be lost."""
-        self.assertEqual(self.render_to("a" * (255 - len(".partial.png")) + ".png").returncode, 0)
-        self.assert_refused(self.render_to("b" * (256 - len(".partial.png")) + ".png"), 4,
-                            "File name too long", "shorter")
+    def test_a_name_may_have_as_many_bytes_as_the_file_system_allows(self):
+        longest = 255 - len(".png")
+        self.assertEqual(self.render_to("a" * longest + ".png").returncode, 0)
+        self.assert_refused(self.render_to("a" * (longest + 1) + ".png"), 4, "too long", "shorter")
 
     def test_unreadable_reference_is_refused_before_anything_is_written(self):
         result = self.render_to("out.png", "--reference", "nowhere.png")
@@ -132,7 +131,7 @@ class OverInputs(CliTest):
     def test_material_library(self):
         self.write_text("gem.mtl", "newmtl red\nKd 1 0 0\n")
         self.write_text("gem.obj", "mtllib gem.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n")
-        self.write_scene(meshes=[{"file": "gem.obj"}])
+        self.write_scene(meshes=[{"file": "gem.obj"}], lights=[{"position": [0, 5, 5]}])
         os.symlink("gem.mtl", self.folder / "m.png")
         os.symlink("gem.mtl", self.folder / "out.depth.png")
         for scene in ["gem.obj", "scene.json"]:
@@ -191,6 +190,18 @@ class Patterns(CliTest):
     def test_of_one_scene(self):
         self.render(SCENE, "--size", "8", "--device", "threads", "-o", "a-%s.png")
         self.assertEqual(self.files(), [f"a-{SCENE}.png"])
+
+    def test_that_are_parts_of_words_are_none(self):
+        for name in ["50%share", "5%dark", "a%sb"]:
+            (self.folder / name).mkdir()
+            self.render(SCENE, "--size", "8", "--device", "threads", "-o", f"{name}/{name}.png")
+            self.assertEqual(os.listdir(self.folder / name), [f"{name}.png"])
+
+    def test_names_of_standard_streams(self):
+        self.assert_refused(self.run_cli("render", scene_path(SCENE), "-o", "/dev/stdout"), 2,
+                            "for standard output, name -")
+        result = self.run_shell('"$MIRRORBALL" render <(cat "$SCENE")')
+        self.assert_refused(result, 3, "pipe JSON to -")
 
     def test_frame_number_without_frames(self):
         self.assert_refused(self.run_cli("render", scene_path(SCENE), "-o", "a%04d.png"), 2,

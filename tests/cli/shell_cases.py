@@ -60,7 +60,7 @@ class Shell(CliTest):
         for verb in VERBS:
             self.assertEqual(self.options(verb), set(self.complete(*verb, "-")), verb)
         self.assertEqual(self.complete("re"), ["render", "report"])
-        self.assertEqual(self.complete("scene", ""), ["info", "check", "-h", "--help"])
+        self.assertEqual(self.complete("scene", ""), ["info", "check", "schema", "-h", "--help"])
         self.assertEqual(self.complete("render", "--filter", "m"), ["mitchell"])
         self.assertEqual(self.complete("render", "a.json", "--no-f"), ["--no-fallback"])
 

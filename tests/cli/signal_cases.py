@@ -2,6 +2,7 @@
 """SIGINT and SIGTERM: exit 130 or 143, the picture so far saved and whole."""
 import json
 import os
+import pathlib
 import re
 import select
 import signal
@@ -104,6 +105,14 @@ class Interrupted(CliTest):
         for name in ["out.partial.png", "out.partial-2.png"]:
             self.assertEqual((self.folder / name).read_text(), "somebody else's")
 
+    def test_a_format_that_does_not_say_who_wrote_it_is_left_alone(self):
+        self.write_text("out.partial.pfm", "somebody else's")
+        process = self.start_and_wait_until_tiles_are_done("threads", "out.pfm")
+        code, lines = self.stop(process, signal.SIGINT)
+        self.assertEqual(code, 130, lines)
+        self.assertIn("the finished part is in out.partial-2.pfm", lines[-1])
+        self.assertEqual((self.folder / "out.partial.pfm").read_text(), "somebody else's")
+
     def test_pocl_sigint(self):
         self.assert_stopped("pocl", signal.SIGINT, "out.pfm")
         self.assert_has_light_and_gaps("out.partial.pfm")
@@ -116,7 +125,8 @@ class Interrupted(CliTest):
             stderr = process.communicate(timeout=HANG_LIMIT)[1]
             self.assertEqual(process.returncode, 130, stderr)
             self.assertEqual(self.pictures(), ["out.partial.pfm"])
-            (self.folder / "out.pfm.mbj").unlink(missing_ok=True)
+            for name in ["out.partial.pfm", "out.pfm.mbj"]:
+                (self.folder / name).unlink(missing_ok=True)
 
     def test_as_timeout_sends_it(self):
         """To the program, and at once to its group."""
@@ -127,11 +137,22 @@ class Interrupted(CliTest):
             stderr = process.communicate(timeout=HANG_LIMIT)[1]
             self.assertEqual(process.returncode, 143, stderr)
             self.assertEqual(self.pictures(), ["out.partial.pfm"])
-            (self.folder / "out.pfm.mbj").unlink(missing_ok=True)
+            for name in ["out.partial.pfm", "out.pfm.mbj"]:
+                (self.folder / name).unlink(missing_ok=True)
 
     def test_pocl_sigterm(self):
         self.assert_stopped("pocl", signal.SIGTERM, "out.png")
         png_chunks((self.folder / "out.partial.png").read_bytes())
+
+    def test_pocl_sigterm_while_its_worker_is_stopped(self):
+        process = self.start_and_wait_until_tiles_are_done("pocl", "out.png")
+        worker, = map(int, pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split())
+        os.kill(worker, signal.SIGSTOP)
+        sent = time.monotonic()
+        code, lines = self.stop(process, signal.SIGTERM)
+        self.assertEqual(code, 143, lines)
+        self.assertLess(time.monotonic() - sent, 30)
+        self.assertEqual(self.pictures(), ["out.partial.png"])
 
     def test_without_output_nothing_is_left(self):
         for path in ["threads", "pocl"]:
@@ -181,7 +202,9 @@ class Interrupted(CliTest):
         for first, second in [(signal.SIGINT, signal.SIGINT), (signal.SIGUSR1, signal.SIGTERM)]:
             process = self.start_and_wait_until_it_renders()
             process.send_signal(first)
-            self.assertIn("again to quit", self.next_word(process))
+            word = self.next_word(process)
+            self.assertIn("saving what is finished", word)
+            self.assertEqual("again to quit" in word, first == signal.SIGINT)
             time.sleep(0.25)  # else it is taken for an echo of the first
             process.send_signal(second)
             sent = time.monotonic()
@@ -243,6 +266,7 @@ class Interrupted(CliTest):
                                   "grid:32", "--device", device, "--timeout", "1.5", "-o", "out.png")
             self.assertEqual(result.returncode, 8, result.stderr)
             self.assertIn("out of time (--timeout) after", result.stderr)
+            self.assertNotIn("again to quit", result.stderr)
             self.assertEqual(self.pictures(), ["out.partial.png"])
 
     def test_out_of_time_before_it_began(self):

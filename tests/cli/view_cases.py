@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The picture while it is rendered: in the terminal, and in tev. Decoders written for these tests
 look at what the program sends."""
-import base64
 import fcntl
 import os
 import pathlib
@@ -20,45 +19,26 @@ from harness import SETTINGS, CliTest, clean_environment, scene_path
 from pictures import read_pfm, read_png
 
 UTF8 = {"TERM": "xterm-256color", "LC_ALL": "C.UTF-8", "COLORTERM": "truecolor"}
-ASKS = b"\x1b[c"
 BLOCK = "▀".encode()
 TAKES_A_WHILE = ["--size", "300", "--aa", "grid:8", "--lanes", "1", "--tile", "30"]
 
 
-def on_terminal(arguments, folder, env, answer=b"", columns=80, rows=24, pixels=(0, 0),
-                keys=()):
-    """(exit code, what a terminal of so many cells and pixels gets) of the program, which is in
-    front there. The terminal answers when it is asked what it is, and its user types keys until a
-    picture begins."""
+def on_terminal(arguments, folder, env, columns=80, rows=24):
+    """(exit code, what a terminal of so many cells gets) of the program, which is in front there."""
     ours, theirs = pty.openpty()
-    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, *pixels))
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
     process = subprocess.Popen(
         [SETTINGS["program"], *map(str, arguments)], cwd=folder, stdin=theirs, stdout=theirs,
         stderr=theirs, env=clean_environment(env), start_new_session=True,
         preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
     os.close(theirs)
     got = bytearray()
-
-    def read():
-        answered = False
-        while True:
-            try:
-                got.extend(os.read(ours, 65536))
-            except OSError:  # the other end is closed
-                return
-            if not answered and ASKS in got:
-                answered = True
-                os.write(ours, answer)
-
-    reader = threading.Thread(target=read)
-    reader.start()
-    for key in keys:
-        os.write(ours, key)
-        time.sleep(0.05)
-        if BLOCK in got:
+    while True:
+        try:
+            got.extend(os.read(ours, 65536))
+        except OSError:  # the other end is closed
             break
     code = process.wait(HANG_LIMIT)
-    reader.join()
     os.close(ours)
     return code, bytes(got).replace(b"\r\n", b"\n")
 
@@ -80,32 +60,6 @@ def decoded_half_blocks(frame):
     return len(rows[0]) // 3, len(rows), bytes(value for row in rows for value in row)
 
 
-def decoded_sixels(text):
-    """(width, height, RGB) by the VT330/340 manual, chapter 14, the last time they are drawn."""
-    start = text.rindex(b"\x1bPq")
-    body = text[start + 3:text.index(b"\x1b\\", start)].decode()
-    width, height = map(int, re.match(r'"1;1;(\d+);(\d+)', body).groups())
-    palette, picture = {}, {}
-    x = top = color = 0
-    for part in re.finditer(r'#(\d+);2;(\d+);(\d+);(\d+)|#(\d+)|!(\d+)(.)|([$-])|([?-~])',
-                            body[body.index("#"):]):
-        define, r, g, b, use, count, repeated, move, one = part.groups()
-        if define:
-            palette[int(define)] = tuple(round(int(v) * 255 / 100) for v in (r, g, b))
-        elif use:
-            color = int(use)
-        elif move:
-            x, top = 0, top + (6 if move == "-" else 0)
-        else:
-            for _ in range(int(count or 1)):
-                for bit in range(6):
-                    if (ord(repeated or one) - 63) >> bit & 1:
-                        picture[x, top + bit] = palette[color]
-                x += 1
-    return width, height, bytes(value for y in range(height) for x in range(width)
-                                for value in picture[x, y])
-
-
 class Preview(CliTest):
     def preview(self, *arguments, env=None, device="threads", **terminal):
         code, text = on_terminal(
@@ -119,11 +73,11 @@ class Preview(CliTest):
 
     def test_half_blocks_are_the_pixels(self):
         for size in ["20x10", "7x5"]:
-            text = self.preview("--preview=half", "--size", size)
+            text = self.preview("--preview", "--size", size)
             self.assertEqual(decoded_half_blocks(text), self.saved())
 
     def test_a_large_picture_is_shrunk_to_the_terminal(self):
-        text = self.preview("--preview", "half", "--size", "100", columns=50, rows=12)
+        text = self.preview("--preview", "--size", "100", columns=50, rows=12)
         width, height, rgb = decoded_half_blocks(text)
         self.assertEqual((width, height), (20, 20))
         side, _, whole = self.saved()
@@ -135,64 +89,17 @@ class Preview(CliTest):
     def test_256_colors_where_the_terminal_has_no_more(self):
         env = dict(UTF8)
         del env["COLORTERM"]
-        text = self.preview("--preview=half", "--size", "8", env=env)
+        text = self.preview("--preview", "--size", "8", env=env)
         self.assertIn(b"38;5;", text)
         self.assertNotIn(b"38;2;", text)
 
     def test_it_is_drawn_again_at_the_same_place_as_tiles_finish(self):
-        text = self.preview("--preview=half", *TAKES_A_WHILE, rows=12)
+        text = self.preview("--preview", *TAKES_A_WHILE, rows=12)
         frames = text.split(b"\x1b[10A\r")
         self.assertGreater(len(frames), 2)
         first, last = (decoded_half_blocks(frame)[2] for frame in (frames[0], frames[-1]))
         self.assertGreater(first.count(0), last.count(0))
         self.assertNotIn(b"%", text)  # no bar over it
-
-    def test_kitty_where_the_terminal_says_so(self):
-        text = self.preview("--preview", "--size", "200", pixels=(800, 480),
-                            answer=b"\x1b_Gi=4211;OK\x1b\\\x1b[?62;4c")
-        parts = re.findall(rb"\x1b_G([^;]*);([^\x1b]*)\x1b\\", text.split(ASKS)[1])
-        pictures = [i for i, (keys, _) in enumerate(parts) if b"f=100" in keys]
-        parts = parts[pictures[-1]:]  # on a slow machine it is drawn several times
-        self.assertIn(b"c=20,r=10", parts[0][0])
-        self.assertTrue(all(len(data) <= 4096 for _, data in parts))
-        png = self.folder / "sent.png"
-        png.write_bytes(base64.b64decode(b"".join(data for _, data in parts)))
-        self.assertEqual(read_png(png), self.saved())
-
-    def test_sixels_where_the_terminal_says_so(self):
-        text = self.preview("--preview", "--size", "64x50", answer=b"\x1b[?62;4;22c")
-        width, height, rgb = decoded_sixels(text)
-        side, rows, whole = self.saved()
-        self.assertEqual((width, height), (side, rows))
-        step = 51  # of the color cube, which dithering stays within
-        self.assertLessEqual(max(abs(a - b) for a, b in zip(rgb, whole)), step)
-        mean = sum(a - b for a, b in zip(rgb, whole)) / len(rgb)
-        self.assertLess(abs(mean), 2)
-
-    def test_half_blocks_where_it_says_nothing_of_pictures(self):
-        for answer in [b"\x1b[?62;22c", b"\x1b[?64c", b""]:
-            text = self.preview("--preview", "--size", "8", answer=answer)
-            self.assertEqual(decoded_half_blocks(text.split(ASKS)[1]), self.saved())
-
-    def test_tmux_and_screen_are_asked_for_sixels_alone(self):
-        for change in [{"TMUX": "/tmp/tmux-1/default,1,0"}, {"STY": "1.pts-0.host"},
-                       {"TERM": "screen-256color"}, {"TERM": "tmux-256color"}]:
-            with self.subTest(change=change):
-                text = self.preview("--preview", "--size", "8", env=dict(UTF8, **change),
-                                    answer=b"\x1b[?62;4c")
-                self.assertNotIn(b"\x1b_G", text)
-                self.assertEqual(decoded_sixels(text)[:2], (8, 8))
-
-    def test_a_terminal_is_not_asked_for_what_is_given(self):
-        for mode in ["half", "kitty", "sixel"]:
-            text = self.preview(f"--preview={mode}", "--size", "8")
-            self.assertNotIn(b"Gi=4211", text)
-            self.assertNotIn(ASKS, text)
-
-    def test_a_user_who_types_is_not_waited_for(self):
-        keys = iter([b"x"] * 200)
-        self.preview("--preview", "--size", "8", keys=keys)
-        self.assertIsNotNone(next(keys, None), "typed for ten seconds before there was a picture")
 
     def test_none_in_a_pipe_and_on_terminals_that_cannot(self):
         result = self.render("single-sphere", "--size", "8", "--preview", env=UTF8)
@@ -204,12 +111,8 @@ class Preview(CliTest):
             self.assertNotIn(BLOCK, text)
 
     def test_a_worker_process_draws_too(self):
-        text = self.preview("--preview=half", "--size", "8", device="pocl")
+        text = self.preview("--preview", "--size", "8", device="pocl")
         self.assertEqual(decoded_half_blocks(text), self.saved())
-
-    def test_unknown_protocol(self):
-        result = self.run_cli("render", scene_path("single-sphere"), "--preview=ascii")
-        self.assert_refused(result, 2, "--preview", "auto, half, kitty or sixel")
 
 
 class TevServer:
@@ -308,8 +211,8 @@ class Tev(CliTest):
             with self.subTest(outputs=outputs):
                 server = TevServer(slowly=True)
                 process = self.start("render", scene_path("cornell-box"), "--device", "threads",
-                                     "--size", "2000", f"--tev=127.0.0.1:{server.port}", "-o",
-                                     *outputs)
+                                     "--size", "2000", f"--tev=127.0.0.1:{server.port}",
+                                     "--progress", "none", "-o", *outputs)
                 self.assertIn("cornell-box: 2000x2000", process.stderr.readline())
                 self.assertTrue((self.folder / outputs[0].replace("%s", "cornell-box")).exists())
                 server.wait_for_more()
@@ -333,7 +236,7 @@ class Tev(CliTest):
             self.assert_refused(self.run_cli("render", "--tev", missing), 3, f"{missing}: ")
 
     def test_an_option_takes_no_other_for_its_value(self):
-        for option in ["--tev=", "--preview=", "--size="]:
+        for option in ["--tev=", "--size="]:
             result = self.run_cli("render", scene_path("single-sphere"), option, "-o", "out.png")
             self.assert_refused(result, 2, f"'{option}' has no value")
         self.assertEqual(self.files(), [])

@@ -49,8 +49,7 @@ class Dies(WrongDriver):
                     lines = result.stderr.splitlines()
                     self.assertEqual(lines[-1].split()[-1], self.right)
                     is_listing = place in ["clGetPlatformIDs", "clGetDeviceIDs"]
-                    self.assertEqual(len(lines), 2 if by == "hang" or is_listing else 3,
-                                     result.stderr)
+                    self.assertEqual(len(lines), 3 if is_listing else 2, result.stderr)
                     for line in lines[:-1]:
                         self.assertIn(word, line)
                     self.assertIn("rendering on threads instead", lines[-2])
@@ -77,26 +76,6 @@ class Dies(WrongDriver):
             if other:
                 self.assertIn("CL_OUT_OF_HOST_MEMORY", stats["devices"][0]["failure"])
                 self.assertIn("continuing without it", result.stderr)
-
-    def test_once_is_tried_once_more(self):
-        once = str(self.folder / "died")
-        result = self.die("clBuildProgram", "abort", "--stats=json", CL_SHIM_DIE_ONCE=once, code=0)
-        self.assertIn("with an empty kernel cache", result.stderr)
-        stats = json.loads(result.stdout)
-        self.assertIn("pthread", stats["device"]["name"])
-        self.assertEqual(stats["image"]["hash"], self.right)
-
-    def test_leaves_the_picture_to_other_devices(self):
-        picture = ["render", SCENE, "--size", "120", "--aa", "grid:40", "--threads", "1", "--stats=json"]
-        right = json.loads(self.run_with({}, *picture, "--device", "threads").stdout)["image"]["hash"]
-        for devices in ["0,1", "all"]:
-            result = self.run_with({"CL_SHIM_DIE_IN": "clCreateContext", "CL_SHIM_DIE_BY": "abort",
-                                    "CL_SHIM_DIE_AT": "2", "POCL_DEVICES": "pthread pthread"},
-                                   *picture, "--device", devices, code=0)
-            self.assertIn("trying again without --device 0", result.stderr)
-            stats = json.loads(result.stdout)
-            self.assertIn("pthread", json.dumps(stats.get("devices", stats["device"])))
-            self.assertEqual(stats["image"]["hash"], right)
 
     def test_stats_say_whom_threads_stand_in_for(self):
         stats = json.loads(self.die("clFinish", "segfault", "--stats=json").stdout)
@@ -133,7 +112,7 @@ class Dies(WrongDriver):
         picture = ["--aa", "grid:64", "--progress", "none", "--tile", "16"]
         shim = {"CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "spin",
                 "CL_SHIM_DIE_AT": "4", "CL_SHIM_DIE_AFTER": "0.5"}
-        result = self.run_with(shim, *self.ARGUMENTS[:-1], "0.5", *picture, code=0)
+        result = self.run_with(shim, *self.ARGUMENTS[:-1], "0.2", *picture, code=0)
         self.assertIn("made no progress for", result.stderr)
         self.assertIn("rendering on threads instead", result.stderr)
         right = subprocess.run([str(BUILD / "mirrorball"), *self.ARGUMENTS[:4], *picture,
@@ -161,33 +140,26 @@ class Dies(WrongDriver):
             shutil.copy("/etc/OpenCL/vendors/pocl.icd", folder / name)
         return {"OCL_ICD_VENDORS": str(folder)}
 
-    def test_beside_another_one_is_listed_alone(self):
+    def test_beside_another_one_is_named(self):
         shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
                 "CL_SHIM_DIE_WITH": "a.icd b.icd", **self.drivers("a.icd", "b.icd")}
-        result = self.run_with(shim, "devices", "--json", code=0)
-        answer = json.loads(result.stdout)
-        self.assertEqual([pathlib.Path(device["icd_file"]).name for device in answer["devices"]],
-                         ["a.icd", "b.icd"])
-        self.assertRegex(answer["problems"][0], r"a process that loads the drivers of .*a\.icd and "
-                         r".*b\.icd crashes while listing their devices \(Aborted\)")
-        self.assertRegex(self.run_with(shim, "devices").stdout,
-                         r"only with OCL_ICD_VENDORS=.*b\.icd, as --device 0")
-        result = self.run_with(shim, "doctor", code=5)
-        self.assertEqual(result.stdout.count("renders the right picture"), 3, result.stdout)
-        self.assertRegex(result.stdout, r"BROKEN +OpenCL: a process that loads the drivers of")
+        words = (r"a process that loads .*a\.icd and .*b\.icd was killed by SIGABRT while listing its "
+                 "devices; choose one of them with OCL_ICD_VENDORS")
+        self.assertRegex(self.run_with(shim, "devices", code=0).stdout, words)
+        self.assertRegex(self.run_with(shim, "doctor", code=5).stdout, "BROKEN +OpenCL: " + words)
 
     def test_is_left_out_of_what_is_measured(self):
         shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
                 "CL_SHIM_DIE_WITH": "bad.icd", **self.drivers("bad.icd", "good.icd")}
         result = self.run_with(shim, *Bench.ARGUMENTS, code=0)
-        self.assertRegex(result.stderr, r"bad\.icd: its driver crashes while listing its devices")
+        self.assertRegex(result.stderr, r"bad\.icd: its driver was killed by SIGABRT while listing its devices")
         self.assertEqual({row["verdict"] for row in json.loads(result.stdout)["rows"]
                           if row["device_name"] != "threads"}, {"right"})
 
     def test_by_computing_for_ever_does_not_hold_up_devices_and_doctor(self):
         shim = {"CL_SHIM_DIE_IN": "clGetDeviceIDs", "CL_SHIM_DIE_BY": "spin"}
         result = self.run_with(shim, "devices", "--json", code=0)
-        self.assertIn("hangs: still listing its devices after 10 s",
+        self.assertIn("did not end in time while listing its devices",
                       json.loads(result.stdout)["problems"][0])
         shim["CL_SHIM_DIE_IN"] = "clBuildProgram"
         result = self.run_with(shim, "doctor", "--deadline", "0.5", code=5)
@@ -204,37 +176,18 @@ class Dies(WrongDriver):
     def test_by_hanging_ends_ray_trials(self):
         self.check_hanging_ends("stress", "-q", "--quick", "--case", "sphere-rays", "--device", "pocl")
 
-    @unittest.skipUnless(shutil.which("mpirun"), "needs openmpi-bin")
-    def test_does_not_take_an_mpi_job_along(self):
-        out, right = self.folder / "out.png", self.folder / "right.png"
-        self.run_with({}, *self.ARGUMENTS[:4], "--device", "threads", "-o", str(right))
-        for place in ["", "clGetPlatformIDs", "clBuildProgram"]:
-            result = subprocess.run(
-                ["mpirun", "--oversubscribe", "--bind-to", "none", "-n", "2", "-x",
-                 "LD_PRELOAD=" + str(BUILD / "libcl_shim.so"),
-                 str(BUILD / "mirrorball"), *self.ARGUMENTS, "--mpi", "-o", str(out)],
-                env=dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                         CL_SHIM_DIE_IN=place, CL_SHIM_DIE_BY="abort",
-                         POCL_CACHE_DIR=str(BUILD / "wrong-driver-cache")),
-                text=True, capture_output=True, timeout=HANG_LIMIT, check=False)
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertEqual(place != "", "the driver process was killed by SIGABRT; rendering on "
-                             "threads instead" in result.stderr, result.stderr)
-            self.assertEqual(out.read_bytes(), right.read_bytes())
-            out.unlink()
-
     def test_measuring_names_it(self):
         for verb in [["bench", SCENE], ["converge", SCENE], ["stress", "--quick"],
                      ["report", SCENE, "-o", str(self.folder / "report.html")]]:
             result = self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs",
                                     "CL_SHIM_DIE_BY": "abort"}, *verb, "-q", code=5)
             named, ended = result.stderr.splitlines()
-            self.assertIn("its driver crashes while listing its devices (Aborted)", named)
+            self.assertIn("its driver was killed by SIGABRT while listing its devices", named)
             self.assertEqual(ended, "mirrorball: listing OpenCL devices: the worker process was "
                              "killed by SIGABRT; test each driver with 'mirrorball doctor'")
 
     def test_devices_says_that_it_could_try_none(self):
-        result = self.run_with({"CL_SHIM_NO_FORK": "1"}, "devices", code=0)
+        result = self.run_with({"CL_SHIM_NO_CHILD": "1"}, "devices", code=0)
         self.assertIn("could not be started", result.stdout)
 
     def test_devices_survives(self):
@@ -242,7 +195,7 @@ class Dies(WrongDriver):
                                "devices", "--json", code=0)
         answer = json.loads(result.stdout)
         self.assertEqual(answer["devices"], [])
-        self.assertIn("crashes while listing its devices (Aborted)", answer["problems"][0])
+        self.assertIn("was killed by SIGABRT while listing its devices", answer["problems"][0])
 
 
 class IsNotAsked(WrongDriver):

@@ -129,13 +129,13 @@ PictureFile decode(const std::string& path, const char* format, const CheckSize&
     if (!input->open(path, spec, config)) fail(input->geterror(), "the header is damaged");
     if (spec.depth > 1 || spec.deep) fail("", "not a flat picture");
     if (has_huge_tiles(spec)) fail("", "its tiles are much larger than the picture");
-    check(spec.width, spec.height, spec.nchannels);
+    const bool wants_pixels = check(spec.width, spec.height, spec.nchannels);
     PictureFile file{{spec.width, spec.height, spec.nchannels, {}}, {}};
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
         if (attribute.type() != OIIO::TypeString) continue;
         file.metadata.emplace_back(attribute.name().string(), attribute.get_string().c_str());
     }
-    read_all_rows(*input, spec, file.picture.pixels);
+    if (wants_pixels) read_all_rows(*input, spec, file.picture.pixels);
     return file;
 }
 

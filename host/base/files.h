@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <utility>
+
+namespace rt {
+
+/// Owns a file descriptor, or none (-1), and closes it on destruction; call close() when the result
+/// matters.
+class FileDescriptor {
+   public:
+    explicit FileDescriptor(int number = -1) : number_(number) {}
+    FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    FileDescriptor& operator=(FileDescriptor&& other) noexcept {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    ~FileDescriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+
+    /// False with errno on failure; EINTR is no failure, since the file is closed anyway.
+    bool close() { return ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
+
+    int number() const { return number_; }
+    explicit operator bool() const { return number_ >= 0; }
+
+   private:
+    int number_;
+};
+
+/// An empty folder, deleted with its files on destruction; has no name if it could not be created.
+/// It is locked as long as its process lives. Folders that killed processes of this user left are
+/// deleted by the next one, an hour later.
+class TemporaryFolder {
+   public:
+    TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder();
+
+    const std::string& name() const { return name_; }
+
+   private:
+    std::string name_;
+    FileDescriptor lock_;
+};
+
+}  // namespace rt

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/cli/options.h"
+#include "host/cli/result_file.h"
+#include "host/cli/verb.h"
+#include "host/image/output_path.h"
+#include "host/measure/bench_run.h"
+#include "host/measure/timing.h"
+#include "host/print/print_run.h"
+#include "host/process/stop_signal.h"
+
+namespace rt {
+
+namespace {
+
+/// `mirrorball bench`
+struct BenchCall : BenchOptions {
+    ResultFiles results;
+    std::string baseline;       ///< an earlier --json file; empty: none
+    double max_regress = 0.05;  ///< allowed loss of a row, as a share of the old median
+};
+
+template <typename Row>
+void say_bad_rows(const std::vector<Row>& rows) {
+    for (const Row& row : rows) {
+        if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
+        print_note(fmt::format("{} ({}){}: {}: {}", key_of(row.asked), row.asked.device_name,
+                               row.asked.change.empty() ? "" : ", " + row.asked.change,
+                               to_string(row.verdict), row.why));
+    }
+}
+
+/// Whether any row has become slower; reports each on stderr.
+bool has_regressed(const BenchResult& result, const Baseline& baseline, double max_regress,
+                   bool quiet) {
+    const auto found = regressions(result, baseline, max_regress);
+    if (found.empty() && !quiet) print_note("no row is slower than the baseline's");
+    for (const Regression& regression : found) {
+        print_note("slower: " + to_string(regression));
+    }
+    return !found.empty();
+}
+
+int run_bench(const BenchCall& options) {
+    check_result_path(options.results.json, json_start("mirrorball-bench"));
+    check_output_is_no_input(options.results.json, {options.baseline});
+    check_result_path(options.results.csv, run_csv_header());
+    check_outputs_differ({options.results.json, options.results.csv});
+    Baseline baseline;
+    if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
+    const FreshKernelCache kernels;
+    const BenchResult result =
+        measure_bench(options, options.baseline.empty() ? nullptr : &baseline);
+    if (!options.results.take_stdout()) print_result(bench_text(result));
+    write_result(options.results.json, bench_json(result));
+    write_result(options.results.csv, bench_csv(result));
+    say_bad_rows(result.rows);
+    say_bad_rows(result.ablation);
+    if (result.interrupted) return 128 + stop_flag();
+    const bool slower = !options.baseline.empty() &&
+                        has_regressed(result, baseline, options.max_regress, options.quiet);
+    if (slower || result.has_any(Verdict::wrong)) return static_cast<int>(ExitCode::different);
+    return static_cast<int>(result.has_any(Verdict::failed) ? ExitCode::device : ExitCode::done);
+}
+
+void parse_schedules(const std::string& text, BenchOptions& bench) {
+    bench.schedules.clear();
+    bench.scalar = false;
+    for (const std::string& part : split_list(text)) {
+        if (part == "scalar") {
+            bench.scalar = true;
+        } else if (const auto schedule = value_of(schedule_names, part)) {
+            bench.schedules.push_back(*schedule);
+        } else {
+            refuse_choice(part, {"tiles", "buffers", "scalar"});
+        }
+    }
+}
+
+/// Defaults of an ablation: one picture on every device.
+void settle_ablation(const CommandLine& verb, BenchCall& bench) {
+    if (!bench.baseline.empty()) usage_error("--ablate cannot be combined with --baseline");
+    if (!verb.given("--sizes")) bench.sizes = {{500, 500}};
+    if (!verb.given("--aa")) bench.aa = parse_aa_list("grid:2");
+    if (!verb.given("--precision")) bench.precisions = {Precision::float32};
+}
+
+}  // namespace
+
+void add_bench(const CommandLine& program, Invocation& call) {
+    const auto asked = std::make_shared<BenchCall>();
+    BenchCall& bench = *asked;
+    bench.aa = parse_aa_list("none,grid:2");
+    const CommandLine verb = program.verb("bench", "benchmark OpenCL devices against pthreads");
+    verb.arguments("SCENE", bench.scenes, "scene files (default: the built-in cornell-box)", false);
+    verb.value("--sizes", "LIST", bench.sizes, list_of(parse_size),
+               "picture sizes in pixels, N or WxH (default: 100,200,300,400,500)");
+    verb.value("--aa", "LIST", bench.aa, parse_aa_list, "AA modes (default: none,grid:2)");
+    add_device_list(verb, "--devices", bench.devices);
+    verb.value("--threads", "N", bench.threads, count_in(1, most_threads),
+               "time 'threads' with 1 to N threads (default: all cores)");
+    add_precisions(verb, bench.precisions);
+    add_light_options(verb, bench.light);
+    verb.option("--schedules", "LIST",
+                "pthreads schedules: tiles, buffers, scalar (tiles, one ray at a time; with one "
+                "thread and with all threads) (default: all)",
+                [&](const std::string& text) { parse_schedules(text, bench); });
+    add_repeats(verb, bench.repeats, 1);
+    verb.value("--baseline", "FILE", bench.baseline,
+               "compare with an earlier --json file: exit 1 if a row has become slower");
+    verb.value("--max-regress", "P%", bench.max_regress, percent_to(1e6),
+               "how much slower a row may become; changes within noise also pass (default: 5%)");
+    add_result_files(verb, bench.results);
+    verb.flag("--ablate", bench.ablate,
+              "measure what leaving out each feature saves, with and without it in alternation "
+              "(default: --sizes 500 --aa grid:2 --precision float)");
+    verb.flag("-q,--quiet", bench.quiet, quiet_help);
+    verb.when_chosen([asked, verb, &call] {
+        check_result_files(asked->results);
+        if (asked->ablate) settle_ablation(verb, *asked);
+        call.in_worker([asked] { return run_bench(*asked); }, asked->quiet);
+    });
+}
+
+}  // namespace rt

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/cli/options.h"
+#include "host/cli/result_file.h"
+#include "host/cli/verb.h"
+#include "host/image/output_path.h"
+#include "host/image/picture_io.h"
+#include "host/measure/converge_run.h"
+#include "host/measure/timing.h"
+#include "host/print/print_run.h"
+#include "host/process/stop_signal.h"
+
+namespace rt {
+
+namespace {
+
+/// `mirrorball converge`
+struct ConvergeCall : ConvergeOptions {
+    ResultFiles results;
+};
+
+/// Reports the points without a result. Returns the exit status.
+int verdict(const ConvergeResult& result) {
+    bool wrong = false, failed = false;
+    for (const ConvergePoint& point : result.points) {
+        if (point.verdict != Verdict::wrong && point.verdict != Verdict::failed) continue;
+        (point.verdict == Verdict::wrong ? wrong : failed) = true;
+        print_note(fmt::format("{} {}: {}: {}", point.asked.device_name,
+                               to_string(point.asked.picture.aa), to_string(point.verdict),
+                               point.why));
+    }
+    if (result.interrupted) return 128 + stop_flag();
+    if (wrong) return static_cast<int>(ExitCode::different);
+    return static_cast<int>(failed ? ExitCode::device : ExitCode::done);
+}
+
+int run_converge(const ConvergeCall& options) {
+    check_result_path(options.results.json, json_start("mirrorball-converge"));
+    check_result_path(options.results.csv, run_csv_header());
+    if (!options.reference.empty()) check_picture_path(options.reference);
+    check_outputs_differ({options.results.json, options.results.csv, options.reference});
+    const FreshKernelCache kernels;
+    const ConvergeResult result = measure_converge(options);
+    if (!options.quiet) print_notes(result.notes);
+    if (!options.results.take_stdout()) print_result(converge_text(result));
+    write_result(options.results.json, converge_json(result));
+    write_result(options.results.csv, converge_csv(result));
+    return verdict(result);
+}
+
+constexpr const char* default_sweep =
+    "none,grid:2,grid:3,grid:4,grid:6,grid:8,sobol:1,sobol:4,sobol:16,sobol:64,sobol:256,"
+    "adaptive:0.1,adaptive:0.03,adaptive:0.01";
+
+const Named<std::vector<Math>> math_choices[] = {
+    {"strict", {Math::strict}}, {"fast", {Math::fast}}, {"both", {Math::strict, Math::fast}}};
+
+void add_sweep(const CommandLine& verb, ConvergeCall& converge) {
+    add_size(verb, converge.size);
+    verb.value("--aa", "LIST", converge.aa, parse_aa_list,
+               "AA modes (default: " + std::string(default_sweep) + ")");
+    add_device_list(verb, "--devices", converge.devices);
+    verb.value("--threads", "N", converge.threads, count_in(1, most_threads),
+               "number of threads for 'threads' (default: all cores)");
+    verb.flag("--scalar", converge.scalar,
+              "also time pthreads tracing one ray at a time, without vectors (float)");
+    add_precisions(verb, converge.precisions);
+    add_choice(verb, "--math", converge.math, math_choices,
+               "strict (default), fast (OpenCL devices only) or both");
+    verb.value("--max-bounces", "LIST", converge.max_bounces, list_of(count_in(0, most_bounces)),
+               bounces_help);
+}
+
+}  // namespace
+
+void add_converge(const CommandLine& program, Invocation& call) {
+    const auto asked = std::make_shared<ConvergeCall>();
+    ConvergeCall& converge = *asked;
+    converge.aa = parse_aa_list(default_sweep);
+    const CommandLine verb = program.verb("converge", "measure error against run time");
+    verb.argument("SCENE", converge.scene, scene_help);
+    add_sweep(verb, converge);
+    add_light_options(verb, converge.light);
+    add_repeats(verb, converge.repeats, 5);
+    verb.value("--reference-samples", "N", converge.reference_samples, count_in(2, 4096),
+               "the reference is the mean of two sobol:N pictures in double (default: 1024)");
+    verb.value("--reference", "FILE", converge.reference,
+               "keep the reference in this EXR or PFM file, or read it from there if it exists");
+    add_result_files(verb, converge.results);
+    verb.flag("-q,--quiet", converge.quiet, quiet_help);
+    verb.when_chosen([asked, &call] {
+        check_result_files(asked->results);
+        call.in_worker([asked] { return run_converge(*asked); }, asked->quiet);
+    });
+}
+
+}  // namespace rt

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/base/files.h"
+#include "host/base/text.h"
+#include "host/base/version.h"
+#include "host/cli/options.h"
+#include "host/cli/verb.h"
+#include "host/image/picture_io.h"
+#include "host/opencl/pocl.h"
+#include "host/picture/default_scene.h"
+#include "host/picture/render_picture.h"
+#include "host/print/print_stats.h"
+#include "host/process/drivers.h"
+#include "host/record/record.h"
+#include "host/render/native_kernels.h"
+#include "host/render/stopwatch.h"
+#include "host/view/viewer.h"
+
+namespace rt {
+
+namespace {
+
+/// `mirrorball doctor`
+struct DoctorOptions {
+    std::string drivers;          ///< where OpenCL finds its .icd files
+    std::string library_folders;  ///< LD_LIBRARY_PATH
+    std::string device;           ///< empty: everything, each device in its own process
+    double deadline = 30;         ///< seconds without progress before a device counts as hung
+    bool json = false;
+};
+
+/// The paper's scene at 100 x 100, as every correct device renders it (tests/cli/doctor_cases.py).
+constexpr PictureSize size{100, 100};
+constexpr std::uint64_t float_hash = 0x303e5fab0252b3bc, double_hash = 0x77e0bc0cd7798ce4;
+
+/// Time limit of a device test, in deadlines.
+constexpr double longest_test = 10;
+
+enum class State { fine, missing, broken };
+
+constexpr Named<State> state_words[] = {
+    {"ok", State::fine}, {"missing", State::missing}, {"BROKEN", State::broken}};
+
+struct Finding {
+    State state = State::fine;
+    std::string what;     ///< "device 0"
+    std::string verdict;  ///< what is wrong, and what to do
+};
+
+/// Throws what rendering throws.
+std::uint64_t hash_of_known_picture(const DeviceChoice& device, Precision precision) {
+    RenderSettings settings;
+    settings.size = size;
+    settings.precision = precision;
+    settings.no_fallback = true;
+    settings.self_test = false;
+    Scene scene = load_default_scene();
+    apply_overrides(scene, settings);
+    static const StopFlag never_stopped{0};
+    return render_picture(scene, settings, {device}, {}, never_stopped).stats.image_hash;
+}
+
+/// Empty if the device renders the right picture.
+std::string what_is_wrong(const DeviceChoice& device, Precision precision) {
+    const std::uint64_t hash = hash_of_known_picture(device, precision);
+    const bool is_double = precision == Precision::float64;
+    if (hash == (is_double ? double_hash : float_hash)) return "";
+    const bool is_of_threads =
+        device.use_threads || hash == hash_of_known_picture(threads_choice(), precision);
+    return fmt::format("{} in {} (image {}){}",
+                       is_of_threads ? "its kernels render another picture than the release's"
+                                     : "renders a wrong picture",
+                       to_string(precision), hash_text(hash),
+                       is_of_threads ? "" : "; clear its kernel cache or update its driver");
+}
+
+/// Tests a device in this process.
+int test_device(const std::string& spec) {
+    watch_worker("testing " + spec);
+    const DeviceChoice device = find_devices(spec, 0, {}).get().front();
+    std::string wrong = what_is_wrong(device, Precision::float32);
+    if (wrong.empty() && (device.use_threads || device.device.has_double)) {
+        wrong = what_is_wrong(device, Precision::float64);
+    }
+    if (wrong.empty()) return 0;
+    tell_parent(wrong);
+    if (is_worker()) return static_cast<int>(ExitCode::different);
+    throw Error(ExitCode::different, wrong);
+}
+
+/// Tests a device in a worker process.
+Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
+                       const std::string& name, const std::vector<std::string>& changes) {
+    const Stopwatch watch;
+    const WorkerEnd end = run_worker({{"mirrorball", "doctor", "--device", spec},
+                                      changes,
+                                      options.deadline,
+                                      0,
+                                      longest_test * options.deadline});
+    end_if_stopped(end);
+    Finding finding{State::broken, name, ""};
+    if (!end.is_regular) {
+        finding.verdict =
+            "its test process " + end.how + (end.is_started ? "; update its driver" : "");
+    } else if (end.status == 0) {
+        finding.state = State::fine;
+        finding.verdict = fmt::format("renders the right picture ({:.2f} s)", watch.seconds());
+    } else if (!end.records.empty()) {
+        finding.verdict = end.records.front();
+    } else {
+        finding.verdict = "cannot render (see above)";
+    }
+    return finding;
+}
+
+Finding test_format(const char* name, const char* extension) {
+    const TemporaryFolder folder;
+    try {
+        check_picture_path(folder.name() + "/picture" + extension);
+        return {State::fine, name, "can be written and read"};
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        const std::size_t colon = text.find(": ");
+        return {State::missing, name, colon == text.npos ? text : text.substr(colon + 2)};
+    }
+}
+
+Finding test_window() {
+    const std::string why = why_no_windows();
+    return {why.empty() ? State::fine : State::missing, "windows (--show)",
+            why.empty() ? "SDL 2 can be loaded" : why};
+}
+
+Finding test_kernel_cache() {
+    const std::string why = why_pocl_cache_is_read_only();
+    if (!why.empty()) {
+        return {State::broken, "kernel cache",
+                "PoCL cannot write to it: " + why + "; set POCL_CACHE_DIR to a writable folder"};
+    }
+    if (!pocl_keeps_kernels()) {
+        return {State::missing, "kernel cache",
+                "PoCL recompiles its kernels in every run; unset POCL_KERNEL_CACHE"};
+    }
+    return {State::fine, "kernel cache",
+            "PoCL caches compiled kernels in " + pocl_cache_folder().string()};
+}
+
+void examine_device(const DoctorOptions& options, const ClDevice& device,
+                    const std::vector<std::string>& changes, std::vector<Finding>& findings) {
+    const std::string name = fmt::format("device {}, {}", device.index, device.name);
+    if (!device.unusable.empty()) return findings.push_back({State::broken, name, device.unusable});
+    findings.push_back(test_in_worker(options, std::to_string(device.index), name, changes));
+}
+
+/// Of drivers, and of the devices that they list.
+void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings) {
+    const Drivers drivers = list_drivers(options.drivers);
+    for (const std::string& file : drivers.files) findings.push_back({State::fine, "driver", file});
+    for (const std::string& problem : drivers.bad_files) {
+        findings.push_back({State::broken, "driver", problem});
+    }
+    for (const std::string& library : unlisted_drivers(options.drivers, options.library_folders)) {
+        findings.push_back({State::missing, "driver",
+                            fmt::format("{}: no .icd file names it; set OCL_ICD_VENDORS={}, or put "
+                                        "that name into {}/{}.icd",
+                                        library, library, options.drivers,
+                                        std::filesystem::path(library).stem().stem().string())});
+    }
+    if (drivers.files.empty() && drivers.devices.empty()) {
+        return findings.push_back(
+            {State::missing, "OpenCL",
+             "no driver in " + options.drivers + "; install pocl-opencl-icd or your GPU's driver"});
+    }
+    for (const std::string& problem : drivers.problems) {
+        findings.push_back({State::broken, "OpenCL", problem});
+    }
+    for (const ClDevice& device : drivers.devices) {
+        examine_device(options, device, drivers.change, findings);
+    }
+    findings.push_back(test_kernel_cache());
+}
+
+std::vector<Finding> examine(const DoctorOptions& options) {
+    std::error_code error;
+    if (!std::filesystem::exists("/proc/self/exe", error)) {
+        return {{State::broken, "/proc",
+                 "is not mounted, so the program finds neither itself nor its modules; mount it"}};
+    }
+    std::vector<Finding> findings;
+    const std::vector<std::string> isas = native_isas();
+    findings.push_back({isas.empty() ? State::broken : State::fine, "processor",
+                        isas.empty() ? "has no kernels for pthreads; render on an OpenCL device"
+                                     : fmt::format("kernels for {}", fmt::join(isas, ", "))});
+    prepare_pocl(0);
+    findings.push_back(test_in_worker(options, "threads", "threads", {}));
+    examine_opencl(options, findings);
+    findings.push_back(test_format("EXR pictures", ".exr"));
+    findings.push_back(test_format("TIFF, JPEG and other pictures", ".tif"));
+    findings.push_back(test_window());
+    return findings;
+}
+
+void print_findings(const std::vector<Finding>& findings, bool is_well) {
+    std::string text = fmt::format("mirrorball {} ({})\n", version, git_revision);
+    for (const Finding& finding : findings) {
+        text += fmt::format("{:<8} {}: {}\n", name_of(state_words, finding.state), finding.what,
+                            finding.verdict);
+    }
+    print_result(text + (is_well ? "everything installed works\n" : "something is broken\n"));
+}
+
+void print_findings_json(const std::vector<Finding>& findings, bool is_well) {
+    Json list = Json::array();
+    for (const Finding& finding : findings) {
+        list.push_back(
+            {{"state",
+              finding.state == State::broken ? "broken" : name_of(state_words, finding.state)},
+             {"what", finding.what},
+             {"verdict", finding.verdict}});
+    }
+    print_result(json_text({{"format", "mirrorball-doctor"},
+                            {"version", 1},
+                            {"program", fmt::format("{} ({})", version, git_revision)},
+                            {"well", is_well},
+                            {"findings", list}}));
+}
+
+int run_doctor(const DoctorOptions& options) {
+    if (!options.device.empty()) return test_device(options.device);
+    const std::vector<Finding> findings = examine(options);
+    bool is_well = true;
+    for (const Finding& finding : findings) is_well &= finding.state != State::broken;
+    if (options.json) {
+        print_findings_json(findings, is_well);
+    } else {
+        print_findings(findings, is_well);
+    }
+    return static_cast<int>(is_well ? ExitCode::done : ExitCode::device);
+}
+
+}  // namespace
+
+void add_doctor(const CommandLine& program, Invocation& call) {
+    const auto asked = std::make_shared<DoctorOptions>();
+    DoctorOptions& doctor = *asked;
+    const CommandLine verb = program.verb(
+        "doctor",
+        "check the installation (drivers, devices, caches, formats) and suggest how to fix it");
+    doctor.library_folders = environment("LD_LIBRARY_PATH");
+    verb.flag("--json", doctor.json, json_help);
+    verb.value("--device", "SPEC", doctor.device, parse_device,
+               "check only this device, in this process");
+    verb.value("--deadline", "S", doctor.deadline, seconds_from(0.1),
+               "seconds without progress after which a device counts as hung; its test may take "
+               "ten times as long (default: 30)");
+    verb.when_chosen([asked, &call] {
+        asked->drivers = call.drivers;
+        call.here([asked] { return run_doctor(*asked); });
+    });
+}
+
+}  // namespace rt

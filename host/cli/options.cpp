@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/options.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+
+#include "host/base/error.h"
+#include "host/image/output_path.h"
+#include "host/opencl/device_spec.h"
+#include "host/scene/words.h"
+
+namespace rt {
+
+namespace {
+
+constexpr int largest_side = 65536;
+constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+
+/// Whether a word names a place for results: not an existing scene or picture.
+bool may_take_results(const std::string& word) {
+    if (word == "-") return true;
+    if (word.starts_with("-")) return false;
+    std::ifstream file(word, std::ios::binary);
+    std::string start(32, ' ');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    return file.gcount() == 0 || word.ends_with(".csv") ||
+           start.find("\"format\": \"mirrorball") != std::string::npos;
+}
+
+std::optional<double> amount_of(const std::string& text) {
+    const auto number = parse_number<double>(text);
+    return number && *number >= 0 && *number <= 1e30 ? number : std::nullopt;
+}
+
+double parse_light_scale(const std::string& text) {
+    const auto scale = amount_of(text);
+    if (!scale) refuse(text, "expected a number from 0 to 1e30, such as 0.5");
+    return *scale;
+}
+
+glm::dvec3 parse_ambient(const std::string& text) {
+    constexpr const char* expected = "expected R,G,B or one number, from 0 to 1e30, such as 0.2";
+    std::vector<double> n;
+    for (const std::string& part : split_list(text, expected)) {
+        n.push_back(amount_of(part).value_or(-1));
+        if (n.back() < 0) refuse(text, expected);
+    }
+    if (n.size() != 1 && n.size() != 3) refuse(text, expected);
+    return n.size() == 1 ? glm::dvec3(n[0]) : glm::dvec3(n[0], n[1], n[2]);
+}
+
+}  // namespace
+
+void refuse(const std::string& value, const std::string& reason) { throw BadValue{value, reason}; }
+
+void refuse_choice(const std::string& value, const std::vector<std::string>& choices) {
+    const std::vector<std::string> first(choices.begin(), choices.end() - 1);
+    refuse(value,
+           fmt::format("expected {}{}{}{}", fmt::join(first, ", "), first.empty() ? "" : " or ",
+                       choices.back(), guess_text(value, choices)));
+}
+
+PictureSize parse_size(const std::string& text) {
+    const auto numbers = parse_integers(text, 'x');
+    if (!numbers || numbers->size() > 2) {
+        refuse(text, "expected WIDTHxHEIGHT or N, in pixels, such as 640x480 or 500");
+    }
+    const PictureSize size{numbers->front(), numbers->back()};
+    if (size.width < 1 || size.height < 1) refuse(text, "each side must be at least 1 pixel");
+    if (size.width > largest_side || size.height > largest_side ||
+        std::int64_t{size.width} * size.height > most_pixels) {
+        throw BadValue{text,
+                       fmt::format("too large; at most {} pixels per side and {} in total",
+                                   largest_side, most_pixels),
+                       ExitCode::limit};
+    }
+    return size;
+}
+
+AaMode parse_aa(const std::string& text) {
+    const auto mode = parse_aa_mode(text);
+    if (!mode) refuse(text, std::string("expected ") + aa_mode_help);
+    return *mode;
+}
+
+std::string parse_device(const std::string& text) {
+    if (text.empty()) refuse(text, "expected a device, or auto");
+    parse_device_specs(text);
+    return text;
+}
+
+std::vector<std::string> split_list(const std::string& text, const std::string& reason) {
+    std::vector<std::string> parts;
+    std::size_t at = 0;
+    for (;;) {
+        const std::size_t comma = text.find(',', at);
+        parts.push_back(text.substr(at, comma - at));
+        if (parts.back().empty()) refuse(text, reason);
+        if (comma == std::string::npos) return parts;
+        at = comma + 1;
+    }
+}
+
+std::optional<std::vector<int>> parse_integers(std::string_view text, char separator) {
+    std::vector<int> numbers;
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    for (;;) {
+        int number = 0;
+        const auto [stop, error] = std::from_chars(at, end, number);
+        if (error == std::errc::result_out_of_range) {
+            number = std::numeric_limits<int>::max();
+        } else if (error != std::errc{}) {
+            return std::nullopt;
+        }
+        numbers.push_back(number);
+        if (stop == end) return numbers;
+        if (*stop != separator) return std::nullopt;
+        at = stop + 1;
+    }
+}
+
+std::string environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+}
+
+std::vector<AaMode> parse_aa_list(const std::string& text) {
+    std::vector<AaMode> modes;
+    for (const AaMode& mode : list_of(parse_aa)(text)) {
+        if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+    }
+    return modes;
+}
+
+void add_size(const CommandLine& verb, std::optional<PictureSize>& size) {
+    verb.value("--size", "WxH|N", size, parse_size,
+               "picture size in pixels (default: the scene's)");
+}
+
+void add_encoding(const CommandLine& verb, Encoding& encoding) {
+    add_choice(verb, "--encoding", encoding, encoding_names,
+               "how 8-bit files store linear light (default: display, value x 255)");
+}
+
+void add_device_list(const CommandLine& verb, const std::string& option,
+                     std::vector<std::string>& devices) {
+    verb.value(option, "LIST", devices, list_of(parse_device),
+               "devices as for render --device, separated by commas (default: all, which is "
+               "pthreads and every OpenCL device)");
+}
+
+void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions) {
+    static const Named<std::vector<Precision>> choices[] = {
+        {"float", {Precision::float32}},
+        {"double", {Precision::float64}},
+        {"both", {Precision::float32, Precision::float64}}};
+    add_choice(verb, "--precision", precisions, choices, "arithmetic precision (default: both)");
+}
+
+void add_repeats(const CommandLine& verb, int& repeats, int least) {
+    verb.value(
+        "--repeats", "N", repeats, count_in(least, 1000),
+        fmt::format("number of timed rounds after the warm-up, at least {} (default: 5)", least));
+}
+
+void add_result_file(const CommandLine& verb, const std::string& option, std::string& file,
+                     const std::string& help) {
+    verb.optional_value(option, "FILE|-", help, "-", may_take_results,
+                        [&file](const std::string& text) {
+                            if (text.empty()) refuse(text, "expected a file name, or - for stdout");
+                            file = text;
+                        });
+}
+
+void add_result_files(const CommandLine& verb, ResultFiles& files) {
+    add_result_file(verb, "--json", files.json, "write all measurements as JSON");
+    add_result_file(verb, "--csv", files.csv, "write one row per run as CSV");
+}
+
+void check_result_files(const ResultFiles& files) {
+    if (files.json == "-" && files.csv == "-") {
+        usage_error("--json and --csv cannot both write to stdout; send one to a file");
+    }
+}
+
+void add_light_options(const CommandLine& verb, LightOverrides& light) {
+    verb.value("--light-scale", "X", light.light_scale, parse_light_scale,
+               "intensity of lights that have none (default: NFF sqrt(n)/2n, JSON 1, models "
+               "0.75 and 0.25)");
+    verb.value("--ambient", "R,G,B|X", light.ambient_light, parse_ambient,
+               "ambient light (default: the scene's)");
+}
+
+void add_picture_output(const CommandLine& verb, std::string& output,
+                        std::optional<PictureFormat>& format, const std::string& help) {
+    const auto parse_output = [](const std::string& text) {
+        if (text.empty()) refuse(text, "expected the name of a picture file");
+        return text;
+    };
+    const auto parse_format = [](const std::string& text) {
+        const auto known = known_picture_format("picture." + text);
+        if (!known) refuse(text, "expected png, exr, pfm, tif, jpg, webp, hdr, tga, bmp or ppm");
+        return known;
+    };
+    verb.value("-o,--output", "FILE|-", output, parse_output, help);
+    verb.value("--format", "png|exr|pfm|..", format, parse_format,
+               "picture format of standard output, -o - (default: png)");
+}
+
+void settle_picture_output(const std::string& output, std::optional<PictureFormat>& format) {
+    if (output != stdout_path) {
+        if (format) usage_error("--format requires -o -; a file's extension sets its format");
+        return;
+    }
+    if (!format) format = PictureFormat::png;
+    if (isatty(STDOUT_FILENO) == 1) {
+        usage_error("-o - would write a picture to the terminal; redirect it to a file or a pipe");
+    }
+}
+
+}  // namespace rt

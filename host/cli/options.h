@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/base/text.h"
+#include "host/cli/command_line.h"
+#include "host/cli/result_file.h"
+#include "host/image/encoding.h"
+#include "host/image/picture_format.h"
+#include "host/picture/render_settings.h"
+
+// Parsing of option values, and the options that several verbs share.
+namespace rt {
+
+/// Rejects the value of the option being read, or a part of it: throws BadValue.
+[[noreturn]] void refuse(const std::string& value, const std::string& reason);
+
+/// The same for a text that is none of the choices; guesses which one was meant.
+[[noreturn]] void refuse_choice(const std::string& value, const std::vector<std::string>& choices);
+
+// Readers of an option's value, or makers of such readers; all reject other text.
+
+/// WIDTHxHEIGHT or N; ExitCode::limit for too many pixels.
+PictureSize parse_size(const std::string& text);
+
+AaMode parse_aa(const std::string& text);
+
+inline std::string parse_text(const std::string& text) { return text; }
+
+/// A device spec, or several separated by commas: the text, once checked. Throws Error.
+std::string parse_device(const std::string& text);
+
+/// A whole number from `least` to `most`.
+inline auto count_in(int least, int most) {
+    return [least, most](const std::string& text) {
+        const auto count = parse_number<int>(text);
+        if (!count || *count < least || *count > most) {
+            refuse(text, fmt::format("expected a whole number from {} to {}", least, most));
+        }
+        return *count;
+    };
+}
+
+/// Seconds from `least` to 1e8.
+inline auto seconds_from(double least) {
+    return [least](const std::string& text) {
+        const auto seconds = parse_number<double>(text);
+        if (!seconds || !(*seconds >= least && *seconds <= 1e8)) {
+            refuse(text, fmt::format("expected a number of seconds from {:g} to 1e8", least));
+        }
+        return *seconds;
+    };
+}
+
+/// "5%" or "5": 0.05.
+inline auto percent_to(double most) {
+    return [most](const std::string& text) {
+        const bool has_sign = text.ends_with('%');
+        const auto percent = parse_number<double>(text.substr(0, text.size() - (has_sign ? 1 : 0)));
+        if (!percent || !(*percent >= 0 && *percent <= most)) {
+            refuse(text, fmt::format("expected a percentage from 0% to {:g}%", most));
+        }
+        return *percent / 100;
+    };
+}
+
+/// The parts between commas; rejects an empty part, for this reason.
+std::vector<std::string> split_list(
+    const std::string& text, const std::string& reason = "expected a list separated by commas");
+
+/// A list separated by commas, each part read by `parse`.
+template <typename Parse>
+auto list_of(const Parse& parse) {
+    return [parse](const std::string& text) {
+        std::vector<std::decay_t<decltype(parse(text))>> values;
+        for (const std::string& part : split_list(text)) values.push_back(parse(part));
+        return values;
+    };
+}
+
+/// Integers with a separator between them; those too large for int become its largest value, for
+/// range checks to reject. Empty for any other text.
+std::optional<std::vector<int>> parse_integers(std::string_view text, char separator);
+
+/// The value of an environment variable, or "".
+std::string environment(const char* name);
+
+template <typename T, std::size_t n>
+std::vector<std::string> names_of(const Named<T> (&choices)[n]) {
+    std::vector<std::string> names;
+    for (const Named<T>& choice : choices) names.emplace_back(choice.name);
+    return names;
+}
+
+/// A name from a table, which must outlive the reader.
+template <typename T, std::size_t n>
+auto one_of(const Named<T> (&choices)[n]) {
+    return [&choices](const std::string& text) {
+        const std::optional<T> value = value_of(choices, text);
+        if (!value) refuse_choice(text, names_of(choices));
+        return *value;
+    };
+}
+
+/// An option that takes a name from a table.
+template <typename T, typename N, std::size_t n>
+void add_choice(const CommandLine& verb, const std::string& option, T& target,
+                const Named<N> (&choices)[n], const std::string& help) {
+    verb.value(option, fmt::format("{}", fmt::join(names_of(choices), "|")), target,
+               one_of(choices), help);
+}
+
+/// The same; without a name, the option means `bare`.
+template <typename T, typename N, std::size_t n>
+void add_optional_choice(const CommandLine& verb, const std::string& option, T& target,
+                         const Named<N> (&choices)[n], const std::string& bare,
+                         const std::string& help) {
+    verb.optional_value(
+        option, fmt::format("{}", fmt::join(names_of(choices), "|")), help, bare,
+        [&choices](const std::string& text) { return value_of(choices, text).has_value(); },
+        [&target, read = one_of(choices)](const std::string& text) { target = read(text); });
+}
+
+inline constexpr int most_bounces = 100000;
+inline constexpr int most_threads = 4096;
+
+/// Comma-separated AA modes, without duplicates.
+std::vector<AaMode> parse_aa_list(const std::string& text);
+
+// Options that several verbs share.
+/// --light-scale and --ambient, for every verb that reads scenes.
+void add_light_options(const CommandLine& verb, LightOverrides& light);
+
+void add_size(const CommandLine& verb, std::optional<PictureSize>& size);
+void add_encoding(const CommandLine& verb, Encoding& encoding);
+void add_device_list(const CommandLine& verb, const std::string& option,
+                     std::vector<std::string>& devices);
+void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions);
+void add_repeats(const CommandLine& verb, int& repeats, int least);
+
+/// --json or --csv: alone, the results go to stdout ("-"). The next word is the file unless that
+/// exists and is not a result file: a scene or a picture.
+void add_result_file(const CommandLine& verb, const std::string& option, std::string& file,
+                     const std::string& help);
+void add_result_files(const CommandLine& verb, ResultFiles& files);
+
+/// Throws Error (ExitCode::usage) when both would go to stdout.
+void check_result_files(const ResultFiles& files);
+
+inline constexpr const char* bounces_help =
+    "maximum number of mirror and refracted rays after the eye ray (default: the scene's)";
+inline constexpr const char* quiet_help = "print no progress to stderr";
+inline constexpr const char* scene_help = "scene file (.json, .nff, .obj, .ply)";
+inline constexpr const char* json_help = "print JSON to stdout";
+
+/// Adds -o, with the given help, and --format, the format of "-".
+void add_picture_output(const CommandLine& verb, std::string& output,
+                        std::optional<PictureFormat>& format, const std::string& help);
+
+/// Sets the format of standard output. Throws Error (ExitCode::usage) if it is a terminal, and if
+/// --format is given for a file, whose extension sets its format.
+void settle_picture_output(const std::string& output, std::optional<PictureFormat>& format);
+
+}  // namespace rt

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/cli/render_options.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "host/base/error.h"
+#include "host/base/text.h"
+#include "host/cli/options.h"
+#include "host/cli/render.h"
+#include "host/cli/verb.h"
+#include "host/image/output_path.h"
+#include "host/opencl/device_spec.h"
+#include "host/render/native_kernels.h"
+
+namespace rt {
+
+namespace {
+
+/// "HOST:PORT", "HOST", ":PORT" or "[IPv6]:PORT"; missing parts default to tev's.
+TevAddress parse_tev_address(const std::string& text) {
+    TevAddress address;
+    const std::size_t bracket = text.find(']');
+    const std::size_t colon = text.find(':', bracket == std::string::npos ? 0 : bracket);
+    std::string host = text.substr(0, colon);
+    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+    if (!host.empty()) address.host = host;
+    if (colon != std::string::npos && colon + 1 < text.size()) {
+        address.port = text.substr(colon + 1);
+    }
+    return address;
+}
+
+/// Whether a word is an address rather than a scene: no file, and without a scene's extension.
+bool is_tev_address(const std::string& text) {
+    std::error_code ignored;
+    if (text.empty() || text.starts_with('-') || std::filesystem::exists(text, ignored)) {
+        return false;
+    }
+    if (text.find(':') != std::string::npos) return true;
+    constexpr std::string_view extensions[] = {".json", ".nff", ".obj", ".ply"};
+    return text.find('/') == std::string::npos &&
+           std::ranges::find(extensions, lower_extension(text)) == std::end(extensions);
+}
+
+void add_view_options(const CommandLine& verb, ViewSettings& view) {
+    view.terminal.kind = environment("TERM");
+    view.terminal.colors = environment("COLORTERM");
+    view.terminal.without_colors = !environment("NO_COLOR").empty();
+    verb.flag("--preview", view.preview, "show the picture in the terminal while it renders");
+    verb.flag("--show", view.window,
+              "show the picture in a window while it renders; Escape or q closes the window, and "
+              "the command ends when it is closed");
+    const TevAddress usual;
+    verb.optional_value(
+        "--tev", "HOST[:PORT]",
+        "show the picture in the image viewer tev while it renders (default: 127.0.0.1:14158)",
+        usual.host + ":" + usual.port, is_tev_address,
+        [&view](const std::string& text) { view.tev = parse_tev_address(text); });
+}
+
+void add_aov(const CommandLine& verb, std::vector<Aov>& aovs) {
+    verb.option("--aov", "LIST",
+                "also save per-pixel data (depth, normal, id, rays, samples): next to an .exr "
+                "picture as channels of NAME.aov.exr, otherwise as false-color pictures "
+                "NAME.depth.png, ...",
+                [&](const std::string& text) {
+                    for (const Aov aov : list_of(one_of(aov_names))(text)) {
+                        if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) {
+                            aovs.push_back(aov);
+                        }
+                    }
+                });
+}
+
+constexpr Named<Launch> launches[] = {{"pixel", Launch::pixel}, {"sample", Launch::sample}};
+constexpr Named<int> lane_counts[] = {{"auto", 0}, {"1", 1}, {"2", 2},
+                                      {"4", 4},    {"8", 8}, {"16", 16}};
+constexpr Named<std::optional<bool>> hierarchy_choices[] = {
+    {"auto", std::nullopt}, {"on", true}, {"off", false}};
+constexpr Named<bool> switch_choices[] = {{"on", true}, {"off", false}};
+constexpr Named<bool> isolate_choices[] = {{"auto", true}, {"never", false}};
+constexpr Named<StatsFormat> stats_formats[] = {{"text", StatsFormat::text},
+                                                {"json", StatsFormat::json}};
+constexpr Named<ProgressMode> progress_modes[] = {{"auto", ProgressMode::automatic},
+                                                  {"bar", ProgressMode::bar},
+                                                  {"plain", ProgressMode::plain},
+                                                  {"json", ProgressMode::json},
+                                                  {"none", ProgressMode::none}};
+
+/// x0,y0,x1,y1 in pixels from the top left; x1 and y1 are exclusive.
+Rect parse_crop(const std::string& text) {
+    const auto n = parse_integers(text, ',');
+    if (!n || n->size() != 4 || (*n)[0] < 0 || (*n)[1] < 0 || (*n)[2] <= (*n)[0] ||
+        (*n)[3] <= (*n)[1]) {
+        refuse(text, "expected x0,y0,x1,y1 in pixels from the top left, with x0<x1 and y0<y1");
+    }
+    return {(*n)[0], (*n)[1], (*n)[2] - (*n)[0], (*n)[3] - (*n)[1]};
+}
+
+Shares parse_shard(const std::string& text) {
+    const auto shares = parse_shares(text);
+    if (!shares) refuse(text, "expected shares from 0 to N-1, and N, such as 7/64 or 7,9,20-25/64");
+    return *shares;
+}
+
+/// "1-240" or "1,5,10-20", ascending.
+std::vector<int> parse_frames(const std::string& text) {
+    constexpr int last_frame = 999999;
+    std::vector<int> frames;
+    for (const std::string& part : split_list(text)) {
+        const auto ends = parse_integers(part, '-');
+        const bool is_range = ends && ends->size() <= 2 && ends->front() >= 0 &&
+                              ends->front() <= ends->back() && ends->back() <= last_frame;
+        if (!is_range || (!frames.empty() && ends->front() <= frames.back())) {
+            refuse(text, "expected ascending frames from 0 to 999999, such as 1-240 or 1,5,10-20");
+        }
+        for (int frame = ends->front(); frame <= ends->back(); ++frame) frames.push_back(frame);
+    }
+    return frames;
+}
+
+std::string parse_isa(const std::string& text) {
+    const std::vector<std::string> isas = native_isas();
+    if (text == "auto") return "";
+    if (std::find(isas.begin(), isas.end(), text) == isas.end()) {
+        refuse_choice(text, isas);
+    }
+    return text;
+}
+
+std::string device_from_environment() {
+    const std::string spec = environment("MIRRORBALL_DEVICE");
+    try {
+        parse_device_specs(spec);
+        return spec;
+    } catch (const Error& error) {
+        throw Error(error.exit_code(), std::string("in $MIRRORBALL_DEVICE: ") + error.what());
+    }
+}
+
+std::uint64_t parse_hash(const std::string& text) {
+    std::uint64_t hash = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, hash, 16);
+    if (text.size() != 16 || error != std::errc{} || stop != end) {
+        refuse(text, "expected 16 hexadecimal digits, as render prints them");
+    }
+    return hash;
+}
+
+/// "all", "auto", or names as in --stats with hyphens for blanks.
+void parse_features(const std::string& text, RenderOptions& render) {
+    render.kernels.features = text == "all" ? Features{} : no_features();
+    if (text == "all" || text == "auto") return;
+    for (const std::string& part : split_list(text)) {
+        const FeatureName* found = nullptr;
+        std::vector<std::string> names;
+        if (part == text) names = {"auto", "all"};
+        for (const FeatureName& feature : feature_names) {
+            std::string name = feature.name;
+            std::replace(name.begin(), name.end(), ' ', '-');
+            if (name == part) found = &feature;
+            names.push_back(std::move(name));
+        }
+        if (found == nullptr) refuse_choice(part, names);
+        render.kernels.features.*found->flag = true;
+    }
+}
+
+void add_picture_options(const CommandLine& verb, RenderOptions& render) {
+    add_size(verb, render.size);
+    verb.value("--aa", "MODE", render.aa, parse_aa,
+               std::string("samples per pixel: ") + aa_mode_help + " (default: the scene's)");
+    add_choice(verb, "--filter", render.filter, filter_names,
+               "reconstruction filter (default: box)");
+    verb.value("--crop", "x0,y0,x1,y1", render.crop, parse_crop,
+               "render only this window, in pixels from the top left, excluding x1 and y1");
+    verb.value("--max-bounces", "N", render.max_bounces, count_in(0, most_bounces), bounces_help);
+    add_encoding(verb, render.encoding);
+    verb.value("--reference", "FILE", render.reference,
+               "also print the error relative to this picture");
+    verb.value("--expect", "HASH", render.expected_hash, parse_hash,
+               "exit 1 if the picture has another hash");
+}
+
+void add_series_options(const CommandLine& verb, RenderOptions& render) {
+    verb.value("--batch", "FILE|-", render.batch,
+               "also render the scenes listed in a file or on stdin, one per line: SCENE or SCENE "
+               "OUTPUT");
+    verb.value("--shard", "I/N", render.shares, parse_shard,
+               "render only some of N shares (7/64 or 7,9,20-25/64, counted from 0) into a part "
+               "file, -o FILE.mbj, for 'mirrorball merge'");
+    verb.value("--frames", "LIST", render.frames, parse_frames,
+               "render frames of the scene's camera path (1-240 or 1,5,10-20), each to its own "
+               "picture, -o out.%04d.png; with --shard I/N only every Nth frame, with --resume "
+               "only the missing ones");
+    verb.value("--timeout", "S", render.timeout, seconds_from(0.001),
+               "stop after S seconds and save the finished part");
+    verb.flag("--watch", render.watch,
+              "render again whenever the scene file or one of its models changes, until Ctrl-C "
+              "or, with --show, until the window is closed");
+    verb.flag(
+        "--fresh", render.fresh,
+        "start over, ignoring what an interrupted render left in FILE.mbj next to the output");
+    verb.flag("--resume", render.resume,
+              "save finished tiles in FILE.mbj from the start, not only after 2 s");
+}
+
+void add_device_options(const CommandLine& verb, RenderOptions& render) {
+    verb.value(
+        "--device", "SPEC", render.device, parse_device,
+        "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N] or all; several, separated "
+        "by commas, share the picture (default: $MIRRORBALL_DEVICE, else the best available)");
+    add_choice(verb, "--precision", render.precision, precision_names,
+               "arithmetic precision (default: float)");
+    add_choice(verb, "--math", render.math, math_names,
+               "strict (default): the same bits everywhere; fast: the compiler may contract "
+               "operations");
+    add_choice(verb, "--launch", render.kernels.launch, launches,
+               "what each OpenCL work item renders (default: pixel on CPUs, sample elsewhere)");
+    add_choice(verb, "--lanes", render.kernels.lanes, lane_counts,
+               "rays per packet (default: a CPU's vector width; 1 on GPUs)");
+    verb.value("--isa", "NAME", render.kernels.isa, parse_isa,
+               "instruction set of the pthreads kernels, as listed by 'mirrorball devices' "
+               "(default: the best)");
+    add_choice(verb, "--schedule", render.schedule, schedule_names,
+               "pthreads: shared tiles (default), or one thread per sample buffer");
+    verb.value("--threads", "N", render.threads, count_in(1, most_threads),
+               "number of threads for pthreads and PoCL (default: all cores)");
+    verb.value("--tile", "WxH|N", render.tile, parse_size,
+               "tile size in pixels (default: chosen by the device)");
+    verb.option("--features", "auto|all|LIST",
+                "compile what the scene needs (default), everything, or what it needs plus LIST",
+                [&](const std::string& text) { parse_features(text, render); });
+    add_choice(verb, "--hierarchies", render.hierarchies, hierarchy_choices,
+               "build bounding volume hierarchies (default: auto, where they are faster)");
+    add_choice(verb, "--caster-lists", render.caster_lists, switch_choices,
+               "list the triangles that can cast shadows, if there are few (default: on)");
+    add_choice(verb, "--isolate", render.isolate, isolate_choices,
+               "auto (default): load OpenCL drivers in a separate process; never: in this one");
+    verb.value("--deadline", "S", render.deadline, seconds_from(0.1),
+               "seconds without progress after which a driver counts as hung (default: 10)");
+    verb.flag("--no-fallback", render.no_fallback,
+              "fail if the device fails, instead of finishing on threads");
+    verb.value("--check", "P%", render.check, percent_to(100),
+               "trace P% of the tiles from a device or journal again on threads and compare");
+}
+
+void add_report_options(const CommandLine& verb, RenderOptions& render) {
+    add_optional_choice(verb, "--stats", render.stats, stats_formats, "text",
+                        "print phases, rays, and features used and left out to stdout");
+    add_choice(verb, "--progress", render.progress, progress_modes,
+               "progress on stderr (default: auto, a bar on a terminal, else lines)");
+    add_aov(verb, render.aovs);
+    verb.flag("-q,--quiet", render.quiet, "print only errors");
+    verb.flag("-v,--verbose", render.verbose, "print more");
+}
+
+}  // namespace
+
+void add_render(const CommandLine& program, Invocation& call) {
+    const auto asked = std::make_shared<RenderOptions>();
+    RenderOptions& render = *asked;
+    render.dumb_terminal = environment("TERM") == "dumb";
+    const CommandLine verb = program.verb("render", "render one or more pictures");
+    verb.arguments("SCENE", render.scenes,
+                   "scene files (.json, .nff, .obj, .ply), or - for JSON from standard input",
+                   false);
+    verb.group("Picture");
+    add_picture_output(verb, render.output, render.format,
+                       "picture file: .png, .exr, .pfm, .tif, .jpg, ..., or - for standard output "
+                       "(default: none); for several scenes, %s stands for the scene's name, as in "
+                       "out/%s.png");
+    add_picture_options(verb, render);
+    add_light_options(verb, render.light);
+    verb.group("Several pictures, and parts of one");
+    add_series_options(verb, render);
+    verb.group("Devices");
+    add_device_options(verb, render);
+    verb.group("Messages and figures");
+    add_report_options(verb, render);
+    verb.group("Watching");
+    add_view_options(verb, render.view);
+    verb.when_chosen([asked, verb, &call] {
+        if (!verb.given("--device")) asked->device = device_from_environment();
+        settle_render(*asked);
+        asked->drivers = call.drivers;
+        asked->command = call.command;
+        call.here([asked, &call] { return run_render(*asked, call.seconds_before_main); },
+                  asked->quiet);
+    });
+}
+
+}  // namespace rt

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/cli/progress.h"
+#include "host/cli/render_options.h"
+#include "host/picture/render_picture.h"
+#include "host/view/live_picture.h"
+
+// Steps shared by single and batch rendering. All of them may throw Error.
+namespace rt {
+
+/// The metadata that marks an unfinished picture; its text says how much is there.
+inline constexpr const char* partial_mark = "mirrorball:Partial";
+
+/// Metadata of a picture, without anything that varies from run to run or device to device.
+PictureMetadata picture_metadata(const std::string& scene, const std::string& scene_hash,
+                                 const std::string& settings, const std::string& image_hash);
+
+/// The text of that name; empty if there is none.
+std::string text_in(const PictureMetadata& metadata, const std::string& name);
+
+/// Whether both name the same scene and settings.
+bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b);
+
+/// Warns that the picture is not saved, unless only figures are wanted. Returns whether it did.
+bool say_unsaved(const RenderOptions& options);
+
+/// Reports on stderr that `count` pixels of a picture of that region are not finite, if any.
+/// Returns whether any are.
+bool report_non_finite(const Picture& picture, const Rect& region, std::size_t count);
+
+/// Starts the clock of --timeout.
+void start_timeout(const RenderOptions& options);
+
+/// A worker's task while its devices render.
+inline constexpr const char* rendering = "rendering";
+
+/// Finds the devices on another thread, as find_devices; a worker's parent watches what they do.
+std::future<std::vector<DeviceChoice>> start_finding_devices(const RenderOptions& options);
+
+/// Rejects, before anything is computed, an output that could not be written.
+void check_output(const RenderOptions& options);
+
+/// Chooses where finished tiles are kept: next to the output, or in it for shares.
+void choose_journal(RenderOptions& options);
+
+/// Prints a scene's warnings on stderr.
+void print_warnings(const std::string& scene, const std::vector<std::string>& warnings);
+
+/// Loads options.scene as it is to be rendered; reports on stderr what the reader skipped and
+/// what looks wrong in it. Rejects
+/// an output that is one of the files it names.
+Scene scene_to_render(const RenderOptions& options);
+
+/// Prints a render's messages on stderr: of each its first line, or all with --verbose; nothing
+/// with --quiet. The options must outlive it.
+std::function<void(const std::string& line)> message_printer(const RenderOptions& options);
+
+/// The viewers that the options ask for; null without any. The options must outlive it.
+std::unique_ptr<LivePicture> make_live_picture(const RenderOptions& options);
+
+/// After the final picture: waits until the windows are closed and viewers have the picture, or for
+/// a stop signal, which is not reported, since everything is done.
+void wait_for_viewers(LivePicture& live);
+
+/// Shows a render's events on stderr and in viewers, if there are any. All must outlive it.
+class RenderConsole {
+   public:
+    RenderConsole(const RenderOptions& options, LivePicture* live);
+    RenderConsole(const RenderConsole&) = delete;
+    RenderConsole& operator=(const RenderConsole&) = delete;
+
+    const RenderEvents& events() const { return events_; }
+
+   private:
+    std::optional<ProgressReporter> progress_;
+    RenderEvents events_;
+};
+
+/// Prepares the devices for the next picture of several: a device that failed is replaced by
+/// threads, and notes are printed only once.
+void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats);
+
+/// Writes the picture to options.output, an unfinished one next to it: the existing file may be
+/// finished. One without any tile is not written. Removes a finished picture's journal and what was
+/// unfinished of it. Shares are already written. Returns the name of the file; "" if none was
+/// written.
+std::string save_picture(const RenderedPicture& rendered, const RenderOptions& options);
+
+/// Notes the device whose driver process failed, and how, when threads finished its picture.
+void note_failed_device(RenderStats& stats, const RenderOptions& options);
+
+/// Prints what options.stats requests: the summary line on stderr, or figures on stdout.
+void print_results(const RenderStats& stats, const RenderOptions& options);
+
+/// Reports on stderr what is wrong with a picture saved as `path`. Returns the exit status.
+int verdict(const RenderedPicture& rendered, const std::string& path);
+
+/// Renders several scenes, one after the other, on devices that are opened once. A scene that fails
+/// does not stop the others. Returns the worst exit status of all.
+int render_batch(const RenderOptions& options);
+
+}  // namespace rt

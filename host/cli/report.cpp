@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <initializer_list>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/cli/options.h"
+#include "host/cli/result_file.h"
+#include "host/cli/verb.h"
+
+namespace rt {
+
+namespace {
+
+/// `mirrorball report`
+struct ReportOptions {
+    std::vector<std::string> scenes;
+    std::string output;               ///< the page
+    std::string plots;                ///< the folder of its plots as files; empty: none
+    std::optional<PictureSize> size;  ///< default: the scene's
+    std::vector<std::string> devices{"all"};
+    int repeats = 5;      ///< not counting the warm-up
+    bool quick = false;   ///< fewer settings and a coarser reference: a preview, not for quoting
+    bool stress = false;  ///< include the stress suite
+    bool quiet = false;
+};
+
+namespace fs = std::filesystem;
+
+constexpr const char* page_start = "<!DOCTYPE html>";
+constexpr const char* debian_python = "/usr/bin/python3";
+
+/// The python3 in PATH; empty if there is none.
+std::string python_in_path() {
+    const char* const value = std::getenv("PATH");
+    std::string path = value == nullptr ? "" : value;
+    while (!path.empty()) {
+        const std::string folder = path.substr(0, path.find(':'));
+        path.erase(0, folder.size() + 1);
+        const std::string python = folder + "/python3";
+        if (!folder.empty() && ::access(python.c_str(), X_OK) == 0) return python;
+    }
+    return "";
+}
+
+bool has_matplotlib(const std::string& python) {
+    const std::string test = fmt::format("'{}' -c 'import matplotlib' 2>/dev/null", python);
+    return !python.empty() && std::system(test.c_str()) == 0;
+}
+
+/// The first that can draw: a person's python3 is often not the system's.
+std::string choose_python() {
+    const std::string own = python_in_path();
+    for (const std::string& python : {own, std::string(debian_python)}) {
+        if (has_matplotlib(python)) return python;
+    }
+    const std::string others =
+        own.empty() || own == debian_python ? "" : " and " + std::string(debian_python);
+    throw Error(ExitCode::device,
+                fmt::format("report: {}{} cannot import matplotlib; run 'apt install "
+                            "python3-matplotlib' or 'python3 -m pip install matplotlib'",
+                            own.empty() ? debian_python : own, others));
+}
+
+/// The folder of the Python package: installed, else that of the sources around the build folder.
+std::string package_folder(const fs::path& program) {
+    for (const char* place : {"../share/mirrorball/python", "../python", "../../python"}) {
+        const fs::path folder = program.parent_path() / place;
+        if (fs::exists(folder / "mirrorball/report.py")) return folder.lexically_normal();
+    }
+    throw Error(ExitCode::device, "report: its Python package is not installed next to " +
+                                      program.string() + "; install mirrorball again");
+}
+
+std::vector<std::string> command(const std::string& python, const ReportOptions& options) {
+    std::vector<std::string> words{python, "-m", "mirrorball.report", "-o", options.output};
+    const auto add = [&](std::initializer_list<std::string> more) {
+        words.insert(words.end(), more);
+    };
+    add({fmt::format("--devices={}", fmt::join(options.devices, ",")), "--repeats",
+         std::to_string(options.repeats)});
+    if (!options.plots.empty()) add({"--plots=" + options.plots});
+    if (options.size) {
+        add({"--size", fmt::format("{}x{}", options.size->width, options.size->height)});
+    }
+    if (options.quick) add({"--quick"});
+    if (options.stress) add({"--stress"});
+    if (options.quiet) add({"--quiet"});
+    add({"--"});
+    words.insert(words.end(), options.scenes.begin(), options.scenes.end());
+    return words;
+}
+
+int run_report(const ReportOptions& options) {
+    check_result_path(options.output, page_start);
+    const fs::path program = fs::read_symlink("/proc/self/exe");
+    std::string path = package_folder(program);
+    ::setenv("PYTHONSAFEPATH", "1", 1);  // no modules from the working folder
+    const std::string python = choose_python();
+    if (const char* const own = std::getenv("PYTHONPATH")) path += ":" + std::string(own);
+    ::setenv("PYTHONPATH", path.c_str(), 1);
+    ::setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
+    ::setenv("MIRRORBALL", program.c_str(), 1);
+    std::vector<std::string> words = command(python, options);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    ::execv(pointers[0], pointers.data());
+    throw Error(ExitCode::device, "report: cannot run " + python);
+}
+
+}  // namespace
+
+void add_report(const CommandLine& program, Invocation& call) {
+    const auto asked = std::make_shared<ReportOptions>();
+    ReportOptions& report = *asked;
+    const CommandLine verb =
+        program.verb("report", "write an HTML page: pictures, timings, error against run time");
+    verb.arguments("SCENE", report.scenes, scene_help, true);
+    const auto parse_page = [](const std::string& text) {
+        if (!text.ends_with(".html")) refuse(text, "expected a file name that ends in .html");
+        return text;
+    };
+    verb.value("-o,--output", "FILE", report.output, parse_page, "HTML file to write", true);
+    verb.value("--plots", "DIR", report.plots, "also write each plot as SVG, PDF and PNG into DIR");
+    verb.value("--size", "WxH|N", report.size, parse_size,
+               "size of the largest picture in pixels (default: the scene's)");
+    add_device_list(verb, "--devices", report.devices);
+    add_repeats(verb, report.repeats, 5);
+    verb.flag("--quick", report.quick,
+              "fewer settings and a coarser reference: a preview, not for publication");
+    verb.flag("--stress", report.stress,
+              "also run the stress suite, which takes minutes (with --quick, its quick part)");
+    verb.flag("-q,--quiet", report.quiet, quiet_help);
+    verb.when_chosen(
+        [asked, &call] { call.here([asked] { return run_report(*asked); }, asked->quiet); });
+}
+
+}  // namespace rt

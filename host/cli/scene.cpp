@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/cli/options.h"
+#include "host/cli/render_steps.h"
+#include "host/cli/verb.h"
+#include "host/flatten/flat_scene.h"
+#include "host/print/print_stats.h"
+#include "host/scene/scene_file.h"
+#include "host/scene/scene_hash.h"
+#include "host/scene/scene_warnings.h"
+
+namespace rt {
+
+extern const char* const scene_schema;  // embedded by CMake
+
+namespace {
+
+/// `mirrorball scene info|check`
+struct SceneOptions {
+    std::string scene;
+    LightOverrides light;
+    bool json = false;
+};
+
+/// The corners of its bounding box; null if it is empty.
+Json bounds_json(const Scene& scene) {
+    const auto [low, high] = bounding_box(scene);
+    if (low.x > high.x) return nullptr;
+    return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
+}
+
+Json info_json(const std::string& path, const Scene& scene, const FlatScene<float>& flat) {
+    return {{"format", "mirrorball-scene-info"},
+            {"version", 1},
+            {"path", printable(path)},
+            {"name", scene.name},
+            {"hash", hash_text(scene_hash(scene))},
+            {"width", scene.width},
+            {"height", scene.height},
+            {"aa", to_string(scene.aa)},
+            {"max_bounces", scene.max_bounces},
+            {"spheres", scene.spheres.size()},
+            {"cones", scene.cones.size()},
+            {"triangles", flat.triangles.size()},
+            {"smooth_triangles", flat.vertex_normals.size()},
+            {"meshes", scene.meshes.size()},
+            {"mesh_triangles", triangle_count(scene) - scene.triangles.size()},
+            {"lights", scene.lights.size()},
+            {"lights_used", flat.lights.size()},
+            {"materials", scene.materials.size()},
+            {"bounds", bounds_json(scene)},
+            {"flat_bytes", flat.bytes()},
+            {"hierarchies", json_of(hierarchies_of(flat.stats))},
+            {"hierarchy_seconds", flat.stats.bvh_seconds},
+            {"shadow_casters", flat.stats.casters},
+            {"lit_triangles", flat.stats.lit_triangles},
+            {"features_used", names_of(flat.features, true)},
+            {"features_left_out", names_of(flat.features, false)},
+            {"notes", scene.notes},
+            {"warnings", scene_warnings(scene)}};
+}
+
+std::string info_text(const Scene& scene, const FlatScene<float>& flat) {
+    std::string text = fmt::format(
+        "{}\n"
+        "  hash       {}\n"
+        "  picture    {}x{} pixels, {}, up to {}\n"
+        "  contains   {}, {}, {} ({} smooth), {}, {}\n"
+        "  on device  {} bytes in float\n",
+        scene.name, hash_text(scene_hash(scene)), scene.width, scene.height, to_string(scene.aa),
+        counted(static_cast<std::size_t>(scene.max_bounces), "mirror bounce"),
+        counted(scene.spheres.size(), "sphere"), counted(scene.cones.size(), "cone"),
+        counted(flat.triangles.size(), "triangle"), flat.vertex_normals.size(),
+        counted(scene.materials.size(), "material"), counted(scene.lights.size(), "light"),
+        flat.bytes());
+    if (!flat.triangles.empty()) {
+        text += fmt::format(
+            "             {:.1f} bytes per triangle\n",
+            static_cast<double>(flat.bytes()) / static_cast<double>(flat.triangles.size()));
+    }
+    if (!scene.meshes.empty()) {
+        text += fmt::format("  models     {}, {}\n", counted(scene.meshes.size(), "mesh", "meshes"),
+                            counted(triangle_count(scene) - scene.triangles.size(), "triangle"));
+    }
+    if (const auto [low, high] = bounding_box(scene); low.x <= high.x) {
+        text +=
+            fmt::format("  reaches    from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n",
+                        low.x, low.y, low.z, high.x, high.y, high.z);
+    }
+    text += fmt::format("  needs      {}\n  leaves out {}\n", names_text(flat.features, true),
+                        names_text(flat.features, false));
+    std::istringstream built(flatten_text(flat.stats));
+    for (std::string line; std::getline(built, line);) text += "  " + line + "\n";
+    if (flat.lights.size() < scene.lights.size()) {
+        text += fmt::format("  ignores    {} that light nothing\n",
+                            counted(scene.lights.size() - flat.lights.size(), "light"));
+    }
+    for (const std::string& note : scene.notes) text += fmt::format("  note       {}\n", note);
+    for (const std::string& warning : scene_warnings(scene)) {
+        text += fmt::format("  warning    {}\n", warning);
+    }
+    return text;
+}
+
+int show_info(const SceneOptions& options) {
+    const Scene scene = load_scene(options.scene, options.light);
+    const FlatScene<float> flat = flatten<float>(scene);
+    print_result(options.json ? json_text(info_json(options.scene, scene, flat))
+                              : info_text(scene, flat));
+    return static_cast<int>(ExitCode::done);
+}
+
+Json check_json(const std::string& path, const std::string& mistakes,
+                const std::vector<std::string>& notes, const std::vector<std::string>& warnings) {
+    Json lines = Json::array();
+    std::istringstream text(mistakes);
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return {{"format", "mirrorball-scene-check"},
+            {"version", 1},
+            {"path", printable(path)},
+            {"fine", lines.empty()},
+            {"mistakes", lines},
+            {"notes", notes},
+            {"warnings", warnings}};
+}
+
+std::string verdict_text(std::size_t warnings) {
+    return warnings == 0 ? ": fine\n"
+                         : ": can be rendered, with " + counted(warnings, "warning") + "\n";
+}
+
+int check_scene(const SceneOptions& options) {
+    std::string mistakes;
+    std::vector<std::string> notes, warnings;
+    try {
+        const Scene scene = load_scene(options.scene, options.light);
+        flatten<float>(scene);
+        notes = scene.notes;
+        warnings = scene_warnings(scene);
+    } catch (const Error& error) {
+        if (!options.json || error.exit_code() != ExitCode::input) throw;
+        mistakes = error.what();
+    }
+    print_result(options.json ? json_text(check_json(options.scene, mistakes, notes, warnings))
+                              : printable(options.scene) + verdict_text(warnings.size()));
+    if (!options.json) {
+        print_notes(notes);
+        print_warnings(options.scene, warnings);
+    }
+    return static_cast<int>(mistakes.empty() ? ExitCode::done : ExitCode::input);
+}
+
+using RunScene = int (*)(const SceneOptions&);
+
+void add_scene_action(const CommandLine& scene, const char* name, const char* help, RunScene run,
+                      Invocation& call) {
+    const auto asked = std::make_shared<SceneOptions>();
+    const CommandLine action = scene.verb(name, help);
+    action.argument("SCENE", asked->scene, scene_help);
+    add_light_options(action, asked->light);
+    action.flag("--json", asked->json, json_help);
+    action.when_chosen([=, &call] { call.here([=] { return run(*asked); }); });
+}
+
+}  // namespace
+
+void add_scene(const CommandLine& program, Invocation& call) {
+    const CommandLine scene = program.verb("scene", "inspect a scene file");
+    add_scene_action(scene, "info", "show what the scene contains, needs, and leaves out",
+                     show_info, call);
+    add_scene_action(scene, "check", "check the scene for errors", check_scene, call);
+    const CommandLine schema = scene.verb("schema", "print the JSON Schema of scene files");
+    schema.when_chosen([&call] {
+        call.here([] {
+            print_result(scene_schema);
+            return static_cast<int>(ExitCode::done);
+        });
+    });
+}
+
+}  // namespace rt

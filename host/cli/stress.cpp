@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/cli/options.h"
+#include "host/cli/result_file.h"
+#include "host/cli/verb.h"
+#include "host/image/output_path.h"
+#include "host/print/print_run.h"
+#include "host/print/print_stress.h"
+#include "host/process/stop_signal.h"
+#include "host/stress/families.h"
+#include "host/stress/stress_run.h"
+
+namespace rt {
+
+namespace {
+
+/// `mirrorball stress`
+struct StressCall : StressOptions {
+    bool list = false;     ///< name the cases, run none
+    bool verbose = false;  ///< a line per case and renderer
+    std::string json;      ///< empty: none; "-": stdout
+};
+
+int run_stress(const StressCall& options) {
+    const std::vector<StressFamily> families =
+        chosen_families(all_stress_families(), options.cases, options.except, options.quick);
+    if (options.list) {
+        print_result(stress_list(families));
+        return 0;
+    }
+    check_result_path(options.json, json_start("mirrorball-stress"));
+    if (!options.output.empty()) {
+        create_output_folder(options.output);
+        check_output_path(options.output + "/reference.png");
+    }
+    const StressResult result = run_stress_cases(families, options);
+    if (options.json != "-") print_result(stress_text(result, options.verbose));
+    write_result(options.json, options.json.empty() ? "" : stress_json(result));
+    if (result.interrupted) return 128 + stop_flag();
+    return static_cast<int>(result.passed() ? ExitCode::done : ExitCode::different);
+}
+
+}  // namespace
+
+void add_stress(const CommandLine& program, Invocation& call) {
+    const auto asked = std::make_shared<StressCall>();
+    StressCall& stress = *asked;
+    const CommandLine verb = program.verb(
+        "stress", "test numerical stability: extreme cases, each with a pass/fail verdict");
+    verb.value("--case", "GLOB,...", stress.cases, list_of(parse_text),
+               "families (scale-*) or cases (shift/1e9) to run (default: all)");
+    verb.value("--except", "GLOB,...", stress.except, list_of(parse_text),
+               "families or cases to leave out");
+    add_device_list(verb, "--device", stress.devices);
+    verb.flag("--quick", stress.quick, "run only the cases that take under a minute in total");
+    verb.flag("--all-features", stress.all_features,
+              "compile all features into the kernels: one build for all cases");
+    verb.flag("--list", stress.list, "list the cases without running them");
+    add_result_file(verb, "--json", stress.json,
+                    "write JSON, to FILE or to stdout instead of the table");
+    verb.value("-o,--output", "DIR", stress.output,
+               "folder for each case's reference, worst picture and error map");
+    verb.flag("-v,--verbose", stress.verbose, "print a line per case and renderer");
+    verb.flag("-q,--quiet", stress.quiet, quiet_help);
+    verb.when_chosen([asked, &call] {
+        if (asked->list && !(asked->json.empty() && asked->output.empty())) {
+            usage_error("--list cannot be combined with --json or -o");
+        }
+        call.in_worker([asked] { return run_stress(*asked); }, asked->quiet);
+    });
+}
+
+}  // namespace rt

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/explain/ray_tree.h"
+
+#include <fmt/format.h>
+
+#include "host/flatten/triangle_list.h"
+#include "host/flatten/view_frame.h"
+#include "host/render/native_kernels.h"
+
+extern "C" {
+void rt_explain_pixel(double* film, rt::f64::RayCounts* counts, const rt::NativeView<double>* view,
+                      const rt::f64::Tile* tile);
+void rt_note_path_event(const PathEvent* event);
+}
+
+namespace {
+
+thread_local std::vector<PathEvent>* listener = nullptr;
+
+}  // namespace
+
+void rt_note_path_event(const PathEvent* event) { listener->push_back(*event); }
+
+namespace rt {
+
+namespace {
+
+glm::dvec3 triple(const double (&numbers)[3]) { return {numbers[0], numbers[1], numbers[2]}; }
+
+/// Builds trees from events. A secondary ray is the child of the last hit with one bounce less:
+/// pending rays are processed last in, first out.
+class TreeBuilder {
+   public:
+    TreeBuilder(const Scene& scene, const FlatScene<double>& flat)
+        : scene_(scene),
+          flat_(flat),
+          triangles_(scene),
+          frame_(make_view_frame(scene, triangles_, 1)) {
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            if (scene.lights[i].intensity != glm::dvec3(0)) lights_.push_back(i);
+        }
+    }
+
+    std::vector<SampleTree> build(const std::vector<PathEvent>& events) {
+        std::vector<SampleTree> trees;
+        for (const PathEvent& event : events) {
+            switch (event.what) {
+                case RT_EVENT_SAMPLE:
+                    trees.push_back({static_cast<int>(event.index), start(event, Kind::eye)});
+                    trees.back().ray.weight = glm::dvec3(1);
+                    break;
+                case RT_EVENT_MIRROR:
+                    parent(trees, event).children.push_back(start(event, Kind::mirror));
+                    break;
+                case RT_EVENT_REFRACTED:
+                    parent(trees, event).children.push_back(start(event, Kind::refracted));
+                    break;
+                case RT_EVENT_SHADOW:
+                    seen_.push_back({lights_[static_cast<std::size_t>(event.index)],
+                                     LightAtHit::State::shadowed, glm::dvec3(0)});
+                    break;
+                case RT_EVENT_LIT:
+                    seen_.back().state = LightAtHit::State::lit;
+                    seen_.back().color = triple(event.color);
+                    break;
+                case RT_EVENT_MISS:
+                    last(trees.back().ray).color = triple(event.color);
+                    break;
+                case RT_EVENT_HIT:
+                    end(event, last(trees.back().ray));
+                    break;
+                default:
+                    break;
+            }
+        }
+        return trees;
+    }
+
+   private:
+    using Kind = RayNode::Kind;
+
+    glm::dvec3 in_scene(const double (&point)[3]) const {
+        return triple(point) / frame_.scale + frame_.eye;
+    }
+
+    RayNode start(const PathEvent& event, Kind kind) const {
+        RayNode ray;
+        ray.kind = kind;
+        ray.bounce = static_cast<int>(event.bounce);
+        ray.weight = triple(event.weight);
+        ray.origin = in_scene(event.point);
+        ray.direction = triple(event.normal);
+        return ray;
+    }
+
+    /// The ray started last.
+    static RayNode& last(RayNode& ray) {
+        RayNode* found = &ray;
+        while (!found->children.empty()) found = &found->children.back();
+        return *found;
+    }
+
+    static RayNode& parent(std::vector<SampleTree>& trees, const PathEvent& event) {
+        RayNode* found = &trees.back().ray;
+        while (found->bounce + 1 < event.bounce) found = &found->children.back();
+        return *found;
+    }
+
+    void end(const PathEvent& event, RayNode& ray) {
+        ray.color = triple(event.color);
+        RayHit& hit = ray.hit.emplace();
+        hit.distance = event.distance / frame_.scale;
+        hit.point = in_scene(event.point);
+        hit.normal = triple(event.normal);
+        const Scene::Material& material = name_object(event.index, hit);
+        hit.material = material.name;
+        hit.ambient = material.ambient * scene_.ambient_light;
+        hit.lights = all_lights();
+        seen_.clear();
+    }
+
+    /// The lights that a shadow ray was traced to, and the others, which lie behind the surface.
+    std::vector<LightAtHit> all_lights() const {
+        std::vector<LightAtHit> lights;
+        for (std::size_t i = 0, next = 0; i < flat_.lights.size(); ++i) {
+            const bool asked = next < seen_.size() && seen_[next].light == lights_[i];
+            lights.push_back(asked ? seen_[next++] : LightAtHit{lights_[i], {}, glm::dvec3(0)});
+        }
+        return lights;
+    }
+
+    const Scene::Material& material(int index) const {
+        return scene_.materials[static_cast<std::size_t>(index)];
+    }
+
+    /// Sets the hit's object to the author's name for primitive number `prim` of the flat scene.
+    const Scene::Material& name_object(long prim, RayHit& hit) const {
+        auto number = static_cast<std::size_t>(prim);
+        if (!flat_.order.empty()) number = static_cast<std::size_t>(flat_.order[number]);
+        if (number < scene_.spheres.size()) {
+            hit.object = fmt::format("sphere {}", number + 1);
+            return material(scene_.spheres[number].material);
+        }
+        number -= scene_.spheres.size();
+        if (number < scene_.cones.size()) {
+            hit.object = fmt::format("cone {}", number + 1);
+            return material(scene_.cones[number].material);
+        }
+        number -= scene_.cones.size();
+        const auto [mesh, index] = triangles_.place(number);
+        hit.object = mesh == nullptr ? fmt::format("triangle {}", index + 1)
+                                     : fmt::format("mesh {}, face {}",
+                                                   mesh - scene_.meshes.data() + 1, index + 1);
+        return material(triangles_.material(number));
+    }
+
+    const Scene& scene_;
+    const FlatScene<double>& flat_;
+    const TriangleList triangles_;
+    const ViewFrame frame_;
+    std::vector<std::size_t> lights_;  ///< scene index of each light of nonzero intensity
+    std::vector<LightAtHit> seen_;     ///< lights of the upcoming hit
+};
+
+}  // namespace
+
+ExplainedPixel explain_pixel(const FlatScene<double>& scene, int x, int y) {
+    ExplainedPixel pixel;
+    const NativeView<double> view = native_view(scene);
+    const f64::Tile tile{x, y, 1, 1, 0, 1, {}};
+    f64::RayCounts counts{};
+    listener = &pixel.events;
+    rt_explain_pixel(&pixel.color.x, &counts, &view, &tile);
+    listener = nullptr;
+    return pixel;
+}
+
+std::vector<SampleTree> ray_trees(const ExplainedPixel& pixel, const Scene& scene,
+                                  const FlatScene<double>& flat) {
+    return TreeBuilder(scene, flat).build(pixel.events);
+}
+
+glm::dvec3 color_of(const RayNode& ray, const glm::dvec3& before) {
+    glm::dvec3 color = before + ray.weight * ray.color;
+    for (const RayNode& child : ray.children) color = color_of(child, color);
+    return color;
+}
+
+}  // namespace rt

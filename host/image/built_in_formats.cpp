@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/built_in_formats.h"
+
+#include <fmt/format.h>
+#include <png.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <csetjmp>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <span>
+#include <system_error>
+
+#include "host/base/error.h"
+#include "host/base/memory.h"
+#include "host/base/text.h"
+#include "host/image/atomic_file.h"
+#include "host/image/output_path.h"
+
+namespace rt {
+
+void refuse_picture(const std::string& path, const std::string& reason, const std::string& advice) {
+    throw Error(ExitCode::input, path + ": " + reason + "; " + advice);
+}
+
+void refuse_damaged(const std::string& path, const std::string& reason) {
+    refuse_picture(path, "cannot read the picture: " + reason, "it may be damaged: save it again");
+}
+
+InputFile open_input_file(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) {
+        refuse_picture(path, "cannot read: " + std::generic_category().message(errno),
+                       "check the path");
+    }
+    if (S_ISDIR(status.st_mode)) refuse_picture(path, "is a directory", "name a picture file");
+    if (!S_ISREG(status.st_mode))
+        refuse_picture(path, "is not a regular file", "copy it to one first");
+    errno = 0;
+    InputFile file{std::ifstream(path, std::ios::binary),
+                   static_cast<std::uintmax_t>(status.st_size)};
+    if (!file.stream) {
+        refuse_picture(path, "cannot read: " + std::generic_category().message(errno),
+                       "check its permissions");
+    }
+    return file;
+}
+
+void check_picture_size(const std::string& path, int width, int height, int channels) {
+    constexpr int largest_side = 65536;
+    constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+    constexpr std::int64_t most_values = std::int64_t{1} << 30;
+    const std::string size = fmt::format("{}x{} pixels of {} channels", width, height, channels);
+    if (width < 1 || height < 1 || channels < 1)
+        refuse_picture(path, "has " + size, "save it again");
+    const std::int64_t pixels = std::int64_t{width} * height;
+    if (width > largest_side || height > largest_side || pixels > most_pixels || channels > 64 ||
+        pixels * channels > most_values) {
+        refuse_picture(
+            path, "has " + size,
+            "scale it down to at most 65536 pixels per side, 2^28 pixels and 2^30 values");
+    }
+}
+
+void check_stored_size(const std::string& path, std::uintmax_t pixel_bytes,
+                       std::uintmax_t best_ratio, std::uintmax_t file_size) {
+    if (pixel_bytes / best_ratio <= file_size) return;
+    refuse_picture(
+        path,
+        fmt::format("its {} bytes cannot hold the {} bytes of pixels that its header declares",
+                    file_size, pixel_bytes),
+        "it may be truncated: save it again");
+}
+
+void check_picture_memory(const std::string& path, int width, int height, int channels) {
+    const std::uint64_t values =
+        std::uint64_t(width) * std::uint64_t(height) * std::uint64_t(channels);
+    check_memory(values * sizeof(float), path + ": its pixels as floats", "scale it down first");
+}
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "pixels are written as they are");
+
+struct Header {
+    int channels = 0;
+    int width = 0;
+    int height = 0;
+    double scale = 0;
+};
+
+/// The next word of the header with the one white space behind it; empty when there is none.
+std::string next_word(std::istream& stream) {
+    constexpr std::size_t longest = 32;
+    std::string word;
+    for (int c = stream.get(); c != EOF && word.size() <= longest; c = stream.get()) {
+        const bool is_space = c == ' ' || c == '\n' || c == '\t' || c == '\r';
+        if (is_space) return word;
+        word += static_cast<char>(c);
+    }
+    return {};
+}
+
+Header read_header(const std::string& path, std::istream& stream) {
+    const std::string kind = next_word(stream);
+    const auto width = parse_number<int>(next_word(stream));
+    const auto height = parse_number<int>(next_word(stream));
+    const auto scale = parse_number<double>(next_word(stream));
+    if ((kind != "PF" && kind != "Pf") || !width || !height || !scale || *scale == 0 ||
+        !std::isfinite(*scale)) {
+        refuse_picture(
+            path, "damaged PFM header: expected PF or Pf, width, height and a scale other than 0",
+            "save it again");
+    }
+    return {kind == "PF" ? 3 : 1, *width, *height, *scale};
+}
+
+}  // namespace
+
+void write_pfm(const std::string& path, const Picture& picture) {
+    if (picture.channels != 1 && picture.channels != 3) {
+        throw Error(ExitCode::output,
+                    fmt::format("{}: PFM stores 1 or 3 channels, not {}; use .exr", path,
+                                picture.channels));
+    }
+    const std::string header = fmt::format("{}\n{} {}\n-1.0\n", picture.channels == 3 ? "PF" : "Pf",
+                                           picture.width, picture.height);
+    const auto row = static_cast<std::size_t>(picture.width) * picture.channels;
+    AtomicFile file(path);
+    file.write(std::as_bytes(std::span(header)));
+    for (int y = picture.height - 1; y >= 0; --y) {
+        file.write(std::as_bytes(std::span(picture.pixels).subspan(row * y, row)));
+    }
+    file.commit();
+}
+
+Picture read_pfm(const std::string& path, InputFile file, bool with_pixels) {
+    const Header header = read_header(path, file.stream);
+    check_picture_size(path, header.width, header.height, header.channels);
+
+    Picture picture{header.width, header.height, header.channels, {}};
+    const auto row = static_cast<std::size_t>(header.width) * header.channels;
+    const std::uintmax_t expected = row * header.height * sizeof(float);
+    const auto start = static_cast<std::uintmax_t>(file.stream.tellg());
+    if (file.size - start != expected) {
+        refuse_picture(path,
+                       fmt::format("has {} bytes of pixels, but its header declares {}",
+                                   file.size - start, expected),
+                       "save it again");
+    }
+    if (!with_pixels) return picture;
+    check_picture_memory(path, header.width, header.height, header.channels);
+    picture.pixels.resize(row * header.height);
+    for (int y = header.height - 1; y >= 0; --y) {
+        auto* target = reinterpret_cast<char*>(picture.pixels.data() + row * y);
+        file.stream.read(target, static_cast<std::streamsize>(row * sizeof(float)));
+    }
+    if (!file.stream) refuse_picture(path, "cannot read", "check the disk");
+    if (header.scale < 0) return picture;
+    for (float& value : picture.pixels) {
+        value = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
+    }
+    return picture;
+}
+
+namespace {
+
+/// What the callbacks of libpng see. It reports an error by longjmp, so functions that call
+/// setjmp hold nothing that needs a destructor: all of that is here.
+struct PngWriter {
+    const Picture& picture;
+    Encoding encoding;
+    std::vector<png_text> texts;
+    std::vector<std::uint8_t> row;
+    std::vector<std::byte> file;
+    char error[200] = "";
+};
+
+[[noreturn]] void stop_writing(png_structp png, png_const_charp reason) {
+    auto& writer = *static_cast<PngWriter*>(png_get_error_ptr(png));
+    std::snprintf(writer.error, sizeof writer.error, "%s", reason);
+    png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {}
+
+void flush_nothing(png_structp) {}
+
+bool append(std::vector<std::byte>& file, std::span<const std::byte> bytes) {
+    try {
+        file.insert(file.end(), bytes.begin(), bytes.end());
+        return true;
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+}
+
+void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
+    auto& writer = *static_cast<PngWriter*>(png_get_io_ptr(png));
+    if (!append(writer.file, std::as_bytes(std::span(bytes, count)))) {
+        png_error(png, "out of memory");
+    }
+}
+
+int color_type(int channels) {
+    constexpr int types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                             PNG_COLOR_TYPE_RGB_ALPHA};
+    return types[channels - 1];
+}
+
+void declare_encoding(png_structp png, png_infop info, Encoding encoding) {
+    if (encoding == Encoding::srgb) {
+        png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+    }
+    if (encoding == Encoding::linear) png_set_gAMA(png, info, 1.0);
+}
+
+/// Rendered pictures have many uniform areas and repeated edges: unfiltered they compress in half
+/// the time of the best filter, to 1 to 13 % more bytes (docs/dependencies.md).
+void choose_compression(png_structp png) {
+    png_set_compression_level(png, 6);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    png_set_compression_buffer_size(png, 1 << 18);  // the size of a chunk of pixels
+}
+
+bool write_png(png_structp png, png_infop info, PngWriter& writer) {
+    const Picture& picture = writer.picture;
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_write_fn(png, &writer, append_bytes, flush_nothing);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width),
+                 static_cast<png_uint_32>(picture.height), 8, color_type(picture.channels),
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    choose_compression(png);
+    declare_encoding(png, info, writer.encoding);
+    png_set_text(png, info, writer.texts.data(), static_cast<int>(writer.texts.size()));
+    png_write_info(png, info);
+    for (int y = 0; y < picture.height; ++y) {
+        encode_8bit_row(picture, y, writer.encoding, writer.row);
+        png_write_row(png, writer.row.data());
+    }
+    png_write_end(png, nullptr);
+    return true;
+}
+
+/// tEXt holds Latin-1, iTXt UTF-8.
+png_text text_chunk(const std::string& name, const std::string& text) {
+    const bool is_ascii =
+        std::all_of(text.begin(), text.end(), [](char c) { return (c & 0x80) == 0; });
+    png_text chunk{};
+    chunk.compression = is_ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+    chunk.key = const_cast<char*>(name.c_str());
+    chunk.text = const_cast<char*>(text.c_str());
+    chunk.text_length = text.size();
+    return chunk;
+}
+
+/// As in the writer: libpng reports errors by longjmp, so functions that call setjmp hold nothing
+/// that needs a destructor.
+class PngReader {
+   public:
+    PngReader(const std::string& path, std::istream& stream) : path_(path), stream_(stream) {
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, stop, ignore);
+        info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
+        if (info_ == nullptr) {
+            png_destroy_read_struct(&png_, nullptr, nullptr);
+            throw std::bad_alloc();
+        }
+    }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
+    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+
+    PictureFile read(std::uintmax_t file_size, bool with_pixels) {
+        check(read_header());
+        const auto width = static_cast<int>(png_get_image_width(png_, info_));
+        const auto height = static_cast<int>(png_get_image_height(png_, info_));
+        // After expansion: a palette is 3 channels, a transparent color one more.
+        const bool has_palette = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE;
+        const bool has_key = png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
+        const int channels = (has_palette ? 3 : png_get_channels(png_, info_)) + (has_key ? 1 : 0);
+        check_picture_size(path_, width, height, channels);
+        // Deflate's best ratio is 1032:1.
+        const std::uintmax_t stored = png_get_rowbytes(png_, info_) * std::uintmax_t(height);
+        check_stored_size(path_, stored, 1032, file_size);
+        PictureFile file{{width, height, channels, {}}, {}};
+        if (with_pixels) {
+            check_picture_memory(path_, width, height, channels);
+            check(expand());
+            if (png_get_channels(png_, info_) != channels) fail("inconsistent header");
+            read_pixels(file.picture);
+            check(read_end());
+        }
+        file.metadata = texts();
+        return file;
+    }
+
+   private:
+    [[noreturn]] static void stop(png_structp png, png_const_charp reason) {
+        auto& reader = *static_cast<PngReader*>(png_get_error_ptr(png));
+        std::snprintf(reader.error_, sizeof reader.error_, "%s", reason);
+        png_longjmp(png, 1);
+    }
+
+    static void ignore(png_structp, png_const_charp) {}
+
+    static void read_bytes(png_structp png, png_bytep bytes, std::size_t count) {
+        std::istream& stream = static_cast<PngReader*>(png_get_io_ptr(png))->stream_;
+        stream.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(count));
+        if (!stream) png_error(png, "unexpected end of file");
+    }
+
+    [[noreturn]] void fail(const char* reason) const { refuse_damaged(path_, reason); }
+
+    void check(bool done) const {
+        if (!done) fail(error_);
+    }
+
+    bool read_header() {
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_set_read_fn(png_, this, read_bytes);
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // we check the size ourselves
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // bad checksums would stop nearly all inputs
+        png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+#endif
+        png_read_info(png_, info_);
+        return true;
+    }
+
+    bool expand() {
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_set_expand(png_);
+        png_set_swap(png_);  // to this machine's byte order
+        png_set_interlace_handling(png_);
+        png_read_update_info(png_, info_);
+        return true;
+    }
+
+    bool read_row(png_bytep row) {
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_read_row(png_, row, nullptr);
+        return true;
+    }
+
+    bool read_end() {
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_read_end(png_, info_);
+        return true;
+    }
+
+    void read_pixels(Picture& picture) {
+        const bool is_wide = png_get_bit_depth(png_, info_) == 16;
+        const std::size_t values = static_cast<std::size_t>(picture.width) * picture.channels;
+        const std::size_t row_bytes = png_get_rowbytes(png_, info_);
+        const bool interlaced = png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE;
+        picture.pixels.reserve(values * picture.height);  // pages are touched as rows arrive
+        std::vector<png_byte> bytes(interlaced ? row_bytes * picture.height : row_bytes);
+        // Each pass but the last leaves gaps in all rows.
+        for (int pass = interlaced ? 7 : 1; pass > 1; --pass) {
+            for (int y = 0; y < picture.height; ++y) check(read_row(&bytes[row_bytes * y]));
+        }
+        for (int y = 0; y < picture.height; ++y) {
+            png_bytep row = interlaced ? &bytes[row_bytes * y] : bytes.data();
+            check(read_row(row));
+            is_wide ? append_wide(row, values, picture.pixels)
+                    : append_narrow(row, values, picture.pixels);
+        }
+    }
+
+    static void append_narrow(png_const_bytep row, std::size_t count, std::vector<float>& pixels) {
+        static const std::array<float, 256> shares = [] {
+            std::array<float, 256> table{};
+            for (int i = 0; i < 256; ++i) table[i] = static_cast<float>(i) / 255.0f;
+            return table;
+        }();
+        for (std::size_t i = 0; i < count; ++i) pixels.push_back(shares[row[i]]);
+    }
+
+    static void append_wide(png_const_bytep row, std::size_t count, std::vector<float>& pixels) {
+        for (std::size_t i = 0; i < count; ++i) {
+            std::uint16_t value = 0;
+            std::memcpy(&value, row + 2 * i, sizeof value);
+            pixels.push_back(static_cast<float>(value) / 65535.0f);
+        }
+    }
+
+    PictureMetadata texts() const {
+        png_textp chunks = nullptr;
+        const int count = png_get_text(png_, info_, &chunks, nullptr);
+        PictureMetadata metadata;
+        for (int i = 0; i < count; ++i) metadata.emplace_back(chunks[i].key, chunks[i].text);
+        return metadata;
+    }
+
+    const std::string& path_;
+    std::istream& stream_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    char error_[200] = "";
+};
+
+}  // namespace
+
+std::vector<std::byte> encode_png_file(
+    const std::string& path, const Picture& picture, Encoding encoding,
+    std::span<const std::pair<std::string, std::string>> metadata) {
+    PngWriter writer{picture, encoding, {}, {}, {}};
+    for (const auto& [name, text] : metadata) {
+        if (!text.empty()) writer.texts.push_back(text_chunk(name, text));
+    }
+    writer.row.resize(static_cast<std::size_t>(picture.width) * picture.channels);
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, stop_writing, ignore_warning);
+    png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+    const bool written = info != nullptr && write_png(png, info, writer);
+    png_destroy_write_struct(&png, &info);
+    if (written) return std::move(writer.file);
+    fail_to_encode(path, writer.error[0] == '\0' ? "out of memory" : writer.error);
+}
+
+PictureFile read_png(const std::string& path, std::istream& stream, std::uintmax_t size,
+                     bool with_pixels) {
+    return PngReader(path, stream).read(size, with_pixels);
+}
+
+}  // namespace rt

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/image/picture_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <iterator>
+#include <new>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "host/base/error.h"
+#include "host/base/module_file.h"
+#include "host/image/atomic_file.h"
+#include "host/image/built_in_formats.h"
+#include "host/image/output_path.h"
+#include "host/image/picture_format.h"
+#include "host/image/picture_module.h"
+
+namespace rt {
+
+namespace {
+
+const PictureModule& load(const char* name, const char* advice, ExitCode failure) {
+    return *static_cast<const PictureModule*>(
+        load_module({name, PictureModule::current_version, "the image library", advice}, failure));
+}
+
+/// OpenImageIO pulls in OpenBLAS, which would start a thread per core on loading.
+const PictureModule& load_openimageio(ExitCode failure) {
+    ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
+    return load("libmirrorball_oiio.so",
+                "reinstall libopenimageio2.4 and mirrorball, or use .png, .exr or .pfm", failure);
+}
+
+}  // namespace
+
+const PictureModule& picture_module(PictureFormat format, ExitCode failure) {
+    if (format == PictureFormat::exr) {
+        static const PictureModule& exr =
+            load("libmirrorball_exr.so",
+                 "reinstall libopenexr-3-1-30 and mirrorball, or use .png or .pfm", failure);
+        return exr;
+    }
+    static const PictureModule& others = load_openimageio(failure);
+    return others;
+}
+
+namespace {
+
+/// The format by first bytes, unless the extension contradicts it; TGA has no magic number.
+PictureFormat find_format(const std::string& path, InputFile& file) {
+    char first_bytes[16] = {};
+    file.stream.read(first_bytes, sizeof first_bytes);
+    const auto count = static_cast<std::size_t>(file.stream.gcount());
+    file.stream.clear();
+    file.stream.seekg(0);
+    if (count == 0) refuse_picture(path, "is empty", "save it again");
+    const auto named = known_picture_format(path);
+    const auto held = picture_format_of_bytes({first_bytes, count});
+    if (held && (!named || named == held)) return *held;
+    if (held) {
+        refuse_picture(path, fmt::format("contains {} data", to_string(*held)),
+                       "correct its extension");
+    }
+    if (named == PictureFormat::tga) return *named;
+    if (named)
+        refuse_picture(path, fmt::format("is not a valid {} file", to_string(*named)),
+                       "save it again");
+    refuse_picture(path, "is not in a supported format",
+                   "use a PNG, EXR, PFM, TIFF, JPEG, WebP, HDR, TGA, BMP, PNM or DPX file");
+}
+
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+}
+
+/// What OpenImageIO's readers do not check: a file too small for the values that its header
+/// promises, where the format limits its compression (WebP does not).
+void check_stored_values(const std::string& path, PictureFormat format, std::uintmax_t values,
+                         std::uintmax_t file_size) {
+    const std::uintmax_t most = values_per_byte(format);
+    if (most != 0) check_stored_size(path, values, most, file_size);
+}
+
+/// And a JPEG file that was cut short, whose missing pixels its reader makes up.
+void check_jpeg_end(const std::string& path, InputFile& file) {
+    const std::string bytes{std::istreambuf_iterator<char>(file.stream), {}};
+    const std::size_t scan = bytes.rfind("\xff\xda");  // the last one; thumbnails come before
+    if (scan != bytes.npos && bytes.find("\xff\xd9", scan) != bytes.npos) return;
+    refuse_picture(path, "has no end-of-image marker", "it may be truncated: save it again");
+}
+
+PictureFile read_with_module(const std::string& path, PictureFormat format, InputFile file,
+                             bool with_pixels) {
+    if (format == PictureFormat::jpeg && with_pixels) check_jpeg_end(path, file);
+    const PictureModule& library = picture_module(format, ExitCode::input);
+    const auto check = [&](int width, int height, int channels) {
+        check_picture_size(path, width, height, channels);
+        check_stored_values(path, format, std::uintmax_t(width) * height * channels, file.size);
+        if (with_pixels) check_picture_memory(path, width, height, channels);
+        return with_pixels;
+    };
+    try {
+        return library.decode(path, module_name(format), check);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        refuse_damaged(path, one_line(error.what()));
+    }
+}
+
+PictureFile read(const std::string& path, bool with_pixels) try {
+    InputFile file = open_input_file(path);
+    const PictureFormat format = find_format(path, file);
+    if (format == PictureFormat::png) return read_png(path, file.stream, file.size, with_pixels);
+    if (format == PictureFormat::pfm) return {read_pfm(path, std::move(file), with_pixels), {}};
+    return read_with_module(path, format, std::move(file), with_pixels);
+} catch (const std::bad_alloc&) {
+    throw Error(ExitCode::limit, path + ": not enough memory for its pixels; scale it down first");
+}
+
+}  // namespace
+
+PictureFile read_picture_file(const std::string& path) { return read(path, true); }
+PictureFile read_picture_header(const std::string& path) { return read(path, false); }
+Picture read_picture(const std::string& path) { return read_picture_file(path).picture; }
+
+namespace {
+
+using Metadata = std::span<const std::pair<std::string, std::string>>;
+
+void check_picture(const std::string& path, const Picture& picture) {
+    const bool has_size =
+        picture.width > 0 && picture.height > 0 && picture.channels >= 1 &&
+        (picture.channel_names.empty()
+             ? picture.channels <= 4
+             : picture.channel_names.size() == static_cast<std::size_t>(picture.channels));
+    if (has_size && picture.pixels.size() == static_cast<std::size_t>(picture.width) *
+                                                 picture.height * picture.channels) {
+        return;
+    }
+    throw Error(
+        ExitCode::bug,
+        fmt::format("{}: a picture of {} x {} x {} with {} values; please report this", path,
+                    picture.width, picture.height, picture.channels, picture.pixels.size()));
+}
+
+void check_metadata(const std::string& path, Metadata metadata) {
+    constexpr std::string_view prefix = "mirrorball:";
+    constexpr std::size_t longest = 31;  // for EXR attribute names
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+    for (const auto& [name, text] : metadata) {
+        const std::string_view rest = std::string_view(name).substr(std::min(11ul, name.size()));
+        if (name.starts_with(prefix) && !rest.empty() && name.size() <= longest &&
+            std::all_of(rest.begin(), rest.end(), is_plain) &&
+            text.find('\0') == std::string::npos) {
+            continue;
+        }
+        throw Error(ExitCode::bug,
+                    path + ": metadata '" + name + "' cannot be stored; please report this");
+    }
+}
+
+std::vector<std::byte> encode_with_module(const std::string& path, PictureFormat format,
+                                          const Picture& picture, Encoding encoding,
+                                          Metadata metadata) {
+    EncodeRequest request{module_name(format), picture, {}, nullptr, metadata};
+    std::vector<std::uint8_t> bytes;
+    if (!stores_floats(format)) {
+        bytes = encode_8bit(picture, encoding);
+        request.bytes = bytes;
+        request.color_space = encoding == Encoding::srgb     ? "sRGB"
+                              : encoding == Encoding::linear ? "Linear"
+                                                             : nullptr;
+    }
+    const PictureModule& library = picture_module(format, ExitCode::output);
+    try {
+        return library.encode(request);
+    } catch (const std::exception& error) {
+        const bool is_full = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+        fail_to_encode(path, is_full ? "out of memory" : error.what());
+    }
+}
+
+}  // namespace
+
+void write_picture(const std::string& path, const Picture& picture, Encoding encoding,
+                   Metadata metadata, std::optional<PictureFormat> format) {
+    if (!format) format = picture_format_of_name(path);
+    check_picture_path(path, format);
+    check_picture_fits(path, picture.width, picture.height, format);
+    check_picture(path, picture);
+    check_metadata(path, metadata);
+    if (format == PictureFormat::pfm) return write_pfm(path, picture);
+    write_file_atomically(path,
+                          format == PictureFormat::png
+                              ? encode_png_file(path, picture, encoding, metadata)
+                              : encode_with_module(path, *format, picture, encoding, metadata));
+}
+
+std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding) {
+    const std::string what = "a picture in memory";
+    check_picture(what, picture);
+    return encode_png_file(what, picture, encoding, {});
+}
+
+void check_picture_fits(const std::string& path, int width, int height,
+                        std::optional<PictureFormat> format) {
+    if (!format) format = picture_format_of_name(path);
+    const int most = longest_side(*format);
+    if (width <= most && height <= most) return;
+    throw Error(
+        ExitCode::limit,
+        fmt::format("{}: {}x{} pixels are too many for {}, which has at most {} per side; use "
+                    ".png or .exr, or reduce --size",
+                    path, width, height, to_string(*format), most));
+}
+
+void check_picture_path(const std::string& path, std::optional<PictureFormat> format) {
+    if (!format) format = picture_format_of_name(path);
+    check_output_path(path);
+    if (needs_module(*format)) picture_module(*format, ExitCode::output);
+}
+
+}  // namespace rt

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/bench_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "host/base/console.h"
+#include "host/base/parallel.h"
+#include "host/measure/device_list.h"
+#include "host/measure/machine_load.h"
+#include "host/measure/timing.h"
+#include "host/picture/default_scene.h"
+#include "host/render/packet_shape.h"
+#include "host/render/stopwatch.h"
+#include "host/render/threads_renderer.h"
+#include "host/scene/scene_file.h"
+#include "host/scene/scene_hash.h"
+
+namespace rt {
+
+namespace {
+
+/// One deviation from the defaults: compiles something the scene does not need, or removes
+/// something it uses.
+struct Change {
+    std::string what;
+    std::function<void(RenderSettings&)> make;
+};
+
+constexpr std::size_t most_without_hierarchy = 5000;
+
+using Changes = std::vector<Change>;
+
+void add_features(const Features& needed, Changes& changes) {
+    for (const FeatureName& feature : feature_names) {
+        if (needed.*feature.flag) continue;
+        changes.push_back(
+            {std::string(feature.name) + " compiled in", [&feature](RenderSettings& settings) {
+                 settings.kernels.features.*feature.flag = true;
+             }});
+    }
+    if (changes.empty()) return;
+    changes.push_back({"everything compiled in",
+                       [](RenderSettings& settings) { settings.kernels.features = Features{}; }});
+}
+
+/// Whether some kind of primitive could have a hierarchy but has none.
+bool lacks_hierarchy(const FlatScene<float>& flat) {
+    return (flat.spheres.size() > 1 && flat.params.sphere_root == 0) ||
+           (flat.cones.size() > 1 && flat.params.cone_root == 0) ||
+           (flat.triangles.size() > 1 && flat.params.triangle_root == 0);
+}
+
+void add_hierarchies(const FlatScene<float>& flat, Changes& changes) {
+    const std::size_t primitives = flat.spheres.size() + flat.cones.size() + flat.triangles.size();
+    if (!flat.nodes.empty() && primitives <= most_without_hierarchy) {
+        changes.push_back(
+            {"no hierarchies", [](RenderSettings& settings) { settings.hierarchies = false; }});
+    }
+    if (lacks_hierarchy(flat)) {
+        changes.push_back({"hierarchies over few primitives",
+                           [](RenderSettings& settings) { settings.hierarchies = true; }});
+    }
+}
+
+/// The changes that `bench --ablate` tries on this scene and device. Hierarchies are removed only
+/// where testing all primitives one by one does not take too long.
+std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& device,
+                                       Precision precision) {
+    const FlatScene<float> flat = flatten<float>(scene);
+    Changes changes;
+    if (!device.is_threads) add_features(flat.features, changes);
+    if (flat.stats.casters < flat.stats.lit_triangles) {
+        changes.push_back(
+            {"no caster lists", [](RenderSettings& settings) { settings.caster_lists = false; }});
+    }
+    add_hierarchies(flat, changes);
+    const int lanes = precision == Precision::float32 ? device.float_lanes : device.double_lanes;
+    if (lanes > 1) {
+        const int samples = scene.aa.samples();
+        if (packet_shape(lanes, samples).samples == samples) {
+            changes.push_back({"a loop over samples", [](RenderSettings& settings) {
+                                   settings.kernels.any_samples = true;
+                               }});
+        }
+        changes.push_back({"one lane instead of " + std::to_string(lanes),
+                           [](RenderSettings& settings) { settings.kernels.lanes = 1; }});
+    }
+    return changes;
+}
+
+struct LoadedScene {
+    std::string path;
+    Scene scene;
+    double load_seconds = 0;
+};
+
+/// The rows of one bench, and the scenes and references they point to.
+class Plan {
+   public:
+    explicit Plan(const BenchOptions& options)
+        : options_(options), devices_(listed_devices(options.devices)) {
+        if (options.scenes.empty()) {
+            say("no scene given: using the built-in cornell-box");
+            scenes_.push_back({default_scene_path, load_default_scene(options.light), 0});
+        }
+        for (const std::string& path : options.scenes) {
+            const Stopwatch watch;
+            Scene scene = load_scene(path, options.light);
+            const double seconds = watch.seconds();
+            if (!options.quiet) print_notes(scene.notes);
+            scenes_.push_back({path, std::move(scene), seconds});
+        }
+        say_devices_without_double();
+    }
+
+    /// Renders the references and lists the rows. False when stopped.
+    bool make(BenchResult& result) {
+        for (const LoadedScene& loaded : scenes_) {
+            for (const PictureSize& size : options_.sizes) {
+                for (const AaMode& aa : options_.aa) {
+                    RenderSettings picture = timed_settings();
+                    picture.size = size;
+                    picture.aa = aa;
+                    if (!add_reference(loaded, picture, result)) return false;
+                    add_rows(loaded, picture);
+                }
+            }
+        }
+        return true;
+    }
+
+    std::vector<BenchCase> asked;  ///< the rows
+    std::vector<TimedCase> cases;  ///< what it takes to time each
+
+   private:
+    void say(const std::string& line) const {
+        if (!options_.quiet) print_note(line);
+    }
+
+    bool wants_double() const {
+        return std::find(options_.precisions.begin(), options_.precisions.end(),
+                         Precision::float64) != options_.precisions.end();
+    }
+
+    void say_devices_without_double() const {
+        for (const ListedDevice& device : devices_) {
+            if (wants_double() && !device.has_double) say(device.name + " has no double precision");
+        }
+    }
+
+    bool add_reference(const LoadedScene& loaded, RenderSettings picture, BenchResult& result) {
+        picture.precision = Precision::float64;
+        Scene scene = loaded.scene;
+        apply_overrides(scene, picture);
+        spec_ = picture_spec(scene, picture);
+        RenderedPicture rendered = render_quietly(scene, picture, threads_choice());
+        if (!rendered.stats.complete()) return false;
+        rendered.stats.scene.path = loaded.path;
+        rendered.stats.phases.load = loaded.load_seconds;
+        rendered.stats.phases.total = timed_total(rendered.stats);
+        hashes_[Precision::float64] = rendered.stats.image_hash;
+        result.references.push_back({{std::move(rendered.stats), {}}});
+        references_.push_back(std::move(rendered.picture));
+        picture.precision = Precision::float32;
+        const RenderedPicture in_float = render_quietly(scene, picture, threads_choice());
+        hashes_[Precision::float32] = in_float.stats.image_hash;
+        return in_float.stats.complete();
+    }
+
+    void add_rows(const LoadedScene& loaded, RenderSettings picture) {
+        for (const Precision precision : options_.precisions) {
+            picture.precision = precision;
+            for (const ListedDevice& device : devices_) {
+                if (precision == Precision::float64 && !device.has_double) continue;
+                if (options_.ablate) {
+                    add_ablation(loaded, picture, device);
+                } else if (device.is_threads) {
+                    add_threads_rows(loaded, picture, device);
+                } else {
+                    add_row(loaded, picture, device);
+                }
+            }
+        }
+    }
+
+    /// threads: 1 to N threads with every schedule; threads:K: only K. Then scalar threads, to show
+    /// what vectors gain. The buffers schedule runs at most one thread per sample of a pixel.
+    void add_threads_rows(const LoadedScene& loaded, RenderSettings picture,
+                          const ListedDevice& device) {
+        const int most = options_.threads > 0 ? options_.threads : available_cores();
+        const int first = device.threads > 0 ? device.threads : 1;
+        const int last = device.threads > 0 ? device.threads : most;
+        for (const Schedule schedule : options_.schedules) {
+            for (int threads = first; threads <= last; ++threads) {
+                const int running = thread_count({threads, schedule}, picture.aa->samples());
+                if (running < threads) break;
+                picture.schedule = schedule;
+                add_row(loaded, picture, with_threads(device, threads));
+            }
+        }
+        if (!options_.scalar) return;
+        picture.schedule = Schedule::tiles;
+        picture.kernels.lanes = 1;
+        for (const int threads : std::set{first, last}) {
+            add_row(loaded, picture, with_threads(device, threads));
+        }
+    }
+
+    static ListedDevice with_threads(ListedDevice device, int threads) {
+        device.spec = fmt::format("threads:{}", threads);
+        device.threads = device.choice.threads = threads;
+        return device;
+    }
+
+    /// The picture with default settings, then with each change.
+    void add_ablation(const LoadedScene& loaded, const RenderSettings& picture,
+                      const ListedDevice& device) {
+        ListedDevice used = device;
+        if (device.is_threads && device.threads == 0) {
+            used =
+                with_threads(device, options_.threads > 0 ? options_.threads : available_cores());
+        }
+        add_row(loaded, picture, used);
+        Scene scene = loaded.scene;
+        apply_overrides(scene, picture);
+        for (const Change& change : changes_to_measure(scene, device, picture.precision)) {
+            RenderSettings changed = picture;
+            change.make(changed);
+            add_row(loaded, changed, used, change.what);
+        }
+    }
+
+    void add_row(const LoadedScene& loaded, const RenderSettings& picture,
+                 const ListedDevice& device, const std::string& change = "") {
+        BenchCase& row = asked.emplace_back();
+        row.scene = {loaded.path, loaded.scene.name, scene_hash(loaded.scene)};
+        row.picture = spec_;
+        row.picture.precision = picture.precision;
+        row.uses_threads = device.is_threads;
+        row.device = device.spec;
+        row.device_name = device.name;
+        row.threads = device.threads;
+        row.change = change;
+        if (device.is_threads) {
+            row.schedule = picture.kernels.lanes == 1 ? "scalar" : to_string(picture.schedule);
+        }
+        TimedCase& timed = cases.emplace_back();
+        timed.scene = &loaded.scene;
+        timed.reference = &references_.back();
+        timed.path = loaded.path;
+        timed.device = device.choice;
+        timed.settings = picture;
+        timed.expected_hash = hashes_.at(picture.precision);
+        timed.load_seconds = loaded.load_seconds;
+    }
+
+    const BenchOptions& options_;
+    const std::vector<ListedDevice> devices_;
+    std::deque<LoadedScene> scenes_;  // deques: rows point into them
+    std::deque<Picture> references_;
+    PictureSpec spec_;                           ///< of the latest reference
+    std::map<Precision, std::uint64_t> hashes_;  ///< of the latest reference, and in float
+};
+
+}  // namespace
+
+BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline) {
+    BenchResult result;
+    result.repeats_asked = options.repeats;
+    Plan plan(options);
+    say_busy(options.quiet);
+    result.interrupted = !plan.make(result);
+    if (baseline != nullptr && !result.interrupted) check_baseline(plan.asked, *baseline);
+    if (!result.interrupted) {
+        result.interrupted = !run_rounds(plan.cases, options.repeats, options.quiet);
+    }
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
+        TimedRuns& runs = plan.cases[i];
+        if (options.ablate) {
+            result.ablation.push_back({std::move(runs), plan.asked[i], {}});
+        } else {
+            result.rows.push_back({std::move(runs), plan.asked[i], {}});
+        }
+    }
+    result.judge();
+    result.load_before = other_load();
+    return result;
+}
+
+}  // namespace rt

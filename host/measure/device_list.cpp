@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/device_list.h"
+
+#include <algorithm>
+
+#include "host/base/console.h"
+#include "host/opencl/cl_tiles.h"
+#include "host/opencl/device_spec.h"
+#include "host/opencl/pocl.h"
+#include "host/process/drivers.h"
+
+namespace rt {
+
+namespace {
+
+ListedDevice list_entry(const ClDevice& device) {
+    ListedDevice entry;
+    entry.spec = std::to_string(device.index);
+    entry.choice.device = device;
+    entry.name = device.name;
+    entry.has_double = device.has_double;
+    entry.float_lanes = packet_lanes<float>(0, device);
+    entry.double_lanes = packet_lanes<double>(0, device);
+    return entry;
+}
+
+ListedDevice threads_entry(const std::string& spec, int threads) {
+    ListedDevice entry;
+    entry.spec = spec;
+    entry.choice = threads_choice(threads);
+    entry.threads = threads;
+    entry.name = "threads";
+    entry.is_threads = true;
+    return entry;
+}
+
+void add_once(std::vector<ListedDevice>& list, const ListedDevice& device) {
+    const bool known = std::any_of(list.begin(), list.end(), [&](const ListedDevice& other) {
+        return other.spec == device.spec;
+    });
+    if (!known) list.push_back(device);
+}
+
+/// The OpenCL devices, listed when first needed.
+class ClDevices {
+   public:
+    const std::vector<ClDevice>& list() {
+        if (!listed_) {
+            prepare_pocl(0);
+            const DriverTask task(listing_devices);
+            devices_ = list_cl_devices(problems_);
+        }
+        listed_ = true;
+        return devices_;
+    }
+    const std::vector<std::string>& problems() const { return problems_; }
+
+   private:
+    bool listed_ = false;
+    std::vector<ClDevice> devices_;
+    std::vector<std::string> problems_;
+};
+
+void add_all(std::vector<ListedDevice>& list, ClDevices& devices) {
+    add_once(list, threads_entry("threads", 0));
+    for (const ClDevice& device : devices.list()) {
+        if (device.unusable.empty()) {
+            add_once(list, list_entry(device));
+        } else {
+            print_note("skipping " + device.name + ": " + device.unusable);
+        }
+    }
+    print_notes(devices.problems());
+}
+
+}  // namespace
+
+std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs) {
+    std::vector<ListedDevice> list;
+    ClDevices devices;
+    for (const std::string& text : specs) {
+        const DeviceSpec spec = parse_device_specs(text).front();
+        if (spec.kind == DeviceSpec::Kind::all) {
+            add_all(list, devices);
+        } else if (spec.kind == DeviceSpec::Kind::threads) {
+            add_once(list, threads_entry(text, spec.threads));
+        } else {
+            const auto& all = devices.list();
+            const DeviceChoice choice = choose_device(text, all, devices.problems());
+            add_once(list,
+                     choice.use_threads ? threads_entry("threads", 0) : list_entry(choice.device));
+        }
+    }
+    return list;
+}
+
+}  // namespace rt

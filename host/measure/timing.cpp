@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/timing.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <cmath>
+
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/base/text.h"
+#include "host/measure/machine_load.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
+#include "host/render/stopwatch.h"
+
+namespace rt {
+
+namespace {
+
+/// How the bits of a case's newest run differ from those of its earlier runs or of threads.
+std::string what_differs(const TimedCase& timed, const RenderStats& run) {
+    for (const std::vector<TimedRun>* runs : {&timed.warm_up, &timed.repeats}) {
+        if (runs->empty() || runs->front().image_hash == run.image_hash) continue;
+        return fmt::format("the picture changes from run to run: {}, then {}",
+                           hash_text(runs->front().image_hash), hash_text(run.image_hash));
+    }
+    if (timed.expected_hash.value_or(run.image_hash) != run.image_hash) {
+        return fmt::format("image {}, but threads produce {}", hash_text(run.image_hash),
+                           hash_text(*timed.expected_hash));
+    }
+    return "";
+}
+
+/// Renders a case once more and keeps the run, unless it was stopped midway.
+void render_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
+    const double started = watch.seconds();
+    Scene scene = *timed.scene;
+    apply_overrides(scene, timed.settings);
+    RenderedPicture rendered = render_quietly(scene, timed.settings, timed.device);
+    TimedRun run{std::move(rendered.stats), started};
+    if (!run.complete()) return;
+    run.scene.path = timed.path;
+    run.phases.load = timed.load_seconds;
+    run.phases.total = timed_total(run);
+    const Judgement judgment = timed.judge(rendered.picture, *timed.reference);
+    run.error = judgment.error;
+    timed.why = judgment.why_wrong.empty() ? what_differs(timed, run) : judgment.why_wrong;
+    (warm_up ? timed.warm_up : timed.repeats).push_back(std::move(run));
+    if (!timed.why.empty()) {
+        timed.verdict = Verdict::wrong;
+    } else if (!warm_up) {
+        timed.verdict = Verdict::right;
+    }
+}
+
+/// A device that fails ends its own case, not the others.
+void try_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
+    try {
+        render_once(timed, warm_up, watch);
+    } catch (const Error& error) {
+        timed.verdict = Verdict::failed;
+        const std::string what = error.what();
+        timed.why = what.substr(0, what.find('\n'));
+    }
+}
+
+/// Estimates the time left from the previous round.
+void say_round(int round, int rounds, std::size_t pictures, double seconds_before) {
+    if (round == 0) {
+        return print_note("warm-up, " + counted(pictures, "picture"));
+    }
+    const auto left = static_cast<long>(std::ceil(seconds_before * (rounds - round + 1)));
+    print_note(fmt::format("round {} of {}, {}, about {}:{:02} left", round, rounds,
+                           counted(pictures, "picture"), left / 60, left % 60));
+}
+
+}  // namespace
+
+RenderSettings timed_settings(RenderSettings settings) {
+    settings.no_fallback = true;
+    settings.self_test = false;
+    return settings;
+}
+
+RenderedPicture render_quietly(const Scene& scene, const RenderSettings& settings,
+                               const DeviceChoice& device) {
+    RenderEvents events;
+    events.started = [](const TileQueue&) { install_stop_signals(); };
+    events.driver_loaded = restore_stop_signals;
+    if (is_worker()) events.progressed = note_worker_progress;
+    const DriverTask task(device.use_threads ? "" : device.device.name);
+    return render_picture(scene, settings, std::vector{device}, events, stop_flag());
+}
+
+bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
+    const Stopwatch watch;
+    Stopwatch round_watch;
+    for (int round = 0; round <= repeats; ++round) {
+        if (!quiet) say_round(round, repeats, cases.size(), round_watch.lap());
+        for (TimedCase& timed : cases) {
+            if (stop_flag() != 0) return false;
+            if (timed.verdict == Verdict::wrong || timed.verdict == Verdict::failed) continue;
+            try_once(timed, round == 0, watch);
+        }
+    }
+    return stop_flag() == 0;
+}
+
+void say_busy(bool quiet) {
+    static bool said = false;
+    const std::string text = busy_text(load_of(other_load()));
+    if (quiet || said || text.empty()) return;
+    said = true;
+    print_note(text);
+}
+
+FreshKernelCache::FreshKernelCache() {
+    if (!folder_.name().empty()) setenv("POCL_CACHE_DIR", folder_.name().c_str(), 1);
+}
+
+}  // namespace rt

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/base/files.h"
+#include "host/image/picture.h"
+#include "host/measure/picture_judge.h"
+#include "host/measure/runs.h"
+#include "host/picture/render_picture.h"
+#include "host/scene/scene.h"
+
+namespace rt {
+
+/// One way to render one picture, to be timed, and the runs once it is.
+struct TimedCase : TimedRuns {
+    const Scene* scene = nullptr;        ///< as loaded; options override
+    const Picture* reference = nullptr;  ///< what `judge` compares with
+    std::string path;                    ///< of the scene's file
+    DeviceChoice device;
+    RenderSettings settings;
+    Judgement (*judge)(const Picture& picture, const Picture& reference) = judge_picture;
+    std::optional<std::uint64_t> expected_hash;  ///< of the picture, in strict arithmetic
+    double load_seconds = 0;                     ///< of the scene file, noted in every run
+};
+
+/// The settings for a benchmark's renders, which fail if their device fails and are judged by the
+/// benchmark itself.
+RenderSettings timed_settings(RenderSettings settings = {});
+
+/// Renders on the device silently, until a stop signal.
+RenderedPicture render_quietly(const Scene& scene, const RenderSettings& settings,
+                               const DeviceChoice& device);
+
+/// Renders every case once to warm up, then again `repeats` times; the rounds go over all cases (A
+/// B A B), so that a slow moment of the machine hits all alike. Every picture is judged; a case
+/// that is wrong or fails is not run again. A signal ends it after the pictures finished so far.
+/// Prints a line on stderr for each round unless `quiet`. Returns whether it ran to the end.
+bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet);
+
+/// Warns on stderr, once and unless `quiet`, that the machine is busy with other work.
+void say_busy(bool quiet);
+
+/// An empty kernel cache for PoCL in its own folder, removed at the end: the first build of
+/// each kernel is then cold and all others are warm, whatever ran before. Create it before OpenCL
+/// starts. Has no effect if no folder can be made.
+class FreshKernelCache {
+   public:
+    FreshKernelCache();
+
+   private:
+    TemporaryFolder folder_;
+};
+
+}  // namespace rt

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/process/drivers.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "host/base/console.h"
+#include "host/base/text.h"
+#include "host/process/stop_signal.h"
+#include "host/render/stopwatch.h"
+
+namespace rt {
+
+using Json = nlohmann::json;
+
+/// What a worker says of a device.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClDevice, index, platform_index, device_index, name, vendor,
+                                   driver, version, platform, is_cpu, is_gpu, compute_units,
+                                   float_lanes, double_lanes, memory_bytes, max_buffer_bytes,
+                                   has_double, rounds_correctly, keeps_subnormals, unusable)
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// For loading and listing, which may never end.
+constexpr double most_seconds = 10;
+
+constexpr const char* library_folders =
+    "/usr/lib/x86_64-linux-gnu:/usr/lib/x86_64-linux-gnu/intel-opencl:/usr/lib64:/usr/lib:"
+    "/usr/local/lib:/usr/local/nvidia/lib64:/usr/lib/wsl/lib:/opt/rocm/lib";
+
+/// In the loader's order.
+std::vector<std::string> icd_files(const std::string& place) {
+    std::error_code error;
+    std::vector<std::string> files;
+    if (fs::is_regular_file(place, error) && place.ends_with(".icd")) files = {fs::absolute(place)};
+    for (fs::directory_iterator file(place, error), end; !error && file != end;
+         file.increment(error)) {
+        if (file->path().extension() == ".icd") files.push_back(fs::absolute(file->path()));
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// The first line: the driver's library. Of a regular file: others may never end.
+std::string library_of(const std::string& file) {
+    std::ifstream in(file);
+    std::string line;
+    std::getline(in, line);
+    const auto end = line.find_last_not_of(" \t\r");
+    return end == std::string::npos ? "" : line.substr(0, end + 1);
+}
+
+/// Why the loader skips a file's driver; empty if it does not.
+std::string why_skipped(const std::string& file) {
+    const std::string library = library_of(file);
+    if (library.empty()) return "it names no library";
+    void* const driver = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+    // Every driver exports this (cl_khr_icd).
+    const bool is_driver =
+        driver != nullptr && dlsym(driver, "clGetExtensionFunctionAddress") != nullptr;
+    return is_driver ? "" : dlerror();
+}
+
+std::string problem_of(const std::string& file, const std::string& what) {
+    return printable(
+        fmt::format("{}: its driver {}; reinstall the driver or remove the file", file, what));
+}
+
+/// What a worker listed.
+struct Listing {
+    bool is_started = true;
+    std::string failure;  ///< how it ended; empty: as it should
+    Json answer;          ///< "skipped": pairs of a file and why; "devices"; "problems"
+};
+
+/// `drivers`: an .icd file or a folder of them; empty: those of the environment.
+Listing list_in_worker(const std::string& drivers, double deadline) {
+    WorkerCommand command{{"mirrorball", "devices"}, {}, deadline};
+    command.longest = most_seconds;
+    if (!drivers.empty()) command.changes = {"OCL_ICD_VENDORS=" + drivers};
+    const WorkerEnd end = run_worker(command);
+    end_if_stopped(end);
+    if (end.is_regular && !end.records.empty()) return {true, "", Json::parse(end.records.front())};
+    const std::string how =
+        end.is_regular ? fmt::format("ended with exit code {}", end.status) : end.how;
+    return {end.is_started, how + (end.task.empty() ? "" : " while " + end.task), {}};
+}
+
+/// Lists drivers step by step, in as few workers as will do.
+class Lister {
+   public:
+    Lister(const std::string& place, double deadline) : deadline_(deadline) {
+        for (const std::string& file : icd_files(place)) {
+            std::error_code error;
+            if (fs::is_regular_file(file, error)) {
+                drivers_.files.push_back(file);
+            } else {
+                leave_out(file, "cannot be loaded: it is not a file");
+            }
+        }
+    }
+
+    Drivers list() {
+        if (drivers_.files.empty() && leaves_out_) return std::move(drivers_);
+        Listing listing = list_together();
+        if (listing.is_started && !listing.failure.empty()) {
+            leave_out_failing(listing);
+            if (drivers_.files.empty()) return std::move(drivers_);
+            if (leaves_out_) listing = list_together();
+        }
+        if (listing.failure.empty()) {
+            add(listing.answer);
+        } else {
+            const bool may_choose = listing.is_started && drivers_.files.size() > 1;
+            drivers_.problems.push_back(printable(fmt::format(
+                "a process that loads {} {}{}", fmt::join(drivers_.files, " and "), listing.failure,
+                may_choose ? "; choose one of them with OCL_ICD_VENDORS" : "")));
+        }
+        return std::move(drivers_);
+    }
+
+   private:
+    void leave_out(const std::string& file, const std::string& why) {
+        drivers_.bad_files.push_back(problem_of(file, why));
+        leaves_out_ = true;
+    }
+
+    Listing list_together() {
+        if (!leaves_out_) return list_in_worker("", deadline_);
+        std::string place = drivers_.files.front();
+        if (drivers_.files.size() > 1) {
+            drivers_.folder = std::make_unique<TemporaryFolder>();
+            place = drivers_.folder->name();
+        }
+        std::error_code error;
+        for (std::size_t i = 0; i < drivers_.files.size() && drivers_.folder; ++i) {
+            fs::create_symlink(drivers_.files[i], fmt::format("{}/{:04}.icd", place, i), error);
+        }
+        if (error || place.empty()) return {false, "has no temporary folder", {}};
+        drivers_.change = {"OCL_ICD_VENDORS=" + place};
+        return list_in_worker(place, deadline_);
+    }
+
+    /// Those that fail in a worker of their own; an only one has failed there already.
+    void leave_out_failing(const Listing& together) {
+        const bool is_only = drivers_.files.size() == 1;
+        std::erase_if(drivers_.files, [&](const std::string& file) {
+            const Listing alone = is_only ? together : list_in_worker(file, deadline_);
+            if (!alone.failure.empty()) leave_out(file, alone.failure);
+            return !alone.failure.empty();
+        });
+    }
+
+    void add(const Json& answer) {
+        for (const auto& [file, why] :
+             answer.at("skipped").get<std::map<std::string, std::string>>()) {
+            drivers_.bad_files.push_back(problem_of(file, "cannot be loaded: " + why));
+            std::erase(drivers_.files, file);
+        }
+        answer.at("devices").get_to(drivers_.devices);
+        for (const Json& problem : answer.at("problems")) drivers_.problems.push_back(problem);
+    }
+
+    const double deadline_;
+    Drivers drivers_;
+    bool leaves_out_ = false;  ///< a file whose driver must not be loaded
+};
+
+}  // namespace
+
+Drivers list_drivers(const std::string& place, double deadline) {
+    return Lister(place, deadline).list();
+}
+
+std::vector<std::string> unlisted_drivers(const std::string& place, const std::string& folders) {
+    std::string named;
+    for (const std::string& file : icd_files(place)) {
+        std::error_code error;
+        if (fs::is_regular_file(file, error)) named += library_of(file) + "\n";
+    }
+    std::istringstream all(folders + ":" + library_folders);
+    std::vector<std::string> found;
+    for (std::string folder; std::getline(all, folder, ':');) {
+        for (const std::string library :
+             {"libnvidia-opencl.so.1", "libamdocl64.so", "libigdrcl.so"}) {
+            std::error_code error;
+            const fs::path file = fs::path(folder) / library;
+            if (named.find(library + "\n") != std::string::npos || !fs::exists(file, error))
+                continue;
+            found.push_back(file);
+            named += library + "\n";
+        }
+    }
+    return found;
+}
+
+void list_drivers_for_parent(const std::string& place) {
+    const FileDescriptor nowhere(open("/dev/null", O_RDWR | O_CLOEXEC));
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere.number(), stream);
+    watch_worker("loading");
+    std::map<std::string, std::string> skipped;
+    for (const std::string& file : icd_files(place)) {
+        if (const std::string why = why_skipped(file); !why.empty()) skipped.emplace(file, why);
+    }
+    watch_worker("listing its devices");
+    std::vector<std::string> problems;
+    const std::vector<ClDevice> devices = list_cl_devices(problems);
+    const Json answer{{"skipped", skipped}, {"devices", devices}, {"problems", problems}};
+    tell_parent(answer.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+WorkerEnd run_without_bad_drivers(const WorkerCommand& command, const std::string& place,
+                                  bool is_quiet) {
+    const Stopwatch watch;
+    WorkerEnd end = run_worker(command);
+    if (end.has_failed() && end.task == listing_devices) {
+        const Drivers drivers = list_drivers(place, command.deadline);
+        if (!is_quiet) print_notes(drivers.bad_files);
+        if (!drivers.change.empty() && !drivers.files.empty()) {
+            WorkerCommand again = command;
+            again.changes.insert(again.changes.end(), drivers.change.begin(), drivers.change.end());
+            again.seconds_before += watch.seconds();
+            again.longest = std::max(again.longest - watch.seconds(), again.deadline);
+            end = run_worker(again);
+        }
+    }
+    if (end.stop_signal != 0) end_by_stop_signal(end.stop_signal);
+    return end;
+}
+
+}  // namespace rt

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/flatten/features.h"
+
+namespace rt {
+
+/// What a work item of an OpenCL device is.
+enum class Launch {
+    automatic,  ///< pixel on CPUs, sample elsewhere
+    pixel,      ///< a pixel
+    sample,     ///< a sample; a second kernel averages them
+};
+
+/// Which build of the kernels renders a picture. It costs or saves time and decides no bit.
+struct KernelChoice {
+    int lanes = 0;         ///< rays of a packet: 1, 2, 4, 8 or 16; 0: as suits the device
+    std::string isa = {};  ///< instruction set of the threads' kernels; empty: the best here
+    Launch launch = Launch::automatic;  ///< of OpenCL devices
+    Features features = no_features();  ///< compiled in although the scene may not need them
+    bool any_samples = false;           ///< a loop over samples, although the count is known
+
+    /// Whether everything is compiled in.
+    bool has_all() const { return features == Features{}; }
+};
+
+}  // namespace rt

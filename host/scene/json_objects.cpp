@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/json_objects.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "host/base/text.h"
+#include "host/scene/geometry.h"
+#include "host/scene/scene.h"
+#include "host/scene/words.h"
+
+namespace rt {
+namespace {
+
+std::nullopt_t refuse_kind(const JsonField& field, std::string_view wanted) {
+    return field.refuse("{} is {}; write {}", field.name, kind_of(field.value), wanted);
+}
+
+std::nullopt_t refuse_number(const JsonField& field, double number, std::string_view wanted) {
+    return field.refuse("{} is {}; write {}", field.name, number, wanted);
+}
+
+/// Three items, each read by read_one(field).
+template <typename Read>
+std::optional<glm::dvec3> read_triple(const JsonField& field, std::string_view wanted,
+                                      Read read_one) {
+    const auto* items = field.value.as<JsonValue::Array>();
+    if (!items) return refuse_kind(field, wanted);
+    if (items->size() != 3) {
+        return field.refuse("{} has {} items; write {}", field.name, items->size(), wanted);
+    }
+    const auto x = read_one(field.item((*items)[0]));
+    const auto y = read_one(field.item((*items)[1]));
+    const auto z = read_one(field.item((*items)[2]));
+    return x && y && z ? std::optional(glm::dvec3(*x, *y, *z)) : std::nullopt;
+}
+
+/// What other programs call a key, where no known key is spelled much like it.
+constexpr std::pair<std::string_view, std::string_view> synonyms[] = {
+    {"pos", "position"},
+    {"pos", "from"},
+    {"pos", "center"},
+    {"position", "from"},
+    {"position", "center"},
+    {"position", "translate"},
+    {"location", "position"},
+    {"location", "from"},
+    {"origin", "from"},
+    {"eye", "from"},
+    {"look_at", "at"},
+    {"lookat", "at"},
+    {"target", "at"},
+    {"color", "diffuse"},
+    {"color", "intensity"},
+    {"colour", "diffuse"},
+    {"colour", "intensity"},
+    {"reflection", "mirror"},
+    {"reflectivity", "mirror"},
+    {"refraction", "ior"},
+    {"opacity", "transmission"},
+    {"exponent", "shininess"},
+    {"power", "intensity"},
+    {"brightness", "intensity"},
+    {"samples", "aa"},
+    {"antialiasing", "aa"},
+    {"size", "width"},
+    {"resolution", "width"},
+    {"points", "vertices"},
+    {"path", "file"},
+    {"rotation", "rotate_degrees"},
+    {"depth", "max_bounces"}};
+
+std::string guess(std::string_view key, std::span<const std::string_view> known) {
+    for (const auto& [word, meant] : synonyms) {
+        const bool fits = word == key && std::ranges::find(known, meant) != known.end();
+        if (fits) return fmt::format("did you mean {}?", in_quotes(meant));
+    }
+    return suggestion(key, known, "known keys are");
+}
+
+constexpr std::string_view material_keys[] = {"ambient",      "diffuse",   "specular", "mirror",
+                                              "transmission", "shininess", "ior",      "two_sided"};
+constexpr std::string_view light_keys[] = {"position", "intensity"};
+constexpr std::string_view sphere_keys[] = {"center", "radius", "material"};
+constexpr std::string_view cone_keys[] = {"base", "base_radius", "apex", "apex_radius", "material"};
+constexpr std::string_view triangle_keys[] = {"vertices", "normals", "material"};
+constexpr std::string_view mesh_keys[] = {"file", "material", "transform"};
+constexpr std::string_view transform_keys[] = {"scale", "rotate_degrees", "translate"};
+
+using Corners = std::array<glm::dvec3, 3>;
+
+Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
+    Scene::Material material;
+    material.name = printable(member.key);
+    const ObjectReader reader(member.value, "a material", material_keys, mistakes);
+    reader.optional("ambient", material.ambient, read_reflectance);
+    reader.optional("diffuse", material.diffuse, read_reflectance);
+    reader.optional("specular", material.specular, read_reflectance);
+    reader.optional("mirror", material.mirror, read_reflectance);
+    reader.optional("transmission", material.transmission, read_reflectance);
+    reader.optional("ior", material.ior, read_positive);
+    reader.optional("shininess", material.shininess, read_not_negative);
+    reader.optional("two_sided", material.two_sided, read_bool);
+    return material;
+}
+
+void read_material_of(const ObjectReader& reader, const MaterialTable& materials, int& target) {
+    reader.required("material", "\"material\": \"name\"", target,
+                    [&](const JsonField& field) { return materials.read_reference(field); });
+}
+
+std::optional<Corners> read_corners(const JsonField& field) {
+    const auto* items = read_array(field, 3);
+    if (!items) return std::nullopt;
+    Corners corners{};
+    bool good = true;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto corner = read_vec3(field.item((*items)[i]));
+        good = good && corner;
+        if (corner) corners[i] = *corner;
+    }
+    return good ? std::optional(corners) : std::nullopt;
+}
+
+std::optional<Corners> read_vertices(const JsonField& field) {
+    const auto vertices = read_corners(field);
+    if (!vertices || !zero_area(*vertices)) return vertices;
+    return field.refuse("zero-area triangle; remove it");
+}
+
+std::optional<Corners> read_normals(const JsonField& field) {
+    auto normals = read_corners(field);
+    if (!normals) return std::nullopt;
+    for (glm::dvec3& normal : *normals) {
+        const auto unit = unit_direction(normal);
+        if (!unit) {
+            return field.refuse("a vertex normal is zero; give it a direction or remove 'normals'");
+        }
+        normal = *unit;
+    }
+    return normals;
+}
+
+/// [x, y, z], or one number for all three.
+std::optional<glm::dvec3> read_scale(const JsonField& field) {
+    std::optional<glm::dvec3> scale;
+    if (field.value.as<double>()) {
+        if (const auto number = read_number(field)) scale = glm::dvec3(*number);
+    } else {
+        scale = read_vec3(field);
+    }
+    if (!scale || (scale->x != 0 && scale->y != 0 && scale->z != 0)) return scale;
+    return field.refuse("scale contains a 0; write other numbers");
+}
+
+std::optional<Affine> read_steps(const JsonField& field) {
+    glm::dvec3 scale(1), degrees(0), translation(0);
+    const ObjectReader reader(field.value, "the transform", transform_keys, field.mistakes);
+    reader.optional("scale", scale, read_scale);
+    reader.optional("rotate_degrees", degrees, read_vec3);
+    reader.optional("translate", translation, read_vec3);
+    return make_affine(scale, degrees, translation);
+}
+
+std::optional<Affine> read_matrix(const JsonField& field, const JsonValue::Array& items) {
+    std::array<double, 16> m{};
+    if (items.size() != m.size()) {
+        return field.refuse("{} has {} items; write 16 of them, row by row", field.name,
+                            items.size());
+    }
+    bool good = true;
+    for (std::size_t i = 0; i < m.size(); ++i) {
+        const auto number = read_number(field.item(items[i]));
+        good = good && number;
+        m[i] = number.value_or(0);
+    }
+    if (!good) return std::nullopt;
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
+        return field.item(items[12]).refuse(
+            "the last row of the transform is not 0, 0, 0, 1; write the matrix row by row, the "
+            "translation in column 4");
+    }
+    return Affine{{m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]}, {m[3], m[7], m[11]}};
+}
+
+/// The 16 numbers of a matrix, row by row, or an object with scale, rotate_degrees, translate.
+std::optional<Affine> read_transform(const JsonField& field) {
+    const auto* items = field.value.as<JsonValue::Array>();
+    const auto affine = items ? read_matrix(field, *items) : read_steps(field);
+    if (!affine || normal_matrix(affine->linear)) return affine;
+    return field.refuse("the transform is singular and flattens the mesh; correct its numbers");
+}
+
+std::optional<std::string> read_file_name(const JsonField& field, const SceneFolder& folder) {
+    const auto text = read_string(field);
+    if (!text) return std::nullopt;
+    if (!is_obj_name(*text) && !is_ply_name(*text)) {
+        return field.refuse(
+            "{} is not a supported model file; name a file that ends in .obj or .ply",
+            in_quotes(*text));
+    }
+    const OpenedFile opened = open_beneath(folder, *text);
+    if (opened.problem.empty()) return text;
+    return field.refuse("{}", opened.problem);
+}
+
+/// Appends a model and its materials to the scene.
+void add_model(Model model, const MeshRequest& request, Scene& scene) {
+    const auto first = static_cast<int>(scene.materials.size());
+    std::vector<int>& materials = model.mesh.face_materials;
+    if (request.material) materials = {*request.material};
+    if (!request.material) {
+        for (int& material : materials) material += first;
+        std::ranges::move(model.materials, std::back_inserter(scene.materials));
+    }
+    scene.meshes.push_back(std::move(model.mesh));
+    std::ranges::move(model.notes, std::back_inserter(scene.notes));
+    std::ranges::move(model.library_files, std::back_inserter(scene.model_files));
+}
+
+}  // namespace
+
+std::optional<double> read_number(const JsonField& field) {
+    const double* number = field.value.as<double>();
+    if (!number) return refuse_kind(field, "a number");
+    if (std::abs(*number) <= max_scene_number) return *number;
+    return refuse_number(field, *number, "a number from -1e30 to 1e30");
+}
+
+std::optional<double> read_positive(const JsonField& field) {
+    const auto number = read_number(field);
+    if (!number || *number > 0) return number;
+    return refuse_number(field, *number, "a number above 0");
+}
+
+std::optional<double> read_not_negative(const JsonField& field) {
+    const auto number = read_number(field);
+    if (!number || *number >= 0) return number;
+    return refuse_number(field, *number, "0 or more");
+}
+
+std::optional<int> read_integer(const JsonField& field, int low, int high) {
+    const std::string wanted = fmt::format("a whole number from {} to {}", low, high);
+    const double* number = field.value.as<double>();
+    if (!number) return refuse_kind(field, wanted);
+    if (*number >= low && *number <= high && *number == std::floor(*number)) {
+        return static_cast<int>(*number);
+    }
+    return refuse_number(field, *number, wanted);
+}
+
+std::optional<bool> read_bool(const JsonField& field) {
+    if (const bool* truth = field.value.as<bool>()) return *truth;
+    return refuse_kind(field, "true or false");
+}
+
+std::optional<std::string> read_string(const JsonField& field) {
+    if (const auto* text = field.value.as<std::string>()) return *text;
+    return refuse_kind(field, "text in double quotes");
+}
+
+std::optional<double> read_angle(const JsonField& field) {
+    const auto degrees = read_positive(field);
+    if (!degrees || *degrees < 180) return degrees;
+    return refuse_number(field, *degrees, "an angle between 0 and 180");
+}
+
+std::optional<bool> read_choice(const JsonField& field, std::string_view what,
+                                std::string_view first, std::string_view second) {
+    const auto text = read_string(field);
+    if (!text) return std::nullopt;
+    if (*text == first || *text == second) return *text == first;
+    return field.refuse("unknown {} {}; write \"{}\" or \"{}\"", what, in_quotes(*text), first,
+                        second);
+}
+
+std::optional<glm::dvec3> read_vec3(const JsonField& field) {
+    return read_triple(field, "three numbers, [x, y, z]", read_number);
+}
+
+std::optional<glm::dvec3> read_color(const JsonField& field) {
+    if (field.value.as<double>()) {
+        const auto level = read_not_negative(field);
+        return level ? std::optional(glm::dvec3(*level)) : std::nullopt;
+    }
+    return read_triple(field, "one number for a gray, or three, [r, g, b]", read_not_negative);
+}
+
+std::optional<glm::dvec3> read_reflectance(const JsonField& field) {
+    const auto color = read_color(field);
+    if (!color) return std::nullopt;
+    const double largest = std::max({color->r, color->g, color->b});
+    if (largest <= max_reflectance) return color;
+    return refuse_number(field, largest, fmt::format("{} at most", max_reflectance));
+}
+
+const JsonValue::Array* read_array(const JsonField& field, int size) {
+    const auto* items = field.value.as<JsonValue::Array>();
+    if (!items) {
+        refuse_kind(field, "an array, [...]");
+    } else if (size >= 0 && items->size() != static_cast<std::size_t>(size)) {
+        field.refuse("{} has {} items; write {} of them", field.name, items->size(), size);
+        return nullptr;
+    }
+    return items;
+}
+
+ObjectReader::ObjectReader(const JsonValue& value, std::string_view what,
+                           std::span<const std::string_view> known_keys, Mistakes& mistakes)
+    : members_(value.as<JsonValue::Object>()), field_{value, what, mistakes} {
+    if (!members_) {
+        refuse_kind(field_, "an object, {...}");
+        return;
+    }
+    for (const JsonMember& member : *members_) {
+        if (std::ranges::find(known_keys, member.key) != known_keys.end()) continue;
+        mistakes.add(member.key_offset, "unknown key {} in {}; {}", in_quotes(member.key), what,
+                     guess(member.key, known_keys));
+    }
+}
+
+const JsonMember* ObjectReader::find_member(std::string_view key) const {
+    if (!members_) return nullptr;
+    const auto found = std::ranges::find(*members_, key, &JsonMember::key);
+    return found == members_->end() ? nullptr : &*found;
+}
+
+const JsonValue* ObjectReader::find(std::string_view key) const {
+    const JsonMember* member = find_member(key);
+    return member ? &member->value : nullptr;
+}
+
+const JsonValue* ObjectReader::require(std::string_view key, std::string_view example) const {
+    const JsonValue* value = find(key);
+    if (!value && members_) {
+        field_.refuse("{} has no {}; add {}", field_.name, in_quotes(key), example);
+    }
+    return value;
+}
+
+MaterialTable::MaterialTable(const JsonValue* value, Mistakes& mistakes) {
+    if (!value) return;
+    const auto* members = value->as<JsonValue::Object>();
+    readable_ = members != nullptr;
+    if (!members) {
+        mistakes.add(value->offset,
+                     "materials is {}; write an object, {{\"name\": "
+                     "{{...}}}}",
+                     kind_of(*value));
+        return;
+    }
+    for (const JsonMember& member : *members) {
+        if (member.key.empty()) {
+            mistakes.add(member.key_offset, "a material's name is empty; give it one");
+        }
+        index_.emplace(member.key, static_cast<int>(materials_.size()));
+        materials_.push_back(read_material(member, mistakes));
+    }
+}
+
+std::optional<int> MaterialTable::read_reference(const JsonField& field) const {
+    const auto* text = field.value.as<std::string>();
+    if (!text) {
+        read_string(field);
+        return std::nullopt;
+    }
+    const auto found = index_.find(*text);
+    if (found != index_.end()) return found->second;
+    if (!readable_) return std::nullopt;
+    std::vector<std::string_view> known;
+    for (const Scene::Material& material : materials_) known.push_back(material.name);
+    return field.refuse("unknown material {}; {}", in_quotes(*text),
+                        known.empty() ? "the scene has no materials; define it under \"materials\""
+                                      : suggestion(*text, known, "known materials are"));
+}
+
+Scene::Light read_light(const JsonField& item) {
+    Scene::Light light;
+    const ObjectReader reader(item.value, "a light", light_keys, item.mistakes);
+    reader.required("position", "\"position\": [x, y, z]", light.position, read_vec3);
+    reader.optional("intensity", light.intensity, read_color);
+    light.has_own_intensity = reader.find("intensity") != nullptr;
+    return light;
+}
+
+Scene::Sphere read_sphere(const JsonField& item, const MaterialTable& materials) {
+    Scene::Sphere sphere;
+    const ObjectReader reader(item.value, "a sphere", sphere_keys, item.mistakes);
+    reader.required("center", "\"center\": [x, y, z]", sphere.center, read_vec3);
+    reader.required("radius", "\"radius\": 1", sphere.radius, read_positive);
+    read_material_of(reader, materials, sphere.material);
+    return sphere;
+}
+
+Scene::Cone read_cone(const JsonField& item, const MaterialTable& materials) {
+    Scene::Cone cone;
+    Mistakes& mistakes = item.mistakes;
+    const ObjectReader reader(item.value, "a cone", cone_keys, mistakes);
+    const std::size_t before = mistakes.count();
+    reader.required("base", "\"base\": [x, y, z]", cone.base, read_vec3);
+    reader.required("base_radius", "\"base_radius\": 1", cone.base_radius, read_not_negative);
+    reader.required("apex", "\"apex\": [x, y, z]", cone.apex, read_vec3);
+    reader.required("apex_radius", "\"apex_radius\": 0", cone.apex_radius, read_not_negative);
+    if (mistakes.count() == before) {
+        if (nearly_same_point(cone.base, cone.apex)) {
+            mistakes.add(reader.find("apex")->offset, same_cone_ends);
+        }
+        if (cone.base_radius == 0 && cone.apex_radius == 0) {
+            mistakes.add(reader.find("base_radius")->offset, zero_cone_radii);
+        }
+    }
+    read_material_of(reader, materials, cone.material);
+    return cone;
+}
+
+Scene::Triangle read_triangle(const JsonField& item, const MaterialTable& materials) {
+    Scene::Triangle triangle;
+    const ObjectReader reader(item.value, "a triangle", triangle_keys, item.mistakes);
+    reader.required("vertices", "\"vertices\": [[x, y, z], [x, y, z], [x, y, z]]",
+                    triangle.vertices, read_vertices);
+    reader.optional("normals", triangle.normals, read_normals);
+    read_material_of(reader, materials, triangle.material);
+    return triangle;
+}
+
+MeshRequest read_mesh(const JsonField& item, const MaterialTable& materials,
+                      const SceneFolder& folder) {
+    MeshRequest request;
+    request.offset = item.value.offset;
+    const ObjectReader reader(item.value, "a mesh", mesh_keys, item.mistakes);
+    reader.required("file", "\"file\": \"model.ply\"", request.file,
+                    [&](const JsonField& field) { return read_file_name(field, folder); });
+    reader.optional("material", request.material,
+                    [&](const JsonField& field) { return materials.read_reference(field); });
+    if (!reader.find("material") && is_ply_name(request.file)) {
+        reader.require("material", "\"material\": \"name\": PLY files have none");
+    }
+    reader.optional("transform", request.transform, read_transform);
+    return request;
+}
+
+void load_meshes(const std::vector<MeshRequest>& requests, const SceneFolder& folder, Scene& scene,
+                 Mistakes& mistakes) {
+    for (const MeshRequest& request : requests) {
+        const OpenedFile opened = open_beneath(folder, request.file);
+        if (!opened.problem.empty()) {
+            mistakes.add(request.offset, opened.problem);
+            continue;
+        }
+        const ModelOptions options{folder.root, !request.material, request.transform};
+        Model model = load_model(opened.file, opened.path, options);
+        if (!request.material && model.materials.empty()) {
+            mistakes.add(request.offset,
+                         "a mesh has no \"material\", and {} has none "
+                         "either; add \"material\": \"name\"",
+                         in_quotes(opened.path));
+            continue;
+        }
+        add_model(std::move(model), request, scene);
+        scene.model_files.push_back(opened.path);
+    }
+}
+
+}  // namespace rt

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "host/base/parallel.h"
+#include "host/scene/geometry.h"
+#include "host/scene/scene.h"
+
+namespace rt {
+namespace {
+
+using Face = Scene::Mesh::Face;
+
+constexpr Face flat_face = {Scene::Mesh::no_normal, Scene::Mesh::no_normal, Scene::Mesh::no_normal};
+
+Face pick(std::span<const std::uint32_t> items, const Face& which) {
+    return {items[which[0]], items[which[1]], items[which[2]]};
+}
+
+bool is_within(const glm::dvec3& p) {
+    const auto good = [](double x) { return std::abs(x) <= max_scene_number; };
+    return good(p.x) && good(p.y) && good(p.z);
+}
+
+/// Transforms the positions and returns whether those of all faces are in range.
+bool move_positions(Scene::Mesh& mesh, const Affine& transform) {
+    for (glm::dvec3& p : mesh.positions) p = transform.linear * p + transform.translation;
+    if (std::ranges::all_of(mesh.positions, is_within)) return true;
+    for (const Face& face : mesh.faces) {
+        for (const std::uint32_t i : face) {
+            if (!is_within(mesh.positions[i])) return false;
+        }
+    }
+    for (glm::dvec3& p : mesh.positions) {
+        if (!is_within(p)) p = glm::dvec3(0);
+    }
+    return true;
+}
+
+/// Transforms the normals to unit length and returns whether any is zero, which stays zero.
+bool turn_normals(std::vector<glm::dvec3>& normals, const glm::dmat3& matrix) {
+    bool any_zero = false;
+    for (glm::dvec3& normal : normals) {
+        auto unit = unit_direction(normal);
+        if (unit) unit = unit_direction(matrix * *unit);
+        if (!unit) any_zero = true;
+        normal = unit.value_or(glm::dvec3(0));
+    }
+    return any_zero;
+}
+
+bool has_zero_normal(const Scene::Mesh& mesh, const Face& normals) {
+    return std::ranges::any_of(normals, [&](std::uint32_t i) {
+        return i != Scene::Mesh::no_normal && mesh.normals[i] == glm::dvec3(0);
+    });
+}
+
+/// Removes the items whose mark is set.
+template <typename Item>
+void take_out(std::vector<Item>& items, const std::vector<char>& marks) {
+    std::size_t i = 0;
+    std::erase_if(items, [&](const Item&) { return marks[i++] != 0; });
+}
+
+/// Removes the triangles without area, found in parallel, and returns their number.
+std::size_t drop_zero_areas(Scene::Mesh& mesh) {
+    constexpr std::size_t grain = 1 << 15;
+    std::vector<char> marks(mesh.faces.size());
+    for_each_run(marks.size(), grain, available_cores(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const auto [a, b, c] = mesh.faces[i];
+            const auto& p = mesh.positions;
+            marks[i] = zero_area({p[a], p[b], p[c]}) ? 1 : 0;
+        }
+    });
+    const auto count = static_cast<std::size_t>(std::ranges::count(marks, 1));
+    if (count == 0) return 0;
+    const bool many_materials = mesh.face_materials.size() == mesh.faces.size();
+    if (many_materials && count < mesh.faces.size()) take_out(mesh.face_materials, marks);
+    if (!mesh.face_normals.empty()) take_out(mesh.face_normals, marks);
+    take_out(mesh.faces, marks);
+    return count;
+}
+
+void turn_round(std::vector<Face>& faces) {
+    for (Face& face : faces) std::swap(face[1], face[2]);
+}
+
+}  // namespace
+
+bool parts_well(const std::array<glm::dvec3, 4>& quad) {
+    const glm::dvec3 diagonal = quad[2] - quad[0];
+    const glm::dvec3 one = glm::cross(quad[1] - quad[0], diagonal);
+    const glm::dvec3 other = glm::cross(diagonal, quad[3] - quad[0]);
+    return glm::dot(one, other) > 0.5 * glm::length(one) * glm::length(other);
+}
+
+void append_face(const Face& face, const Face* normals, std::vector<Face>& faces,
+                 std::vector<Face>& face_normals) {
+    if (normals && face_normals.empty()) {
+        face_normals.reserve(faces.capacity());
+        face_normals.assign(faces.size(), flat_face);
+    }
+    faces.push_back(face);
+    if (normals) {
+        face_normals.push_back(*normals);
+    } else if (!face_normals.empty()) {
+        face_normals.push_back(flat_face);
+    }
+}
+
+void MeshBuilder::add_triangles(std::span<const Face> faces, std::span<const Face> normals) {
+    std::vector<Face>& all = mesh.face_normals;
+    if (!normals.empty() && all.empty()) {
+        all.reserve(mesh.faces.capacity());
+        all.assign(mesh.faces.size(), flat_face);
+    }
+    mesh.faces.insert(mesh.faces.end(), faces.begin(), faces.end());
+    all.insert(all.end(), normals.begin(), normals.end());
+    if (!all.empty()) all.resize(mesh.faces.size(), flat_face);
+}
+
+void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
+                           std::span<const std::uint32_t> normals) {
+    const auto add = [&](const Face& which) {
+        const Face face = pick(corners, which);
+        if (normals.empty()) return append_face(face, nullptr, mesh.faces, mesh.face_normals);
+        const Face face_normals = pick(normals, which);
+        append_face(face, &face_normals, mesh.faces, mesh.face_normals);
+    };
+    if (corners.size() == 3) return add({0, 1, 2});
+    outline_.clear();
+    for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
+    const auto& o = outline_;
+    if (o.size() == 4 && parts_well({o[0], o[1], o[2], o[3]})) {
+        add({0, 1, 2});
+        return add({0, 2, 3});
+    }
+    for (const Face& which : splitter_.split(outline_)) add(which);
+}
+
+void MeshBuilder::use_material(int material) {
+    if (runs_.empty() || runs_.back().material != material) {
+        runs_.push_back({mesh.faces.size(), material});
+    }
+}
+
+Scene::Mesh MeshBuilder::take() {
+    if (runs_.empty() || runs_[0].first_face > 0) runs_.insert(runs_.begin(), Run{0, -1});
+    std::vector<int>& materials = mesh.face_materials;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+        const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first_face : mesh.faces.size();
+        materials.resize(end, runs_[i].material);
+    }
+    const auto differs = [&](int material) { return material != materials[0]; };
+    if (std::none_of(materials.begin(), materials.end(), differs)) {
+        materials = {materials.empty() ? -1 : materials[0]};
+    }
+    return std::move(mesh);
+}
+
+MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform) {
+    MeshLosses losses;
+    if (transform != Affine{}) losses.too_far = !move_positions(mesh, transform);
+    const auto matrix = normal_matrix(transform.linear);
+    const bool any_zero = turn_normals(mesh.normals, matrix.value_or(glm::dmat3(1)));
+    losses.zero_areas = drop_zero_areas(mesh);
+    constexpr std::uint32_t none = Scene::Mesh::no_normal;
+    for (Face& normals : mesh.face_normals) {
+        if (!any_zero || !has_zero_normal(mesh, normals)) continue;
+        normals = {none, none, none};
+        ++losses.flat_faces;
+    }
+    if (mirrors(transform.linear)) {
+        turn_round(mesh.faces);
+        turn_round(mesh.face_normals);
+    }
+    return losses;
+}
+
+}  // namespace rt

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/scene/geometry.h"
+#include "host/scene/polygon.h"
+#include "host/scene/scene.h"
+
+namespace rt {
+
+/// Readers refuse faces with more corners.
+inline constexpr std::size_t max_face_corners = 10000;
+
+/// Whether the diagonal from the first corner splits a quadrilateral well: both triangles face much
+/// the same way, beyond rounding error. True for most.
+bool parts_well(const std::array<glm::dvec3, 4>& quad);
+
+/// Appends a triangle, with normals or (null) without. Once any face has normals, every face has a
+/// row of them.
+void append_face(const Scene::Mesh::Face& face, const Scene::Mesh::Face* normals,
+                 std::vector<Scene::Mesh::Face>& faces,
+                 std::vector<Scene::Mesh::Face>& face_normals);
+
+/// Turns a model's faces, with any number of corners, into the triangles of a mesh. Readers write
+/// positions and normals directly to `mesh`.
+class MeshBuilder {
+   public:
+    Scene::Mesh mesh;
+
+    /// Appends triangles unchanged; with a row of normals each, or none.
+    void add_triangles(std::span<const Scene::Mesh::Face> faces,
+                       std::span<const Scene::Mesh::Face> normals);
+
+    /// `corners` are at least 3 indices into mesh.positions; `normals` as many into mesh.normals,
+    /// or none. All must be in range.
+    void add_face(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals);
+
+    /// Sets the material of subsequent faces. Faces before the first call have material -1.
+    void use_material(int material);
+
+    /// The mesh, complete with face_materials.
+    Scene::Mesh take();
+
+    /// What add_face dropped or could not triangulate exactly, a sentence each.
+    std::vector<std::string> notes(const std::string& file_name) const {
+        return splitter_.notes(file_name);
+    }
+
+   private:
+    struct Run {
+        std::size_t first_face;
+        int material;
+    };
+
+    std::vector<Run> runs_;
+    std::vector<glm::dvec3> outline_;  ///< of the face at hand
+    PolygonSplitter splitter_;
+};
+
+/// What was dropped from a mesh.
+struct MeshLosses {
+    std::size_t zero_areas = 0;  ///< triangles without area
+    std::size_t flat_faces = 0;  ///< made flat, since a vertex normal has length 0
+    bool too_far = false;        ///< a face's vertex ends up beyond max_scene_number
+};
+
+/// Transforms a mesh into the scene. Normals become unit length; triangles without area are
+/// removed; a mirroring transform reverses the faces, so that fronts stay fronts. The transform
+/// must not be singular.
+MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform);
+
+}  // namespace rt

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "host/base/error.h"
+#include "host/base/parallel.h"
+#include "host/base/text.h"
+#include "host/scene/geometry.h"
+#include "host/scene/mesh.h"
+#include "host/scene/mtl_file.h"
+#include "host/scene/scene.h"
+#include "host/scene/text_file.h"
+
+namespace rt {
+namespace {
+
+/// The name of a file in a folder that differs only in letter case; else the name itself.
+std::string in_any_case(const std::filesystem::path& folder, const std::string& name) {
+    std::error_code error;
+    const std::filesystem::path path = folder / name;
+    if (exists(path, error)) return name;
+    const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
+    for (const auto& entry : std::filesystem::directory_iterator(parent, error)) {
+        const std::string found = entry.path().filename().string();
+        if (lower(found) != lower(path.filename().string())) continue;
+        return (std::filesystem::path(name).parent_path() / found).string();
+    }
+    return name;
+}
+
+/// Opens libraries in the model's folder or beneath it.
+OpenLibrary library_opener(const std::string& model_path, const std::filesystem::path& root) {
+    const SceneFolder folder{root, std::filesystem::path(model_path).parent_path()};
+    return [folder](const std::string& name) {
+        OpenedFile opened = open_beneath(folder, name);
+        if (!opened.problem.empty()) {
+            const std::string problem = opened.problem;
+            const std::string other = in_any_case(folder.base, name);
+            if (other != name) opened = open_beneath(folder, other);
+            if (!opened.problem.empty()) return LibraryFile{{}, {}, problem};
+        }
+        const FileText text = read_text_file(opened.file, opened.path, max_model_bytes);
+        try {
+            refuse_foreign(opened.path, text.view());
+        } catch (const Error& error) {
+            return LibraryFile{{}, {}, error.what()};
+        }
+        return LibraryFile{opened.path, std::string(text.view()), {}};
+    };
+}
+
+/// A file of one format under the other's name, or of quite another format, is refused.
+void check_format(const std::string& path, std::string_view text) {
+    refuse_foreign(path, text);
+    const auto refuse = [&](const char* what) {
+        throw Error(ExitCode::input, fmt::format("{}: {}", printable(path), what));
+    };
+    constexpr std::size_t stl_header = 84, stl_facet = 50;
+    if (text.size() > stl_header) {
+        std::uint32_t facets = 0;
+        std::memcpy(&facets, text.data() + stl_header - sizeof facets, sizeof facets);
+        if (text.size() == stl_header + std::size_t{facets} * stl_facet && facets > 0) {
+            refuse("is an STL model; export it as OBJ or PLY");
+        }
+    }
+    if (text.starts_with("{")) refuse("is JSON, a scene or glTF; give it the name of its format");
+    const bool is_ply = text.starts_with("ply\n") || text.starts_with("ply\r");
+    if (is_obj_name(path) && is_ply) refuse("is a PLY model; give it a name that ends in .ply");
+}
+
+Model parse_model(const FileDescriptor& file, const std::string& path,
+                  const ModelOptions& options) {
+    const FileText text = read_text_file(file, path, max_model_bytes);
+    check_format(path, text.view());
+    if (is_ply_name(path)) return parse_ply(text.view(), printable(path));
+    OpenLibrary open;
+    if (options.with_materials) open = library_opener(path, options.root);
+    return parse_obj(text.view(), printable(path), open);
+}
+
+constexpr double fov_degrees = 40;
+
+struct BoundingSphere {
+    glm::dvec3 center{0};
+    double radius = 0;
+};
+
+struct Box {
+    glm::dvec3 low{0}, high{0};
+};
+
+/// Calls work(value, position) for the corners of all faces, in parallel. Each run of faces has its
+/// own value, initially `start`; returns these values.
+template <typename Value, typename Work>
+std::vector<Value> over_corners(const Scene::Mesh& mesh, const Value& start, Work work) {
+    constexpr std::size_t grain = 1 << 15;
+    std::vector<Value> values((mesh.faces.size() + grain - 1) / grain, start);
+    for_each_run(mesh.faces.size(), grain, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     Value value = start;
+                     for (std::size_t f = first; f < last; ++f) {
+                         for (const std::uint32_t i : mesh.faces[f]) work(value, mesh.positions[i]);
+                     }
+                     values[first / grain] = value;
+                 });
+    return values;
+}
+
+/// Centered on the bounding box of all faces. Unused vertices do not count.
+BoundingSphere bounding_sphere(const Scene::Mesh& mesh) {
+    const glm::dvec3 first = mesh.positions[mesh.faces[0][0]];
+    Box all{first, first};
+    const auto boxes = over_corners(mesh, all, [](Box& box, const glm::dvec3& p) {
+        box = {glm::min(box.low, p), glm::max(box.high, p)};
+    });
+    for (const Box& box : boxes) all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+    BoundingSphere sphere{0.5 * all.low + 0.5 * all.high, 0};
+    const auto radii = over_corners(mesh, 0.0, [&](double& radius, const glm::dvec3& p) {
+        radius = std::max(radius, glm::length(p - sphere.center));
+    });
+    sphere.radius = std::ranges::max(radii);
+    return sphere;
+}
+
+/// Fits the sphere to all sides of a square picture.
+Scene::Camera framing_camera(const BoundingSphere& sphere) {
+    constexpr double half_angle = fov_degrees * (std::numbers::pi / 360.0);
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(0.6, 0.45, 1));
+    Scene::Camera camera;
+    camera.at = sphere.center;
+    camera.from = sphere.center + sphere.radius / std::sin(half_angle) * towards;
+    camera.field_of_view = {Scene::FieldOfView::Fixed::vertical, fov_degrees};
+    return camera;
+}
+
+/// The key light is high on the camera's left, a weak fill light on its right.
+std::vector<Scene::Light> default_lights(const BoundingSphere& sphere) {
+    const glm::dvec3 key = 4.0 * sphere.radius * glm::dvec3(-0.5, 1, 1);
+    const glm::dvec3 fill = 4.0 * sphere.radius * glm::dvec3(1, 0.4, 0.5);
+    return {{sphere.center + key, glm::dvec3(0.75), false},
+            {sphere.center + fill, glm::dvec3(0.25), false}};
+}
+
+}  // namespace
+
+bool is_obj_name(const std::string& path) { return lower_extension(path) == ".obj"; }
+bool is_ply_name(const std::string& path) { return lower_extension(path) == ".ply"; }
+
+Model finish_model(Model model, const std::string& path, const Affine& transform) {
+    const MeshLosses losses = finish_mesh(model.mesh, transform);
+    if (losses.too_far) {
+        throw Error(ExitCode::input, path +
+                                         ": a vertex exceeds 1e30 after the transform; "
+                                         "make the transform smaller");
+    }
+    if (model.mesh.faces.empty()) {
+        throw Error(ExitCode::input, path +
+                                         ": no face has any area, so there is nothing to draw; "
+                                         "use a model with faces");
+    }
+    if (losses.zero_areas > 0) {
+        model.notes.push_back(
+            fmt::format("{}: ignored {}", path, counted(losses.zero_areas, "zero-area triangle")));
+    }
+    if (losses.flat_faces > 0) {
+        model.notes.push_back(fmt::format("{}: {} flat, as a vertex normal has length 0", path,
+                                          counted(losses.flat_faces, "face is", "faces are")));
+    }
+    return model;
+}
+
+Model load_model(const FileDescriptor& file, const std::string& path, const ModelOptions& options) {
+    return finish_model(parse_model(file, path, options), printable(path), options.transform);
+}
+
+Scene make_model_scene(Model model, const std::string& path) {
+    const BoundingSphere sphere = bounding_sphere(model.mesh);
+    Scene scene;
+    scene.name = name_of_file(path);
+    scene.camera = framing_camera(sphere);
+    if (nearly_same_point(scene.camera.from, scene.camera.at)) {
+        throw Error(
+            ExitCode::input,
+            printable(path) +
+                ": the model is too small for its distance from the origin; move it closer");
+    }
+    scene.background = glm::dvec3(0.85, 0.9, 0.95);
+    scene.ambient_light = glm::dvec3(0.25);
+    scene.lights = default_lights(sphere);
+    scene.materials = std::move(model.materials);
+    if (scene.materials.empty()) {
+        scene.materials.push_back(default_material());
+        model.mesh.face_materials = {0};
+    }
+    scene.meshes.push_back(std::move(model.mesh));
+    scene.notes = std::move(model.notes);
+    scene.model_files = std::move(model.library_files);
+    set_image_size(scene, scene.width, scene.height);
+    return scene;
+}
+
+Scene load_model_scene(const std::string& path) {
+    ModelOptions options;
+    options.root = SceneFolder::of(path).root;
+    return make_model_scene(load_model(open_text_file(path), path, options), path);
+}
+
+}  // namespace rt

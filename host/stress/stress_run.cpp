@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stress/stress_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/base/hash.h"
+#include "host/base/text.h"
+#include "host/image/picture_io.h"
+#include "host/measure/device_list.h"
+#include "host/measure/heatmap.h"
+#include "host/measure/machine_load.h"
+#include "host/measure/picture_judge.h"
+#include "host/measure/timing.h"
+#include "host/opencl/cl_ray_tracer.h"
+#include "host/opencl/device_spec.h"
+#include "host/picture/render_picture.h"
+#include "host/process/stop_signal.h"
+#include "host/process/worker.h"
+#include "host/render/stopwatch.h"
+#include "host/scene/json_file.h"
+#include "host/stress/ray_trials.h"
+
+namespace rt {
+
+namespace {
+
+std::string first_line(const Error& error) {
+    const std::string text = error.what();
+    return text.substr(0, text.find('\n'));
+}
+
+RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
+    RenderSettings settings = timed_settings();
+    settings.precision = row.precision;
+    if (stress.quick || stress.all_features) settings.kernels.features = Features{};
+    return settings;
+}
+
+/// Traces a trial's rays on the device that renders its pictures.
+RayCaster ray_caster(const DeviceChoice& choice) {
+    if (choice.use_threads) return threads_ray_caster();
+    const ClDevice device = choice.device;
+    const auto make = [=](const auto& scene) {
+        return [tracer = make_cl_ray_tracer(scene, device, {})](auto queries, auto answers) {
+            tracer(queries, answers);
+            note_worker_progress();
+        };
+    };
+    return {make, make};
+}
+
+/// The first image hash of each group of pictures that must agree in every bit.
+using FirstHashes = std::map<std::string, std::uint64_t>;
+
+/// The text as part of a file name: '/', '^' and blanks become '-'.
+std::string file_stem(const std::string& text) {
+    std::string name = text;
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '/' || c == '^' || c == ' '; }, '-');
+    return name;
+}
+
+/// The pictures of one case in a folder: FAMILY-LABEL.reference.png, .worst.png, .error.png.
+class StressPictures {
+   public:
+    /// Nothing is written if the folder name is empty. `reference` may be null.
+    StressPictures(const std::string& folder, const std::string& family, const std::string& label,
+                   const ReferencePicture* reference);
+
+    /// Keeps the picture if it is the worst so far.
+    void keep_worst(const Picture& picture, const PictureFigures& figures);
+
+    /// Throws Error (ExitCode::output).
+    void write() const;
+
+   private:
+    std::string stem_;  ///< empty: nothing is written
+    const ReferencePicture* reference_;
+    Picture worst_;
+    double badness_ = -1;
+};
+
+StressPictures::StressPictures(const std::string& folder, const std::string& family,
+                               const std::string& label, const ReferencePicture* reference)
+    : reference_(reference) {
+    if (!folder.empty()) stem_ = folder + "/" + file_stem(family + "-" + label);
+}
+
+void StressPictures::keep_worst(const Picture& picture, const PictureFigures& figures) {
+    const double badness = 1e6 * static_cast<double>(figures.nans + figures.wrong) +
+                           static_cast<double>(figures.wrong_at_edges) + figures.max_error;
+    if (badness <= badness_) return;
+    worst_ = picture;
+    badness_ = badness;
+}
+
+void StressPictures::write() const {
+    if (stem_.empty() || badness_ < 0) return;
+    write_picture(stem_ + ".worst.png", worst_, Encoding::display);
+    if (reference_ == nullptr) return;
+    const Picture reference = reference_->as_picture();
+    write_picture(stem_ + ".reference.png", reference, Encoding::display);
+    write_picture(stem_ + ".error.png", heat_map(clamped(worst_), clamped(reference), 1.0 / 255),
+                  Encoding::display);
+}
+
+class Runner {
+   public:
+    explicit Runner(const StressOptions& options)
+        : options_(options), devices_(listed_devices(options.devices)) {
+        if (devices_.empty())
+            throw Error(ExitCode::device, "no usable device; see 'mirrorball devices'");
+    }
+
+    StressFamilyResult run(const StressFamily& family) {
+        StressFamilyResult result{family.name, family.parameter, family.why, {}};
+        first_hashes_.clear();
+        for (const StressCase& one : family.cases) {
+            if (stop_flag() != 0) break;
+            StressCaseResult done{one.label, one.value, one.tolerance, {}, "", 0};
+            std::visit([&](const auto& trial) { run_trial(family, one, trial, done); }, one.trial);
+            compare_hashes(done);
+            result.cases.push_back(std::move(done));
+        }
+        return result;
+    }
+
+   private:
+    std::vector<StressRow> planned_rows(const StressTolerance& tolerance) const {
+        std::vector<StressRow> rows;
+        for (const ListedDevice& device : devices_) {
+            for (const Precision precision : {Precision::float32, Precision::float64}) {
+                const bool is_double = precision == Precision::float64;
+                if (is_double && !device.has_double) continue;
+                StressRow row;
+                row.renderer = device.name;
+                row.device = device.spec;
+                row.precision = precision;
+                row.judged = is_double || tolerance.in_float;
+                rows.push_back(std::move(row));
+            }
+        }
+        return rows;
+    }
+
+    const DeviceChoice& device_of(const StressRow& row) const {
+        return std::find_if(devices_.begin(), devices_.end(),
+                            [&](const ListedDevice& device) { return device.spec == row.device; })
+            ->choice;
+    }
+
+    RenderedPicture rendered_row(const Scene& scene, const StressRow& row) const {
+        return render_quietly(scene, row_settings(row, options_), device_of(row));
+    }
+
+    void judge(const Picture& picture, ReferencePicture* reference,
+               const StressTolerance& tolerance, StressRow& row) const {
+        row.figures =
+            reference ? judge_stress_picture(picture, *reference) : count_non_numbers(picture);
+        row.why = exceeded_tolerance(row.figures, tolerance);
+    }
+
+    void run_trial(const StressFamily& family, const StressCase& one, const PictureTrial& trial,
+                   StressCaseResult& result) {
+        const Scene scene = trial.scene();
+        const Stopwatch watch;
+        std::optional<ReferencePicture> reference;
+        if (trial.reference != ReferenceKind::none) {
+            reference.emplace(trial.reference_scene ? trial.reference_scene() : scene,
+                              trial.reference);
+        }
+        result.reference_seconds = watch.seconds();
+        ReferencePicture* const against = reference ? &*reference : nullptr;
+        StressPictures pictures(options_.output, family.name, one.label, against);
+        for (StressRow& row : planned_rows(one.tolerance)) {
+            if (stop_flag() != 0) return;
+            try {
+                const RenderedPicture rendered = rendered_row(scene, row);
+                if (!rendered.stats.complete()) return;
+                row.hash = rendered.stats.image_hash;
+                row.seconds = rendered.stats.phases.renderer.trace;
+                judge(rendered.picture, against, one.tolerance, row);
+                pictures.keep_worst(rendered.picture, row.figures);
+            } catch (const Error& error) {
+                row.why = first_line(error);
+            }
+            check_same_bits(trial, row);
+            result.rows.push_back(std::move(row));
+        }
+        pictures.write();
+    }
+
+    /// Checks that a row has the same bits as the first of its group on this renderer.
+    void check_same_bits(const PictureTrial& trial, StressRow& row) {
+        if (trial.same_bits.empty() || !row.why.empty()) return;
+        const std::string key =
+            fmt::format("{} {} {}", trial.same_bits, row.device, to_string(row.precision));
+        const auto [first, is_new] = first_hashes_.try_emplace(key, row.hash);
+        if (!is_new && first->second != row.hash) {
+            row.why = "bits differ from " + trial.same_bits;
+        }
+    }
+
+    /// The scenes of those texts that the reader accepts.
+    static std::vector<Scene> readable_scenes(const TextTrial& trial, std::string& why) {
+        std::vector<Scene> scenes;
+        for (const std::string& text : trial.scenes) {
+            try {
+                scenes.push_back(parse_json_scene(text, "stress.json"));
+            } catch (const Error& error) {
+                if (error.exit_code() != ExitCode::input) why = first_line(error);
+            }
+        }
+        return scenes;
+    }
+
+    void render_text(const Scene& scene, const StressTolerance& tolerance, StressRow& row,
+                     Hasher& hasher) const {
+        try {
+            const RenderedPicture rendered = rendered_row(scene, row);
+            const PictureFigures figures = count_non_numbers(rendered.picture);
+            row.figures.nans += figures.nans;
+            row.figures.infinities += figures.infinities;
+            row.seconds += rendered.stats.phases.renderer.trace;
+            ++row.rendered;
+            hasher.add(rendered.stats.image_hash);
+            const std::string broken = exceeded_tolerance(figures, tolerance);
+            if (row.why.empty()) row.why = broken;
+        } catch (const Error& error) {
+            if (error.exit_code() == ExitCode::input) {
+                ++row.refused;
+            } else {
+                row.why = first_line(error);
+            }
+        }
+    }
+
+    void run_trial(const StressFamily&, const StressCase& one, const TextTrial& trial,
+                   StressCaseResult& result) {
+        std::string why;
+        const std::vector<Scene> scenes = readable_scenes(trial, why);
+        for (StressRow& row : planned_rows(one.tolerance)) {
+            row.why = why;
+            row.refused = trial.scenes.size() - scenes.size();
+            Hasher hasher;
+            for (const Scene& scene : scenes) {
+                if (stop_flag() != 0) return;
+                render_text(scene, one.tolerance, row, hasher);
+            }
+            if (row.why.empty() && row.rendered == 0) row.why = "every scene was refused";
+            row.hash = hasher.value();
+            result.rows.push_back(std::move(row));
+        }
+    }
+
+    void run_trial(const StressFamily&, const StressCase& one, const RayTrial& trial,
+                   StressCaseResult& result) {
+        const std::uint64_t rays = options_.quick ? trial.quick_rays : trial.rays;
+        for (StressRow& row : planned_rows(one.tolerance)) {
+            if (stop_flag() != 0) return;
+            const Stopwatch watch;
+            try {
+                const DeviceChoice& device = device_of(row);
+                const DriverTask task(device.use_threads ? "" : row.renderer);
+                const RayCaster caster = ray_caster(device);
+                row.rays = row.precision == Precision::float64 ? trial.in_double(rays, caster)
+                                                               : trial.in_float(rays, caster);
+                row.why = exceeded_tolerance(*row.rays, one.tolerance);
+            } catch (const Error& error) {
+                row.why = first_line(error);
+            }
+            row.seconds = watch.seconds();
+            result.rows.push_back(std::move(row));
+        }
+    }
+
+    /// In strict arithmetic all devices give the same bits.
+    static void compare_hashes(StressCaseResult& result) {
+        for (const Precision precision : {Precision::float32, Precision::float64}) {
+            std::set<std::uint64_t> hashes;
+            for (const StressRow& row : result.rows) {
+                if (row.rays || row.precision != precision) continue;
+                hashes.insert(row.hash);
+            }
+            if (hashes.size() < 2) continue;
+            result.disagreement = fmt::format("devices give {} different pictures in {}",
+                                              hashes.size(), to_string(precision));
+        }
+    }
+
+    const StressOptions& options_;
+    const std::vector<ListedDevice> devices_;
+    FirstHashes first_hashes_;
+};
+
+}  // namespace
+
+StressResult run_stress_cases(const std::vector<StressFamily>& families,
+                              const StressOptions& options) {
+    StressResult result;
+    other_load();
+    result.quick = options.quick;
+    const Stopwatch watch;
+    Runner runner(options);
+    install_stop_signals();
+    for (const StressFamily& family : families) {
+        if (!options.quiet) {
+            print_note(fmt::format("{}, {}", family.name, counted(family.cases.size(), "case")));
+        }
+        StressFamilyResult done = runner.run(family);
+        if (stop_flag() != 0) break;  // it may be unfinished: no verdict
+        result.families.push_back(std::move(done));
+    }
+    result.interrupted = stop_flag() != 0;
+    result.unfinished = families.size() - result.families.size();
+    result.seconds = watch.seconds();
+    result.load_before = other_load();
+    return result;
+}
+
+}  // namespace rt

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the scripts that measure have in common: commands that must succeed, renders, meshes."""
+import json
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+PROGRAM = ROOT / "build" / "release" / "mirrorball"
+PAPER_SCENE = ROOT / "scenes" / "cornell-box.json"
+
+
+def run(command, **more):
+    """What the command, run in ROOT, prints; ends the script where the command fails."""
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True,
+                            errors="replace", cwd=ROOT, check=False, **more)
+    if result.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{result.stdout[-1000:]}{result.stderr[-2000:]}")
+    return result.stdout
+
+
+def render(program, scene, *options, **more):
+    """The statistics of a render on the device that the options name, and on no other."""
+    return json.loads(run([program, "render", scene, "-q", "--no-fallback", "--stats=json", *options],
+                          **more))
+
+
+def error_of(program, picture, reference):
+    """How far the picture is from the reference, both clamped to 0..1."""
+    result = subprocess.run([program, "compare", picture, reference, "--clamp", "--json"],
+                            capture_output=True, text=True, check=False)
+    return json.loads(result.stdout)["error"]
+
+
+def bumpy_mesh(folder, triangles, *options):
+    """A scene with a mesh of so many triangles, written into the folder."""
+    scene = pathlib.Path(folder) / f"bumpy-mesh-{triangles}{''.join(options)}.json"
+    run([sys.executable, ROOT / "scripts/generate/generate.py", "bumpy-mesh", triangles, "-o", scene,
+         *options])
+    return scene

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "host/base/parallel.h"
+#include "host/picture/render_stats.h"
+#include "host/print/print_stats.h"
+
+namespace {
+
+/// Passes when the text holds the piece.
+testing::AssertionResult holds(const std::string& text, const std::string& piece) {
+    if (text.find(piece) != std::string::npos) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "no '" << piece << "' in: " << text;
+}
+
+TEST(SecondsSinceProcessStart, CountWhatWasComputedAndWaitedFor) {
+    const auto began = std::chrono::steady_clock::now();
+    const double before = rt::seconds_since_process_start();
+    EXPECT_GE(before, 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const double waited = rt::seconds_since_process_start() - before;
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began;
+    // Unless other tests in this process computed on several threads, for longer than has passed.
+    const bool counts_waiting = rt::processor_seconds() < 0.2;
+    EXPECT_GE(waited, counts_waiting ? 0.05 - 0.02 : 0);
+    EXPECT_LE(waited, passed.count() + 0.01);
+    EXPECT_GE(rt::seconds_since_process_start(), rt::processor_seconds() - 0.01);
+}
+
+TEST(RenderStats, TellOfADriverThatCompiledWhileTracing) {
+    rt::RenderStats stats;
+    stats.phases.renderer.trace = 3;
+    stats.phases.renderer.kernel = 0.5;
+    EXPECT_TRUE(stats.driver_took_its_time());
+    EXPECT_TRUE(holds(rt::stats_text(stats), "kernels ran for only 0.500 s of the 3.000 s"));
+    stats.phases.renderer.kernel = 2;
+    EXPECT_FALSE(stats.driver_took_its_time());
+    stats.phases.renderer.kernel = 0;  // pthreads
+    EXPECT_FALSE(stats.driver_took_its_time());
+    EXPECT_FALSE(holds(rt::stats_text(stats), "kernels ran for"));
+}
+
+TEST(StatsText, CountsInWords) {
+    rt::RenderStats stats;
+    stats.scene.spheres = stats.scene.lights = 1;
+    EXPECT_TRUE(holds(rt::holdings_text(stats.scene), "1 sphere, 0 cones, 0 triangles, 1 light"));
+    stats.device.fallback_from = "a device";
+    EXPECT_TRUE(holds(rt::stats_text(stats), "instead of a device, which failed"));
+}
+
+}  // namespace
