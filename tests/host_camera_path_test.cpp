@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "host/base/error.h"
 #include "host/scene/json_file.h"
 #include "host/scene/scene.h"
@@ -39,6 +41,17 @@ TEST(CameraPath, LinearIsAStraightLine) {
     const Scene::Camera camera = camera_at(scene, 2);
     EXPECT_EQ(camera.from, glm::dvec3(2, 1, 4));
     EXPECT_DOUBLE_EQ(camera.field_of_view.amount, 50);
+}
+
+TEST(CameraPath, TurntableGoesOnceAround) {
+    const Scene scene = scene_with(R"({"turntable": 8})");
+    EXPECT_EQ(camera_at(scene, 1).from, glm::dvec3(0, 0, 5));
+    EXPECT_EQ(camera_at(scene, 3).from, glm::dvec3(5, 0, 0));
+    EXPECT_EQ(camera_at(scene, 7).from, glm::dvec3(-5, 0, 0));
+    EXPECT_NEAR(camera_at(scene, 2).from.x, std::sqrt(12.5), 1e-15);
+    EXPECT_EQ(scene.path.keys.size(), 8);
+    EXPECT_THROW(scene_with(R"({"turntable": 1})"), Error);
+    EXPECT_THROW(scene_with(R"({"turntable": 8, "keys": []})"), Error);
 }
 
 /// Equally spaced keys on a parabola: central differences are its slopes, so a Catmull-Rom spline

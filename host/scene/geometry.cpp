@@ -211,6 +211,12 @@ Affine make_affine(glm::dvec3 scale, glm::dvec3 degrees, glm::dvec3 translation)
     return {{turn[0] * scale.x, turn[1] * scale.y, turn[2] * scale.z}, translation};
 }
 
+glm::dvec3 turned(glm::dvec3 v, glm::dvec3 axis, double degrees) {
+    double sine = 0, cosine = 1;
+    sine_cosine(degrees, sine, cosine);
+    return cosine * v + sine * glm::cross(axis, v) + (1 - cosine) * glm::dot(axis, v) * axis;
+}
+
 std::optional<glm::dmat3> normal_matrix(const glm::dmat3& linear) {
     constexpr double smallest = 1e-12;
     const auto bare = without_scales(linear);

@@ -50,6 +50,9 @@ Affine make_affine(glm::dvec3 scale, glm::dvec3 degrees, glm::dvec3 translation)
 /// `linear` is singular up to rounding, whatever its scale.
 std::optional<glm::dmat3> normal_matrix(const glm::dmat3& linear);
 
+/// v turned about the unit vector `axis`, counterclockwise seen from its tip.
+glm::dvec3 turned(glm::dvec3 v, glm::dvec3 axis, double degrees);
+
 /// Whether the linear part mirrors (negative determinant).
 bool mirrors(const glm::dmat3& linear);
 

@@ -28,7 +28,7 @@ constexpr std::string_view scene_keys[] = {
 constexpr std::string_view image_keys[] = {"width", "height", "aa"};
 constexpr std::string_view camera_keys[] = {"type",     "from",   "at",     "up",   "fov_degrees",
                                             "fov_axis", "window", "height", "width"};
-constexpr std::string_view path_keys[] = {"interpolation", "keys"};
+constexpr std::string_view path_keys[] = {"interpolation", "keys", "turntable"};
 constexpr std::string_view key_keys[] = {"frame",       "from",   "at",   "up",
                                          "fov_degrees", "height", "width"};
 
@@ -209,6 +209,18 @@ Scene::CameraPath::Key read_key(const JsonField& item, const Scene::Camera& came
     return key;
 }
 
+/// Once around `at` and back to the start in so many frames, the first of which is 1.
+std::vector<Scene::CameraPath::Key> turntable(const Scene::Camera& camera, int frames) {
+    const glm::dvec3 axis = unit_direction(camera.up).value_or(glm::dvec3(0, 1, 0));
+    std::vector<Scene::CameraPath::Key> keys;
+    for (int i = 0; i < frames; ++i) {
+        keys.push_back({i + 1.0, camera});
+        keys.back().camera.from =
+            camera.at + turned(camera.from - camera.at, axis, 360.0 * i / frames);
+    }
+    return keys;
+}
+
 /// Reads "path". Keys inherit what they omit from `camera`, the scene's own.
 Scene::CameraPath read_camera_path(const JsonValue& value, const Scene::Camera& camera,
                                    Mistakes& mistakes) {
@@ -217,6 +229,16 @@ Scene::CameraPath read_camera_path(const JsonValue& value, const Scene::Camera& 
     reader.optional("interpolation", path.is_smooth, [](const JsonField& field) {
         return read_choice(field, field.name, "catmull-rom", "linear");
     });
+    int frames = 0;
+    reader.optional("turntable", frames,
+                    [](const JsonField& field) { return read_integer(field, 2, 100000); });
+    if (const JsonValue* whole = reader.find("turntable")) {
+        if (reader.find("keys")) {
+            mistakes.add(whole->offset, "a path has either 'turntable' or 'keys'; remove one");
+        }
+        path.keys = turntable(camera, frames);
+        return path;
+    }
     const JsonValue* keys =
         reader.require("keys", "\"keys\": [{\"frame\": 1, \"from\": [0, 0, 5]}]");
     const auto* items = keys ? read_array({*keys, "keys", mistakes}) : nullptr;
