@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "host/base/parallel.h"
+#include "host/base/text.h"
 #include "host/picture/render_stats.h"
 #include "host/print/print_stats.h"
 
@@ -28,6 +29,18 @@ TEST(SecondsSinceProcessStart, CountWhatWasComputedAndWaitedFor) {
     EXPECT_GE(waited, counts_waiting ? 0.05 - 0.02 : 0);
     EXPECT_LE(waited, passed.count() + 0.01);
     EXPECT_GE(rt::seconds_since_process_start(), rt::processor_seconds() - 0.01);
+}
+
+TEST(ShortDeviceName, NamesPoclByItsProcessor) {
+    using rt::short_device_name;
+    EXPECT_EQ(short_device_name("pthread-skylake-avx512-AMD EPYC"), "PoCL (AMD EPYC)");
+    EXPECT_EQ(short_device_name("cpu-znver4-AMD EPYC 9B14 96-Core Processor"),
+              "PoCL (AMD EPYC 9B14)");
+    EXPECT_EQ(short_device_name("pthread-haswell-Intel(R) Xeon(R) Platinum 8370C CPU @ 2.80GHz"),
+              "PoCL (Intel Xeon Platinum 8370C)");
+    EXPECT_EQ(short_device_name("pthread-X-Core Processor"), "PoCL (X)");
+    EXPECT_EQ(short_device_name("pthread"), "PoCL");
+    EXPECT_EQ(short_device_name("NVIDIA H100"), "NVIDIA H100");
 }
 
 TEST(RenderStats, TellOfADriverThatCompiledWhileTracing) {

@@ -117,22 +117,23 @@ std::string csv_quoted(const std::string& text) {
     return out + "\"";
 }
 
-std::string base64(std::span<const std::byte> bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t j = 0; j < 3; ++j) {
-            group = group << 8 | (j < count ? std::to_integer<std::uint32_t>(bytes[i + j]) : 0);
-        }
-        for (std::size_t j = 0; j < 4; ++j) {
-            text += j <= count ? digits[group >> (18 - 6 * j) & 63] : '=';
+std::string short_device_name(const std::string& name) {
+    const bool is_pocl = name.starts_with("pthread") || name.starts_with("cpu-");
+    if (!is_pocl) return name;
+    std::string processor = name.substr(
+        std::min(name.size(), name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-")));
+    for (const std::string_view mark : {"(R)", "(TM)"}) {
+        for (std::size_t at; (at = processor.find(mark)) != processor.npos;) {
+            processor.erase(at, mark.size());
         }
     }
-    return text;
+    for (const std::string_view rest : {" CPU @", " @", "-Core Processor"}) {
+        processor.erase(std::min(processor.size(), processor.find(rest)));
+    }
+    if (name.ends_with("-Core Processor")) {
+        processor.erase(std::min(processor.size(), processor.rfind(' ')));  // " 96"
+    }
+    return processor.empty() ? "PoCL" : "PoCL (" + processor + ")";
 }
 
 }  // namespace rt

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -93,7 +92,8 @@ std::size_t printable_length(std::string_view text);
 /// unprintable byte becomes "\xNN". It cannot break a line or send the terminal escape sequences.
 std::string printable(std::string_view text);
 
-/// Bytes as text, four characters for three (RFC 4648, section 4).
-std::string base64(std::span<const std::byte> bytes);
+/// The short name of an OpenCL device, for tables: PoCL calls its own "pthread-haswell-AMD EPYC",
+/// which is "PoCL (AMD EPYC)" here. Other names stay.
+std::string short_device_name(const std::string& name);
 
 }  // namespace rt

@@ -64,11 +64,11 @@ constexpr double gib = 1 << 30;
 std::string device_text(const ClDevice& device) {
     std::string text = fmt::format(
         "{}  {}\n"
-        "   {}:{} {} on {}, driver {}, {}\n"
+        "   {}:{} {} '{}' on {}, driver {}, {}\n"
         "   {}, {}, {}, {:.1f} GiB, largest buffer {:.1f} GiB\n",
-        device.index, device.name, device.platform_index, device.device_index, kind_of(device),
-        device.platform, device.driver, device.version, counted(device.compute_units, "unit"),
-        counted(device.float_lanes, "float lane"),
+        device.index, short_device_name(device.name), device.platform_index, device.device_index,
+        kind_of(device), device.name, device.platform, device.driver, device.version,
+        counted(device.compute_units, "unit"), counted(device.float_lanes, "float lane"),
         device.has_double ? counted(device.double_lanes, "double lane") : "no double",
         static_cast<double>(device.memory_bytes) / gib,
         static_cast<double>(device.max_buffer_bytes) / gib);

@@ -13,13 +13,14 @@ namespace rt {
 struct BenchCase {
     SceneId scene;
     PictureSpec picture;
-    bool uses_threads = false;  ///< pthreads; else OpenCL
-    std::string device;         ///< spec for --device: "threads:2", "0"
-    std::string device_name;    ///< "threads", or the OpenCL device's own name
-    int threads = 0;            ///< asked for; 0 for OpenCL
-    std::string schedule;       ///< "tiles", "buffers" or "scalar" (tiles, one ray at a time);
-                                ///< empty for OpenCL
-    std::string change;         ///< in an ablation: what differs from the baseline row
+    std::string device;       ///< spec for --device: "threads:2", "0"
+    std::string device_name;  ///< "threads", or the OpenCL device's own name
+    int threads = 0;          ///< asked for; 0 for OpenCL
+    std::string schedule;     ///< "tiles", "buffers" or "scalar" (tiles, one ray at a time); empty
+                              ///< for OpenCL
+    std::string change;       ///< in an ablation: what differs from the baseline row
+
+    bool uses_threads() const { return !schedule.empty(); }
 };
 
 /// Identifies a row across results: scene hash, size, AA, precision, device, schedule.

@@ -24,7 +24,7 @@ std::string group_of(const BenchCase& asked) {
 
 std::string device_text(const BenchCase& asked) {
     std::string text = asked.device;
-    text += " " + (asked.uses_threads ? asked.schedule : asked.device_name);
+    text += " " + (asked.uses_threads() ? asked.schedule : short_device_name(asked.device_name));
     return text.substr(0, device_columns);
 }
 
@@ -97,7 +97,8 @@ std::string ablation_text(const BenchResult& result) {
         if (row.asked.change.empty()) {
             text += fmt::format("{}{}, {}\n {:<31} {:>8} {:>3} {:>5} {:>7}  {}\n",
                                 text.empty() ? "" : "\n", group_of(row.asked),
-                                row.asked.uses_threads ? row.asked.device : row.asked.device_name,
+                                row.asked.uses_threads() ? row.asked.device
+                                                         : short_device_name(row.asked.device_name),
                                 "", "trace s", "+-%", "ratio", "build", "image");
         }
         text += ablation_row_text(row);

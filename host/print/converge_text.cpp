@@ -11,12 +11,12 @@ namespace rt {
 
 namespace {
 
-/// "0 pthread-AMD EPYC 7763"
+/// "0 PoCL (AMD EPYC 7763)"
 std::string device_text(const std::string& device, const std::string& name) {
-    return name == "threads" ? device : device + " " + name;
+    return name == "threads" ? device : device + " " + short_device_name(name);
 }
 
-/// "0 pthread-AMD EP float  strict"
+/// "0 PoCL (AMD EPYC float  strict"
 std::string who(const ConvergeCase& of) {
     return fmt::format("{:<16} {:<6} {:<6}", device_text(of.device, of.device_name).substr(0, 16),
                        to_string(of.picture.precision), to_string(of.picture.math));

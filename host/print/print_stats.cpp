@@ -17,16 +17,18 @@ std::string device_text(const DeviceStats& device) {
         return fmt::format("{}, {}, {} ({})", counted(device.threads, "thread"), device.schedule,
                            counted(device.lanes, "lane"), device.isa);
     }
-    return fmt::format("{}, per {}, {}", device.name, device.launch, counted(device.lanes, "lane"));
+    return fmt::format("{}, per {}, {}", short_device_name(device.name), device.launch,
+                       counted(device.lanes, "lane"));
 }
 
 std::string share_text(const DeviceShare& share) {
     const std::string pixels = counted(static_cast<std::size_t>(share.pixels), "pixel");
+    const std::string name = short_device_name(share.name);
     if (!share.failure.empty()) {
-        return fmt::format("{}: {} before it failed: {}", share.name, pixels, share.failure);
+        return fmt::format("{}: {} before it failed: {}", name, pixels, share.failure);
     }
-    if (share.ready == 0) return share.name + ": was not ready in time";
-    return fmt::format("{}: {}, ready after {:.3f} s", share.name, pixels, share.ready);
+    if (share.ready == 0) return name + ": was not ready in time";
+    return fmt::format("{}: {}, ready after {:.3f} s", name, pixels, share.ready);
 }
 
 Features without(Features features, const Features& others) {

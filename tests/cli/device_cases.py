@@ -16,7 +16,7 @@ class Devices(CliTest):
 
     def test_text_names_index_and_threads(self):
         text = self.devices()
-        self.assertRegex(text, r"(?m)^0  pthread")
+        self.assertRegex(text, r"(?m)^0  PoCL")
         self.assertIn("Portable Computing Language", text)
         self.assertRegex(text, r"(?m)^threads  .*\d+ cores?")
 
