@@ -62,6 +62,33 @@ std::string sections(const std::string& name, const VerbText& verb) {
     return text;
 }
 
+constexpr const char* description = R"(.SH DESCRIPTION
+Traces scenes of spheres, cones, triangles and meshes, with Phong lighting, mirrors and glass, on
+OpenCL devices or on threads: the same bits on each. It measures error against run time, compares
+pictures, and tests devices and numerical stability.
+)";
+
+constexpr const char* examples = R"(.SH EXAMPLES
+.TP
+.B mirrorball render scene.json \-o picture.png
+renders a scene on the best device
+.TP
+.B mirrorball bench \-\-devices pocl,threads
+compares a device with threads
+.TP
+.B mirrorball converge scene.json
+measures error against run time
+.TP
+.B mirrorball doctor
+tests each OpenCL driver
+)";
+
+constexpr const char* see_also = R"(.SH SEE ALSO
+.BR clinfo (1),
+.BR oclgrind (1),
+.BR povray (1)
+)";
+
 constexpr const char* exit_statuses = R"(.SH EXIT STATUS
 .TP
 0
@@ -124,11 +151,12 @@ std::string man_page(const VerbText& program, const std::string& version) {
     text += ".ad l\n";
     text += fmt::format(".SH NAME\n{} \\- {}\n", roff(program.name), roff(program.help));
     text += ".SH SYNOPSIS\n" + synopses(program.name, program);
+    text += description;
     text += ".SH OPTIONS\n" + sections(program.name, program);
     return text + exit_statuses +
            ".SH ENVIRONMENT\n.TP\n.B MIRRORBALL_DEVICE\nthe default of "
            "\\fB\\-\\-device\\fR in \\fBrender\\fR\n" +
-           file_section;
+           file_section + examples + see_also;
 }
 
 }  // namespace rt
