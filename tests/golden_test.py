@@ -51,9 +51,9 @@ RUNS = {
 
 # What depends on the machine or on the moment: only the kind of value is compared.
 VOLATILE = {"environment", "seconds", "rays_per_second", "started", "figures", "hierarchy_seconds",
-            "reference_seconds", "lanes", "isa", "platform", "driver", "ready", "pixels", "cache_path",
-            "from_cache", "slope", "open", "first_build", "first_cache", "warm_build", "point", "bar",
-            "pareto_front", "features_left_out", "program", "path", "build_cache", "device_name"}
+            "reference_seconds", "lanes", "isa", "platform", "driver", "ready", "pixels",
+            "slope", "open", "first_build", "warm_build", "point", "bar",
+            "pareto_front", "features_left_out", "program", "path", "device_name"}
 
 
 def kind(value):

@@ -177,7 +177,6 @@ TimedRun run_of(double trace, double build, int threads) {
 
 BenchRow threads_row(int threads, const std::vector<double>& traces) {
     BenchRow row;
-    row.asked.uses_threads = true;
     row.asked.threads = threads;
     row.asked.device = "threads:" + std::to_string(threads);
     row.asked.schedule = "tiles";

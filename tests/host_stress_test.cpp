@@ -6,6 +6,7 @@
 #include <set>
 
 #include "host/base/error.h"
+#include "host/print/print_run.h"
 #include "host/print/print_stress.h"
 #include "host/record/record.h"
 #include "host/stress/judge.h"
@@ -209,7 +210,7 @@ TEST(StressTable, NamesWhatIsBroken) {
 }
 
 TEST(StressJson, SaysTheSame) {
-    const Json json = Json::parse(stress_json(small_result()));
+    const Json json = Json::parse(result_json("stress", small_result()));
     EXPECT_FALSE(json["passed"].get<bool>());
     EXPECT_EQ(json["families"][0]["cases"][1]["rows"][0]["verdict"], "fail");
     EXPECT_EQ(json["families"][0]["cases"][1]["rows"][1]["verdict"], "not judged");

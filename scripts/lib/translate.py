@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Scenes of spheres, triangles and PLY meshes in the languages of Tachyon and POV-Ray.
 
@@ -15,8 +14,7 @@ import struct
 
 
 def read_scene(path):
-    text = re.sub(r"^\s*//.*$", "", pathlib.Path(path).read_text(), flags=re.M)
-    return json.loads(text)
+    return json.loads(pathlib.Path(path).read_text())
 
 
 def read_ply(path):

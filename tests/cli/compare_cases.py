@@ -3,7 +3,6 @@
 import json
 import math
 import struct
-import subprocess
 import zlib
 
 import jsonschema

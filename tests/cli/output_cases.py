@@ -4,10 +4,8 @@ import os
 import pathlib
 import resource
 import shutil
-import subprocess
 import unittest
 
-from hang_limit import HANG_LIMIT
 from harness import SETTINGS, CliTest, scene_path
 
 SCENE = "single-sphere"

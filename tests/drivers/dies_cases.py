@@ -1,14 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A driver ends its process, or hangs."""
 import json
-import os
-import pathlib
 import shutil
 import subprocess
-import unittest
 
 from driver_case import BUILD, SCENE, WrongDriver
-from hang_limit import HANG_LIMIT
 from measure_cases import Bench
 
 
