@@ -2,17 +2,20 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdio>
+#include <exception>
+#include <new>
 #include <string>
+#include <system_error>
 
 #include "host/base/console.h"
 #include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/base/version.h"
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
 #include "host/opencl/pocl.h"
-#include "host/picture/render_stats.h"
 #include "host/process/drivers.h"
-#include "host/process/exit_status.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 
@@ -51,19 +54,41 @@ int run(int argc, char** argv, double seconds_before_main) {
     Invocation call;
     call.command.assign(argv, argv + argc);
     call.drivers = icd_place();
-    call.worker_link = environment("MIRRORBALL_WORKER");
     call.seconds_before_main = seconds_before_main;
     const auto add_verbs = [&call](const CommandLine& program) {
         for (AddVerb* const add : verbs) add(program, call);
     };
     const std::string text = read_command_line(texts, add_verbs, argc, argv);
-    if (become_worker(call.worker_link)) call.seconds_before_main += seconds_before_worker();
+    become_worker();
+    call.seconds_before_main += seconds_before_worker();
     if (call.quiet) stop_quietly();
     if (!call.run) {
         print_result(text);
         return static_cast<int>(ExitCode::done);
     }
     return call.measures && !is_worker() ? run_in_worker(call) : call.run();
+}
+
+/// Also prints the results so far: main ends without closing the streams.
+int failed(ExitCode code, const char* message) {
+    std::fflush(stdout);
+    print_error(message);
+    return static_cast<int>(code);
+}
+
+/// Returns the exit status, for an exception its exit code.
+int run_and_report(int argc, char** argv, double seconds_before_main) try {
+    const int status = run(argc, argv, seconds_before_main);
+    flush_results();
+    return status;
+} catch (const Error& error) {
+    return failed(error.exit_code(), error.what());
+} catch (const std::bad_alloc&) {
+    return failed(ExitCode::limit, out_of_memory);
+} catch (const std::system_error& error) {
+    return failed(ExitCode::limit, error.what());
+} catch (const std::exception& error) {
+    return failed(ExitCode::bug, error.what());
 }
 
 }  // namespace
@@ -74,11 +99,7 @@ int main(int argc, char** argv) {
     const double seconds_before_main = rt::seconds_since_process_start();
     rt::open_missing_streams();
     rt::prepare_signals();
-    const int status = rt::exit_status_of([&] {
-        const int result = rt::run(argc, argv, seconds_before_main);
-        rt::flush_results();
-        return result;
-    });
+    const int status = rt::run_and_report(argc, argv, seconds_before_main);
     rt::note_worker_end(status);
     rt::leave_pocl_cache();
     // Skips destructors: a driver may still be compiling for a picture that is finished.

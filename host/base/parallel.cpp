@@ -5,11 +5,14 @@
 #include <pthread.h>
 #include <sched.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <vector>
 
 #include "host/base/error.h"
@@ -88,6 +91,25 @@ double processor_seconds() {
     timespec time{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::istringstream stat_fields(const std::string& file) {
+    std::ifstream stream(file);
+    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    const std::size_t name_end = text.rfind(')');  // field 2, in parentheses, may hold anything
+    return std::istringstream(name_end == text.npos ? "" : text.substr(name_end + 1));
+}
+
+double seconds_since_process_start() {
+    std::istringstream fields = stat_fields("/proc/self/stat");
+    std::string field;
+    for (int i = 3; i <= 22; ++i) fields >> field;  // the start, in clock ticks since boot
+    timespec now{};
+    if (!fields || clock_gettime(CLOCK_BOOTTIME, &now) != 0) return 0;
+    const double tick = 1 / static_cast<double>(sysconf(_SC_CLK_TCK));
+    const double since_tick = static_cast<double>(now.tv_sec) +
+                              1e-9 * static_cast<double>(now.tv_nsec) - tick * std::stod(field);
+    return std::max(processor_seconds(), since_tick - tick);
 }
 
 void run_on_threads(int count, const std::function<void(int)>& work) {

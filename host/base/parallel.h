@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <functional>
+#include <sstream>
+#include <string>
 
 namespace rt {
 
@@ -12,6 +14,13 @@ int available_cores();
 /// Processor time of all threads of the program together, in seconds. Other load on the machine
 /// affects it less than wall-clock time.
 double processor_seconds();
+
+/// The fields of a process's or thread's /proc/.../stat file from the third on, its state.
+std::istringstream stat_fields(const std::string& file);
+
+/// Seconds since the system started this process: its processor time, if its one thread has not
+/// waited; else up to 0.01 s too little, the resolution of the system's own record.
+double seconds_since_process_start();
 
 /// Runs work(0) .. work(count - 1), each on its own POSIX thread, and joins them all; work begins
 /// once every thread exists. Rethrows the lowest-numbered thread's exception. Throws Error

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cli/aov.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "host/base/console.h"
 #include "host/base/text.h"
+#include "host/cli/render_steps.h"
 #include "host/explain/pixel_facts.h"
 #include "host/image/false_color.h"
 #include "host/image/output_path.h"

@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/image/output_path.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
@@ -79,8 +80,8 @@ std::string batch_output(const std::string& pattern, const std::string& scene) {
 }
 
 std::optional<BatchItem> parse_batch_line(const std::string& line) {
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // some editors begin files so
-    std::istringstream words(line.substr(line.starts_with(byte_order_mark) ? 3 : 0));
+    const bool is_marked = line.starts_with(utf8_byte_order_mark);  // some editors begin files so
+    std::istringstream words(line.substr(is_marked ? utf8_byte_order_mark.size() : 0));
     BatchItem item;
     const std::optional<std::string> scene = next_name(words);
     if (!scene || scene->starts_with("#")) return std::nullopt;

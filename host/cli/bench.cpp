@@ -45,7 +45,7 @@ bool has_regressed(const BenchResult& result, const Baseline& baseline, double m
 }
 
 int run_bench(const BenchCall& options) {
-    check_result_path(options.results.json, json_start("mirrorball-bench"));
+    check_result_path(options.results.json, json_start("bench"));
     check_output_is_no_input(options.results.json, {options.baseline});
     check_result_path(options.results.csv, run_csv_header());
     check_outputs_differ({options.results.json, options.results.csv});
@@ -55,7 +55,7 @@ int run_bench(const BenchCall& options) {
     const BenchResult result =
         measure_bench(options, options.baseline.empty() ? nullptr : &baseline);
     if (!options.results.take_stdout()) print_result(bench_text(result));
-    write_result(options.results.json, bench_json(result));
+    write_result(options.results.json, result_json("bench", result));
     write_result(options.results.csv, bench_csv(result));
     say_bad_rows(result.rows);
     say_bad_rows(result.ablation);

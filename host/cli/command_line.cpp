@@ -19,7 +19,7 @@ namespace {
 
 CLI::App& app_of(void* app) { return *static_cast<CLI::App*>(app); }
 
-std::vector<CLI::App*> verbs_of(CLI::App& app) {
+std::vector<const CLI::App*> verbs_of(const CLI::App& app) {
     return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
@@ -38,7 +38,7 @@ VerbText text_of(const CLI::App& verb) {
         one.help = option->get_description();
         text.options.push_back(std::move(one));
     }
-    for (const CLI::App* one : verb.get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* one : verbs_of(verb)) {
         text.verbs.push_back(text_of(*one));
     }
     return text;
@@ -87,7 +87,7 @@ std::string help_text(const CLI::App& verb, const std::string& name) {
             help_entry(option->get_name(false, true) + (takes ? " " + option->get_type_name() : ""),
                        option->get_description());
     }
-    for (const CLI::App* one : verb.get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* one : verbs_of(verb)) {
         verbs += help_entry(one->get_name(), one->get_description());
     }
     std::string usage = name + (groups.empty() ? "" : " [OPTIONS]");
@@ -125,7 +125,6 @@ struct CommandLineParser {
         app.add_flag("--man")->description("Print the manual page in roff");
         app.add_option("--completions")
             ->description("Print a completion script for a shell")
-
             ->type_name("bash|zsh|fish");
         app.require_subcommand(1);
         place = texts.program;
@@ -201,10 +200,9 @@ struct CommandLineParser {
 
     /// The man page or completion script, if the first word asks for one; else empty.
     std::string installed_text(const std::vector<std::string>& words) {
-        const VerbText program = text_of(app);
-        if (words.size() == 1 && words[0] == "--man") return man_page(program, app.version());
+        if (words.size() == 1 && words[0] == "--man") return man_page(text_of(app), app.version());
         if (words.size() != 2 || words[0] != "--completions") return "";
-        const std::string text = completions(program, words[1]);
+        const std::string text = completions(text_of(app), words[1]);
         if (text.empty())
             refuse_line("--completions '" + words[1] + "': expected bash, zsh or fish");
         return text;

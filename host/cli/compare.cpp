@@ -2,10 +2,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host/base/console.h"
@@ -18,6 +17,7 @@
 #include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
 #include "host/measure/heatmap.h"
+#include "host/measure/picture_judge.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stats.h"
 #include "host/record/record.h"
@@ -48,13 +48,6 @@ struct Comparison {
     }
     bool identical() const { return error.max == 0 && error.non_finite == 0; }
 };
-
-/// NaN and infinities stay, to be counted.
-void clamp_finite(Picture& picture) {
-    for (float& value : picture.pixels) {
-        if (std::isfinite(value)) value = std::clamp(value, 0.0f, 1.0f);
-    }
-}
 
 void check_same_shape(const Picture& a, const Picture& b, const CompareOptions& options) {
     if (have_same_shape(a, b)) return;
@@ -101,8 +94,8 @@ Comparison compare_pictures(const CompareOptions& options) {
     result.picture = read_picture(options.picture);
     result.reference = read_picture(options.reference);
     if (options.clamp) {
-        clamp_finite(result.picture);
-        clamp_finite(result.reference);
+        result.picture = clamped(std::move(result.picture));
+        result.reference = clamped(std::move(result.reference));
     }
     result.error = image_error(result.picture, result.reference);
     result.heatmap_scale = options.heatmap_scale.value_or(result.error.max);
@@ -157,7 +150,7 @@ int run_compare(const CompareOptions& options) {
         check_output_is_no_input(output, {options.picture, options.reference});
     }
     if (!options.heatmap.empty()) check_picture_path(options.heatmap);
-    check_result_path(options.json, json_start("mirrorball-compare"));
+    check_result_path(options.json, json_start("compare"));
     check_outputs_differ({options.heatmap, options.json});
     const Comparison result = compare_pictures(options);
     if (!options.heatmap.empty()) write_heatmap(result, options);

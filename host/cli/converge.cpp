@@ -38,7 +38,7 @@ int verdict(const ConvergeResult& result) {
 }
 
 int run_converge(const ConvergeCall& options) {
-    check_result_path(options.results.json, json_start("mirrorball-converge"));
+    check_result_path(options.results.json, json_start("converge"));
     check_result_path(options.results.csv, run_csv_header());
     if (!options.reference.empty()) check_picture_path(options.reference);
     check_outputs_differ({options.results.json, options.results.csv, options.reference});
@@ -46,7 +46,7 @@ int run_converge(const ConvergeCall& options) {
     const ConvergeResult result = measure_converge(options);
     if (!options.quiet) print_notes(result.notes);
     if (!options.results.take_stdout()) print_result(converge_text(result));
-    write_result(options.results.json, converge_json(result));
+    write_result(options.results.json, result_json("converge", result));
     write_result(options.results.csv, converge_csv(result));
     return verdict(result);
 }

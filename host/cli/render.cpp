@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cli/render.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,10 +13,8 @@
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/base/text.h"
-#include "host/cli/aov.h"
 #include "host/cli/batch_list.h"
 #include "host/cli/render_steps.h"
-#include "host/cli/watch.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"

@@ -14,7 +14,6 @@
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/cli/options.h"
-#include "host/cli/render.h"
 #include "host/cli/verb.h"
 #include "host/image/output_path.h"
 #include "host/opencl/device_spec.h"

@@ -63,4 +63,8 @@ struct RenderOptions : RenderSettings {
 /// Throws Error (ExitCode::usage) for options that cannot be combined.
 void settle_render(RenderOptions& render);
 
+/// `mirrorball render`. Returns the exit status. `seconds_before_main`: time since the program
+/// began.
+int run_render(const RenderOptions& options, double seconds_before_main);
+
 }  // namespace rt

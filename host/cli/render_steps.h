@@ -12,7 +12,7 @@
 #include "host/picture/render_picture.h"
 #include "host/view/live_picture.h"
 
-// Steps shared by single and batch rendering. All of them may throw Error.
+// The steps of rendering. All of them may throw Error.
 namespace rt {
 
 /// The metadata that marks an unfinished picture; its text says how much is there.
@@ -101,6 +101,21 @@ void print_results(const RenderStats& stats, const RenderOptions& options);
 
 /// Reports on stderr what is wrong with a picture saved as `path`. Returns the exit status.
 int verdict(const RenderedPicture& rendered, const std::string& path);
+
+/// Rejects, before anything is computed, AOV files that could not be written, or are inputs.
+void check_aov_files(const RenderOptions& options, const std::vector<std::string>& inputs);
+
+/// Writes the AOVs in options.aovs next to the picture: as channels of NAME.aov.exr if the picture
+/// is an .exr, else each in false color as NAME.depth.png and so on. `scene` is as it was rendered.
+/// Returns false, with a message and nothing written, after a stop signal. Throws Error
+/// (ExitCode::output).
+bool write_aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options);
+
+/// Calls `render`, which returns an exit status, now and whenever the scene's file or one of its
+/// models or their material libraries changes, until `is_over`, with exit status 0, or a stop
+/// signal comes, with the signal's; reports its exceptions on stderr.
+int watch_scene(const std::string& scene, bool is_quiet, const std::function<int()>& render,
+                const std::function<bool()>& is_over);
 
 /// Renders several scenes, one after the other, on devices that are opened once. A scene that fails
 /// does not stop the others. Returns the worst exit status of all.

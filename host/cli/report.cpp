@@ -37,8 +37,7 @@ constexpr const char* debian_python = "/usr/bin/python3";
 
 /// The python3 in PATH; empty if there is none.
 std::string python_in_path() {
-    const char* const value = std::getenv("PATH");
-    std::string path = value == nullptr ? "" : value;
+    std::string path = environment("PATH");
     while (!path.empty()) {
         const std::string folder = path.substr(0, path.find(':'));
         path.erase(0, folder.size() + 1);

@@ -29,14 +29,14 @@ int run_stress(const StressCall& options) {
         print_result(stress_list(families));
         return 0;
     }
-    check_result_path(options.json, json_start("mirrorball-stress"));
+    check_result_path(options.json, json_start("stress"));
     if (!options.output.empty()) {
         create_output_folder(options.output);
         check_output_path(options.output + "/reference.png");
     }
     const StressResult result = run_stress_cases(families, options);
     if (options.json != "-") print_result(stress_text(result, options.verbose));
-    write_result(options.json, options.json.empty() ? "" : stress_json(result));
+    write_result(options.json, options.json.empty() ? "" : result_json("stress", result));
     if (result.interrupted) return 128 + stop_flag();
     return static_cast<int>(result.passed() ? ExitCode::done : ExitCode::different);
 }

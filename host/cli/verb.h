@@ -14,8 +14,7 @@ namespace rt {
 /// What the command line asks for, and where the program runs.
 struct Invocation {
     std::vector<std::string> command;  ///< the program's own, to start workers
-    std::string drivers;      ///< where OpenCL finds its .icd files: a folder, or one of them
-    std::string worker_link;  ///< not empty: this process may be a worker (host/process/worker.h)
+    std::string drivers;  ///< where OpenCL finds its .icd files: a folder, or one of them
     double seconds_before_main = 0;
 
     std::function<int()> run;  ///< returns the exit status: an ExitCode, or 128 + a signal

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/cli/watch.h"
-
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
+#include "host/cli/render_steps.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/scene/json_document.h"

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 
 namespace rt {
 namespace {
@@ -143,7 +144,7 @@ std::string partial_path(const std::string& path, int number) {
     std::string stem = name.stem().string();
     // Whole characters of UTF-8.
     while (stem.size() > 1 && stem.size() + ending.size() > longest) {
-        while ((stem.back() & 0xc0) == 0x80) stem.pop_back();
+        while (is_utf8_continuation(stem.back())) stem.pop_back();
         stem.pop_back();
     }
     return (name.parent_path() / (stem + ending)).string();

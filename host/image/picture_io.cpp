@@ -210,12 +210,6 @@ void write_picture(const std::string& path, const Picture& picture, Encoding enc
                               : encode_with_module(path, *format, picture, encoding, metadata));
 }
 
-std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding) {
-    const std::string what = "a picture in memory";
-    check_picture(what, picture);
-    return encode_png_file(what, picture, encoding, {});
-}
-
 void check_picture_fits(const std::string& path, int width, int height,
                         std::optional<PictureFormat> format) {
     if (!format) format = picture_format_of_name(path);

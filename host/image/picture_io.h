@@ -32,9 +32,6 @@ void write_picture(const std::string& path, const Picture& picture, Encoding enc
                    std::span<const std::pair<std::string, std::string>> metadata = {},
                    std::optional<PictureFormat> format = {});
 
-/// The bytes of the .png that write_picture would write. Throws Error as it does.
-std::vector<std::byte> encode_png(const Picture& picture, Encoding encoding);
-
 /// Refuses, before anything is computed, what write_picture would refuse: Error(usage) for the
 /// extension, Error(output) for a directory that is missing or not writable, or a missing image
 /// library: the format's is loaded here.

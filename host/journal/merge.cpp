@@ -123,7 +123,7 @@ class Merger {
         merged.seed = seed.value();
         merged.picture.width = film_.width;
         merged.picture.height = film_.height;
-        merged.picture.pixels.assign(film_.rgb.begin(), film_.rgb.end());
+        merged.picture.pixels = as_floats(std::move(film_));
         return merged;
     }
 

@@ -16,14 +16,14 @@ bool same_picture(const BenchCase& a, const BenchCase& b) {
 const BenchRow* one_thread_row(const BenchResult& result, const BenchCase& asked,
                                const std::string& schedule) {
     const auto row = std::find_if(result.rows.begin(), result.rows.end(), [&](const BenchRow& r) {
-        return r.has_figures() && r.asked.uses_threads && r.asked.threads == 1 &&
+        return r.has_figures() && r.asked.uses_threads() && r.asked.threads == 1 &&
                r.asked.schedule == schedule && same_picture(r.asked, asked);
     });
     return row == result.rows.end() ? nullptr : &*row;
 }
 
 const BenchRow* base_of(const BenchResult& result, const BenchCase& asked) {
-    if (asked.uses_threads) return one_thread_row(result, asked, asked.schedule);
+    if (asked.uses_threads()) return one_thread_row(result, asked, asked.schedule);
     const BenchRow* const tiles = one_thread_row(result, asked, "tiles");
     return tiles != nullptr ? tiles : one_thread_row(result, asked, "buffers");
 }
@@ -44,7 +44,7 @@ std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow
     const double base_trace = spread_of(base->repeats, trace_seconds).median;
     figures.speed_up = base_total / figures.total.median;
     if (figures.trace.median > 0) figures.trace_speed_up = base_trace / figures.trace.median;
-    if (!row.asked.uses_threads) return figures;
+    if (!row.asked.uses_threads()) return figures;
     figures.parallel_fraction = parallel_fraction(base_trace, base_total);
     figures.amdahl = amdahl_speed_up(*figures.parallel_fraction, figures.threads);
     figures.over_amdahl = *figures.speed_up - *figures.amdahl;
@@ -90,7 +90,7 @@ std::string key_of(const BenchCase& asked) {
     const PictureSpec& picture = asked.picture;
     return fmt::format("{} {}x{} {} {} {} {}{}{}", hash_text(asked.scene.hash), picture.width,
                        picture.height, to_string(picture.aa), to_string(picture.precision),
-                       asked.device, asked.uses_threads ? "" : asked.device_name,
+                       asked.device, asked.uses_threads() ? "" : asked.device_name,
                        asked.schedule.empty() ? "" : " ", asked.schedule);
 }
 

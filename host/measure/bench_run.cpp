@@ -14,6 +14,7 @@
 #include "host/measure/device_list.h"
 #include "host/measure/machine_load.h"
 #include "host/measure/timing.h"
+#include "host/opencl/cl_tiles.h"
 #include "host/picture/default_scene.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
@@ -74,13 +75,16 @@ std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& d
                                        Precision precision) {
     const FlatScene<float> flat = flatten<float>(scene);
     Changes changes;
-    if (!device.is_threads) add_features(flat.features, changes);
+    if (!device.is_threads()) add_features(flat.features, changes);
     if (flat.stats.casters < flat.stats.lit_triangles) {
         changes.push_back(
             {"no caster lists", [](RenderSettings& settings) { settings.caster_lists = false; }});
     }
     add_hierarchies(flat, changes);
-    const int lanes = precision == Precision::float32 ? device.float_lanes : device.double_lanes;
+    const ClDevice& cl = device.choice.device;
+    const int lanes = device.is_threads()               ? 0
+                      : precision == Precision::float32 ? packet_lanes<float>(0, cl)
+                                                        : packet_lanes<double>(0, cl);
     if (lanes > 1) {
         const int samples = scene.aa.samples();
         if (packet_shape(lanes, samples).samples == samples) {
@@ -95,7 +99,7 @@ std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& d
 }
 
 struct LoadedScene {
-    std::string path;
+    SceneId id;
     Scene scene;
     double load_seconds = 0;
 };
@@ -107,14 +111,14 @@ class Plan {
         : options_(options), devices_(listed_devices(options.devices)) {
         if (options.scenes.empty()) {
             say("no scene given: using the built-in cornell-box");
-            scenes_.push_back({default_scene_path, load_default_scene(options.light), 0});
+            add_scene(default_scene_path, load_default_scene(options.light), 0);
         }
         for (const std::string& path : options.scenes) {
             const Stopwatch watch;
             Scene scene = load_scene(path, options.light);
             const double seconds = watch.seconds();
             if (!options.quiet) print_notes(scene.notes);
-            scenes_.push_back({path, std::move(scene), seconds});
+            add_scene(path, std::move(scene), seconds);
         }
         say_devices_without_double();
     }
@@ -143,6 +147,11 @@ class Plan {
         if (!options_.quiet) print_note(line);
     }
 
+    void add_scene(const std::string& path, Scene scene, double seconds) {
+        const SceneId id{path, scene.name, scene_hash(scene)};
+        scenes_.push_back({id, std::move(scene), seconds});
+    }
+
     bool wants_double() const {
         return std::find(options_.precisions.begin(), options_.precisions.end(),
                          Precision::float64) != options_.precisions.end();
@@ -150,7 +159,8 @@ class Plan {
 
     void say_devices_without_double() const {
         for (const ListedDevice& device : devices_) {
-            if (wants_double() && !device.has_double) say(device.name + " has no double precision");
+            if (wants_double() && !device.has_double())
+                say(device.name + " has no double precision");
         }
     }
 
@@ -161,7 +171,7 @@ class Plan {
         spec_ = picture_spec(scene, picture);
         RenderedPicture rendered = render_quietly(scene, picture, threads_choice());
         if (!rendered.stats.complete()) return false;
-        rendered.stats.scene.path = loaded.path;
+        rendered.stats.scene.path = loaded.id.path;
         rendered.stats.phases.load = loaded.load_seconds;
         rendered.stats.phases.total = timed_total(rendered.stats);
         hashes_[Precision::float64] = rendered.stats.image_hash;
@@ -177,10 +187,10 @@ class Plan {
         for (const Precision precision : options_.precisions) {
             picture.precision = precision;
             for (const ListedDevice& device : devices_) {
-                if (precision == Precision::float64 && !device.has_double) continue;
+                if (precision == Precision::float64 && !device.has_double()) continue;
                 if (options_.ablate) {
                     add_ablation(loaded, picture, device);
-                } else if (device.is_threads) {
+                } else if (device.is_threads()) {
                     add_threads_rows(loaded, picture, device);
                 } else {
                     add_row(loaded, picture, device);
@@ -194,8 +204,8 @@ class Plan {
     void add_threads_rows(const LoadedScene& loaded, RenderSettings picture,
                           const ListedDevice& device) {
         const int most = options_.threads > 0 ? options_.threads : available_cores();
-        const int first = device.threads > 0 ? device.threads : 1;
-        const int last = device.threads > 0 ? device.threads : most;
+        const int first = device.choice.threads > 0 ? device.choice.threads : 1;
+        const int last = device.choice.threads > 0 ? device.choice.threads : most;
         for (const Schedule schedule : options_.schedules) {
             for (int threads = first; threads <= last; ++threads) {
                 const int running = thread_count({threads, schedule}, picture.aa->samples());
@@ -214,7 +224,7 @@ class Plan {
 
     static ListedDevice with_threads(ListedDevice device, int threads) {
         device.spec = fmt::format("threads:{}", threads);
-        device.threads = device.choice.threads = threads;
+        device.choice.threads = threads;
         return device;
     }
 
@@ -222,7 +232,7 @@ class Plan {
     void add_ablation(const LoadedScene& loaded, const RenderSettings& picture,
                       const ListedDevice& device) {
         ListedDevice used = device;
-        if (device.is_threads && device.threads == 0) {
+        if (device.is_threads() && device.choice.threads == 0) {
             used =
                 with_threads(device, options_.threads > 0 ? options_.threads : available_cores());
         }
@@ -239,21 +249,20 @@ class Plan {
     void add_row(const LoadedScene& loaded, const RenderSettings& picture,
                  const ListedDevice& device, const std::string& change = "") {
         BenchCase& row = asked.emplace_back();
-        row.scene = {loaded.path, loaded.scene.name, scene_hash(loaded.scene)};
+        row.scene = loaded.id;
         row.picture = spec_;
         row.picture.precision = picture.precision;
-        row.uses_threads = device.is_threads;
         row.device = device.spec;
         row.device_name = device.name;
-        row.threads = device.threads;
+        row.threads = device.choice.threads;
         row.change = change;
-        if (device.is_threads) {
+        if (device.is_threads()) {
             row.schedule = picture.kernels.lanes == 1 ? "scalar" : to_string(picture.schedule);
         }
         TimedCase& timed = cases.emplace_back();
         timed.scene = &loaded.scene;
         timed.reference = &references_.back();
-        timed.path = loaded.path;
+        timed.path = loaded.id.path;
         timed.device = device.choice;
         timed.settings = picture;
         timed.expected_hash = hashes_.at(picture.precision);

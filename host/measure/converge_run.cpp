@@ -120,7 +120,7 @@ ConvergedPicture converged_picture(const Scene& scene, const ConvergeOptions& op
 std::vector<ListedDevice> swept_devices(const ConvergeOptions& options) {
     std::vector<ListedDevice> devices = listed_devices(options.devices);
     for (std::size_t i = options.scalar ? devices.size() : 0; i-- > 0;) {
-        if (!devices[i].is_threads) continue;
+        if (!devices[i].is_threads()) continue;
         ListedDevice scalar = devices[i];
         scalar.spec += " scalar";
         scalar.is_scalar = true;
@@ -150,10 +150,10 @@ std::vector<ConvergePoint> planned_points(const ConvergeOptions& options, const 
     std::vector<ConvergePoint> points;
     for (const ListedDevice& device : devices) {
         for (const Precision precision : options.precisions) {
-            if (precision == Precision::float64 && (!device.has_double || device.is_scalar))
+            if (precision == Precision::float64 && (!device.has_double() || device.is_scalar))
                 continue;
             for (const Math math : options.math) {
-                if (math == Math::fast && device.is_threads) continue;
+                if (math == Math::fast && device.is_threads()) continue;
                 PictureSpec picture = picture_spec(scene, {});
                 picture.precision = precision;
                 picture.math = math;
@@ -174,7 +174,7 @@ TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
     timed.device = device.choice;
     timed.settings = timed_settings(settings_for(asked.picture));
     if (device.is_scalar) timed.settings.kernels.lanes = 1;
-    if (device.is_threads && device.threads == 0) timed.settings.threads = options.threads;
+    if (device.is_threads() && device.choice.threads == 0) timed.settings.threads = options.threads;
     timed.judge = judge_estimate;
     return timed;
 }

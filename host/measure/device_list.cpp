@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "host/base/console.h"
-#include "host/opencl/cl_tiles.h"
 #include "host/opencl/device_spec.h"
 #include "host/opencl/pocl.h"
 #include "host/process/drivers.h"
@@ -14,24 +13,13 @@ namespace rt {
 namespace {
 
 ListedDevice list_entry(const ClDevice& device) {
-    ListedDevice entry;
-    entry.spec = std::to_string(device.index);
+    ListedDevice entry{std::to_string(device.index), {}, device.name};
     entry.choice.device = device;
-    entry.name = device.name;
-    entry.has_double = device.has_double;
-    entry.float_lanes = packet_lanes<float>(0, device);
-    entry.double_lanes = packet_lanes<double>(0, device);
     return entry;
 }
 
 ListedDevice threads_entry(const std::string& spec, int threads) {
-    ListedDevice entry;
-    entry.spec = spec;
-    entry.choice = threads_choice(threads);
-    entry.threads = threads;
-    entry.name = "threads";
-    entry.is_threads = true;
-    return entry;
+    return {spec, threads_choice(threads), "threads"};
 }
 
 void add_once(std::vector<ListedDevice>& list, const ListedDevice& device) {

@@ -12,12 +12,11 @@ namespace rt {
 struct ListedDevice {
     std::string spec;  ///< for --device: "threads", "threads:2", "0"
     DeviceChoice choice;
-    std::string name;  ///< "threads", or the OpenCL device's own name
-    bool is_threads = false;
-    bool is_scalar = false;                 ///< threads that trace one ray at a time
-    int threads = 0;                        ///< from threads:N; 0 when not given
-    bool has_double = true;                 ///< whether it can render in double
-    int float_lanes = 0, double_lanes = 0;  ///< of a packet, by default; 0 for threads
+    std::string name;        ///< "threads", or the OpenCL device's own name
+    bool is_scalar = false;  ///< threads that trace one ray at a time
+
+    bool is_threads() const { return choice.use_threads; }
+    bool has_double() const { return is_threads() || choice.device.has_double; }
 };
 
 /// The devices that specs name, without duplicates; "all" means threads and every usable OpenCL

@@ -249,9 +249,9 @@ class Job {
         const int right = std::min(part.x + part.width, region_.x + region_.width);
         const int bottom = std::min(part.y + part.height, region_.y + region_.height);
         if (left >= right || top >= bottom) return;
-        const Film<T> shown = part_of(film_, rendered_, {left, top, right - left, bottom - top});
+        Film<T> shown = part_of(film_, rendered_, {left, top, right - left, bottom - top});
         events_.rendered({left - region_.x, top - region_.y, shown.width, shown.height},
-                         {shown.rgb.begin(), shown.rgb.end()});
+                         as_floats(std::move(shown)));
     }
 
     RefineEvents<T> refine_events() {
@@ -316,11 +316,7 @@ class Job {
         RenderedPicture rendered;
         rendered.picture.width = film_.width;
         rendered.picture.height = film_.height;
-        if constexpr (std::is_same_v<T, float>) {
-            rendered.picture.pixels = std::move(film_.rgb);
-        } else {
-            rendered.picture.pixels.assign(film_.rgb.begin(), film_.rgb.end());
-        }
+        rendered.picture.pixels = as_floats(std::move(film_));
         stats_.non_finite = count_non_finite(rendered.picture);
         rendered.stats = stats_;
         rendered.journal = journal_->file();

@@ -228,8 +228,4 @@ void describe(A& a, X& x) {
     a("error", x.error, "relative to --reference");
 }
 
-/// Seconds since the system started this process: its processor time, if its one thread has not
-/// waited; else up to 0.01 s too little, the resolution of the system's own record.
-double seconds_since_process_start();
-
 }  // namespace rt

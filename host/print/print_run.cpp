@@ -89,20 +89,14 @@ void add_rows(const std::vector<Row>& rows, std::string& text) {
 
 }  // namespace
 
-std::string json_start(const std::string& format) { return "{\n  \"format\": \"" + format + "\""; }
+std::string json_start(const std::string& format) {
+    return "{\n  \"format\": \"mirrorball-" + format + "\"";
+}
 
 Json bench_environment_json(double load_before) {
     Json json = environment_json();
     json.update(machine_load_json(load_of(load_before)));
     return json;
-}
-
-std::string bench_json(const BenchResult& result) {
-    return result_json("mirrorball-bench", bench_environment_json(result.load_before), result);
-}
-
-std::string converge_json(const ConvergeResult& result) {
-    return result_json("mirrorball-converge", bench_environment_json(result.load_before), result);
 }
 
 std::string run_csv_header() {

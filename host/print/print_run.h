@@ -16,17 +16,20 @@ namespace rt {
 /// The first bytes of every result of this format.
 std::string json_start(const std::string& format);
 
-/// A result's format, version 1, environment and fields, as text.
-template <typename T>
-std::string result_json(const std::string& format, Json environment, const T& result) {
-    Json json{{"format", format}, {"version", 1}, {"environment", std::move(environment)}};
-    json.update(json_of(result));
-    return json_text(json);
-}
-
 /// environment_json plus the load before the measurements and whether it makes the machine busy;
 /// "load" itself is from after them.
 Json bench_environment_json(double load_before);
+
+/// A result of bench, converge or stress: its format, version 1, environment, every raw run, and
+/// the figures computed from them (docs/FORMAT.schema.json).
+template <typename T>
+std::string result_json(const std::string& format, const T& result) {
+    Json json{{"format", "mirrorball-" + format},
+              {"version", 1},
+              {"environment", bench_environment_json(result.load_before)}};
+    json.update(json_of(result));
+    return json_text(json);
+}
 
 /// How many rounds the rows have: "4 rounds after a warm-up", or with an interrupt
 /// "1 of 4 rounds after a warm-up, interrupted".
@@ -42,11 +45,6 @@ std::string rounds_text(const std::vector<Row>& rows, int asked, bool interrupte
 /// Human-readable tables, at most 100 columns wide.
 std::string bench_text(const BenchResult& result);
 std::string converge_text(const ConvergeResult& result);
-
-/// Format "mirrorball-bench", version 1 (docs/bench.schema.json), and "mirrorball-converge",
-/// version 1 (docs/converge.schema.json): every raw run, and the figures computed from them.
-std::string bench_json(const BenchResult& result);
-std::string converge_json(const ConvergeResult& result);
 
 /// The first line of the CSV of bench and converge, without its newline.
 std::string run_csv_header();

@@ -15,7 +15,4 @@ std::string stress_text(const StressResult& result, bool verbose);
 /// The names of the families and their cases; those of --quick are marked.
 std::string stress_list(const std::vector<StressFamily>& families);
 
-/// Format "mirrorball-stress", version 1 (docs/stress.schema.json).
-std::string stress_json(const StressResult& result);
-
 }  // namespace rt

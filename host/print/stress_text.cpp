@@ -149,8 +149,4 @@ std::string stress_list(const std::vector<StressFamily>& families) {
     return text;
 }
 
-std::string stress_json(const StressResult& result) {
-    return result_json("mirrorball-stress", bench_environment_json(result.load_before), result);
-}
-
 }  // namespace rt

@@ -186,10 +186,6 @@ void install_stop_signals() {
     restore_stop_signals();
 }
 
-void uninstall_stop_signals() {
-    for (const StopSignal& signal : stop_signals) ::signal(signal.number, SIG_DFL);
-}
-
 void stop_after(double seconds) {
     itimerval timer{};
     timer.it_value.tv_sec = static_cast<time_t>(seconds);

@@ -30,9 +30,6 @@ void restore_stop_signals();
 /// ignored. Call it after OpenCL has started: its runtimes replace existing handlers.
 void install_stop_signals();
 
-/// From now on a stop signal ends this process silently.
-void uninstall_stop_signals();
-
 /// Sends this process SIGALRM after so many seconds.
 void stop_after(double seconds);
 

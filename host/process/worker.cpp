@@ -15,15 +15,16 @@
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 
 #include "host/base/files.h"
+#include "host/base/parallel.h"
 #include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
 
@@ -55,15 +56,6 @@ void send(std::string_view message) {
     }
 }
 
-/// The fields of a stat file, starting at the state.
-std::istringstream fields_of(const std::string& file) {
-    std::ifstream stream(file);
-    std::string text;
-    std::getline(stream, text);
-    const std::size_t name_end = text.rfind(')');
-    return std::istringstream(name_end == text.npos ? "" : text.substr(name_end + 1));
-}
-
 /// A process and all its descendants, such as a driver's compiler and linker.
 struct ProcessTree {
     std::vector<pid_t> processes;
@@ -74,7 +66,7 @@ struct ProcessTree {
 void add_process(ProcessTree& tree, pid_t process) {
     tree.processes.push_back(process);
     const std::string folder = fmt::format("/proc/{}/", process);
-    std::istringstream fields = fields_of(folder + "stat");
+    std::istringstream fields = stat_fields(folder + "stat");
     std::string skipped;
     for (int i = 0; i < 11; ++i) fields >> skipped;
     double ticks = 0;
@@ -85,7 +77,7 @@ void add_process(ProcessTree& tree, pid_t process) {
     for (std::filesystem::directory_iterator task(folder + "task", error), end;
          !error && task != end; task.increment(error)) {
         char state = '?';
-        fields_of(task->path() / "stat") >> state;
+        stat_fields(task->path() / "stat") >> state;
         tree.is_busy |= std::string_view("RDTt").find(state) != std::string_view::npos;
         std::ifstream children(task->path() / "children");
         for (pid_t child = 0; children >> child;) add_process(tree, child);
@@ -268,18 +260,19 @@ void end_if_stopped(const WorkerEnd& end) {
     if (number > 0) end_by_stop_signal(number);
 }
 
-bool become_worker(const std::string& link) {
+void become_worker() {
+    const char* const link = std::getenv(link_name);
     int pipe = -1;
     pid_t parent = 0;
-    if (std::sscanf(link.c_str(), "%d,%d,%lf", &pipe, &parent, &link_seconds) != 3) return false;
+    if (link == nullptr || std::sscanf(link, "%d,%d,%lf", &pipe, &parent, &link_seconds) != 3)
+        return;
     ::unsetenv(link_name);
-    if (::fcntl(pipe, F_SETFD, FD_CLOEXEC) != 0) return false;
+    if (::fcntl(pipe, F_SETFD, FD_CLOEXEC) != 0) return;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::prctl(PR_SET_NAME, "mirrorball");     // not "exe"
     if (::getppid() != parent) ::_exit(1);  // it has already ended
     link_pipe = pipe;
     accept_signals_from(parent, note_worker_end);
-    return true;
 }
 
 bool is_worker() { return link_pipe >= 0; }

@@ -40,9 +40,9 @@ WorkerEnd run_worker(WorkerCommand command);
 /// Ends this process as its worker ended, if a stop signal ended that.
 void end_if_stopped(const WorkerEnd& end);
 
-/// Makes this process a worker if `link` (environment variable MIRRORBALL_WORKER) is valid, and
-/// returns whether it is. It then dies with its parent. Call it before any thread has started.
-bool become_worker(const std::string& link);
+/// Makes this process a worker, which dies with its parent, if environment variable
+/// MIRRORBALL_WORKER has a valid link to it. Call it before any thread has started.
+void become_worker();
 
 bool is_worker();
 

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "host/base/memory.h"
@@ -21,6 +23,13 @@ struct Film {
     int width, height;  ///< pixels
     std::vector<T> rgb;
 };
+
+/// The numbers as a picture has them.
+template <typename T>
+std::vector<float> as_floats(Film<T>&& film) {
+    if constexpr (std::is_same_v<T, float>) return std::move(film.rgb);
+    return {film.rgb.begin(), film.rgb.end()};
+}
 
 /// Crops a film that shows `shown` to `part`, which lies in it.
 template <typename T>

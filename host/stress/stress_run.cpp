@@ -137,7 +137,7 @@ class Runner {
         for (const ListedDevice& device : devices_) {
             for (const Precision precision : {Precision::float32, Precision::float64}) {
                 const bool is_double = precision == Precision::float64;
-                if (is_double && !device.has_double) continue;
+                if (is_double && !device.has_double()) continue;
                 StressRow row;
                 row.renderer = device.name;
                 row.device = device.spec;
