@@ -102,6 +102,16 @@ TEST(JudgePicture, OnePixelThatARoundingDecidedIsRight) {
     EXPECT_EQ(judge_picture(picture, test_picture()).why_wrong, "");
 }
 
+TEST(JudgePicture, ATenthOfAnEdgeMayBeRounded) {
+    Picture picture = test_picture(100, 100);
+    const auto change = [&](int pixels) {
+        for (int i = 0; i < pixels; ++i) picture.pixels[static_cast<std::size_t>(303 * i)] += 0.1F;
+        return judge_picture(picture, test_picture(100, 100)).why_wrong;
+    };
+    EXPECT_EQ(change(20), "");
+    EXPECT_NE(change(21), "");
+}
+
 TEST(JudgePicture, NaNPixelIsWrong) {
     Picture picture = test_picture();
     picture.pixels[100] = std::numeric_limits<float>::quiet_NaN();
