@@ -202,7 +202,7 @@ struct CommandLineParser {
     std::string installed_text(const std::vector<std::string>& words) {
         if (words.size() == 1 && words[0] == "--man") return man_page(text_of(app), app.version());
         if (words.size() != 2 || words[0] != "--completions") return "";
-        const std::string text = completions(text_of(app), words[1]);
+        const std::string text = completion_script(words[1]);
         if (text.empty())
             refuse_line("--completions '" + words[1] + "': expected bash, zsh or fish");
         return text;
@@ -212,6 +212,9 @@ struct CommandLineParser {
         if (!words.empty() && words.front() == "help") {
             words.erase(words.begin());
             words.emplace_back("--help");
+        }
+        if (!words.empty() && words.front() == "--complete") {
+            return completions_of(text_of(app), {words.begin() + 1, words.end()});
         }
         if (const std::string text = installed_text(words); !text.empty()) return text;
         try {

@@ -25,8 +25,12 @@ struct VerbText {
 /// The manual page of section 1, in roff. `version` begins with the program's name.
 std::string man_page(const VerbText& program, const std::string& version);
 
-/// The script that completes verbs, options and their values in "bash", "zsh" or "fish". Empty for
-/// another shell.
-std::string completions(const VerbText& program, const std::string& shell);
+/// What the last of these words, which may be empty, can become: a verb, an option or its value; a
+/// line each, with its help after a tab. Empty where it is the name of a file.
+std::string completions_of(const VerbText& program, std::vector<std::string> words);
+
+/// The script that completes command lines in "bash", "zsh" or "fish", by `mirrorball --complete
+/// WORD...`. Empty for another shell.
+std::string completion_script(const std::string& shell);
 
 }  // namespace rt
