@@ -103,7 +103,8 @@ real3 clear_of_edges(const Ray* ray, const Hit* hit, real3 point,
     return add_scaled(point, max_of(share, (Reals)0), sub3(incenter, point));
 }
 
-// The hits' surfaces, with the points moved clear of other surfaces they touch.
+// The hits' surfaces, with the points moved clear of other surfaces they touch. At least one lane
+// must be live.
 Surface surface_at(const SceneView* scene, const Ray* ray, const Hit* hit, Mask live) {
     Surface surface = hit_surface(scene, ray, hit, live);
     Reals sine = max_of(fabs(dot3(surface.geometric, ray->dir)), (Reals)RT_SHARPEST);

@@ -71,17 +71,17 @@ void rays_item(__global RayAnswer* answers, __global const RayQuery* queries,
         out[7].all = blocked ? (Indices)1 : (Indices)0;
     }
     Mask met = live & (hit.prim != RT_NONE);
-    Surface surface = surface_at(scene, &ray, &hit, met);
+    out[11].all = (Indices)RT_NONE;
     if (any_lane(met)) {
+        Surface surface = surface_at(scene, &ray, &hit, met);
         set_field3(out + 4, surface.point);
         set_field3(out + 8, surface.normal);
-    }
-    Mask goes_on = met & (dot3(next, next) > (Reals)0);
-    out[11].all = (Indices)RT_NONE;
-    if (any_lane(goes_on)) {
-        Hit second = next_hit(scene, &surface, next, hit.prim, goes_on);
-        out[11].all = goes_on ? second.prim : (Indices)RT_NONE;
-        out[12].all = RT_AS_INDICES(second.t);
+        Mask goes_on = met & (dot3(next, next) > (Reals)0);
+        if (any_lane(goes_on)) {
+            Hit second = next_hit(scene, &surface, next, hit.prim, goes_on);
+            out[11].all = goes_on ? second.prim : (Indices)RT_NONE;
+            out[12].all = RT_AS_INDICES(second.t);
+        }
     }
     for (Index i = 0; i < RT_LANES; ++i) {
         if (first + i >= count) return;

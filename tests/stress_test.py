@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The quick stress suite passes on threads and every OpenCL device, its JSON is what the schema
+"""The rays of the quick stress suite pass on PoCL, its JSON is what the schema
 says, and its options do what they say.
 
 usage: stress_test.py BUILD_DIR REPO_ROOT
@@ -49,6 +49,12 @@ class Output(unittest.TestCase):
                 if "rays" in row}
         self.assertEqual(len(rays), 4)  # threads and PoCL in float and double
         self.assertGreater(min(rays.values()), 10_000)
+
+    def test_rays_on_pocl(self):
+        """Among them packets in which no ray meets anything."""
+        lines = stress("--case", "leaving-*,sphere-rays,cone-rays,rays-at-*", "--quick", "--device", "pocl",
+                       "--all-features", "-q").stdout.splitlines()
+        self.assertRegex(lines[0], "^PASS: 9 of 9 families")
 
     def test_one_build_for_all_changes_no_bit(self):
         one = ["--case", "scale-2/2^0", "-q", "--json"]
