@@ -19,6 +19,7 @@ namespace {
 /// `mirrorball bench`
 struct BenchCall : BenchOptions {
     ResultFiles results;
+    std::string smaller;        ///< file for smaller_is_better_json; empty: none
     std::string baseline;       ///< an earlier --json file; empty: none
     double max_regress = 0.05;  ///< allowed loss of a row, as a share of the old median
 };
@@ -48,7 +49,8 @@ int run_bench(const BenchCall& options) {
     check_result_path(options.results.json, json_start("bench"));
     check_output_is_no_input(options.results.json, {options.baseline});
     check_result_path(options.results.csv, run_csv_header());
-    check_outputs_differ({options.results.json, options.results.csv});
+    check_result_path(options.smaller, "[\n  {\n    \"name\"");
+    check_outputs_differ({options.results.json, options.results.csv, options.smaller});
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
     const FreshKernelCache kernels;
@@ -57,6 +59,7 @@ int run_bench(const BenchCall& options) {
     if (!options.results.take_stdout()) print_result(bench_text(result));
     write_result(options.results.json, result_json("bench", result));
     write_result(options.results.csv, bench_csv(result));
+    write_result(options.smaller, smaller_is_better_json(result));
     say_bad_rows(result.rows);
     say_bad_rows(result.ablation);
     if (result.interrupted) return 128 + stop_flag();
@@ -114,6 +117,8 @@ void add_bench(const CommandLine& program, Invocation& call) {
     verb.value("--max-regress", "P%", bench.max_regress, percent_to(1e6),
                "how much slower a row may become; changes within noise also pass (default: 5%)");
     add_result_files(verb, bench.results);
+    verb.value("--smaller-is-better", "FILE", bench.smaller,
+               "write the medians as JSON of name, unit and value, for trackers of benchmarks");
     verb.flag("--ablate", bench.ablate,
               "measure what leaving out each feature saves, with and without it in alternation "
               "(default: --sizes 500 --aa grid:2 --precision float)");

@@ -46,6 +46,10 @@ std::string rounds_text(const std::vector<Row>& rows, int asked, bool interrupte
 std::string bench_text(const BenchResult& result);
 std::string converge_text(const ConvergeResult& result);
 
+/// [{"name", "unit", "value"}, ...], the form of github-action-benchmark's "customSmallerIsBetter":
+/// the median seconds of each right row.
+std::string smaller_is_better_json(const BenchResult& result);
+
 /// The first line of the CSV of bench and converge, without its newline.
 std::string run_csv_header();
 
