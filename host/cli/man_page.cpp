@@ -155,7 +155,8 @@ std::string man_page(const VerbText& program, const std::string& version) {
     text += ".SH OPTIONS\n" + sections(program.name, program);
     return text + exit_statuses +
            ".SH ENVIRONMENT\n.TP\n.B MIRRORBALL_DEVICE\nthe default of "
-           "\\fB\\-\\-device\\fR in \\fBrender\\fR\n" +
+           "\\fB\\-\\-device\\fR in \\fBrender\\fR\n.TP\n.B CL_PLATFORM_INDEX, CL_DEVICE_INDEX, "
+           "CL_PLATFORM_NAME, CL_DEVICE_TYPE\nthe same, as test suites of drivers set them\n" +
            file_section + examples + see_also;
 }
 

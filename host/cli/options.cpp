@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
@@ -129,6 +130,30 @@ std::optional<std::vector<int>> parse_integers(std::string_view text, char separ
 std::string environment(const char* name) {
     const char* value = std::getenv(name);
     return value == nullptr ? "" : value;
+}
+
+std::string device_from_environment() {
+    std::string variable = "MIRRORBALL_DEVICE", spec = environment("MIRRORBALL_DEVICE");
+    const std::string platform = environment("CL_PLATFORM_INDEX"),
+                      device = environment("CL_DEVICE_INDEX");
+    if (spec.empty() && !(platform + device).empty()) {
+        variable = "CL_PLATFORM_INDEX and CL_DEVICE_INDEX";
+        spec = (platform.empty() ? "0" : platform) + ":" + (device.empty() ? "0" : device);
+    } else if (const std::string name = environment("CL_PLATFORM_NAME");
+               spec.empty() && !name.empty()) {
+        variable = "CL_PLATFORM_NAME";
+        spec = "name:" + name;
+    } else if (std::string type = environment("CL_DEVICE_TYPE"); spec.empty() && !type.empty()) {
+        variable = "CL_DEVICE_TYPE";
+        std::ranges::transform(type, type.begin(), [](unsigned char c) { return std::tolower(c); });
+        spec = type == "default" ? "" : type;
+    }
+    try {
+        parse_device_specs(spec);
+        return spec;
+    } catch (const Error& error) {
+        throw Error(error.exit_code(), "in $" + variable + ": " + error.what());
+    }
 }
 
 std::vector<AaMode> parse_aa_list(const std::string& text) {

@@ -135,16 +135,6 @@ std::string parse_isa(const std::string& text) {
     return text;
 }
 
-std::string device_from_environment() {
-    const std::string spec = environment("MIRRORBALL_DEVICE");
-    try {
-        parse_device_specs(spec);
-        return spec;
-    } catch (const Error& error) {
-        throw Error(error.exit_code(), std::string("in $MIRRORBALL_DEVICE: ") + error.what());
-    }
-}
-
 std::uint64_t parse_hash(const std::string& text) {
     std::uint64_t hash = 0;
     const char* const end = text.data() + text.size();

@@ -188,6 +188,15 @@ class EnvironmentDefault(CliTest):
         for spec in ["", "auto"]:
             self.assertEqual(self.device_name(MIRRORBALL_DEVICE=spec), "threads")
 
+    def test_what_test_suites_of_drivers_set_is_honored(self):
+        for variables in [{"CL_PLATFORM_INDEX": "0"}, {"CL_PLATFORM_INDEX": "0", "CL_DEVICE_INDEX": "0"},
+                          {"CL_PLATFORM_NAME": "Portable"}, {"CL_DEVICE_TYPE": "CPU"}]:
+            self.assertTrue(self.device_name(**variables).startswith("pthread"), variables)
+            self.assertEqual(self.device_name(MIRRORBALL_DEVICE="threads", **variables), "threads")
+        self.assertEqual(self.device_name(CL_DEVICE_TYPE="DEFAULT"), "threads")
+        result = self.run_cli("render", scene_path("empty"), env={"CL_DEVICE_INDEX": "x"})
+        self.assert_refused(result, 2, "in $CL_PLATFORM_INDEX and CL_DEVICE_INDEX: ")
+
     def test_mistake_in_it_concerns_render_alone(self):
         for verb in [["devices"], ["scene", "check", scene_path("empty")],
                      ["render", scene_path("empty"), "--size", "4", "--device", "threads"]]:
