@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -20,6 +21,8 @@ constexpr Face flat_face = {Scene::Mesh::no_normal, Scene::Mesh::no_normal, Scen
 Face pick(std::span<const std::uint32_t> items, const Face& which) {
     return {items[which[0]], items[which[1]], items[which[2]]};
 }
+
+constexpr std::size_t grain = 1 << 15;  // faces that a thread takes at a time
 
 bool is_within(const glm::dvec3& p) {
     const auto good = [](double x) { return std::abs(x) <= max_scene_number; };
@@ -68,7 +71,6 @@ void take_out(std::vector<Item>& items, const std::vector<char>& marks) {
 
 /// Removes the triangles without area, found in parallel, and returns their number.
 std::size_t drop_zero_areas(Scene::Mesh& mesh) {
-    constexpr std::size_t grain = 1 << 15;
     std::vector<char> marks(mesh.faces.size());
     for_each_run(marks.size(), grain, available_cores(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
@@ -88,6 +90,22 @@ std::size_t drop_zero_areas(Scene::Mesh& mesh) {
 
 void turn_round(std::vector<Face>& faces) {
     for (Face& face : faces) std::swap(face[1], face[2]);
+}
+
+/// Calls work(value, position) for the corners of all faces, in parallel. Each run of faces has its
+/// own value, initially `start`; returns these values.
+template <typename Value, typename Work>
+std::vector<Value> over_corners(const Scene::Mesh& mesh, const Value& start, Work work) {
+    std::vector<Value> values((mesh.faces.size() + grain - 1) / grain, start);
+    for_each_run(mesh.faces.size(), grain, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     Value value = start;
+                     for (std::size_t f = first; f < last; ++f) {
+                         for (const std::uint32_t i : mesh.faces[f]) work(value, mesh.positions[i]);
+                     }
+                     values[first / grain] = value;
+                 });
+    return values;
 }
 
 }  // namespace
@@ -180,6 +198,25 @@ MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform) {
         turn_round(mesh.face_normals);
     }
     return losses;
+}
+
+Box bounding_box(const Scene::Mesh& mesh) {
+    Box all;
+    const auto boxes = over_corners(mesh, all, [](Box& box, const glm::dvec3& p) {
+        box = {glm::min(box.low, p), glm::max(box.high, p)};
+    });
+    for (const Box& box : boxes) all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+    return all;
+}
+
+BoundingSphere bounding_sphere(const Scene::Mesh& mesh) {
+    const Box box = bounding_box(mesh);
+    BoundingSphere sphere{0.5 * box.low + 0.5 * box.high, 0};
+    const auto radii = over_corners(mesh, 0.0, [&](double& radius, const glm::dvec3& p) {
+        radius = std::max(radius, glm::length(p - sphere.center));
+    });
+    sphere.radius = std::ranges::max(radii);
+    return sphere;
 }
 
 }  // namespace rt
