@@ -9,9 +9,7 @@
 #include "host/print/print_stress.h"
 #include "host/record/record.h"
 #include "host/stress/judge.h"
-#include "host/stress/meshes.h"
 #include "host/stress/ray_trials.h"
-#include "host/stress/stress_result.h"
 #include "host/stress/stress_scenes.h"
 
 namespace rt {

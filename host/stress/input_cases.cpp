@@ -5,7 +5,6 @@
 #include <random>
 #include <set>
 
-#include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 
 namespace rt {

@@ -3,9 +3,7 @@
 #include <limits>
 
 #include "host/stress/families.h"
-#include "host/stress/meshes.h"
 #include "host/stress/ray_trials.h"
-#include "host/stress/shape_families.h"
 #include "host/stress/stress_scenes.h"
 
 namespace rt {

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "host/scene/scene.h"
-#include "host/stress/ray_caster.h"
 #include "host/stress/stress_case.h"
 
 namespace rt {
