@@ -119,8 +119,7 @@ RayFigures count_edge_escapes(const Scene& mesh, MeshSide side, std::uint64_t ra
                         [&](const auto& query, const auto& answer, RayFigures& figures) {
                             const bool met = answer.prim != Flat<T>::none;
                             const bool is_inside = side == MeshSide::inside;
-                            const bool goes_on = glm::length(in_double(query.next)) > 0;
-                            if (!goes_on && (met || !is_inside)) return;
+                            if (!has_left<T>(query) && (met || !is_inside)) return;
                             ++figures.rays;
                             const bool returns = met && answer.next_prim != Flat<T>::none;
                             figures.failures += returns == is_inside ? 0 : 1;

@@ -67,20 +67,17 @@ StressMesh slanted(StressMesh mesh) {
 }
 
 StressFamily edge_escapes() {
-    StressFamily family{"leaving-edges", "closed mesh, side",
-                        "secondary rays from an edge start beyond the neighboring face"};
+    std::vector<LabeledCase> cases;
     const auto add = [&](const std::string& label, const StressMesh& mesh, glm::dvec3 eye) {
+        const Scene scene = mesh_scene(mesh, eye);
         for (const MeshSide side : {MeshSide::inside, MeshSide::outside}) {
-            const Scene scene = mesh_scene(mesh, eye);
-            StressCase one = ray_case(
+            RayTrial trial =
                 both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
                     return count_edge_escapes<T>(scene, side, rays, caster);
-                }));
-            one.label = label + (side == MeshSide::inside ? "-inside" : "-outside");
-            one.value = static_cast<double>(family.cases.size());
-            std::get<RayTrial>(one.trial).rays = 1'000'000;
-            one.quick = true;
-            family.cases.push_back(std::move(one));
+                });
+            trial.rays = 1'000'000;
+            cases.push_back({label + (side == MeshSide::inside ? "-inside" : "-outside"),
+                             InQuick::yes, ray_case(trial)});
         }
     };
     add("box", box_mesh(), {0.5, -0.25, 0.99});
@@ -90,7 +87,9 @@ StressFamily edge_escapes() {
     }
     add("ball", ball_mesh(2), {0.125, 0.25, 0.5});
     add("fine-ball", ball_mesh(4), {0, 0, 3});
-    return family;
+    return listed({"leaving-edges", "closed mesh, side",
+                   "secondary rays from an edge start beyond the neighboring face"},
+                  cases);
 }
 
 /// A sphere this far from the eye.
