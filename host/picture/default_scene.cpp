@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/default_scene.h"
 
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 
 namespace rt {
 

@@ -18,16 +18,24 @@ using Face = Scene::Mesh::Face;
 
 constexpr Face flat_face = {Scene::Mesh::no_normal, Scene::Mesh::no_normal, Scene::Mesh::no_normal};
 
-Face pick(std::span<const std::uint32_t> items, const Face& which) {
-    return {items[which[0]], items[which[1]], items[which[2]]};
+/// Appends the triangle of three of a face's corners.
+void append_triangle(const Face& which, std::span<const std::uint32_t> corners,
+                     std::span<const std::uint32_t> normals, std::vector<Face>& faces,
+                     std::vector<Face>& face_normals) {
+    const auto [a, b, c] = which;
+    if (!normals.empty() && face_normals.empty()) {
+        face_normals.reserve(faces.capacity());
+        face_normals.assign(faces.size(), flat_face);
+    }
+    faces.push_back({corners[a], corners[b], corners[c]});
+    if (!normals.empty()) {
+        face_normals.push_back({normals[a], normals[b], normals[c]});
+    } else if (!face_normals.empty()) {
+        face_normals.push_back(flat_face);
+    }
 }
 
 constexpr std::size_t grain = 1 << 15;  // faces that a thread takes at a time
-
-bool is_within(const glm::dvec3& p) {
-    const auto good = [](double x) { return std::abs(x) <= max_scene_number; };
-    return good(p.x) && good(p.y) && good(p.z);
-}
 
 /// Transforms the positions and returns whether those of all faces are in range.
 bool move_positions(Scene::Mesh& mesh, const Affine& transform) {
@@ -117,18 +125,17 @@ bool parts_well(const std::array<glm::dvec3, 4>& quad) {
     return glm::dot(one, other) > 0.5 * glm::length(one) * glm::length(other);
 }
 
-void append_face(const Face& face, const Face* normals, std::vector<Face>& faces,
-                 std::vector<Face>& face_normals) {
-    if (normals && face_normals.empty()) {
-        face_normals.reserve(faces.capacity());
-        face_normals.assign(faces.size(), flat_face);
-    }
-    faces.push_back(face);
-    if (normals) {
-        face_normals.push_back(*normals);
-    } else if (!face_normals.empty()) {
-        face_normals.push_back(flat_face);
-    }
+bool append_usual_face(std::span<const std::uint32_t> corners,
+                       std::span<const std::uint32_t> normals,
+                       const std::vector<glm::dvec3>& positions, std::vector<Face>& faces,
+                       std::vector<Face>& face_normals) {
+    const auto& p = positions;
+    const auto& c = corners;
+    const bool is_quad = c.size() == 4 && parts_well({p[c[0]], p[c[1]], p[c[2]], p[c[3]]});
+    if (c.size() != 3 && !is_quad) return false;
+    append_triangle({0, 1, 2}, corners, normals, faces, face_normals);
+    if (is_quad) append_triangle({0, 2, 3}, corners, normals, faces, face_normals);
+    return true;
 }
 
 void MeshBuilder::add_triangles(std::span<const Face> faces, std::span<const Face> normals) {
@@ -144,21 +151,12 @@ void MeshBuilder::add_triangles(std::span<const Face> faces, std::span<const Fac
 
 void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
                            std::span<const std::uint32_t> normals) {
-    const auto add = [&](const Face& which) {
-        const Face face = pick(corners, which);
-        if (normals.empty()) return append_face(face, nullptr, mesh.faces, mesh.face_normals);
-        const Face face_normals = pick(normals, which);
-        append_face(face, &face_normals, mesh.faces, mesh.face_normals);
-    };
-    if (corners.size() == 3) return add({0, 1, 2});
+    if (append_usual_face(corners, normals, mesh.positions, mesh.faces, mesh.face_normals)) return;
     outline_.clear();
     for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
-    const auto& o = outline_;
-    if (o.size() == 4 && parts_well({o[0], o[1], o[2], o[3]})) {
-        add({0, 1, 2});
-        return add({0, 2, 3});
+    for (const Face& which : splitter_.split(outline_)) {
+        append_triangle(which, corners, normals, mesh.faces, mesh.face_normals);
     }
-    for (const Face& which : splitter_.split(outline_)) add(which);
 }
 
 void MeshBuilder::use_material(int material) {

@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "host/stress/families.h"
 #include "host/stress/stress_scenes.h"
 
@@ -92,12 +92,6 @@ StressFamily smooth_meshes() {
          {"leaning-mirror", InQuick::yes, picture_case(leaning_mirror)}},
         1);
 }
-
-}  // namespace
-
-StressFamilies normal_families() { return {vertex_normals(), smooth_meshes()}; }
-
-namespace {
 
 /// Everything is the same gray, in front of a glaring blue background. A leak is a wrong pixel.
 Scene gray_scene(int width, int height, int grid) {
@@ -236,6 +230,8 @@ StressFamily axis_parallel() {
 }
 
 }  // namespace
+
+StressFamilies normal_families() { return {vertex_normals(), smooth_meshes()}; }
 
 StressFamilies leak_families() { return {inside_meshes(), lattices(), axis_parallel()}; }
 

@@ -23,7 +23,7 @@
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "host/stress/ray_trials.h"
 
 namespace rt {
