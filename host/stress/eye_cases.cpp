@@ -56,12 +56,6 @@ StressFamily eyes_on_surfaces() {
                    {"tube-looking-in", InQuick::no, with_tube({3.5, 1, 2}, {0, 0.5, 2.5})}});
 }
 
-}  // namespace
-
-StressFamilies eye_families() { return {eyes_in_and_between(), eyes_on_surfaces()}; }
-
-namespace {
-
 /// Narrow views aim at the red ball's outline, so that they contain an edge.
 Scene narrow_or_wide(double degrees) {
     Scene scene = still_life();
@@ -133,6 +127,8 @@ StressFamily picture_shapes() {
 }
 
 }  // namespace
+
+StressFamilies eye_families() { return {eyes_in_and_between(), eyes_on_surfaces()}; }
 
 StressFamilies view_families() {
     return {fields_of_view(), parallel_views(), ups(), picture_shapes()};

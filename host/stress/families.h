@@ -43,19 +43,6 @@ inline StressCase text_case(std::vector<std::string> scenes) {
     return {"", 0, tolerance, TextTrial{std::move(scenes)}};
 }
 
-/// A trial that runs count<T>(rays, caster), a generic lambda over T, in float and in double.
-template <typename Count>
-RayTrial both_precisions(const Count& count) {
-    RayTrial trial;
-    trial.in_float = [=](std::uint64_t rays, const RayCaster& caster) {
-        return count.template operator()<float>(rays, caster);
-    };
-    trial.in_double = [=](std::uint64_t rays, const RayCaster& caster) {
-        return count.template operator()<double>(rays, caster);
-    };
-    return trial;
-}
-
 /// The case with a label and a value of its own, which a sweep keeps.
 inline StressCase labeled(std::string label, double value, StressCase one) {
     one.label = std::move(label);

@@ -75,12 +75,6 @@ StressFamily bright_mirrors() {
                  });
 }
 
-}  // namespace
-
-StressFamilies mirror_families() { return {mirror_walls(), mirror_balls(), bright_mirrors()}; }
-
-namespace {
-
 /// A wall of 4 x 4 squares in two colors, 4 behind the origin.
 void add_checkered_wall(Scene& scene) {
     const std::array<int, 2> colors{add_matt(scene, {0.875, 0.75, 0.25}),
@@ -265,6 +259,8 @@ StressFamily glass_energy() {
 }
 
 }  // namespace
+
+StressFamilies mirror_families() { return {mirror_walls(), mirror_balls(), bright_mirrors()}; }
 
 StressFamilies glass_families() {
     return {indices(),     inside_of_glass(), critical_angles(), glass_depths(),

@@ -19,6 +19,19 @@
 // Helpers for trials with many random rays.
 namespace rt {
 
+/// A trial that runs count<T>(rays, caster), a generic lambda over T, in float and in double.
+template <typename Count>
+RayTrial both_precisions(const Count& count) {
+    RayTrial trial;
+    trial.in_float = [=](std::uint64_t rays, const RayCaster& caster) {
+        return count.template operator()<float>(rays, caster);
+    };
+    trial.in_double = [=](std::uint64_t rays, const RayCaster& caster) {
+        return count.template operator()<double>(rays, caster);
+    };
+    return trial;
+}
+
 /// Random numbers, the same on every machine.
 class RandomNumbers {
    public:

@@ -88,12 +88,6 @@ StressFamily random_scenes() {
                  });
 }
 
-}  // namespace
-
-StressFamilies ordinary_families() { return {ordinary(), random_scenes()}; }
-
-namespace {
-
 StressCase same_bits(MakeScene scene) {
     StressCase one = picture_case(std::move(scene));
     std::get<PictureTrial>(one.trial).same_bits = "the scene as it is";
@@ -148,6 +142,8 @@ StressFamily outliers() {
 }
 
 }  // namespace
+
+StressFamilies ordinary_families() { return {ordinary(), random_scenes()}; }
 
 StressCase scaled_by_two(const MakeScene& scene, int k) {
     const double factor = std::ldexp(1.0, k);

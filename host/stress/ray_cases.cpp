@@ -18,16 +18,9 @@ Scene mesh_scene(const StressMesh& mesh, glm::dvec3 eye) {
     return scene;
 }
 
-StressCase aimed(const Scene& scene, RayAim aim, StressTolerance tolerance = {}) {
-    return ray_case(both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-                        return count_leaks<T>(scene, aim, rays, caster);
-                    }),
-                    tolerance);
-}
-
 StressFamily leak_rays(const char* name, const char* why, RayAim aim) {
     const auto at = [=](const StressMesh& mesh, glm::dvec3 eye) {
-        return aimed(mesh_scene(mesh, eye), aim);
+        return ray_case(leaks(mesh_scene(mesh, eye), aim));
     };
     const StressMesh far = placed(bumpy_mesh(1), 1, {148376, 1234, -223423});
     return listed(
@@ -53,8 +46,8 @@ StressFamily t_junctions() {
     StressTolerance any;
     any.most_wrong = std::numeric_limits<std::size_t>::max();
     return listed({"t-junctions", "aim", "never watertight; counted, not judged"},
-                  {{"edges", InQuick::yes, aimed(scene, RayAim::edges, any)},
-                   {"vertices", InQuick::no, aimed(scene, RayAim::vertices, any)}});
+                  {{"edges", InQuick::yes, ray_case(leaks(scene, RayAim::edges), any)},
+                   {"vertices", InQuick::no, ray_case(leaks(scene, RayAim::vertices), any)}});
 }
 
 /// Slanted, so that no coordinate is exact.
@@ -66,15 +59,12 @@ StressMesh slanted(StressMesh mesh) {
     return mesh;
 }
 
-StressFamily edge_escapes() {
+StressFamily leaving_edges() {
     std::vector<LabeledCase> cases;
     const auto add = [&](const std::string& label, const StressMesh& mesh, glm::dvec3 eye) {
         const Scene scene = mesh_scene(mesh, eye);
         for (const MeshSide side : {MeshSide::inside, MeshSide::outside}) {
-            RayTrial trial =
-                both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-                    return count_edge_escapes<T>(scene, side, rays, caster);
-                });
+            RayTrial trial = edge_escapes(scene, side);
             trial.rays = 1'000'000;
             cases.push_back({label + (side == MeshSide::inside ? "-inside" : "-outside"),
                              InQuick::yes, ray_case(trial)});
@@ -103,20 +93,13 @@ Scene sphere_scene(double radius, double distance) {
 StressFamily leaving_spheres(const char* name, double distances, const char* why) {
     const double shallowest = distances > 10 ? 0.1 : 1e-3;
     return leaving_family(name, why, 1e-3, [=](double radius) {
-        const Scene scene = sphere_scene(radius, distances * radius);
-        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-            return count_leaving_failures<T>(scene, shallowest, rays, caster);
-        });
+        return leaving_sphere(sphere_scene(radius, distances * radius), shallowest);
     });
 }
 
 StressFamily sphere_rays() {
-    return outline_family("sphere-rays", [](double radius) {
-        const Scene scene = sphere_scene(radius, 1);
-        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-            return count_sphere_failures<T>(scene, rays, caster);
-        });
-    });
+    return outline_family("sphere-rays",
+                          [](double radius) { return past_sphere(sphere_scene(radius, 1)); });
 }
 
 }  // namespace
@@ -127,7 +110,7 @@ StressFamilies ray_families() {
                   RayAim::edges),
         leak_rays("rays-at-vertices", "three roundings meet at a vertex", RayAim::vertices),
         t_junctions(),
-        edge_escapes(),
+        leaving_edges(),
         leaving_spheres("leaving-sphere", 3,
                         "an absolute epsilon causes acne on large balls and holes in small ones"),
         leaving_spheres("leaving-far-sphere", 1000, "the same with the ball a thousand radii away"),

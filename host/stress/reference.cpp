@@ -338,15 +338,6 @@ class Tracer final : public ReferenceTracer {
     int eye_surface_ = -1;
 };
 
-}  // namespace
-
-std::unique_ptr<ReferenceTracer> make_reference_tracer(const Scene& scene, ReferenceKind kind) {
-    if (kind == ReferenceKind::extended) return std::make_unique<Tracer<long double>>(scene);
-    return std::make_unique<Tracer<stress::Quad>>(scene);
-}
-
-namespace {
-
 constexpr double nearby = 0.02;  // pixels
 constexpr double least_change = 0.5 / 255;
 constexpr std::size_t pixel_run = 16;
@@ -371,6 +362,11 @@ bool differ(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 }
 
 }  // namespace
+
+std::unique_ptr<ReferenceTracer> make_reference_tracer(const Scene& scene, ReferenceKind kind) {
+    if (kind == ReferenceKind::extended) return std::make_unique<Tracer<long double>>(scene);
+    return std::make_unique<Tracer<stress::Quad>>(scene);
+}
 
 ReferencePicture::ReferencePicture(const Scene& scene, ReferenceKind kind)
     : width_(scene.width),

@@ -73,14 +73,6 @@ StressFamily ground_lights() {
                  });
 }
 
-}  // namespace
-
-StressFamilies sphere_families() {
-    return {sphere_sizes(), floors(), huge_floors(), ground_lights()};
-}
-
-namespace {
-
 /// A frustum as long as it is wide, 1 away, half as high as the picture; or the eye inside it.
 Scene sized_cone(double radius) {
     const double half_angle = radius < 1 ? 2 * std::atan(radius) : 0.5;
@@ -195,23 +187,20 @@ StressFamily leaving_cones(const char* name, double distances, const char* why) 
     const bool is_far = distances > 10;
     const double shallowest = is_far ? 0.1 : 0.01;
     return leaving_family(name, why, is_far ? 1e-2 : 1e-3, [=](double radius) {
-        const Scene scene = cone_to_aim_at(radius, distances * radius);
-        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-            return count_cone_leaving_failures<T>(scene, shallowest, rays, caster);
-        });
+        return leaving_cone(cone_to_aim_at(radius, distances * radius), shallowest);
     });
 }
 
 StressFamily cone_rays() {
-    return outline_family("cone-rays", [](double radius) {
-        const Scene scene = cone_to_aim_at(radius, 1);
-        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-            return count_cone_failures<T>(scene, rays, caster);
-        });
-    });
+    return outline_family("cone-rays",
+                          [](double radius) { return past_cone(cone_to_aim_at(radius, 1)); });
 }
 
 }  // namespace
+
+StressFamilies sphere_families() {
+    return {sphere_sizes(), floors(), huge_floors(), ground_lights()};
+}
 
 StressFamilies cone_families() {
     return {

@@ -29,6 +29,63 @@ void for_each_point(Scene& scene, const Change& change) {
     }
 }
 
+StressMesh icosahedron() {
+    const double g = std::numbers::phi;
+    StressMesh mesh{
+        {{-1, g, 0},
+         {1, g, 0},
+         {-1, -g, 0},
+         {1, -g, 0},
+         {0, -1, g},
+         {0, 1, g},
+         {0, -1, -g},
+         {0, 1, -g},
+         {g, 0, -1},
+         {g, 0, 1},
+         {-g, 0, -1},
+         {-g, 0, 1}},
+        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+    for (auto& vertex : mesh.vertices) vertex = glm::normalize(vertex);
+    return mesh;
+}
+
+StressMesh cut_in_four(StressMesh mesh) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+        const auto [entry, is_new] =
+            middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices.size()));
+        if (is_new) {
+            mesh.vertices.push_back(glm::normalize(mesh.vertices[static_cast<std::size_t>(a)] +
+                                                   mesh.vertices[static_cast<std::size_t>(b)]));
+        }
+        return entry->second;
+    };
+    std::vector<std::array<int, 3>> faces;
+    for (const auto& [a, b, c] : mesh.faces) {
+        const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        faces.insert(faces.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+    }
+    mesh.faces = std::move(faces);
+    return mesh;
+}
+
+/// Hubs above and below a rim at these angles.
+StressMesh hubs_and_rim(const std::vector<double>& angles) {
+    StressMesh mesh{{{0, 1, 0}, {0, -1, 0}}, {}};
+    for (const double angle : angles) {
+        mesh.vertices.push_back({std::cos(angle), 0, -std::sin(angle)});
+    }
+    const int count = static_cast<int>(angles.size());
+    for (int i = 0; i < count; ++i) {
+        const int a = 2 + i, b = 2 + (i + 1) % count;
+        mesh.faces.push_back({0, a, b});
+        mesh.faces.push_back({1, b, a});
+    }
+    return mesh;
+}
+
 }  // namespace
 
 void set_view(Scene& scene, glm::dvec3 from, glm::dvec3 at, double fov_degrees) {
@@ -201,67 +258,6 @@ Scene shifted(Scene scene, glm::dvec3 by) {
     for_each_point(scene, [&](glm::dvec3& point) { point += by; });
     return scene;
 }
-
-namespace {
-
-StressMesh icosahedron() {
-    const double g = std::numbers::phi;
-    StressMesh mesh{
-        {{-1, g, 0},
-         {1, g, 0},
-         {-1, -g, 0},
-         {1, -g, 0},
-         {0, -1, g},
-         {0, 1, g},
-         {0, -1, -g},
-         {0, 1, -g},
-         {g, 0, -1},
-         {g, 0, 1},
-         {-g, 0, -1},
-         {-g, 0, 1}},
-        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
-    for (auto& vertex : mesh.vertices) vertex = glm::normalize(vertex);
-    return mesh;
-}
-
-StressMesh cut_in_four(StressMesh mesh) {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-        const auto [entry, is_new] =
-            middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices.size()));
-        if (is_new) {
-            mesh.vertices.push_back(glm::normalize(mesh.vertices[static_cast<std::size_t>(a)] +
-                                                   mesh.vertices[static_cast<std::size_t>(b)]));
-        }
-        return entry->second;
-    };
-    std::vector<std::array<int, 3>> faces;
-    for (const auto& [a, b, c] : mesh.faces) {
-        const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-        faces.insert(faces.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-    }
-    mesh.faces = std::move(faces);
-    return mesh;
-}
-
-/// Hubs above and below a rim at these angles.
-StressMesh hubs_and_rim(const std::vector<double>& angles) {
-    StressMesh mesh{{{0, 1, 0}, {0, -1, 0}}, {}};
-    for (const double angle : angles) {
-        mesh.vertices.push_back({std::cos(angle), 0, -std::sin(angle)});
-    }
-    const int count = static_cast<int>(angles.size());
-    for (int i = 0; i < count; ++i) {
-        const int a = 2 + i, b = 2 + (i + 1) % count;
-        mesh.faces.push_back({0, a, b});
-        mesh.faces.push_back({1, b, a});
-    }
-    return mesh;
-}
-
-}  // namespace
 
 StressMesh ball_mesh(int times) {
     StressMesh mesh = icosahedron();
