@@ -2,12 +2,8 @@
 #include "host/flatten/bvh_split.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 

@@ -8,8 +8,6 @@
 #include <cerrno>
 #include <system_error>
 
-#include "host/base/error.h"
-
 namespace rt {
 namespace {
 

@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "host/base/parallel.h"
-#include "host/base/text.h"
 
 namespace rt {
 

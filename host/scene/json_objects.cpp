@@ -8,7 +8,6 @@
 
 #include "host/base/text.h"
 #include "host/scene/geometry.h"
-#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {

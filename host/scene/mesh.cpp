@@ -2,14 +2,11 @@
 #include "host/scene/mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "host/base/parallel.h"
-#include "host/scene/geometry.h"
-#include "host/scene/scene.h"
 
 namespace rt {
 namespace {

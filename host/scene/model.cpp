@@ -8,17 +8,13 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <string_view>
 #include <utility>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/base/text.h"
-#include "host/scene/geometry.h"
 #include "host/scene/mesh.h"
 #include "host/scene/mtl_file.h"
-#include "host/scene/scene.h"
-#include "host/scene/text_file.h"
 
 namespace rt {
 namespace {

@@ -3,16 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstring>
 #include <iterator>
 #include <utility>
 
-#include "host/scene/line_scanner.h"
 #include "host/scene/mesh.h"
-#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/scene/json_document.h"

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <utility>
 
 #include "host/flatten/flat_scene.h"
 #include "host/stress/many_rays.h"

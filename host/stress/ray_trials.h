@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-
 #include "host/scene/scene.h"
 #include "host/stress/stress_case.h"
 

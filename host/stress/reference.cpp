@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <vector>
 
 #include "host/base/parallel.h"
 #include "host/stress/wide_real.h"

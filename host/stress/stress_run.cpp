@@ -24,7 +24,6 @@
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
-#include "host/stress/ray_trials.h"
 
 namespace rt {
 
