@@ -36,12 +36,6 @@ inline StressCase ray_case(RayTrial trial, StressTolerance tolerance = {}) {
     return {"", 0, tolerance, std::move(trial)};
 }
 
-inline StressCase text_case(std::vector<std::string> scenes) {
-    StressTolerance tolerance;
-    tolerance.may_overflow = true;
-    return {"", 0, tolerance, TextTrial{std::move(scenes)}};
-}
-
 /// The case with a label and a value of its own, which a sweep keeps.
 inline StressCase labeled(std::string label, double value, StressCase one) {
     one.label = std::move(label);
@@ -115,7 +109,6 @@ StressFamilies triangle_families();
 StressFamilies normal_families();
 StressFamilies leak_families();
 StressFamilies ray_families();
-StressFamilies input_families();
 
 // The scene scaled or moved. The first and last of these must not change a bit of its picture.
 

@@ -48,12 +48,11 @@ struct StressRow {
     std::string device;    ///< for --device
     Precision precision = Precision::float32;
     bool judged = true;      ///< whether the tolerance applies to it
-    PictureFigures figures;  ///< of the picture, or summed over all scene texts
+    PictureFigures figures;  ///< of the picture
     std::optional<RayFigures> rays;
-    std::size_t refused = 0, rendered = 0;  ///< scene texts
-    std::uint64_t hash = 0;                 ///< over every bit of the picture or pictures
-    double seconds = 0;  ///< of tracing (a picture's `seconds.trace`), or of the whole trial
-    std::string why;     ///< what failed; empty if nothing did
+    std::uint64_t hash = 0;  ///< over every bit of the picture
+    double seconds = 0;      ///< of tracing (a picture's `seconds.trace`), or of the whole trial
+    std::string why;         ///< what failed; empty if nothing did
 
     bool passed() const { return !judged || why.empty(); }
     const char* verdict() const { return !judged ? "not judged" : why.empty() ? "pass" : "fail"; }

@@ -77,11 +77,6 @@ struct PictureTrial {
     std::string same_bits;  ///< trials of a family with the same text here must agree in every bit
 };
 
-/// Scene files, each to be refused as input (exit code 3) or rendered without a NaN.
-struct TextTrial {
-    std::vector<std::string> scenes;
-};
-
 /// Totals over many rays.
 struct RayFigures {
     std::uint64_t rays = 0;
@@ -106,7 +101,7 @@ struct StressCase {
     std::string label;  ///< names the parameter's value: "2^-40"
     double value = 0;   ///< for plots
     StressTolerance tolerance;
-    std::variant<PictureTrial, TextTrial, RayTrial> trial;
+    std::variant<PictureTrial, RayTrial> trial;
     bool quick = false;  ///< part of --quick
 };
 

@@ -9,7 +9,6 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/base/hash.h"
 #include "host/base/text.h"
 #include "host/image/picture_io.h"
 #include "host/measure/device_list.h"
@@ -23,7 +22,6 @@
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
-#include "host/scene/scene_file.h"
 
 namespace rt {
 
@@ -190,58 +188,6 @@ class Runner {
         const auto [first, is_new] = first_hashes_.try_emplace(key, row.hash);
         if (!is_new && first->second != row.hash) {
             row.why = "bits differ from " + trial.same_bits;
-        }
-    }
-
-    /// The scenes of those texts that the reader accepts.
-    static std::vector<Scene> readable_scenes(const TextTrial& trial, std::string& why) {
-        std::vector<Scene> scenes;
-        for (const std::string& text : trial.scenes) {
-            try {
-                scenes.push_back(parse_json_scene(text, "stress.json"));
-            } catch (const Error& error) {
-                if (error.exit_code() != ExitCode::input) why = first_line(error);
-            }
-        }
-        return scenes;
-    }
-
-    void render_text(const Scene& scene, const StressTolerance& tolerance, StressRow& row,
-                     Hasher& hasher) const {
-        try {
-            const RenderedPicture rendered = rendered_row(scene, row);
-            const PictureFigures figures = count_non_numbers(rendered.picture);
-            row.figures.nans += figures.nans;
-            row.figures.infinities += figures.infinities;
-            row.seconds += rendered.stats.phases.renderer.trace;
-            ++row.rendered;
-            hasher.add(rendered.stats.image_hash);
-            const std::string broken = exceeded_tolerance(figures, tolerance);
-            if (row.why.empty()) row.why = broken;
-        } catch (const Error& error) {
-            if (error.exit_code() == ExitCode::input) {
-                ++row.refused;
-            } else {
-                row.why = first_line(error);
-            }
-        }
-    }
-
-    void run_trial(const StressFamily&, const StressCase& one, const TextTrial& trial,
-                   StressCaseResult& result) {
-        std::string why;
-        const std::vector<Scene> scenes = readable_scenes(trial, why);
-        for (StressRow& row : planned_rows(one.tolerance)) {
-            row.why = why;
-            row.refused = trial.scenes.size() - scenes.size();
-            Hasher hasher;
-            for (const Scene& scene : scenes) {
-                if (stop_flag() != 0) return;
-                render_text(scene, one.tolerance, row, hasher);
-            }
-            if (row.why.empty() && row.rendered == 0) row.why = "every scene was refused";
-            row.hash = hasher.value();
-            result.rows.push_back(std::move(row));
         }
     }
 
