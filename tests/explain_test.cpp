@@ -6,7 +6,7 @@
 #include <random>
 
 #include "host/explain/ray_tree.h"
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -28,7 +28,7 @@ void check_parts(const RayNode& ray) {
 class ExplainedScene : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(ExplainedScene, AddsUpToItsPixels) {
-    Scene scene = load_json_scene(GetParam().string());
+    Scene scene = load_scene(GetParam().string());
     set_image_size(scene, 160, 120);
     scene.aa = grid_aa(1);
     const FlatScene<double> flat = flatten<double>(scene);
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, ExplainedScene, testing::ValuesIn(scene_files(
                          name_of);
 
 TEST(Explain, HasATreeForEachSample) {
-    Scene scene = load_scene("glass");
+    Scene scene = load_named_scene("glass");
     set_image_size(scene, 80, 60);
     scene.aa = grid_aa(2);
     const FlatScene<double> flat = flatten<double>(scene);

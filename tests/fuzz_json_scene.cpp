@@ -11,8 +11,8 @@
 
 #include "host/base/error.h"
 #include "host/scene/json_document.h"
-#include "host/scene/json_file.h"
 #include "host/scene/mistakes.h"
+#include "host/scene/scene_file.h"
 
 namespace {
 

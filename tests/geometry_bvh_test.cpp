@@ -13,7 +13,7 @@
 
 #include "host/flatten/bvh.h"
 #include "host/flatten/flat_scene.h"
-#include "host/stress/meshes.h"
+#include "host/stress/stress_scenes.h"
 #include "tests/test_random.h"
 
 namespace rt {

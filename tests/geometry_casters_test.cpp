@@ -9,7 +9,7 @@
 #include "host/render/film.h"
 #include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "tests/hit_scenes.h"
 
 namespace rt {
@@ -52,7 +52,7 @@ constexpr int divisor = 1;
 TYPED_TEST(CasterLists, GiveThePicturesOfEveryTriangleCasting) {
     for (const auto& file : scene_files()) {
         SCOPED_TRACE(file.filename());
-        Scene scene = load_json_scene(file.string());
+        Scene scene = load_scene(file.string());
         set_image_size(scene, scene.width / divisor, scene.height / divisor);
         FlattenOptions everything;
         everything.caster_lists = false;
@@ -76,7 +76,7 @@ std::vector<std::vector<int>> casters(const Scene& scene) {
 
 TEST(ShadowCasters, AreThePyramidAloneInThePapersScene) {
     const auto lists =
-        casters(load_json_scene(std::string(MIRRORBALL_SCENES_DIR) + "/cornell-box.json"));
+        casters(load_scene(std::string(MIRRORBALL_SCENES_DIR) + "/cornell-box.json"));
     ASSERT_EQ(lists.size(), 2u);
     for (const auto& list : lists) EXPECT_EQ(list.size(), 3u);
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host/stress/meshes.h"
+#include "host/stress/stress_scenes.h"
 
 namespace rt {
 

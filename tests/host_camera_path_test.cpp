@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "host/base/error.h"
-#include "host/scene/json_file.h"
 #include "host/scene/scene.h"
+#include "host/scene/scene_file.h"
 
 namespace rt::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/stress/reference_tracer.h"
+#include "host/stress/reference.h"
 #include "host/stress/stress_scenes.h"
 #include "host/stress/wide_shapes.h"
 #include "tests/test_random.h"
@@ -247,7 +247,7 @@ template <typename Shape, typename PointOf, typename Hit>
 void expect_rays_are_not_left_out(const Shape& shape, const PointOf& point_of, const Hit& hit) {
     using stress::Quad;
     Random random(7);
-    const stress::Ball<Quad> ball = stress::ball_of(shape);
+    const stress::Bound<Quad> bound = stress::bound_of(shape);
     int hits = 0;
     for (int i = 0; i < 20000; ++i) {
         const stress::Wide3<Quad> target = point_of(random);
@@ -256,12 +256,12 @@ void expect_rays_are_not_left_out(const Shape& shape, const PointOf& point_of, c
         ray.origin = target - Quad(random.log_uniform(1e-6, 1e12)) * ray.dir;
         if (!(hit(ray) > 0)) continue;
         ++hits;
-        ASSERT_FALSE(stress::passes_by(ray.origin, stress::narrowed(ray.dir), ball));
+        ASSERT_FALSE(stress::passes_by(ray.origin, stress::narrowed(ray.dir), bound));
     }
     EXPECT_GT(hits, 5000);
 }
 
-TEST(Ball, IsPassedByNoRayThatHitsWhatIsInIt) {
+TEST(Bound, IsPassedByNoRayThatHitsWhatIsInIt) {
     using stress::Quad;
     const Scene::Sphere sphere{{3e6, -2, 1}, 1e-11, 0};
     const auto ball = stress::wide_sphere<Quad>(sphere);
@@ -278,7 +278,7 @@ TEST(Ball, IsPassedByNoRayThatHitsWhatIsInIt) {
     cone.apex = {-2, 5, 1};
     cone.base_radius = 0.2;
     cone.apex_radius = 1.5;
-    const auto frustum = stress::wide_frustum<Quad>(cone);
+    const auto frustum = stress::wide_cone<Quad>(cone);
     expect_rays_are_not_left_out(
         frustum,
         [&](Random& random) {
@@ -289,11 +289,11 @@ TEST(Ball, IsPassedByNoRayThatHitsWhatIsInIt) {
             return frustum.base + height * frustum.axis +
                    (frustum.radius + frustum.slope * height) * across;
         },
-        [&](const auto& ray) { return stress::hit_frustum(ray, frustum, false); });
+        [&](const auto& ray) { return stress::hit_cone(ray, frustum, false); });
 
     Scene::Triangle triangle;
     triangle.vertices = {{{0, 0, 5}, {4, 1, 5}, {0.5, 1e-3, 6}}};
-    const auto face = stress::wide_face<Quad>(triangle);
+    const auto face = stress::wide_triangle<Quad>(triangle);
     expect_rays_are_not_left_out(
         face,
         [&](Random& random) {
@@ -302,7 +302,7 @@ TEST(Ball, IsPassedByNoRayThatHitsWhatIsInIt) {
         },
         [&](const auto& ray) {
             Quad u, v;
-            return stress::hit_face(ray, face, u, v);
+            return stress::hit_triangle(ray, face, u, v);
         });
 }
 

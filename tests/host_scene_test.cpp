@@ -17,7 +17,6 @@
 #include "host/base/text.h"
 #include "host/scene/geometry.h"
 #include "host/scene/json_document.h"
-#include "host/scene/json_file.h"
 #include "host/scene/mistakes.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/scene_warnings.h"
@@ -60,7 +59,7 @@ TEST(ParseJsonScene, BadFilesAreRefusedAsExpected) {
     const auto files = malformed_files(".json");
     EXPECT_GE(files.size(), 130u);
     for (const fs::path& path : files) {
-        expect_announced(path, refusal_of([&] { load_json_scene(path.string()); }));
+        expect_announced(path, refusal_of([&] { load_scene(path.string()); }));
     }
 }
 
@@ -209,19 +208,19 @@ TEST(LoadJsonScene, EveryCommittedSceneLoads) {
     EXPECT_GE(files.size(), 10u);
     for (const fs::path& path : files) {
         SCOPED_TRACE(path.string());
-        const Refusal refusal = refusal_of([&] { load_json_scene(path.string()); });
+        const Refusal refusal = refusal_of([&] { load_scene(path.string()); });
         EXPECT_EQ(refusal.message, "");
     }
 }
 
 TEST(LoadJsonScene, MissingFileIsRefused) {
-    const Refusal refusal = refusal_of([] { load_json_scene("/nowhere/scene.json"); });
+    const Refusal refusal = refusal_of([] { load_scene("/nowhere/scene.json"); });
     EXPECT_EQ(refusal.exit_code, ExitCode::input);
     EXPECT_EQ(refusal.message, "/nowhere/scene.json: no such file; check the path");
 }
 
 TEST(LoadJsonScene, DirectoryIsRefused) {
-    const Refusal refusal = refusal_of([] { load_json_scene(MIRRORBALL_SCENES_DIR); });
+    const Refusal refusal = refusal_of([] { load_scene(MIRRORBALL_SCENES_DIR); });
     EXPECT_EQ(refusal.exit_code, ExitCode::input);
     EXPECT_NE(refusal.message.find("is a directory"), std::string::npos);
 }
@@ -230,7 +229,7 @@ TEST(LoadJsonScene, PipeDoesNotHang) {
     const fs::path pipe =
         fs::temp_directory_path() / ("mirrorball-pipe-" + std::to_string(::getpid()) + ".json");
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    const Refusal refusal = refusal_of([&] { load_json_scene(pipe.string()); });
+    const Refusal refusal = refusal_of([&] { load_scene(pipe.string()); });
     fs::remove(pipe);
     EXPECT_EQ(refusal.exit_code, ExitCode::input);
     EXPECT_NE(refusal.message.find("is not a regular file"), std::string::npos);
@@ -241,7 +240,7 @@ TEST(LoadJsonScene, FileAboveTheSizeCapIsOverTheLimit) {
         fs::temp_directory_path() / ("mirrorball-large-" + std::to_string(::getpid()) + ".json");
     std::ofstream(path) << "{}";
     fs::resize_file(path, (std::uintmax_t{256} << 20) + 1);  // sparse: takes no room
-    const Refusal refusal = refusal_of([&] { load_json_scene(path.string()); });
+    const Refusal refusal = refusal_of([&] { load_scene(path.string()); });
     fs::remove(path);
     EXPECT_EQ(refusal.exit_code, ExitCode::limit);
     EXPECT_NE(refusal.message.find("larger than 256 MiB"), std::string::npos);
@@ -258,7 +257,7 @@ std::vector<glm::dvec3> box_normals(const Scene& scene) {
 }
 
 TEST(CornellBox, WallNormalsFaceIntoTheBox) {
-    const Scene scene = load_json_scene(MIRRORBALL_SCENES_DIR "/cornell-box.json");
+    const Scene scene = load_scene(MIRRORBALL_SCENES_DIR "/cornell-box.json");
     ASSERT_EQ(scene.triangles.size(), 13u);
     const auto normals = box_normals(scene);
     const glm::dvec3 walls[] = {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}, {-1, 0, 0}};
@@ -271,7 +270,7 @@ TEST(CornellBox, WallNormalsFaceIntoTheBox) {
 }
 
 TEST(CornellBox, GoldTrianglesFaceTheViewer) {
-    const Scene scene = load_json_scene(MIRRORBALL_SCENES_DIR "/cornell-box.json");
+    const Scene scene = load_scene(MIRRORBALL_SCENES_DIR "/cornell-box.json");
     ASSERT_EQ(scene.triangles.size(), 13u);
     const auto normals = box_normals(scene);
     for (std::size_t i = 10; i < 13; ++i) {
@@ -282,7 +281,7 @@ TEST(CornellBox, GoldTrianglesFaceTheViewer) {
 }
 
 TEST(CornellBox, HasThePapersCameraAndLights) {
-    const Scene scene = load_json_scene(MIRRORBALL_SCENES_DIR "/cornell-box.json");
+    const Scene scene = load_scene(MIRRORBALL_SCENES_DIR "/cornell-box.json");
     const double half = std::sqrt(1.0 / 3.0);  // tan 30 degrees
     expect_near(scene.camera.window, -half, half, -half, half);
     EXPECT_EQ(scene.camera.field_of_view.fixed, Scene::FieldOfView::Fixed::horizontal);

@@ -15,7 +15,7 @@ class EveryInstructionSet : public testing::TestWithParam<std::string> {
     template <typename T>
     void expect_the_usual_bits() const {
         for (const auto& file : scene_files()) {
-            Scene scene = load_scene(file.stem().string());
+            Scene scene = load_named_scene(file.stem().string());
             set_image_size(scene, 40, 30);
             scene.aa = grid_aa(2);
             const std::uint64_t hash = hash_of(render_on_threads<T>(scene));

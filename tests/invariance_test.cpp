@@ -30,7 +30,7 @@ Scene moved(Scene scene, double scale, const glm::dvec3& shift) {
 /// The paper's scene at 120 x 120, its numbers rounded to multiples of 2^-20, so that shifting by
 /// integers up to 2^30 is exact.
 Scene small_paper_scene() {
-    Scene scene = load_scene("cornell-box");
+    Scene scene = load_named_scene("cornell-box");
     set_image_size(scene, 120, 120);
     const auto round = [](glm::dvec3& p) {
         for (int i = 0; i < 3; ++i) p[i] = std::ldexp(std::nearbyint(std::ldexp(p[i], 20)), -20);

@@ -5,7 +5,7 @@
 // at each mesh's edges, and how many at its vertices.
 #include <algorithm>
 
-#include "host/stress/meshes.h"
+#include "host/stress/stress_scenes.h"
 #include "tests/kernel_runner.h"
 #include "tests/probe_types.h"
 #include "tests/test_random.h"

@@ -33,7 +33,7 @@ class EveryLaneWidth : public testing::TestWithParam<int> {
     void expect_the_hash_of_lone_rays(const char* stem, const char* aa, bool all_features,
                                       std::vector<Launch> launches = {Launch::pixel,
                                                                       Launch::sample}) const {
-        Scene scene = load_scene(stem);
+        Scene scene = load_named_scene(stem);
         set_image_size(scene, 83, 61);
         scene.aa = parse_aa_mode(aa).value();
         const std::uint64_t hash = hash_of_lone_rays<T>(scene, std::string(stem) + " " + aa);

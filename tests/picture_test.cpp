@@ -3,7 +3,7 @@
 // Whole pictures: the same bits from every renderer, and how far float is from double.
 #include <gtest/gtest.h>
 
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -11,7 +11,7 @@ namespace {
 
 /// The scene at 160 pixels wide, to keep the tests short.
 Scene load_small(const std::filesystem::path& file) {
-    Scene scene = load_json_scene(file.string());
+    Scene scene = load_scene(file.string());
     set_image_size(scene, 160, std::max(1, 160 * scene.height / scene.width));
     return scene;
 }
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_files()),
 class EveryAaMode : public testing::TestWithParam<std::tuple<const char*, Filter>> {
    protected:
     Scene scene(const char* stem) const {
-        Scene made = load_scene(stem);
+        Scene made = load_named_scene(stem);
         set_image_size(made, 80, 60);
         made.aa = parse_aa_mode(std::get<0>(GetParam())).value();
         made.filter = std::get<1>(GetParam());
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(AaModes, EveryAaMode,
 class PaperScene : public testing::TestWithParam<int> {
    protected:
     Scene scene() const {
-        Scene paper = load_scene("cornell-box");
+        Scene paper = load_named_scene("cornell-box");
         paper.aa = grid_aa(GetParam());
         return paper;
     }
@@ -117,7 +117,7 @@ TEST_P(PaperScene, FloatIsWithin1e4OfDoubleDiagonalsIncluded) {
 }
 
 TEST(PaperSceneOblong, FloatStaysNearDoubleOnTheDiagonals) {
-    Scene scene = load_scene("cornell-box");
+    Scene scene = load_named_scene("cornell-box");
     scene.aa = grid_aa(1);
     set_image_size(scene, 24, 20);
     const ImageError error =

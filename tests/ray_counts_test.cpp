@@ -43,7 +43,7 @@ const std::map<std::string, Counts> expected{
 };
 
 Scene small_scene(const std::string& stem) {
-    Scene scene = load_scene(stem);
+    Scene scene = load_named_scene(stem);
     set_image_size(scene, 40, 30);
     scene.aa = grid_aa(2);
     return scene;

@@ -9,7 +9,7 @@
 #include "host/opencl/cl_program.h"
 #include "host/opencl/device_spec.h"
 #include "host/render/picture_loop.h"
-#include "host/scene/json_file.h"
+#include "host/scene/scene_file.h"
 
 namespace rt::test {
 
@@ -73,8 +73,8 @@ std::vector<std::filesystem::path> scene_files(const std::string& folder) {
     return files;
 }
 
-Scene load_scene(const std::string& stem) {
-    return load_json_scene(std::string(MIRRORBALL_SCENES_DIR) + "/" + stem + ".json");
+Scene load_named_scene(const std::string& stem) {
+    return load_scene(std::string(MIRRORBALL_SCENES_DIR) + "/" + stem + ".json");
 }
 
 const ClDevice& test_device() {

@@ -17,7 +17,7 @@ namespace rt::test {
 std::vector<std::filesystem::path> scene_files(const std::string& folder = "");
 
 /// A scene from scenes/ by its stem, such as "cornell-box".
-Scene load_scene(const std::string& stem);
+Scene load_named_scene(const std::string& stem);
 
 /// The device under test: the one MIRRORBALL_TEST_DEVICE names (as --device does), else PoCL's,
 /// else the first. Tests that use it fail if there is none.

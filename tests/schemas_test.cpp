@@ -7,7 +7,7 @@
 
 #include "host/print/environment_json.h"
 #include "host/print/print_run.h"
-#include "host/stress/stress_result.h"
+#include "host/stress/judge.h"
 
 namespace rt {
 namespace {

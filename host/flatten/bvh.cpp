@@ -14,7 +14,6 @@
 #include "host/flatten/bvh.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <utility>

@@ -2,12 +2,8 @@
 #include "host/flatten/bvh_split.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -50,11 +46,6 @@ struct Bins {
     std::array<Mask<T>, most_bins> boxes;  ///< how many
 };
 
-/// Bins the boxes with `threads` threads; the outcome does not depend on how many.
-template <typename T>
-void fill_bins(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, int threads,
-               Bins<T>& bins);
-
 /// The boxes in bins up to `bin` on `axis` go left; -1 if no split leaves boxes on both sides.
 template <typename T>
 struct Split {
@@ -63,24 +54,11 @@ struct Split {
     std::array<Bounds<T>, 2> bounds{Bounds<T>::none(), Bounds<T>::none()};  ///< of the sides
 };
 
-/// The split of least cost. Lengths are multiplied by `scale` before areas are computed.
-template <typename T>
-Split<T> best_split(const Bins<T>& bins, T scale);
-
 constexpr std::size_t few_boxes = 12;
 
 /// The rank of each box on each axis when sorted by center; ties keep their order.
 template <typename T>
 using Places = std::array<Mask<T>, few_boxes>;
-
-template <typename T>
-Places<T> places_of(std::span<const BvhBox<T>> boxes);
-
-template <typename T>
-Bins<T> bins_at(const Places<T>& places, std::span<const BvhBox<T>> boxes);
-
-template <typename T>
-void sort_along(int axis, const Places<T>& places, std::span<BvhBox<T>> boxes);
 
 /// The outcome of a partition: boxes that go left come first.
 template <typename T>
@@ -88,12 +66,6 @@ struct Partition {
     std::size_t left_count = 0;
     std::array<Bounds<T>, 2> centers{Bounds<T>::none(), Bounds<T>::none()};  ///< left and right
 };
-
-/// Moves the boxes that go left to the front, in place, with `threads` threads; the resulting order
-/// does not depend on how many.
-template <typename T>
-Partition<T> partition(std::span<BvhBox<T>> boxes, const Binning<T>& binning, const Split<T>& split,
-                       int threads);
 
 constexpr std::size_t two_sets_from = 256;
 
@@ -180,6 +152,7 @@ struct Side {
     }
 };
 
+/// Bins the boxes with `threads` threads; the outcome does not depend on how many.
 template <typename T>
 void fill_bins(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, int threads,
                Bins<T>& bins) {
@@ -192,6 +165,7 @@ void fill_bins(std::span<const BvhBox<T>> boxes, const Binning<T>& binning, int 
     for (std::size_t part = 1; part < parts.size(); ++part) merge(parts[part], bins);
 }
 
+/// The split of least cost. Lengths are multiplied by `scale` before areas are computed.
 template <typename T>
 Split<T> best_split(const Bins<T>& bins, T scale) {
     std::array<Vector<T>, most_bins> right_costs;
@@ -224,10 +198,6 @@ Split<T> best_split(const Bins<T>& bins, T scale) {
     }
     return best;
 }
-
-template void fill_bins<double>(std::span<const f64::BvhNode>, const Binning<double>&, int,
-                                Bins<double>&);
-template Split<double> best_split<double>(const Bins<double>&, double);
 
 template <typename T>
 Places<T> places_of(std::span<const BvhBox<T>> boxes) {
@@ -267,10 +237,6 @@ void sort_along(int axis, const Places<T>& places, std::span<BvhBox<T>> boxes) {
     }
     std::copy_n(sorted.begin(), boxes.size(), boxes.begin());
 }
-
-template Places<double> places_of<double>(std::span<const f64::BvhNode>);
-template Bins<double> bins_at<double>(const Places<double>&, std::span<const f64::BvhNode>);
-template void sort_along<double>(int, const Places<double>&, std::span<f64::BvhNode>);
 
 /// Branch-free, because where a box goes is unpredictable.
 template <typename T>
@@ -321,6 +287,8 @@ void swap_runs(std::span<BvhBox<T>> boxes, std::vector<Run> lefts, std::vector<R
     });
 }
 
+/// Moves the boxes that go left to the front, in place, with `threads` threads; the resulting order
+/// does not depend on how many.
 template <typename T>
 Partition<T> partition(std::span<BvhBox<T>> boxes, const Binning<T>& binning, const Split<T>& split,
                        int threads) {
@@ -347,9 +315,6 @@ Partition<T> partition(std::span<BvhBox<T>> boxes, const Binning<T>& binning, co
     swap_runs<T>(boxes, std::move(lefts), std::move(rights), threads);
     return whole;
 }
-
-template Partition<double> partition<double>(std::span<f64::BvhNode>, const Binning<double>&,
-                                             const Split<double>&, int);
 
 /// Moves the lower half along the axis of widest center spread to the front.
 template <typename T>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "host/scene/geometry.h"
+
 namespace rt {
 
 namespace {
@@ -13,10 +15,6 @@ namespace {
 constexpr double rounding = 0x1p-48;
 /// Relative to the scene: closer to a plane than this, a light, or a surface, is in doubt.
 constexpr double near_light = 0x1p-8, near_surface = 0x1p-12;
-
-double largest(const glm::dvec3& v) {
-    return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-}
 
 struct Plane {
     glm::dvec3 point, normal;

@@ -274,6 +274,8 @@ template f64::Material flatten_material<double>(const Scene::Material&);
 
 namespace {
 
+constexpr int box_slack = 16;
+
 /// The box from low to high, enlarged. Adding 0 turns -0 into 0, so that a minimum of several
 /// boxes has the same bits in any order.
 template <typename T>

@@ -65,8 +65,6 @@ struct MaterialUse {
 
 MaterialUse material_use(const Scene& scene);
 
-inline constexpr int box_slack = 16;
-
 template <typename T>
 BvhBox<T> box_of(const typename Flat<T>::Sphere& sphere);
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include "host/base/parallel.h"
 #include "host/flatten/flat_shapes.h"
@@ -91,41 +90,6 @@ Octaves distance_octaves(const Scene& scene, const TriangleList& triangles, cons
     return octaves;
 }
 
-}  // namespace
-
-ViewFrame make_view_frame(const Scene& scene, const TriangleList& triangles, int threads) {
-    const Scene::Camera& camera = scene.camera;
-    ViewFrame frame;
-    frame.eye = camera.from;
-    frame.forward = unit(camera.at - camera.from);
-    frame.right = unit(glm::cross(frame.forward, unit(camera.up)));
-    frame.up = glm::cross(frame.right, frame.forward);
-    frame.is_perspective = camera.projection == Scene::Projection::perspective;
-    if (!frame.is_perspective) {
-        const Scene::Window window = camera_window(camera, scene.width, scene.height);
-        frame.eye += frame.right * (0.5 * (window.left + window.right)) +
-                     frame.up * (0.5 * (window.bottom + window.top));
-    }
-    const Octaves octaves = distance_octaves(scene, triangles, frame.eye, threads);
-    frame.scale = std::ldexp(1.0, -octaves.median());
-    return frame;
-}
-
-std::vector<glm::dvec3> eye_ray_origins(const ViewFrame& view, const Scene& scene) {
-    const Scene::Camera& camera = scene.camera;
-    if (camera.projection == Scene::Projection::perspective) return {camera.from};
-    const Scene::Window window = camera_window(camera, scene.width, scene.height);
-    std::vector<glm::dvec3> origins;
-    for (const double x : {window.left, window.right}) {
-        for (const double y : {window.bottom, window.top}) {
-            origins.push_back(camera.from + view.right * x + view.up * y);
-        }
-    }
-    return origins;
-}
-
-namespace {
-
 /// Half a pixel's size on the view plane. Pixels are exactly square unless the author gave a
 /// window: otherwise rays on a picture's diagonal would miss edges there by 1e-16.
 glm::dvec2 half_pixel(const Scene& scene, const Scene::Window& window) {
@@ -170,6 +134,37 @@ void set_sampling(const Scene& scene, LaunchParams& params) {
 }
 
 }  // namespace
+
+ViewFrame make_view_frame(const Scene& scene, const TriangleList& triangles, int threads) {
+    const Scene::Camera& camera = scene.camera;
+    ViewFrame frame;
+    frame.eye = camera.from;
+    frame.forward = unit(camera.at - camera.from);
+    frame.right = unit(glm::cross(frame.forward, unit(camera.up)));
+    frame.up = glm::cross(frame.right, frame.forward);
+    frame.is_perspective = camera.projection == Scene::Projection::perspective;
+    if (!frame.is_perspective) {
+        const Scene::Window window = camera_window(camera, scene.width, scene.height);
+        frame.eye += frame.right * (0.5 * (window.left + window.right)) +
+                     frame.up * (0.5 * (window.bottom + window.top));
+    }
+    const Octaves octaves = distance_octaves(scene, triangles, frame.eye, threads);
+    frame.scale = std::ldexp(1.0, -octaves.median());
+    return frame;
+}
+
+std::vector<glm::dvec3> eye_ray_origins(const ViewFrame& view, const Scene& scene) {
+    const Scene::Camera& camera = scene.camera;
+    if (camera.projection == Scene::Projection::perspective) return {camera.from};
+    const Scene::Window window = camera_window(camera, scene.width, scene.height);
+    std::vector<glm::dvec3> origins;
+    for (const double x : {window.left, window.right}) {
+        for (const double y : {window.bottom, window.top}) {
+            origins.push_back(camera.from + view.right * x + view.up * y);
+        }
+    }
+    return origins;
+}
 
 template <typename T>
 typename Flat<T>::LaunchParams flatten_params(const ViewFrame& view, const Scene& scene) {

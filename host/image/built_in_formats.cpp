@@ -11,12 +11,9 @@
 #include <cerrno>
 #include <cmath>
 #include <csetjmp>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <new>
-#include <optional>
-#include <span>
 #include <system_error>
 
 #include "host/base/error.h"

@@ -5,23 +5,18 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <iterator>
 #include <new>
-#include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "host/base/error.h"
 #include "host/base/module_file.h"
 #include "host/image/atomic_file.h"
 #include "host/image/built_in_formats.h"
 #include "host/image/output_path.h"
-#include "host/image/picture_format.h"
 #include "host/image/picture_module.h"
 
 namespace rt {

@@ -278,9 +278,7 @@ void JournalKeeper<T>::take_tiles() {
         body.resize(sizeof(numbers) + row_bytes * static_cast<std::size_t>(tile.height));
         std::memcpy(body.data(), numbers.data(), sizeof(numbers));
         for (int row = 0; row < tile.height; ++row) {
-            const std::size_t pixel = static_cast<std::size_t>(tile.y - shown_.y + row) *
-                                          static_cast<std::size_t>(film_.width) +
-                                      static_cast<std::size_t>(tile.x - shown_.x);
+            const std::size_t pixel = index_in(shown_, tile.x, tile.y + row);
             std::memcpy(body.data() + sizeof(numbers) + static_cast<std::size_t>(row) * row_bytes,
                         &film_.rgb[3 * pixel], row_bytes);
         }

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <utility>
 
-#include "host/base/error.h"
 #include "host/base/memory.h"
 
 namespace rt {
@@ -149,12 +148,10 @@ KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used) {
         known.film = Film<T>(film.width, film.height);
     }
     known.is_rendered.resize(static_cast<std::size_t>(film.pixels()));
-    const auto width = static_cast<std::size_t>(film.width);
     while (const auto record = reader.next()) {
         const Rect& rect = record->rect;
         for (int row = 0; row < rect.height; ++row) {
-            const std::size_t at = static_cast<std::size_t>(rect.y - film.y + row) * width +
-                                   static_cast<std::size_t>(rect.x - film.x);
+            const std::size_t at = index_in(film, rect.x, rect.y + row);
             const bool is_there = record->kind == RecordKind::tile;
             const std::size_t bytes = 3 * sizeof(T) * static_cast<std::size_t>(rect.width);
             if (is_there) {

@@ -5,7 +5,6 @@
 #include <istream>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "host/base/error.h"

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <type_traits>
+#include <set>
+#include <span>
 #include <utility>
 
 #include "host/base/error.h"
@@ -136,22 +137,14 @@ class Merger {
         std::size_t pixels = 0, first = 0;
     };
 
-    std::size_t index_in_film(const Rect& film, std::size_t i) const {
-        const auto width = static_cast<std::size_t>(region_.width);
-        return (static_cast<std::size_t>(region_.y - film.y) + i / width) *
-                   static_cast<std::size_t>(film.width) +
-               static_cast<std::size_t>(region_.x - film.x) + i % width;
-    }
-
     /// Copies the rendered pixels of a block; `rendered` covers the part's film, `film` is cropped
     /// to the region.
     void take_block(const Rect& block, const Rect& part_film,
                     const std::vector<std::uint8_t>& rendered, const Film<T>& film) {
-        for (int y = block.y - region_.y; y < block.y - region_.y + block.height; ++y) {
-            const std::size_t first = static_cast<std::size_t>(y) * region_.width +
-                                      static_cast<std::size_t>(block.x - region_.x);
-            for (std::size_t i = first; i < first + static_cast<std::size_t>(block.width); ++i) {
-                if (rendered[index_in_film(part_film, i)] != 0) take_pixel(i, film);
+        for (int y = block.y; y < block.y + block.height; ++y) {
+            for (int x = block.x; x < block.x + block.width; ++x) {
+                if (rendered[index_in(part_film, x, y)] == 0) continue;
+                take_pixel(index_in(region_, x, y), film);
             }
         }
     }
@@ -180,22 +173,17 @@ class Merger {
 
     /// Which shares, out of `of`, have missing pixels.
     Shares missing(int of) const {
-        Shares shares{{}, of};
+        std::set<int> numbers;
         const std::vector<int> share_of = block_shares(blocks_.size(), of);
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
             const Rect& block = blocks_[b];
-            for (int y = block.y - region_.y; y < block.y - region_.y + block.height; ++y) {
-                const auto row =
-                    owner_.begin() + std::ptrdiff_t{y} * region_.width + (block.x - region_.x);
-                if (std::find(row, row + block.width, -1) == row + block.width) continue;
-                shares.numbers.push_back(share_of[b]);
-                break;
+            for (int y = block.y; y < block.y + block.height; ++y) {
+                const std::size_t first = index_in(region_, block.x, y);
+                const std::span row(&owner_[first], static_cast<std::size_t>(block.width));
+                if (std::ranges::count(row, -1) > 0) numbers.insert(share_of[b]);
             }
         }
-        std::sort(shares.numbers.begin(), shares.numbers.end());
-        const auto end = std::unique(shares.numbers.begin(), shares.numbers.end());
-        shares.numbers.erase(end, shares.numbers.end());
-        return shares;
+        return {{numbers.begin(), numbers.end()}, of};
     }
 
     const Rect region_;

@@ -36,21 +36,15 @@ std::uint64_t mixed(std::uint64_t number) {
     return number ^ (number >> 31);
 }
 
-std::size_t index_in(const Rect& film, int x, int y) {
-    return static_cast<std::size_t>(y - film.y) * static_cast<std::size_t>(film.width) +
-           static_cast<std::size_t>(x - film.x);
-}
-
 /// Sets to `level` each 0 that has a neighbor of level + 1.
 void grow(std::vector<std::uint8_t>& needs, const Rect& film, std::uint8_t level) {
-    for (int y = 0; y < film.height; ++y) {
-        for (int x = 0; x < film.width; ++x) {
-            if (needs[index_in({0, 0, film.width, film.height}, x, y)] != level + 1) continue;
-            for (int row = std::max(y - 1, 0); row <= std::min(y + 1, film.height - 1); ++row) {
-                for (int column = std::max(x - 1, 0); column <= std::min(x + 1, film.width - 1);
-                     ++column) {
-                    std::uint8_t& need =
-                        needs[index_in({0, 0, film.width, film.height}, column, row)];
+    const int right = film.x + film.width - 1, bottom = film.y + film.height - 1;
+    for (int y = film.y; y <= bottom; ++y) {
+        for (int x = film.x; x <= right; ++x) {
+            if (needs[index_in(film, x, y)] != level + 1) continue;
+            for (int row = std::max(y - 1, film.y); row <= std::min(y + 1, bottom); ++row) {
+                for (int near = std::max(x - 1, film.x); near <= std::min(x + 1, right); ++near) {
+                    std::uint8_t& need = needs[index_in(film, near, row)];
                     if (need == 0) need = level;
                 }
             }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/default_scene.h"
 
-#include "host/scene/json_file.h"
-
 namespace rt {
 
 extern const char* const cornell_box_scene;  // embedded by CMake

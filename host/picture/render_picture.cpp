@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <functional>
-#include <future>
 #include <mutex>
 #include <optional>
 #include <stop_token>

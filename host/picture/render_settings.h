@@ -7,7 +7,6 @@
 #include "host/journal/shares.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/picture_spec.h"
-#include "host/render/schedule.h"
 #include "host/scene/aa_mode.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_file.h"

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "host/base/text.h"
-
 namespace rt {
 
 double RenderStats::rays_per_second() const {

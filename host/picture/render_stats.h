@@ -13,7 +13,6 @@
 #include "host/image/image_error.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/picture_spec.h"
-#include "host/render/ray_counts.h"
 #include "host/render/renderer.h"
 
 // What a rendering reports: its structs, each with its fields' names in JSON (host/record).

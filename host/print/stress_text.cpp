@@ -73,10 +73,6 @@ std::string row_figures(const StressRow& row) {
         return fmt::format("{} of {} rays fail, {:.1e}", row.rays->failures, row.rays->rays,
                            row.rays->max_error);
     }
-    if (row.refused + row.rendered > 0) {
-        return fmt::format("{} refused, {} rendered, {} NaN, {} inf", row.refused, row.rendered,
-                           row.figures.nans, row.figures.infinities);
-    }
     return worst_text(row.figures);
 }
 

@@ -13,9 +13,8 @@ Film<T> part_of(const Film<T>& film, const Rect& shown, const Rect& part) {
     Film<T> cut(part.width, part.height);
     const auto row_length = 3 * static_cast<std::ptrdiff_t>(part.width);
     for (int row = 0; row < part.height; ++row) {
-        const std::ptrdiff_t from =
-            3 * (std::ptrdiff_t{part.y - shown.y + row} * film.width + (part.x - shown.x));
-        std::copy_n(film.rgb.begin() + from, row_length, cut.rgb.begin() + row * row_length);
+        std::copy_n(&film.rgb[3 * index_in(shown, part.x, part.y + row)], row_length,
+                    cut.rgb.begin() + row * row_length);
     }
     return cut;
 }

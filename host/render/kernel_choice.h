@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host/base/text.h"
 #include "host/flatten/features.h"
 
 namespace rt {
@@ -25,5 +26,16 @@ struct KernelChoice {
     /// Whether everything is compiled in.
     bool has_all() const { return features == Features{}; }
 };
+
+/// How the threads of the pthreads renderer share the work.
+enum class Schedule {
+    tiles,    ///< threads take tiles from a shared counter
+    buffers,  ///< the paper's: a thread renders whole sample buffers, averaged at the end
+};
+
+inline constexpr Named<Schedule> schedule_names[] = {{"tiles", Schedule::tiles},
+                                                     {"buffers", Schedule::buffers}};
+constexpr auto& enum_names(Schedule) { return schedule_names; }
+inline const char* to_string(Schedule schedule) { return name_of(schedule_names, schedule); }
 
 }  // namespace rt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace rt {
@@ -14,13 +15,20 @@ class LaunchPacer {
     static constexpr int most_growth = 8;  ///< from one launch to the next, which may be harder
 
     /// `first` samples to begin with, never more than `most`.
-    LaunchPacer(std::int64_t first, std::int64_t most);
+    LaunchPacer(std::int64_t first, std::int64_t most)
+        : samples_(std::clamp<std::int64_t>(first, 1, most)), most_(most) {}
 
     /// Samples of the next launch, at least 1.
     std::int64_t samples() const { return samples_; }
 
     /// Records that a launch of that many samples took that long.
-    void note(std::int64_t samples, double seconds);
+    void note(std::int64_t samples, double seconds) {
+        // Written so that a clock that does not advance means most_growth.
+        const bool is_long = target_seconds < seconds * most_growth;
+        const double growth = is_long ? target_seconds / seconds : double{most_growth};
+        const double wanted = static_cast<double>(samples) * growth;
+        samples_ = static_cast<std::int64_t>(std::clamp(wanted, 1.0, static_cast<double>(most_)));
+    }
 
    private:
     std::int64_t samples_;

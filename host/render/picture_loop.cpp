@@ -2,10 +2,7 @@
 #include "host/render/picture_loop.h"
 
 #include <algorithm>
-#include <functional>
-#include <span>
 
-#include "host/render/adaptive.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/stopwatch.h"
 

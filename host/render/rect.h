@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace rt {
@@ -20,6 +21,12 @@ inline bool is_within(const Rect& part, const Rect& whole) {
            part.width <= whole.width && part.height <= whole.height &&
            part.x - whole.x <= whole.width - part.width &&
            part.y - whole.y <= whole.height - part.height;
+}
+
+/// Where a pixel of the picture is in a film that shows `film`, row by row.
+inline std::size_t index_in(const Rect& film, int x, int y) {
+    return static_cast<std::size_t>(y - film.y) * static_cast<std::size_t>(film.width) +
+           static_cast<std::size_t>(x - film.x);
 }
 
 /// [x, y, width, height]

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 
 #include "host/flatten/flat_types.h"
 #include "host/render/film.h"
@@ -55,6 +54,15 @@ class Renderer {
 
 /// The shared launch descriptor of a tile, in a film that shows `region`.
 template <typename T>
-typename Flat<T>::Tile flat_tile(const Rect& tile, const Rect& region);
+typename Flat<T>::Tile flat_tile(const Rect& tile, const Rect& region) {
+    typename Flat<T>::Tile flat{};
+    flat.x = tile.x;
+    flat.y = tile.y;
+    flat.width = tile.width;
+    flat.height = tile.height;
+    flat.first = (tile.y - region.y) * region.width + (tile.x - region.x);
+    flat.film_width = region.width;
+    return flat;
+}
 
 }  // namespace rt

@@ -7,7 +7,6 @@
 #include "host/render/native_kernels.h"
 #include "host/render/ray_tracer.h"
 #include "host/render/renderer.h"
-#include "host/render/schedule.h"
 
 namespace rt {
 

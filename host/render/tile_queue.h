@@ -9,10 +9,33 @@
 #include <optional>
 #include <vector>
 
-#include "host/render/ray_counts.h"
+#include "host/record/describe.h"
 #include "host/render/rect.h"
 
 namespace rt {
+
+/// Rays traced, by kind.
+struct RayCounts {
+    std::uint64_t primary = 0, shadow = 0, mirror = 0, transmitted = 0;
+
+    std::uint64_t total() const { return primary + shadow + mirror + transmitted; }
+    RayCounts& operator+=(const RayCounts& other) {
+        primary += other.primary;
+        shadow += other.shadow;
+        mirror += other.mirror;
+        transmitted += other.transmitted;
+        return *this;
+    }
+};
+
+template <typename A, Of<RayCounts> X>
+void describe(A& a, X& x) {
+    a("primary", x.primary, "eye rays");
+    a("shadow", x.shadow, "towards lights");
+    a("mirror", x.mirror, "reflected");
+    a("transmitted", x.transmitted, "refracted");
+    a("total", x.total(), "");
+}
 
 /// Cuts a region into tiles of at most the given size, row by row from the top left.
 std::vector<Rect> make_tiles(const Rect& region, int tile_width, int tile_height);

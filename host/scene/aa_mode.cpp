@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "host/base/text.h"
-
 namespace rt {
 
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/geometry.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -13,8 +11,6 @@ namespace rt {
 namespace {
 
 constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-
-double largest(glm::dvec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// Scales every axis by its own power of two, exactly, so that its largest coordinate lies in
 /// 0.5..1 (or is 0). Collinearity is unchanged.
@@ -48,7 +44,7 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
 
 double determinant(const glm::dmat3& m) { return glm::dot(m[0], glm::cross(m[1], m[2])); }
 
-double largest(const glm::dmat3& m) {
+double largest_entry(const glm::dmat3& m) {
     double size = 0;
     for (int i = 0; i < 9; ++i) size = std::max(size, std::abs(m[i / 3][i % 3]));
     return size;
@@ -93,6 +89,9 @@ glm::dmat3 rotation(double degrees, int from, int to) {
     m[to][from] = -sine;
     return m;
 }
+
+/// Whether two unit vectors are parallel: the sine of their angle is below 1e-9.
+bool nearly_parallel(glm::dvec3 a, glm::dvec3 b) { return largest(glm::cross(a, b)) < 1e-9; }
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
@@ -170,11 +169,6 @@ bool nearly_same_point(glm::dvec3 a, glm::dvec3 b) {
     return true;
 }
 
-bool nearly_parallel(glm::dvec3 a, glm::dvec3 b) {
-    constexpr double smallest_sine = 1e-9;
-    return largest(glm::cross(a, b)) < smallest_sine;
-}
-
 /// Each component of the edges carries one rounding error (the coordinates are at most 1 after
 /// scaling), so the cross product counts as zero below the resulting error bound.
 bool zero_area(const std::array<glm::dvec3, 3>& corners) {
@@ -221,7 +215,7 @@ std::optional<glm::dmat3> normal_matrix(const glm::dmat3& linear) {
     constexpr double smallest = 1e-12;
     const auto bare = without_scales(linear);
     if (!bare || !(std::abs(determinant(*bare)) > smallest)) return std::nullopt;
-    const double size = largest(linear);
+    const double size = largest_entry(linear);
     glm::dmat3 scaled = linear;
     for (int i = 0; i < 9; ++i) scaled[i / 3][i % 3] /= size;
     glm::dmat3 result = cofactors(scaled);

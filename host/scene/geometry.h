@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -9,15 +11,17 @@
 
 namespace rt {
 
+/// The largest magnitude of a coordinate.
+inline double largest(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
 /// Normalizes v at any scale (no overflow or underflow); empty for a zero vector.
 std::optional<glm::dvec3> unit_direction(glm::dvec3 v);
 
 /// Whether the two points differ by rounding only: at most a few units in the last place of the
 /// larger coordinate on every axis.
 bool nearly_same_point(glm::dvec3 a, glm::dvec3 b);
-
-/// Whether two unit vectors are parallel: the sine of their angle is below 1e-9.
-bool nearly_parallel(glm::dvec3 a, glm::dvec3 b);
 
 /// Whether the corners are collinear (or coincide), up to a few units in the last place of their
 /// coordinates.

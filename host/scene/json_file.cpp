@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/json_file.h"
-
-#include <fmt/format.h>
 
 #include <cstdint>
 #include <initializer_list>
@@ -12,6 +9,7 @@
 #include "host/scene/geometry.h"
 #include "host/scene/json_objects.h"
 #include "host/scene/scene.h"
+#include "host/scene/scene_file.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -326,12 +324,6 @@ SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes&
 }
 
 }  // namespace
-
-Scene load_json_scene(const std::string& path) {
-    const FileText text = read_text_file(path, max_json_bytes);
-    refuse_foreign(path, text.view());
-    return parse_json_scene(text.view(), path);
-}
 
 Scene parse_json_scene(std::string_view text, const std::string& file_name) {
     Mistakes mistakes(text, file_name);

@@ -8,7 +8,6 @@
 
 #include "host/base/text.h"
 #include "host/scene/geometry.h"
-#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -35,6 +34,26 @@ std::optional<glm::dvec3> read_triple(const JsonField& field, std::string_view w
     const auto y = read_one(field.item((*items)[1]));
     const auto z = read_one(field.item((*items)[2]));
     return x && y && z ? std::optional(glm::dvec3(*x, *y, *z)) : std::nullopt;
+}
+
+std::optional<double> read_not_negative(const JsonField& field) {
+    const auto number = read_number(field);
+    if (!number || *number >= 0) return number;
+    return refuse_number(field, *number, "0 or more");
+}
+
+std::optional<bool> read_bool(const JsonField& field) {
+    if (const bool* truth = field.value.as<bool>()) return *truth;
+    return refuse_kind(field, "true or false");
+}
+
+/// A color, at most max_reflectance.
+std::optional<glm::dvec3> read_reflectance(const JsonField& field) {
+    const auto color = read_color(field);
+    if (!color) return std::nullopt;
+    const double brightest = largest(*color);
+    if (brightest <= max_reflectance) return color;
+    return refuse_number(field, brightest, fmt::format("{} at most", max_reflectance));
 }
 
 /// What other programs call a key, where no known key is spelled much like it.
@@ -235,12 +254,6 @@ std::optional<double> read_positive(const JsonField& field) {
     return refuse_number(field, *number, "a number above 0");
 }
 
-std::optional<double> read_not_negative(const JsonField& field) {
-    const auto number = read_number(field);
-    if (!number || *number >= 0) return number;
-    return refuse_number(field, *number, "0 or more");
-}
-
 std::optional<int> read_integer(const JsonField& field, int low, int high) {
     const std::string wanted = fmt::format("a whole number from {} to {}", low, high);
     const double* number = field.value.as<double>();
@@ -249,11 +262,6 @@ std::optional<int> read_integer(const JsonField& field, int low, int high) {
         return static_cast<int>(*number);
     }
     return refuse_number(field, *number, wanted);
-}
-
-std::optional<bool> read_bool(const JsonField& field) {
-    if (const bool* truth = field.value.as<bool>()) return *truth;
-    return refuse_kind(field, "true or false");
 }
 
 std::optional<std::string> read_string(const JsonField& field) {
@@ -286,14 +294,6 @@ std::optional<glm::dvec3> read_color(const JsonField& field) {
         return level ? std::optional(glm::dvec3(*level)) : std::nullopt;
     }
     return read_triple(field, "one number for a gray, or three, [r, g, b]", read_not_negative);
-}
-
-std::optional<glm::dvec3> read_reflectance(const JsonField& field) {
-    const auto color = read_color(field);
-    if (!color) return std::nullopt;
-    const double largest = std::max({color->r, color->g, color->b});
-    if (largest <= max_reflectance) return color;
-    return refuse_number(field, largest, fmt::format("{} at most", max_reflectance));
 }
 
 const JsonValue::Array* read_array(const JsonField& field, int size) {
@@ -361,14 +361,9 @@ MaterialTable::MaterialTable(const JsonValue* value, Mistakes& mistakes) {
 }
 
 std::optional<int> MaterialTable::read_reference(const JsonField& field) const {
-    const auto* text = field.value.as<std::string>();
-    if (!text) {
-        read_string(field);
-        return std::nullopt;
-    }
-    const auto found = index_.find(*text);
-    if (found != index_.end()) return found->second;
-    if (!readable_) return std::nullopt;
+    const auto text = read_string(field);
+    if (!text || !readable_) return std::nullopt;
+    if (const auto found = index_.find(*text); found != index_.end()) return found->second;
     std::vector<std::string_view> known;
     for (const Scene::Material& material : materials_) known.push_back(material.name);
     return field.refuse("unknown material {}; {}", in_quotes(*text),

@@ -41,9 +41,7 @@ struct JsonField {
 
 std::optional<double> read_number(const JsonField& field);
 std::optional<double> read_positive(const JsonField& field);
-std::optional<double> read_not_negative(const JsonField& field);
 std::optional<int> read_integer(const JsonField& field, int low, int high);
-std::optional<bool> read_bool(const JsonField& field);
 std::optional<std::string> read_string(const JsonField& field);
 /// An angle strictly between 0 and 180 degrees.
 std::optional<double> read_angle(const JsonField& field);
@@ -53,8 +51,6 @@ std::optional<bool> read_choice(const JsonField& field, std::string_view what,
 std::optional<glm::dvec3> read_vec3(const JsonField& field);
 /// [r, g, b] or one number for gray, not negative.
 std::optional<glm::dvec3> read_color(const JsonField& field);
-/// The same, at most max_reflectance.
-std::optional<glm::dvec3> read_reflectance(const JsonField& field);
 /// An array; if `size` >= 0, of exactly that many items.
 const JsonValue::Array* read_array(const JsonField& field, int size = -1);
 

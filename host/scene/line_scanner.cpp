@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/line_scanner.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <string>
 #include <system_error>
 #include <utility>
 
 #include "host/scene/scene.h"
-#include "host/scene/words.h"
 
 namespace rt {
 namespace {
@@ -144,10 +140,8 @@ std::optional<double> scan_number(LineScanner& scanner, std::string_view name, M
     const std::size_t offset = scanner.offset();
     const auto number = there ? scanner.number() : std::nullopt;
     if (number && std::abs(*number) <= max_scene_number) return number;
-    const std::string found = !there   ? "missing"
-                              : number ? fmt::format("{}", *number)
-                                       : in_quotes(scanner.word());
-    std::string message = fmt::format("{} is {}; write a number from -1e30 to 1e30", name, found);
+    std::string message = fmt::format("{} is {}; write a number from -1e30 to 1e30", name,
+                                      found_text(scanner, there, number));
     if (remedy) {
         mistakes.note_in({}, *remedy, offset, std::move(message), count);
     } else {

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/base/parallel.h"
 #include "host/base/text.h"
 #include "host/scene/mistakes.h"
+#include "host/scene/words.h"
 
 namespace rt {
 
@@ -57,6 +61,14 @@ class LineScanner {
 
     const char *begin_, *at_, *end_;
 };
+
+/// What stands where a number was wanted, for messages: nothing, a number, or a word, which it
+/// skips.
+template <typename Number>
+std::string found_text(LineScanner& scanner, bool is_there, const std::optional<Number>& number) {
+    if (!is_there) return "missing";
+    return number ? fmt::format("{}", *number) : in_quotes(scanner.word());
+}
 
 /// The next number, within max_scene_number. Otherwise nothing, and a note (or, without a remedy,
 /// an error) says why; a word that is no number is skipped. `name` is what messages call it.

@@ -2,13 +2,11 @@
 #include "host/scene/mesh.h"
 
 #include <algorithm>
-#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "host/base/parallel.h"
-#include "host/scene/geometry.h"
-#include "host/scene/scene.h"
 
 namespace rt {
 namespace {
@@ -17,14 +15,24 @@ using Face = Scene::Mesh::Face;
 
 constexpr Face flat_face = {Scene::Mesh::no_normal, Scene::Mesh::no_normal, Scene::Mesh::no_normal};
 
-Face pick(std::span<const std::uint32_t> items, const Face& which) {
-    return {items[which[0]], items[which[1]], items[which[2]]};
+/// Appends the triangle of three of a face's corners.
+void append_triangle(const Face& which, std::span<const std::uint32_t> corners,
+                     std::span<const std::uint32_t> normals, std::vector<Face>& faces,
+                     std::vector<Face>& face_normals) {
+    const auto [a, b, c] = which;
+    if (!normals.empty() && face_normals.empty()) {
+        face_normals.reserve(faces.capacity());
+        face_normals.assign(faces.size(), flat_face);
+    }
+    faces.push_back({corners[a], corners[b], corners[c]});
+    if (!normals.empty()) {
+        face_normals.push_back({normals[a], normals[b], normals[c]});
+    } else if (!face_normals.empty()) {
+        face_normals.push_back(flat_face);
+    }
 }
 
-bool is_within(const glm::dvec3& p) {
-    const auto good = [](double x) { return std::abs(x) <= max_scene_number; };
-    return good(p.x) && good(p.y) && good(p.z);
-}
+constexpr std::size_t grain = 1 << 15;  // faces that a thread takes at a time
 
 /// Transforms the positions and returns whether those of all faces are in range.
 bool move_positions(Scene::Mesh& mesh, const Affine& transform) {
@@ -68,7 +76,6 @@ void take_out(std::vector<Item>& items, const std::vector<char>& marks) {
 
 /// Removes the triangles without area, found in parallel, and returns their number.
 std::size_t drop_zero_areas(Scene::Mesh& mesh) {
-    constexpr std::size_t grain = 1 << 15;
     std::vector<char> marks(mesh.faces.size());
     for_each_run(marks.size(), grain, available_cores(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
@@ -90,6 +97,22 @@ void turn_round(std::vector<Face>& faces) {
     for (Face& face : faces) std::swap(face[1], face[2]);
 }
 
+/// Calls work(value, position) for the corners of all faces, in parallel. Each run of faces has its
+/// own value, initially `start`; returns these values.
+template <typename Value, typename Work>
+std::vector<Value> over_corners(const Scene::Mesh& mesh, const Value& start, Work work) {
+    std::vector<Value> values((mesh.faces.size() + grain - 1) / grain, start);
+    for_each_run(mesh.faces.size(), grain, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     Value value = start;
+                     for (std::size_t f = first; f < last; ++f) {
+                         for (const std::uint32_t i : mesh.faces[f]) work(value, mesh.positions[i]);
+                     }
+                     values[first / grain] = value;
+                 });
+    return values;
+}
+
 }  // namespace
 
 bool parts_well(const std::array<glm::dvec3, 4>& quad) {
@@ -99,18 +122,17 @@ bool parts_well(const std::array<glm::dvec3, 4>& quad) {
     return glm::dot(one, other) > 0.5 * glm::length(one) * glm::length(other);
 }
 
-void append_face(const Face& face, const Face* normals, std::vector<Face>& faces,
-                 std::vector<Face>& face_normals) {
-    if (normals && face_normals.empty()) {
-        face_normals.reserve(faces.capacity());
-        face_normals.assign(faces.size(), flat_face);
-    }
-    faces.push_back(face);
-    if (normals) {
-        face_normals.push_back(*normals);
-    } else if (!face_normals.empty()) {
-        face_normals.push_back(flat_face);
-    }
+bool append_usual_face(std::span<const std::uint32_t> corners,
+                       std::span<const std::uint32_t> normals,
+                       const std::vector<glm::dvec3>& positions, std::vector<Face>& faces,
+                       std::vector<Face>& face_normals) {
+    const auto& p = positions;
+    const auto& c = corners;
+    const bool is_quad = c.size() == 4 && parts_well({p[c[0]], p[c[1]], p[c[2]], p[c[3]]});
+    if (c.size() != 3 && !is_quad) return false;
+    append_triangle({0, 1, 2}, corners, normals, faces, face_normals);
+    if (is_quad) append_triangle({0, 2, 3}, corners, normals, faces, face_normals);
+    return true;
 }
 
 void MeshBuilder::add_triangles(std::span<const Face> faces, std::span<const Face> normals) {
@@ -126,21 +148,12 @@ void MeshBuilder::add_triangles(std::span<const Face> faces, std::span<const Fac
 
 void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
                            std::span<const std::uint32_t> normals) {
-    const auto add = [&](const Face& which) {
-        const Face face = pick(corners, which);
-        if (normals.empty()) return append_face(face, nullptr, mesh.faces, mesh.face_normals);
-        const Face face_normals = pick(normals, which);
-        append_face(face, &face_normals, mesh.faces, mesh.face_normals);
-    };
-    if (corners.size() == 3) return add({0, 1, 2});
+    if (append_usual_face(corners, normals, mesh.positions, mesh.faces, mesh.face_normals)) return;
     outline_.clear();
     for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
-    const auto& o = outline_;
-    if (o.size() == 4 && parts_well({o[0], o[1], o[2], o[3]})) {
-        add({0, 1, 2});
-        return add({0, 2, 3});
+    for (const Face& which : splitter_.split(outline_)) {
+        append_triangle(which, corners, normals, mesh.faces, mesh.face_normals);
     }
-    for (const Face& which : splitter_.split(outline_)) add(which);
 }
 
 void MeshBuilder::use_material(int material) {
@@ -180,6 +193,25 @@ MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform) {
         turn_round(mesh.face_normals);
     }
     return losses;
+}
+
+Box bounding_box(const Scene::Mesh& mesh) {
+    Box all;
+    const auto boxes = over_corners(mesh, all, [](Box& box, const glm::dvec3& p) {
+        box = {glm::min(box.low, p), glm::max(box.high, p)};
+    });
+    for (const Box& box : boxes) all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+    return all;
+}
+
+BoundingSphere bounding_sphere(const Scene::Mesh& mesh) {
+    const Box box = bounding_box(mesh);
+    BoundingSphere sphere{0.5 * box.low + 0.5 * box.high, 0};
+    const auto radii = over_corners(mesh, 0.0, [&](double& radius, const glm::dvec3& p) {
+        radius = std::max(radius, glm::length(p - sphere.center));
+    });
+    sphere.radius = std::ranges::max(radii);
+    return sphere;
 }
 
 }  // namespace rt

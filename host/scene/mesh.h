@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,15 +18,24 @@ namespace rt {
 /// Readers refuse faces with more corners.
 inline constexpr std::size_t max_face_corners = 10000;
 
+/// Whether all coordinates are finite and within max_scene_number.
+inline bool is_within(const glm::dvec3& p) {
+    const auto good = [](double x) { return std::abs(x) <= max_scene_number; };
+    return good(p.x) && good(p.y) && good(p.z);
+}
+
 /// Whether the diagonal from the first corner splits a quadrilateral well: both triangles face much
 /// the same way, beyond rounding error. True for most.
 bool parts_well(const std::array<glm::dvec3, 4>& quad);
 
-/// Appends a triangle, with normals or (null) without. Once any face has normals, every face has a
-/// row of them.
-void append_face(const Scene::Mesh::Face& face, const Scene::Mesh::Face* normals,
-                 std::vector<Scene::Mesh::Face>& faces,
-                 std::vector<Scene::Mesh::Face>& face_normals);
+/// Appends the triangles of a face, if it is one of the usual ones: a triangle, or a quadrilateral
+/// that parts well. `corners` are indices into positions; `normals` as many into the normals, or
+/// none. Once any face has normals, every face has a row of them.
+bool append_usual_face(std::span<const std::uint32_t> corners,
+                       std::span<const std::uint32_t> normals,
+                       const std::vector<glm::dvec3>& positions,
+                       std::vector<Scene::Mesh::Face>& faces,
+                       std::vector<Scene::Mesh::Face>& face_normals);
 
 /// Turns a model's faces, with any number of corners, into the triangles of a mesh. Readers write
 /// positions and normals directly to `mesh`.
@@ -74,5 +84,20 @@ struct MeshLosses {
 /// removed; a mirroring transform reverses the faces, so that fronts stay fronts. The transform
 /// must not be singular.
 MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform);
+
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;  ///< empty
+};
+
+/// The box of all faces; vertices of none do not count.
+Box bounding_box(const Scene::Mesh& mesh);
+
+struct BoundingSphere {
+    glm::dvec3 center{0};
+    double radius = 0;
+};
+
+/// Centered on the bounding box. The mesh has at least one face.
+BoundingSphere bounding_sphere(const Scene::Mesh& mesh);
 
 }  // namespace rt

@@ -3,24 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <string_view>
 #include <utility>
 
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/base/text.h"
-#include "host/scene/geometry.h"
 #include "host/scene/mesh.h"
 #include "host/scene/mtl_file.h"
-#include "host/scene/scene.h"
-#include "host/scene/text_file.h"
 
 namespace rt {
 namespace {
@@ -90,48 +84,6 @@ Model parse_model(const FileDescriptor& file, const std::string& path,
 }
 
 constexpr double fov_degrees = 40;
-
-struct BoundingSphere {
-    glm::dvec3 center{0};
-    double radius = 0;
-};
-
-struct Box {
-    glm::dvec3 low{0}, high{0};
-};
-
-/// Calls work(value, position) for the corners of all faces, in parallel. Each run of faces has its
-/// own value, initially `start`; returns these values.
-template <typename Value, typename Work>
-std::vector<Value> over_corners(const Scene::Mesh& mesh, const Value& start, Work work) {
-    constexpr std::size_t grain = 1 << 15;
-    std::vector<Value> values((mesh.faces.size() + grain - 1) / grain, start);
-    for_each_run(mesh.faces.size(), grain, available_cores(),
-                 [&](std::size_t first, std::size_t last) {
-                     Value value = start;
-                     for (std::size_t f = first; f < last; ++f) {
-                         for (const std::uint32_t i : mesh.faces[f]) work(value, mesh.positions[i]);
-                     }
-                     values[first / grain] = value;
-                 });
-    return values;
-}
-
-/// Centered on the bounding box of all faces. Unused vertices do not count.
-BoundingSphere bounding_sphere(const Scene::Mesh& mesh) {
-    const glm::dvec3 first = mesh.positions[mesh.faces[0][0]];
-    Box all{first, first};
-    const auto boxes = over_corners(mesh, all, [](Box& box, const glm::dvec3& p) {
-        box = {glm::min(box.low, p), glm::max(box.high, p)};
-    });
-    for (const Box& box : boxes) all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
-    BoundingSphere sphere{0.5 * all.low + 0.5 * all.high, 0};
-    const auto radii = over_corners(mesh, 0.0, [&](double& radius, const glm::dvec3& p) {
-        radius = std::max(radius, glm::length(p - sphere.center));
-    });
-    sphere.radius = std::ranges::max(radii);
-    return sphere;
-}
 
 /// Fits the sphere to all sides of a square picture.
 Scene::Camera framing_camera(const BoundingSphere& sphere) {

@@ -186,11 +186,8 @@ class MtlReader {
             mtl.illum = static_cast<int>(*number);
             return;
         }
-        const std::string found = !there   ? "missing"
-                                  : number ? fmt::format("{}", *number)
-                                           : in_quotes(scanner_.word());
         mistakes_.note(value_ignored, offset, "illum is {}; write a whole number from 0 to {}",
-                       found, last);
+                       found_text(scanner_, there, number), last);
     }
 
     LineScanner scanner_;

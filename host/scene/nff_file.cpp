@@ -16,13 +16,11 @@
 #include "host/scene/polygon.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_file.h"
-#include "host/scene/text_file.h"
 #include "host/scene/words.h"
 
 namespace rt {
 namespace {
 
-constexpr std::size_t max_nff_bytes = std::size_t{1} << 30;
 constexpr std::size_t max_nff_primitives = std::size_t{1} << 24;
 
 // The databases' reference settings (their Readme, "Testing Procedures", 7: a tree of depth 5).
@@ -469,12 +467,6 @@ class NffReader {
 };
 
 }  // namespace
-
-Scene load_nff_scene(const std::string& path) {
-    const FileText text = read_text_file(path, max_nff_bytes);
-    refuse_foreign(path, text.view());
-    return parse_nff_scene(text.view(), path);
-}
 
 Scene parse_nff_scene(std::string_view text, const std::string& file_name) {
     Scene scene = NffReader(text, file_name).read();

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
@@ -287,26 +286,13 @@ class FaceReader {
         return false;
     }
 
-    /// Triangles, and quadrilaterals that part well, are the usual faces.
     void add_face() {
-        const auto& c = corners_;
-        if (c.size() == 3) return add_triangle(0, 1, 2);
-        const bool parts = c.size() == 4 && parts_well({positions_[c[0]], positions_[c[1]],
-                                                        positions_[c[2]], positions_[c[3]]});
-        if (parts) {
-            add_triangle(0, 1, 2);
-            return add_triangle(0, 2, 3);
+        if (append_usual_face(corners_, normals_, positions_, chunk_.faces, chunk_.face_normals)) {
+            return;
         }
         Event& event = chunk_.events.emplace_back();
         event.faces_before = chunk_.faces.size();
         event.what.emplace<Polygon>(Polygon{corners_, normals_});
-    }
-
-    void add_triangle(std::size_t a, std::size_t b, std::size_t c) {
-        const Face face = {corners_[a], corners_[b], corners_[c]};
-        if (normals_.empty()) return append_face(face, nullptr, chunk_.faces, chunk_.face_normals);
-        const Face normals = {normals_[a], normals_[b], normals_[c]};
-        append_face(face, &normals, chunk_.faces, chunk_.face_normals);
     }
 
     Chunk& chunk_;

@@ -3,16 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstring>
 #include <iterator>
 #include <utility>
 
-#include "host/scene/line_scanner.h"
 #include "host/scene/mesh.h"
-#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -114,13 +109,8 @@ class HeaderReader {
         const std::size_t offset = scanner_.offset();
         const auto count = there ? scanner_.integer() : std::nullopt;
         if (!count || *count < 0) {
-            const std::string found = !there  ? "missing"
-                                      : count ? fmt::format("{}", *count)
-                                              : in_quotes(scanner_.word());
-            mistakes_.add(offset,
-                          "the count of element {} is {}; write a whole "
-                          "number, 0 or more",
-                          in_quotes(element.name), found);
+            mistakes_.add(offset, "the count of element {} is {}; write a whole number, 0 or more",
+                          in_quotes(element.name), found_text(scanner_, there, count));
         } else {
             element.count = static_cast<std::uint64_t>(*count);
         }
@@ -248,18 +238,13 @@ struct Place {
     PlyType type = PlyType::float32;
 };
 
-bool are_within(const glm::dvec3& v) {
-    const auto good = [](double x) { return std::abs(x) <= max_scene_number; };
-    return good(v.x) && good(v.y) && good(v.z);
-}
-
 bool read_vector(const char* row, const std::array<Place, 3>& places, bool swapped,
                  glm::dvec3& target) {
     for (int axis = 0; axis < 3; ++axis) {
         const Place& place = places[static_cast<std::size_t>(axis)];
         target[axis] = ply_number(row + place.offset, place.type, swapped);
     }
-    return are_within(target);
+    return is_within(target);
 }
 
 /// The same for three consecutive floats in native byte order: the usual layout, without branching
@@ -268,7 +253,7 @@ bool read_floats(const char* row, glm::dvec3& target) {
     std::array<float, 3> v;
     std::memcpy(v.data(), row, sizeof v);
     target = glm::dvec3(v[0], v[1], v[2]);
-    return are_within(target);
+    return is_within(target);
 }
 
 bool are_floats(const std::array<Place, 3>& places, bool swapped) {

@@ -28,16 +28,11 @@ std::pair<glm::dvec2, glm::dvec2> box_of(glm::dvec2 a, glm::dvec2 b) {
     return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
 }
 
-double largest_coordinate(glm::dvec3 v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 bool on_one_line(std::span<const glm::dvec3> corners) {
     const glm::dvec3 start = corners[0];
-    const glm::dvec3 end =
-        *std::max_element(corners.begin(), corners.end(), [&](glm::dvec3 a, glm::dvec3 b) {
-            return largest_coordinate(a - start) < largest_coordinate(b - start);
-        });
+    const glm::dvec3 end = *std::max_element(
+        corners.begin(), corners.end(),
+        [&](glm::dvec3 a, glm::dvec3 b) { return largest(a - start) < largest(b - start); });
     return std::all_of(corners.begin(), corners.end(), [&](glm::dvec3 corner) {
         return zero_area({start, end, corner});
     });
@@ -48,7 +43,7 @@ bool on_one_line(std::span<const glm::dvec3> corners) {
 glm::dvec3 normal_of(std::span<const glm::dvec3> corners) {
     double extent = 0;
     for (const glm::dvec3& corner : corners)
-        extent = std::max(extent, largest_coordinate(corner - corners[0]));
+        extent = std::max(extent, largest(corner - corners[0]));
     const auto scaled = [&](const glm::dvec3& corner) { return (corner - corners[0]) / extent; };
     glm::dvec3 normal{0};
     glm::dvec3 before = scaled(corners.back());
@@ -348,7 +343,7 @@ PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work
     }
     if (corners.size() < 3 || on_one_line(corners)) return PolygonFault::zero_area;
     const glm::dvec3 normal = normal_of(corners);
-    if (largest_coordinate(normal) == 0) return PolygonFault::crosses_itself;
+    if (largest(normal) == 0) return PolygonFault::crosses_itself;
     const PolygonFault fault = EarClipper(flattened(corners, normal), work, triangles).run();
     std::erase_if(triangles, [&](const auto& triangle) {
         return zero_area({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});

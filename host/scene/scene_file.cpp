@@ -3,12 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/scene/json_document.h"
-#include "host/scene/json_file.h"
 #include "host/scene/mistakes.h"
 #include "host/scene/model.h"
 #include "host/scene/text_file.h"
@@ -16,31 +13,28 @@
 namespace rt {
 namespace {
 
+constexpr std::size_t max_nff_bytes = std::size_t{1} << 30;
+
 /// Whether a text may be a JSON scene: an object, after blanks, comments or a byte order mark.
 bool may_be_json(std::string_view text) {
     const std::size_t at = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
     return at != text.npos && (text[at] == '{' || text[at] == '/');
 }
 
-/// A JSON scene with any extension.
-Scene load_renamed(const std::string& path, const std::string& ending) {
-    const FileText text = read_text_file(path, max_json_bytes);
+Scene load(const std::string& path) {
+    if (path == stdin_scene) return parse_json_scene(read_stdin().view(), "stdin");
+    const std::string ending = lower_extension(path);
+    if (ending == ".obj" || ending == ".ply") return load_model_scene(path);
+    const bool is_nff = ending == ".nff";
+    const FileText text = read_text_file(path, is_nff ? max_nff_bytes : max_json_bytes);
     refuse_foreign(path, text.view());
-    if (!may_be_json(text.view())) {
+    if (is_nff) return parse_nff_scene(text.view(), path);
+    if (!ending.empty() && ending != ".json" && !may_be_json(text.view())) {
         throw Error(ExitCode::input,
                     fmt::format("{}: unknown extension '{}'; use .json, .nff, .obj or .ply",
                                 printable(path), printable(ending)));
     }
     return parse_json_scene(text.view(), path);
-}
-
-Scene load(const std::string& path) {
-    if (path == stdin_scene) return parse_json_scene(read_stdin().view(), "stdin");
-    const std::string ending = lower_extension(path);
-    if (ending == ".nff") return load_nff_scene(path);
-    if (ending == ".obj" || ending == ".ply") return load_model_scene(path);
-    if (!ending.empty() && ending != ".json") return load_renamed(path, ending);
-    return load_json_scene(path);
 }
 
 }  // namespace

@@ -28,12 +28,13 @@ Scene load_scene(const std::string& path, const LightOverrides& light = {});
 /// Applies the overrides to a scene.
 void override_light(Scene& scene, const LightOverrides& light);
 
-/// Reads Eric Haines' Neutral File Format (docs/scene-format.md, "NFF"). Throws Error:
-/// ExitCode::input for a file that is missing, unreadable, not regular, or wrong, with up to 20
-/// mistakes, one line each; ExitCode::limit for one that is too large.
-Scene load_nff_scene(const std::string& path);
+// Texts in memory; `file_name` appears in messages and gives the default name. Throw Error:
+// ExitCode::input with up to 20 mistakes, one line each; ExitCode::limit for too many values.
 
-/// Parses a text in memory; `file_name` appears in messages and names the scene.
+/// Mirrorball's own scene format (docs/scene-format.md).
+Scene parse_json_scene(std::string_view text, const std::string& file_name);
+
+/// Eric Haines' Neutral File Format (docs/scene-format.md, "NFF").
 Scene parse_nff_scene(std::string_view text, const std::string& file_name);
 
 }  // namespace rt

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
-#include <utility>
 
 #include "host/scene/geometry.h"
 #include "host/scene/words.h"
@@ -104,11 +102,10 @@ std::vector<std::string> colors_of_bytes(const Scene& scene) {
 
 }  // namespace
 
-std::pair<glm::dvec3, glm::dvec3> bounding_box(const Scene& scene) {
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+Box bounding_box(const Scene& scene) {
+    Box box;
     const auto add = [&](const glm::dvec3& p, double radius = 0) {
-        low = glm::min(low, p - radius);
-        high = glm::max(high, p + radius);
+        box = {glm::min(box.low, p - radius), glm::max(box.high, p + radius)};
     };
     for (const Scene::Sphere& sphere : scene.spheres) add(sphere.center, sphere.radius);
     for (const Scene::Cone& cone : scene.cones) {
@@ -119,11 +116,10 @@ std::pair<glm::dvec3, glm::dvec3> bounding_box(const Scene& scene) {
         for (const glm::dvec3& vertex : triangle.vertices) add(vertex);
     }
     for (const Scene::Mesh& mesh : scene.meshes) {
-        for (const Scene::Mesh::Face& face : mesh.faces) {
-            for (const std::uint32_t i : face) add(mesh.positions[i]);
-        }
+        const Box faces = bounding_box(mesh);
+        box = {glm::min(box.low, faces.low), glm::max(box.high, faces.high)};
     }
-    return {low, high};
+    return box;
 }
 
 std::vector<std::string> scene_warnings(const Scene& scene) {

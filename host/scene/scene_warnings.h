@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "host/scene/mesh.h"
 #include "host/scene/scene.h"
 
 namespace rt {
@@ -14,7 +13,7 @@ namespace rt {
 /// view, colors of 0 to 255, mirrors that brighten. No false alarms, but not exhaustive.
 std::vector<std::string> scene_warnings(const Scene& scene);
 
-/// The lowest and the highest corner of all shapes; without any, infinities.
-std::pair<glm::dvec3, glm::dvec3> bounding_box(const Scene& scene);
+/// The box of all shapes.
+Box bounding_box(const Scene& scene);
 
 }  // namespace rt

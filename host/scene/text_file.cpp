@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -39,6 +38,13 @@ constexpr std::size_t piece = std::size_t{4} << 20;  // bytes that a thread read
     if (reason == EACCES || reason == EPERM) refuse_read(path, reason);
     if (reason == ENXIO) refuse(path, "is not a regular file; save the scene to a file first");
     refuse(path, fmt::format("cannot be opened ({}); check the path", std::strerror(reason)));
+}
+
+void require_size(const std::string& path, std::size_t size, std::size_t max_bytes) {
+    if (size <= max_bytes) return;
+    throw Error(ExitCode::limit,
+                fmt::format("{}: the file is larger than {} MiB; split or shrink the scene",
+                            printable(path), max_bytes >> 20));
 }
 
 /// Reads up to `size` bytes at an offset; fewer where the file ends before.
@@ -144,13 +150,6 @@ bool is_regular(const FileDescriptor& file) {
 }
 
 }  // namespace
-
-void require_size(const std::string& path, std::size_t size, std::size_t max_bytes) {
-    if (size <= max_bytes) return;
-    throw Error(ExitCode::limit,
-                fmt::format("{}: the file is larger than {} MiB; split or shrink the scene",
-                            printable(path), max_bytes >> 20));
-}
 
 FileDescriptor open_text_file(const std::string& path) {
     FileDescriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));

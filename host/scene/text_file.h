@@ -25,10 +25,6 @@ class FileText {
     std::size_t size_ = 0;
 };
 
-/// Throws Error (ExitCode::limit) when a text of `size` bytes is too large; `path` is its name in
-/// messages.
-void require_size(const std::string& path, std::size_t size, std::size_t max_bytes);
-
 /// Opens a regular file. Throws Error, ExitCode::input with "path: what is wrong; what to do", when
 /// it is missing, unreadable or not a regular file: a pipe or a device never hangs the program.
 FileDescriptor open_text_file(const std::string& path);

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <utility>
 
 #include "host/flatten/flat_scene.h"
-#include "host/stress/ray_dice.h"
+#include "host/stress/many_rays.h"
 #include "host/stress/ray_trials.h"
 
 namespace rt {
@@ -14,8 +13,8 @@ namespace {
 
 constexpr double least_slope = 1e-6;
 
-/// A face of a closed mesh as the tracer sees it.
-struct Face {
+/// A triangle of a closed mesh as the tracer sees it.
+struct MeshTriangle {
     std::array<glm::dvec3, 3> corners;
     glm::dvec3 outwards;  ///< unit
     double height(const glm::dvec3& p) const {
@@ -25,29 +24,29 @@ struct Face {
 };
 
 template <typename T>
-std::vector<Face> faces_of(const FlatScene<T>& flat) {
-    std::vector<Face> faces;
+std::vector<MeshTriangle> triangles_of(const FlatScene<T>& flat) {
+    std::vector<MeshTriangle> triangles;
     for (const auto& t : flat.triangles) {
-        faces.push_back({{in_double(t.p0), in_double(t.p1), in_double(t.p2)}, {}});
-        const auto& [a, b, c] = faces.back().corners;
-        faces.back().outwards = glm::normalize(glm::cross(b - a, c - a));
+        triangles.push_back({{in_double(t.p0), in_double(t.p1), in_double(t.p2)}, {}});
+        const auto& [a, b, c] = triangles.back().corners;
+        triangles.back().outwards = glm::normalize(glm::cross(b - a, c - a));
     }
-    return faces;
+    return triangles;
 }
 
-/// The face on the other side of each face's edges; edge i starts at corner i.
-std::vector<std::array<std::size_t, 3>> neighbors_of(const std::vector<Face>& faces) {
+/// The triangle on the other side of each triangle's edges; edge i starts at corner i.
+std::vector<std::array<std::size_t, 3>> neighbors_of(const std::vector<MeshTriangle>& triangles) {
     const auto key = [](const glm::dvec3& a, const glm::dvec3& b) {
         return std::array{a.x, a.y, a.z, b.x, b.y, b.z};
     };
     std::map<std::array<double, 6>, std::size_t> owners;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        const auto& corners = faces[f].corners;
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+        const auto& corners = triangles[f].corners;
         for (std::size_t i = 0; i < 3; ++i) owners[key(corners[i], corners[(i + 1) % 3])] = f;
     }
-    std::vector<std::array<std::size_t, 3>> neighbors(faces.size());
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        const auto& corners = faces[f].corners;
+    std::vector<std::array<std::size_t, 3>> neighbors(triangles.size());
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+        const auto& corners = triangles[f].corners;
         for (std::size_t i = 0; i < 3; ++i) {
             neighbors[f][i] = owners.at(key(corners[(i + 1) % 3], corners[i]));
         }
@@ -57,76 +56,75 @@ std::vector<std::array<std::size_t, 3>> neighbors_of(const std::vector<Face>& fa
 
 }  // namespace
 
-template <typename T>
-RayFigures count_edge_escapes(const Scene& mesh, MeshSide side, std::uint64_t rays,
-                              const RayCaster& caster) {
-    const FlatScene<T> flat = flatten<T>(mesh);
-    const std::vector<Face> faces = faces_of(flat);
-    const auto neighbors = neighbors_of(faces);
-    const double rim = 64 * static_cast<double>(Flat<T>::roundoff);
-    const double inwards = side == MeshSide::inside ? -1 : 1;
-    double size = 0;
-    for (const Face& face : faces) {
-        for (const glm::dvec3& corner : face.corners) size = std::max(size, glm::length(corner));
-    }
-    const double clear = 4 * static_cast<double>(Flat<T>::roundoff) * size;
-    const auto is_clear = [&](const glm::dvec3& p, const Face& hit) {
-        if (side == MeshSide::outside) return hit.height(p) > clear;
-        return std::all_of(faces.begin(), faces.end(),
-                           [&](const Face& face) { return face.height(p) < -clear; });
-    };
-    // Towards a point next to an edge or, one in four, a vertex; almost parallel to one of the
-    // edge's two faces.
-    const auto make = [&](Dice& dice) {
-        for (;;) {
-            const std::size_t number = dice.index(faces.size()), edge = dice.index(3);
-            const Face& hit = faces[number];
-            const Face& along = dice.index(2) == 0 ? hit : faces[neighbors[number][edge]];
-            const glm::dvec3 a = hit.corners[edge], b = hit.corners[(edge + 1) % 3],
-                             c = hit.corners[(edge + 2) % 3];
-            const double share = dice.uniform(0, dice.index(4) == 0 ? rim : 1);
-            const glm::dvec3 target = a + share * (b - a) + rim * dice.uniform(0, 1) * (c - a);
-            const glm::dvec3 unit_edge = glm::normalize(b - a);
-            const double turn = dice.uniform(0, 2 * std::numbers::pi);
-            const glm::dvec3 level =
-                std::cos(turn) * unit_edge + std::sin(turn) * glm::cross(along.outwards, unit_edge);
-            const double slope = inwards * dice.log_uniform(least_slope, 1);
-            const double far = glm::length(c - a) * dice.uniform(0.1, 1);
-            const glm::dvec3 back = glm::normalize(level + slope * along.outwards);
-            const glm::dvec3 origin = in_double(pack<T>(target + far * back));
-            if (is_clear(origin, hit)) return ray_query<T>(origin, target - origin);
+RayTrial edge_escapes(const Scene& mesh, MeshSide side) {
+    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+        const FlatScene<T> flat = flatten<T>(mesh);
+        const std::vector<MeshTriangle> triangles = triangles_of(flat);
+        const auto neighbors = neighbors_of(triangles);
+        const double rim = 64 * static_cast<double>(Flat<T>::roundoff);
+        const double inwards = side == MeshSide::inside ? -1 : 1;
+        double size = 0;
+        for (const MeshTriangle& triangle : triangles) {
+            for (const glm::dvec3& corner : triangle.corners)
+                size = std::max(size, glm::length(corner));
         }
-    };
-    // On as a mirror ray, or to a light in any direction.
-    const auto go_on = [&](Dice& dice, auto& query, const auto& answer) {
-        if (answer.prim == Flat<T>::none) return;
-        const glm::dvec3 dir = in_double(query.dir), normal = in_double(answer.normal);
-        const double arriving = glm::dot(dir, normal);
-        if (arriving * inwards > 0) return;
-        const glm::dvec3 facing = arriving > 0 ? -normal : normal;
-        const glm::dvec3 next = dice.index(2) == 0
-                                    ? dir - 2 * arriving * normal
-                                    : at_angle(dice, facing, dice.log_uniform(least_slope, 1.5));
-        if (glm::dot(next, facing) < 0.5 * least_slope) return;
-        query.next = rounded_unit<T>(next);
-    };
-    // Where a tie has a ray from outside meet a face from behind, or the slope is below the least,
-    // it does not go on, and does not count.
-    return many_rays<T>(caster.tracer(flat), rays, make, go_on,
-                        [&](const auto& query, const auto& answer, RayFigures& figures) {
-                            const bool met = answer.prim != Flat<T>::none;
-                            const bool is_inside = side == MeshSide::inside;
-                            const bool goes_on = glm::length(in_double(query.next)) > 0;
-                            if (!goes_on && (met || !is_inside)) return;
-                            ++figures.rays;
-                            const bool returns = met && answer.next_prim != Flat<T>::none;
-                            figures.failures += returns == is_inside ? 0 : 1;
-                        });
+        const double clear = 4 * static_cast<double>(Flat<T>::roundoff) * size;
+        const auto is_clear = [&](const glm::dvec3& p, const MeshTriangle& hit) {
+            if (side == MeshSide::outside) return hit.height(p) > clear;
+            return std::all_of(
+                triangles.begin(), triangles.end(),
+                [&](const MeshTriangle& triangle) { return triangle.height(p) < -clear; });
+        };
+        // Towards a point next to an edge or, one in four, a vertex; almost parallel to one of the
+        // edge's two triangles.
+        const auto make = [&](RandomNumbers& random) {
+            for (;;) {
+                const std::size_t number = random.index(triangles.size()), edge = random.index(3);
+                const MeshTriangle& hit = triangles[number];
+                const MeshTriangle& along =
+                    random.index(2) == 0 ? hit : triangles[neighbors[number][edge]];
+                const glm::dvec3 a = hit.corners[edge], b = hit.corners[(edge + 1) % 3],
+                                 c = hit.corners[(edge + 2) % 3];
+                const double share = random.uniform(0, random.index(4) == 0 ? rim : 1);
+                const glm::dvec3 target =
+                    a + share * (b - a) + rim * random.uniform(0, 1) * (c - a);
+                const glm::dvec3 unit_edge = glm::normalize(b - a);
+                const double turn = random.uniform(0, 2 * std::numbers::pi);
+                const glm::dvec3 level = std::cos(turn) * unit_edge +
+                                         std::sin(turn) * glm::cross(along.outwards, unit_edge);
+                const double slope = inwards * random.log_uniform(least_slope, 1);
+                const double far = glm::length(c - a) * random.uniform(0.1, 1);
+                const glm::dvec3 back = glm::normalize(level + slope * along.outwards);
+                const glm::dvec3 origin = in_double(pack<T>(target + far * back));
+                if (is_clear(origin, hit)) return ray_query<T>(origin, target - origin);
+            }
+        };
+        // On as a mirror ray, or to a light in any direction.
+        const auto continue_ray = [&](RandomNumbers& random, auto& query, const auto& answer) {
+            if (answer.prim == Flat<T>::none) return;
+            const glm::dvec3 dir = in_double(query.dir), normal = in_double(answer.normal);
+            const double arriving = glm::dot(dir, normal);
+            if (arriving * inwards > 0) return;
+            const glm::dvec3 facing = arriving > 0 ? -normal : normal;
+            const glm::dvec3 next =
+                random.index(2) == 0
+                    ? dir - 2 * arriving * normal
+                    : at_angle(random, facing, random.log_uniform(least_slope, 1.5));
+            if (glm::dot(next, facing) < 0.5 * least_slope) return;
+            query.next = rounded_unit<T>(next);
+        };
+        // Where a tie has a ray from outside meet a triangle from behind, or the slope is below the
+        // least, it does not go on, and does not count.
+        return many_rays<T>(caster.tracer(flat), rays, make, continue_ray,
+                            [&](const auto& query, const auto& answer, RayFigures& figures) {
+                                const bool met = answer.prim != Flat<T>::none;
+                                const bool is_inside = side == MeshSide::inside;
+                                if (!has_left<T>(query) && (met || !is_inside)) return;
+                                ++figures.rays;
+                                const bool returns = met && answer.next_prim != Flat<T>::none;
+                                figures.failures += returns == is_inside ? 0 : 1;
+                            });
+    });
 }
-
-template RayFigures count_edge_escapes<float>(const Scene&, MeshSide, std::uint64_t,
-                                              const RayCaster&);
-template RayFigures count_edge_escapes<double>(const Scene&, MeshSide, std::uint64_t,
-                                               const RayCaster&);
 
 }  // namespace rt

@@ -1,9 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
 #include "host/stress/stress_case.h"
 
+// The families of cases, and what their files share.
 namespace rt {
+
+using MakeScene = std::function<Scene()>;
+
+// Cases, which get their names from a family.
+
+/// A picture of the scene, compared with its reference.
+inline StressCase picture_case(MakeScene scene, StressTolerance tolerance = {},
+                               ReferenceKind reference = ReferenceKind::quad) {
+    return {"", 0, tolerance, PictureTrial{std::move(scene), {}, reference, ""}};
+}
+
+/// The same with another scene's reference, since that scene looks the same.
+inline StressCase seen_as(MakeScene reference_scene, StressCase one) {
+    std::get<PictureTrial>(one.trial).reference_scene = std::move(reference_scene);
+    return one;
+}
+
+inline StressCase ray_case(RayTrial trial, StressTolerance tolerance = {}) {
+    return {"", 0, tolerance, std::move(trial)};
+}
+
+/// The case with a label and a value of its own, which a sweep keeps.
+inline StressCase labeled(std::string label, double value, StressCase one) {
+    one.label = std::move(label);
+    one.value = value;
+    return one;
+}
+
+// Families.
+
+inline std::string label_of(int value) { return std::to_string(value); }
+inline std::string label_of(double value) { return fmt::format("{:g}", value); }
+
+/// Adds a case for each value, labeled with it: make(value), which is a case, or a scene to be
+/// pictured. Those of the `quick` values are part of --quick.
+template <typename Value, typename Make>
+StressFamily sweep(StressFamily family, const std::vector<Value>& values,
+                   const std::vector<Value>& quick, const Make& make) {
+    for (const Value& value : values) {
+        StressCase one;
+        if constexpr (std::is_same_v<std::invoke_result_t<Make, Value>, Scene>) {
+            one = picture_case([=] { return make(value); });
+        } else {
+            one = make(value);
+        }
+        if constexpr (std::is_arithmetic_v<Value>) {
+            if (one.label.empty()) one = labeled(label_of(value), value, std::move(one));
+        }
+        one.quick = std::find(quick.begin(), quick.end(), value) != quick.end();
+        family.cases.push_back(std::move(one));
+    }
+    return family;
+}
+
+template <typename Value, typename Make>
+StressFamily sweep(StressFamily family, std::initializer_list<Value> values,
+                   const std::vector<Value>& quick, const Make& make) {
+    return sweep(std::move(family), std::vector(values), quick, make);
+}
+
+enum class InQuick { no, yes };
+
+struct LabeledCase {
+    std::string label;
+    InQuick quick;
+    StressCase one;
+};
+
+/// Adds the cases, numbered from `first`.
+inline StressFamily listed(StressFamily family, const std::vector<LabeledCase>& cases,
+                           int first = 0) {
+    for (const LabeledCase& next : cases) {
+        family.cases.push_back(labeled(next.label, first++, next.one));
+        family.cases.back().quick = next.quick == InQuick::yes;
+    }
+    return family;
+}
 
 using StressFamilies = std::vector<StressFamily>;
 
@@ -21,6 +109,70 @@ StressFamilies triangle_families();
 StressFamilies normal_families();
 StressFamilies leak_families();
 StressFamilies ray_families();
-StressFamilies input_families();
+
+// The scene scaled or moved. The first and last of these must not change a bit of its picture.
+
+/// By 2^k.
+StressCase scaled_by_two(const MakeScene& scene, int k);
+
+/// By 10^k.
+StressCase scaled_by_ten(const MakeScene& scene, int k);
+
+/// By whole numbers: `by` and up to twice that.
+StressCase moved(const MakeScene& scene, std::string label, double by);
+
+using SceneOfRadius = std::function<Scene(double radius)>;
+using TrialOfRadius = std::function<RayTrial(double radius)>;
+
+/// Rounding coordinates to float alone moves a small object by 2^-24 of its distance, which is 1.
+/// Float is not judged where that is too much; double must be right there.
+inline StressTolerance small_tolerance(double size) {
+    StressTolerance tolerance;
+    tolerance.in_float = size >= 1e-4;
+    if (tolerance.in_float && size < 1) tolerance.max_error = 1e-4 + 16 * 0x1p-24 / size;
+    return tolerance;
+}
+
+/// Pictures of a shape at distance 1: radii from 1e-6 to 1e6, with `middle` in place of 1.
+inline StressFamily size_family(const char* name, const char* why, double middle,
+                                const SceneOfRadius& scene) {
+    return sweep({name, "radius over distance", why},
+                 {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, middle, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6},
+                 {1e-4, middle, 1e4}, [=](double radius) {
+                     return picture_case([=] { return scene(radius); }, small_tolerance(radius));
+                 });
+}
+
+/// Rays that leave a shape: radii from 1e-6 to 1e6.
+inline StressFamily leaving_family(const char* name, const char* why, double max_error,
+                                   const TrialOfRadius& trial_of) {
+    StressTolerance tolerance;
+    tolerance.max_error = max_error;
+    return sweep({name, "radius", why},
+                 {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6},
+                 {1e-6, 1e-3, 1e0, 1e3, 1e6}, [=](double radius) {
+                     RayTrial trial = trial_of(radius);
+                     trial.rays = 1'000'000;
+                     trial.quick_rays = 50'000;
+                     return ray_case(trial, tolerance);
+                 });
+}
+
+/// Rays at a shape 1 away and past its outline and rims: radii from 1e-6 to 0.5. Down to 1e-3
+/// nearly all hits and misses must match exact arithmetic; for smaller shapes, rounding the ray's
+/// direction alone moves it by a fraction of the radius, and rays at the outline flip.
+inline StressFamily outline_family(const char* name, const TrialOfRadius& trial_of) {
+    const std::vector<double> radii{1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 0.5};
+    return sweep({name, "radius over distance",
+                  "the discriminant cancels: hits become misses, distances noise"},
+                 radii, radii, [=](double radius) {
+                     RayTrial trial = trial_of(radius);
+                     trial.rays = trial.quick_rays = 100'000;
+                     StressTolerance tolerance;
+                     tolerance.most_wrong =
+                         radius >= 1e-3 ? 4 : (radius == 1e-4 ? 50 : (radius == 1e-5 ? 400 : 4000));
+                     return ray_case(trial, tolerance);
+                 });
+}
 
 }  // namespace rt

@@ -2,10 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "host/base/hash.h"
 #include "host/image/picture.h"
-#include "host/stress/reference_picture.h"
+#include "host/render/picture_spec.h"
+#include "host/stress/reference.h"
+#include "host/stress/stress_case.h"
 
 namespace rt {
 
@@ -35,5 +41,106 @@ PictureFigures count_non_numbers(const Picture& picture);
 /// What exceeds the tolerance, in words; empty if nothing does.
 std::string exceeded_tolerance(const PictureFigures& figures, const StressTolerance& tolerance);
 std::string exceeded_tolerance(const RayFigures& rays, const StressTolerance& tolerance);
+
+/// One case on one renderer.
+struct StressRow {
+    std::string renderer;  ///< "threads" or an OpenCL device's name
+    std::string device;    ///< for --device
+    Precision precision = Precision::float32;
+    bool judged = true;      ///< whether the tolerance applies to it
+    PictureFigures figures;  ///< of the picture
+    std::optional<RayFigures> rays;
+    std::uint64_t hash = 0;  ///< over every bit of the picture
+    double seconds = 0;      ///< of tracing (a picture's `seconds.trace`), or of the whole trial
+    std::string why;         ///< what failed; empty if nothing did
+
+    bool passed() const { return !judged || why.empty(); }
+    const char* verdict() const { return !judged ? "not judged" : why.empty() ? "pass" : "fail"; }
+};
+
+/// A row's picture.
+struct StressPicture {
+    PictureFigures figures;
+    std::uint64_t hash = 0;
+};
+
+template <typename A, Of<StressPicture> X>
+void describe(A& a, X& x) {
+    describe(a, x.figures);
+    a("hash", hash_text(x.hash), "of every bit");
+}
+
+template <typename A, Of<StressRow> X>
+void describe(A& a, X& x) {
+    a("renderer", x.renderer, "\"threads\", or the OpenCL device's name");
+    a("device", x.device, "as for --device");
+    a("precision", x.precision, "of the arithmetic");
+    a("verdict", std::string(x.verdict()), "pass, fail or not judged");
+    a("why", x.why, "what failed");
+    a("seconds", x.seconds, "to trace the picture, or of the whole trial");
+    a("rays", x.rays, "of a trial without a picture");
+    a("picture", x.rays ? std::nullopt : std::optional(StressPicture{x.figures, x.hash}),
+      "of a trial with one");
+}
+
+struct StressCaseResult {
+    std::string label;
+    double value = 0;
+    StressTolerance tolerance;
+    std::vector<StressRow> rows;
+    std::string disagreement;  ///< between devices that should give the same bits; empty: none
+    double reference_seconds = 0;
+
+    bool passed() const;
+};
+
+template <typename A, Of<StressCaseResult> X>
+void describe(A& a, X& x) {
+    a("label", x.label, "names the case within its family");
+    a("value", x.value, "of the family's parameter");
+    a("passed", x.passed(), "");
+    a("bar", x.tolerance, "what is allowed");
+    a("disagreement", x.disagreement, "between devices that should give the same bits");
+    a("reference_seconds", x.reference_seconds, "to make the reference");
+    a("rows", x.rows, "a renderer and precision each");
+}
+
+struct StressFamilyResult {
+    std::string name, parameter, why;
+    std::vector<StressCaseResult> cases;
+
+    bool passed() const;
+};
+
+template <typename A, Of<StressFamilyResult> X>
+void describe(A& a, X& x) {
+    a("name", x.name, "");
+    a("parameter", x.parameter, "what varies from case to case");
+    a("why", x.why, "why it matters");
+    a("passed", x.passed(), "");
+    a("cases", x.cases, "");
+}
+
+struct StressResult {
+    double load_before = 0;
+    double seconds = 0;
+    bool quick = false, interrupted = false;
+    std::size_t unfinished = 0;  ///< families that an interruption left without a verdict
+    std::vector<StressFamilyResult> families;
+
+    bool passed() const;
+};
+
+template <typename A, Of<StressResult> X>
+void describe(A& a, X& x) {
+    a("quick", x.quick, "whether only quick cases ran");
+    a("interrupted", x.interrupted, "whether a signal ended it early");
+    a("passed", x.passed(), "");
+    a("seconds", x.seconds, "in all");
+    a("families", x.families, "");
+}
+
+/// The worst figures over a family's judged rows.
+PictureFigures worst_figures(const StressFamilyResult& family);
 
 }  // namespace rt

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/stress_scenes.h"
 

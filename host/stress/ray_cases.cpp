@@ -3,9 +3,7 @@
 #include <limits>
 
 #include "host/stress/families.h"
-#include "host/stress/meshes.h"
 #include "host/stress/ray_trials.h"
-#include "host/stress/shape_families.h"
 #include "host/stress/stress_scenes.h"
 
 namespace rt {
@@ -20,16 +18,9 @@ Scene mesh_scene(const StressMesh& mesh, glm::dvec3 eye) {
     return scene;
 }
 
-StressCase aimed(const Scene& scene, RayAim aim, StressTolerance tolerance = {}) {
-    return ray_case(both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-                        return count_leaks<T>(scene, aim, rays, caster);
-                    }),
-                    tolerance);
-}
-
 StressFamily leak_rays(const char* name, const char* why, RayAim aim) {
     const auto at = [=](const StressMesh& mesh, glm::dvec3 eye) {
-        return aimed(mesh_scene(mesh, eye), aim);
+        return ray_case(leaks(mesh_scene(mesh, eye), aim));
     };
     const StressMesh far = placed(bumpy_mesh(1), 1, {148376, 1234, -223423});
     return listed(
@@ -55,8 +46,8 @@ StressFamily t_junctions() {
     StressTolerance any;
     any.most_wrong = std::numeric_limits<std::size_t>::max();
     return listed({"t-junctions", "aim", "never watertight; counted, not judged"},
-                  {{"edges", InQuick::yes, aimed(scene, RayAim::edges, any)},
-                   {"vertices", InQuick::no, aimed(scene, RayAim::vertices, any)}});
+                  {{"edges", InQuick::yes, ray_case(leaks(scene, RayAim::edges), any)},
+                   {"vertices", InQuick::no, ray_case(leaks(scene, RayAim::vertices), any)}});
 }
 
 /// Slanted, so that no coordinate is exact.
@@ -68,21 +59,15 @@ StressMesh slanted(StressMesh mesh) {
     return mesh;
 }
 
-StressFamily edge_escapes() {
-    StressFamily family{"leaving-edges", "closed mesh, side",
-                        "secondary rays from an edge start beyond the neighboring face"};
+StressFamily leaving_edges() {
+    std::vector<LabeledCase> cases;
     const auto add = [&](const std::string& label, const StressMesh& mesh, glm::dvec3 eye) {
+        const Scene scene = mesh_scene(mesh, eye);
         for (const MeshSide side : {MeshSide::inside, MeshSide::outside}) {
-            const Scene scene = mesh_scene(mesh, eye);
-            StressCase one = ray_case(
-                both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-                    return count_edge_escapes<T>(scene, side, rays, caster);
-                }));
-            one.label = label + (side == MeshSide::inside ? "-inside" : "-outside");
-            one.value = static_cast<double>(family.cases.size());
-            std::get<RayTrial>(one.trial).rays = 1'000'000;
-            one.quick = true;
-            family.cases.push_back(std::move(one));
+            RayTrial trial = edge_escapes(scene, side);
+            trial.rays = 1'000'000;
+            cases.push_back({label + (side == MeshSide::inside ? "-inside" : "-outside"),
+                             InQuick::yes, ray_case(trial)});
         }
     };
     add("box", box_mesh(), {0.5, -0.25, 0.99});
@@ -92,7 +77,9 @@ StressFamily edge_escapes() {
     }
     add("ball", ball_mesh(2), {0.125, 0.25, 0.5});
     add("fine-ball", ball_mesh(4), {0, 0, 3});
-    return family;
+    return listed({"leaving-edges", "closed mesh, side",
+                   "secondary rays from an edge start beyond the neighboring face"},
+                  cases);
 }
 
 /// A sphere this far from the eye.
@@ -106,20 +93,13 @@ Scene sphere_scene(double radius, double distance) {
 StressFamily leaving_spheres(const char* name, double distances, const char* why) {
     const double shallowest = distances > 10 ? 0.1 : 1e-3;
     return leaving_family(name, why, 1e-3, [=](double radius) {
-        const Scene scene = sphere_scene(radius, distances * radius);
-        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-            return count_leaving_failures<T>(scene, shallowest, rays, caster);
-        });
+        return leaving_sphere(sphere_scene(radius, distances * radius), shallowest);
     });
 }
 
 StressFamily sphere_rays() {
-    return outline_family("sphere-rays", [](double radius) {
-        const Scene scene = sphere_scene(radius, 1);
-        return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-            return count_sphere_failures<T>(scene, rays, caster);
-        });
-    });
+    return outline_family("sphere-rays",
+                          [](double radius) { return past_sphere(sphere_scene(radius, 1)); });
 }
 
 }  // namespace
@@ -130,7 +110,7 @@ StressFamilies ray_families() {
                   RayAim::edges),
         leak_rays("rays-at-vertices", "three roundings meet at a vertex", RayAim::vertices),
         t_junctions(),
-        edge_escapes(),
+        leaving_edges(),
         leaving_spheres("leaving-sphere", 3,
                         "an absolute epsilon causes acne on large balls and holes in small ones"),
         leaving_spheres("leaving-far-sphere", 1000, "the same with the ball a thousand radii away"),

@@ -2,11 +2,12 @@
 #include "host/stress/ray_trials.h"
 
 #include <array>
+#include <optional>
 
 #include "host/flatten/flat_scene.h"
 #include "host/render/threads_renderer.h"
-#include "host/stress/ray_dice.h"
-#include "host/stress/secondary_ray.h"
+#include "host/stress/many_rays.h"
+#include "host/stress/wide_shapes.h"
 
 namespace rt {
 
@@ -53,6 +54,46 @@ Quad far_side(const P& normal, const P& dir, const Sphere& sphere) {
     return Quad(-2) * Quad(sphere.radius) * dot(unit(in_quad(normal)), unit(in_quad(dir)));
 }
 
+/// The rounded cone that the tracer sees.
+template <typename T>
+stress::WideCone<Quad> exact_cone(const typename Flat<T>::Cone& cone) {
+    return {in_quad(cone.base),     unit(in_quad(cone.axis)), Quad(cone.length),
+            Quad(cone.base_radius), Quad(cone.slope),         0};
+}
+
+/// A random direction past the cone: to a point within 1.5 times its extent.
+template <typename T>
+glm::dvec3 way_to(const typename Flat<T>::Cone& cone, RandomNumbers& random) {
+    const double length = cone.length, wide = std::fabs(double(cone.slope)) * length;
+    const double at = random.uniform(-0.25, 1.25) * length;
+    const double reach = 1.5 * (double(cone.base_radius) + wide) * random.uniform(0, 1);
+    return in_double(cone.base) + at * in_double(cone.axis) + reach * random.direction();
+}
+
+/// Distance at which an exact ray from this point of the cone hits it again, negative if it does
+/// not; empty if that is within a thousandth of the length of a rim.
+template <typename T>
+std::optional<Quad> exact_return(const typename Flat<T>::Packed3& start,
+                                 const typename Flat<T>::Packed3& dir,
+                                 const stress::WideCone<Quad>& cone) {
+    const Wide3<Quad> along = in_quad(start) - cone.base;
+    const Quad height = dot(along, cone.axis);
+    const Wide3<Quad> outwards = unit(along - height * cone.axis);
+    stress::WideRay<Quad> ray;
+    ray.origin = cone.base + height * cone.axis + (cone.radius + cone.slope * height) * outwards;
+    ray.dir = unit(in_quad(dir));
+    stress::WideCone<Quad> endless = cone;  // extended beyond both rims
+    endless.base = cone.base - cone.length * cone.axis;
+    endless.radius = cone.radius - cone.length * cone.slope;
+    endless.length = 3 * cone.length;
+    const Quad t = stress::hit_cone(ray, endless, true);
+    const auto share = static_cast<double>((height + t * dot(ray.dir, cone.axis)) / cone.length);
+    constexpr double clear = 1e-3;
+    if (!(t > 0) || share <= -clear || share >= 1 + clear) return Quad(-1);
+    if (share <= clear || share >= 1 - clear) return {};
+    return t;
+}
+
 }  // namespace
 
 RayCaster threads_ray_caster(int lanes) {
@@ -62,75 +103,112 @@ RayCaster threads_ray_caster(int lanes) {
             [=](const auto& scene) { return make_threads_ray_tracer<double>(scene, options); }};
 }
 
-template <typename T>
-RayFigures count_leaks(const Scene& mesh, RayAim aim, std::uint64_t rays, const RayCaster& caster) {
-    const FlatScene<T> flat = flatten<T>(mesh);
-    const Bounds bounds = bounds_of(flat);
-    const auto make = [&](Dice& dice) {
-        const auto& triangle = flat.triangles[dice.index(flat.triangles.size())];
-        const std::array<glm::dvec3, 3> corners{in_double(triangle.p0), in_double(triangle.p1),
-                                                in_double(triangle.p2)};
-        const std::size_t first = dice.index(3);
-        const double share = aim == RayAim::edges ? dice.uniform(0, 1) : 0;
-        const glm::dvec3 target =
-            corners[first] + share * (corners[(first + 1) % 3] - corners[first]);
-        const double spread = 0.15 * bounds.radius * dice.uniform(0, 1);
-        const glm::dvec3 origin = in_double(pack<T>(bounds.middle + spread * dice.direction()));
-        return ray_query<T>(origin, target - origin);
-    };
-    return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
-                        [](const auto&, const auto& answer, RayFigures& figures) {
-                            ++figures.rays;
-                            figures.failures += answer.prim == Flat<T>::none ? 1 : 0;
-                        });
+RayTrial leaks(const Scene& mesh, RayAim aim) {
+    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+        const FlatScene<T> flat = flatten<T>(mesh);
+        const Bounds bounds = bounds_of(flat);
+        const auto make = [&](RandomNumbers& random) {
+            const auto& triangle = flat.triangles[random.index(flat.triangles.size())];
+            const std::array<glm::dvec3, 3> corners{in_double(triangle.p0), in_double(triangle.p1),
+                                                    in_double(triangle.p2)};
+            const std::size_t first = random.index(3);
+            const double share = aim == RayAim::edges ? random.uniform(0, 1) : 0;
+            const glm::dvec3 target =
+                corners[first] + share * (corners[(first + 1) % 3] - corners[first]);
+            const double spread = 0.15 * bounds.radius * random.uniform(0, 1);
+            const glm::dvec3 origin =
+                in_double(pack<T>(bounds.middle + spread * random.direction()));
+            return ray_query<T>(origin, target - origin);
+        };
+        return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
+                            [](const auto&, const auto& answer, RayFigures& figures) {
+                                ++figures.rays;
+                                figures.failures += answer.prim == Flat<T>::none ? 1 : 0;
+                            });
+    });
 }
 
 /// Outwards, nothing must be hit; inwards, the far side.
-template <typename T>
-RayFigures count_leaving_failures(const Scene& scene, double shallowest, std::uint64_t rays,
-                                  const RayCaster& caster) {
-    const FlatScene<T> flat = flatten<T>(scene);
-    const auto& sphere = flat.spheres[0];
-    const auto make = [&](Dice& dice) {
-        return ray_query<T>(glm::dvec3(0),
-                            in_double(sphere.center) + double(sphere.radius) * dice.direction());
-    };
-    const auto go_on = [=](Dice& dice, auto& query, const auto& answer) {
-        leave_primitive<T>(dice, query, answer, 0, shallowest);
-    };
-    return many_rays<T>(caster.tracer(flat), rays, make, go_on,
-                        [&](const auto& query, const auto& answer, RayFigures& figures) {
-                            if (!has_left<T>(query)) return;
-                            const Quad exact = is_outwards<T>(query, answer)
-                                                   ? Quad(-1)
-                                                   : far_side(answer.normal, query.next, sphere);
-                            note_hit(figures, answer.next_prim == 0, double(answer.next_t), exact,
-                                     1e-3);
-                        });
+RayTrial leaving_sphere(const Scene& scene, double shallowest) {
+    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+        const FlatScene<T> flat = flatten<T>(scene);
+        const auto& sphere = flat.spheres[0];
+        const auto make = [&](RandomNumbers& random) {
+            return ray_query<T>(glm::dvec3(0), in_double(sphere.center) +
+                                                   double(sphere.radius) * random.direction());
+        };
+        const auto continue_ray = [=](RandomNumbers& random, auto& query, const auto& answer) {
+            leave_primitive<T>(random, query, answer, 0, shallowest);
+        };
+        return many_rays<T>(
+            caster.tracer(flat), rays, make, continue_ray,
+            [&](const auto& query, const auto& answer, RayFigures& figures) {
+                if (!has_left<T>(query)) return;
+                const Quad exact = is_outwards<T>(query, answer)
+                                       ? Quad(-1)
+                                       : far_side(answer.normal, query.next, sphere);
+                note_hit(figures, answer.next_prim == 0, double(answer.next_t), exact, 1e-3);
+            });
+    });
 }
 
-template <typename T>
-RayFigures count_sphere_failures(const Scene& scene, std::uint64_t rays, const RayCaster& caster) {
-    const FlatScene<T> flat = flatten<T>(scene);
-    const auto& sphere = flat.spheres[0];
-    const auto make = [&](Dice& dice) {
-        const double reach = 1.5 * double(sphere.radius) * dice.uniform(0, 1);
-        return ray_query<T>(glm::dvec3(0), in_double(sphere.center) + reach * dice.direction());
-    };
-    return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
-                        [&](const auto& query, const auto& answer, RayFigures& figures) {
-                            note_hit(figures, answer.prim == 0, double(answer.t),
-                                     exact_distance<T>(query, sphere));
-                        });
+RayTrial past_sphere(const Scene& scene) {
+    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+        const FlatScene<T> flat = flatten<T>(scene);
+        const auto& sphere = flat.spheres[0];
+        const auto make = [&](RandomNumbers& random) {
+            const double reach = 1.5 * double(sphere.radius) * random.uniform(0, 1);
+            return ray_query<T>(glm::dvec3(0),
+                                in_double(sphere.center) + reach * random.direction());
+        };
+        return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
+                            [&](const auto& query, const auto& answer, RayFigures& figures) {
+                                note_hit(figures, answer.prim == 0, double(answer.t),
+                                         exact_distance<T>(query, sphere));
+                            });
+    });
 }
 
-template RayFigures count_leaks<float>(const Scene&, RayAim, std::uint64_t, const RayCaster&);
-template RayFigures count_leaks<double>(const Scene&, RayAim, std::uint64_t, const RayCaster&);
-template RayFigures count_leaving_failures<float>(const Scene&, double, std::uint64_t,
-                                                  const RayCaster&);
-template RayFigures count_leaving_failures<double>(const Scene&, double, std::uint64_t,
-                                                   const RayCaster&);
-template RayFigures count_sphere_failures<float>(const Scene&, std::uint64_t, const RayCaster&);
-template RayFigures count_sphere_failures<double>(const Scene&, std::uint64_t, const RayCaster&);
+/// Outwards, nothing must be hit; inwards, the exact far side if it is clear of the rims.
+RayTrial leaving_cone(const Scene& scene, double shallowest) {
+    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+        const FlatScene<T> flat = flatten<T>(scene);
+        const stress::WideCone<Quad> cone = exact_cone<T>(flat.cones[0]);
+        const auto prim = flat.params.sphere_count;
+        const auto make = [&](RandomNumbers& random) {
+            return ray_query<T>(glm::dvec3(0), way_to<T>(flat.cones[0], random));
+        };
+        const auto continue_ray = [=](RandomNumbers& random, auto& query, const auto& answer) {
+            leave_primitive<T>(random, query, answer, prim, shallowest);
+        };
+        return many_rays<T>(
+            caster.tracer(flat), rays, make, continue_ray,
+            [&](const auto& query, const auto& answer, RayFigures& figures) {
+                if (!has_left<T>(query)) return;
+                const std::optional<Quad> exact =
+                    is_outwards<T>(query, answer) ? Quad(-1)
+                                                  : exact_return<T>(answer.point, query.next, cone);
+                if (!exact) return;
+                note_hit(figures, answer.next_prim == prim, double(answer.next_t), *exact, 1e-2);
+            });
+    });
+}
+
+RayTrial past_cone(const Scene& scene) {
+    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+        const FlatScene<T> flat = flatten<T>(scene);
+        const stress::WideCone<Quad> cone = exact_cone<T>(flat.cones[0]);
+        const auto make = [&](RandomNumbers& random) {
+            return ray_query<T>(glm::dvec3(0), way_to<T>(flat.cones[0], random));
+        };
+        return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
+                            [&](const auto& query, const auto& answer, RayFigures& figures) {
+                                const Quad exact = stress::hit_cone<Quad>(
+                                    {in_quad(query.origin), in_quad(query.dir)}, cone, false);
+                                note_hit(figures, answer.prim == flat.params.sphere_count,
+                                         double(answer.t), exact);
+                            });
+    });
+}
 
 }  // namespace rt

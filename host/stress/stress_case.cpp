@@ -62,7 +62,7 @@ std::vector<StressFamily> all_stress_families() {
     for (const auto families :
          {ordinary_families, scale_families, sphere_families, cone_families, mirror_families,
           glass_families, light_families, eye_families, view_families, triangle_families,
-          normal_families, leak_families, ray_families, input_families}) {
+          normal_families, leak_families, ray_families}) {
         for (StressFamily& family : families()) all.push_back(std::move(family));
     }
     return all;

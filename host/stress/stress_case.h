@@ -7,14 +7,34 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "host/flatten/flat_scene.h"
 #include "host/record/describe.h"
+#include "host/render/ray_tracer.h"
 #include "host/scene/scene.h"
-#include "host/stress/ray_caster.h"
 
 namespace rt {
+
+/// Makes tracers for the suite's ray trials: on threads, or on an OpenCL device.
+struct RayCaster {
+    std::function<RayTracer<float>(const FlatScene<float>&)> in_float;
+    std::function<RayTracer<double>(const FlatScene<double>&)> in_double;
+
+    template <typename T>
+    RayTracer<T> tracer(const FlatScene<T>& scene) const {
+        if constexpr (std::is_same_v<T, float>) {
+            return in_float(scene);
+        } else {
+            return in_double(scene);
+        }
+    }
+};
+
+/// Native kernels on all cores, in packets of `lanes` rays (0: the vector width).
+RayCaster threads_ray_caster(int lanes = 0);
 
 /// The errors allowed in a picture. A pixel is wrong when a channel, clamped to [0, 1], is off by
 /// more than 1/255 or is NaN; it lies at an edge when the reference itself changes there by more
@@ -57,11 +77,6 @@ struct PictureTrial {
     std::string same_bits;  ///< trials of a family with the same text here must agree in every bit
 };
 
-/// Scene files, each to be refused as input (exit code 3) or rendered without a NaN.
-struct TextTrial {
-    std::vector<std::string> scenes;
-};
-
 /// Totals over many rays.
 struct RayFigures {
     std::uint64_t rays = 0;
@@ -86,7 +101,7 @@ struct StressCase {
     std::string label;  ///< names the parameter's value: "2^-40"
     double value = 0;   ///< for plots
     StressTolerance tolerance;
-    std::variant<PictureTrial, TextTrial, RayTrial> trial;
+    std::variant<PictureTrial, RayTrial> trial;
     bool quick = false;  ///< part of --quick
 };
 

@@ -9,7 +9,6 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/base/hash.h"
 #include "host/base/text.h"
 #include "host/image/picture_io.h"
 #include "host/measure/device_list.h"
@@ -23,8 +22,6 @@
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
-#include "host/scene/json_file.h"
-#include "host/stress/ray_trials.h"
 
 namespace rt {
 
@@ -66,49 +63,33 @@ std::string file_stem(const std::string& text) {
     return name;
 }
 
-/// The pictures of one case in a folder: FAMILY-LABEL.reference.png, .worst.png, .error.png.
+/// The worst picture of one case, written to a folder with its reference and its errors:
+/// FAMILY-LABEL.reference.png, .worst.png, .error.png.
 class StressPictures {
    public:
-    /// Nothing is written if the folder name is empty. `reference` may be null.
-    StressPictures(const std::string& folder, const std::string& family, const std::string& label,
-                   const ReferencePicture* reference);
+    void keep_worst(const Picture& picture, const PictureFigures& figures) {
+        const double badness = 1e6 * static_cast<double>(figures.nans + figures.wrong) +
+                               static_cast<double>(figures.wrong_at_edges) + figures.max_error;
+        if (badness <= badness_) return;
+        worst_ = picture;
+        badness_ = badness;
+    }
 
-    /// Keeps the picture if it is the worst so far.
-    void keep_worst(const Picture& picture, const PictureFigures& figures);
-
-    /// Throws Error (ExitCode::output).
-    void write() const;
+    /// `reference` may be null. Throws Error (ExitCode::output).
+    void write(const std::string& stem, const ReferencePicture* reference) const {
+        if (badness_ < 0) return;
+        write_picture(stem + ".worst.png", worst_, Encoding::display);
+        if (reference == nullptr) return;
+        const Picture right = reference->as_picture();
+        write_picture(stem + ".reference.png", right, Encoding::display);
+        write_picture(stem + ".error.png", heat_map(clamped(worst_), clamped(right), 1.0 / 255),
+                      Encoding::display);
+    }
 
    private:
-    std::string stem_;  ///< empty: nothing is written
-    const ReferencePicture* reference_;
     Picture worst_;
     double badness_ = -1;
 };
-
-StressPictures::StressPictures(const std::string& folder, const std::string& family,
-                               const std::string& label, const ReferencePicture* reference)
-    : reference_(reference) {
-    if (!folder.empty()) stem_ = folder + "/" + file_stem(family + "-" + label);
-}
-
-void StressPictures::keep_worst(const Picture& picture, const PictureFigures& figures) {
-    const double badness = 1e6 * static_cast<double>(figures.nans + figures.wrong) +
-                           static_cast<double>(figures.wrong_at_edges) + figures.max_error;
-    if (badness <= badness_) return;
-    worst_ = picture;
-    badness_ = badness;
-}
-
-void StressPictures::write() const {
-    if (stem_.empty() || badness_ < 0) return;
-    write_picture(stem_ + ".worst.png", worst_, Encoding::display);
-    if (reference_ == nullptr) return;
-    const Picture reference = reference_->as_picture();
-    write_picture(stem_ + ".reference.png", reference, Encoding::display);
-    write_picture(stem_ + ".error.png", heat_map(clamped(worst_), clamped(reference), 1.0 / 255),
-                  Encoding::display);
-}
 
 class Runner {
    public:
@@ -177,7 +158,7 @@ class Runner {
         }
         result.reference_seconds = watch.seconds();
         ReferencePicture* const against = reference ? &*reference : nullptr;
-        StressPictures pictures(options_.output, family.name, one.label, against);
+        StressPictures pictures;
         for (StressRow& row : planned_rows(one.tolerance)) {
             if (stop_flag() != 0) return;
             try {
@@ -193,7 +174,10 @@ class Runner {
             check_same_bits(trial, row);
             result.rows.push_back(std::move(row));
         }
-        pictures.write();
+        if (!options_.output.empty()) {
+            pictures.write(options_.output + "/" + file_stem(family.name + "-" + one.label),
+                           against);
+        }
     }
 
     /// Checks that a row has the same bits as the first of its group on this renderer.
@@ -204,58 +188,6 @@ class Runner {
         const auto [first, is_new] = first_hashes_.try_emplace(key, row.hash);
         if (!is_new && first->second != row.hash) {
             row.why = "bits differ from " + trial.same_bits;
-        }
-    }
-
-    /// The scenes of those texts that the reader accepts.
-    static std::vector<Scene> readable_scenes(const TextTrial& trial, std::string& why) {
-        std::vector<Scene> scenes;
-        for (const std::string& text : trial.scenes) {
-            try {
-                scenes.push_back(parse_json_scene(text, "stress.json"));
-            } catch (const Error& error) {
-                if (error.exit_code() != ExitCode::input) why = first_line(error);
-            }
-        }
-        return scenes;
-    }
-
-    void render_text(const Scene& scene, const StressTolerance& tolerance, StressRow& row,
-                     Hasher& hasher) const {
-        try {
-            const RenderedPicture rendered = rendered_row(scene, row);
-            const PictureFigures figures = count_non_numbers(rendered.picture);
-            row.figures.nans += figures.nans;
-            row.figures.infinities += figures.infinities;
-            row.seconds += rendered.stats.phases.renderer.trace;
-            ++row.rendered;
-            hasher.add(rendered.stats.image_hash);
-            const std::string broken = exceeded_tolerance(figures, tolerance);
-            if (row.why.empty()) row.why = broken;
-        } catch (const Error& error) {
-            if (error.exit_code() == ExitCode::input) {
-                ++row.refused;
-            } else {
-                row.why = first_line(error);
-            }
-        }
-    }
-
-    void run_trial(const StressFamily&, const StressCase& one, const TextTrial& trial,
-                   StressCaseResult& result) {
-        std::string why;
-        const std::vector<Scene> scenes = readable_scenes(trial, why);
-        for (StressRow& row : planned_rows(one.tolerance)) {
-            row.why = why;
-            row.refused = trial.scenes.size() - scenes.size();
-            Hasher hasher;
-            for (const Scene& scene : scenes) {
-                if (stop_flag() != 0) return;
-                render_text(scene, one.tolerance, row, hasher);
-            }
-            if (row.why.empty() && row.rendered == 0) row.why = "every scene was refused";
-            row.hash = hasher.value();
-            result.rows.push_back(std::move(row));
         }
     }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/stress/stress_result.h"
+#include "host/stress/judge.h"
 
 namespace rt {
 

@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "host/stress/case_helpers.h"
 #include "host/stress/families.h"
 #include "host/stress/stress_scenes.h"
 

@@ -40,14 +40,14 @@ struct WideSphere {
 
 /// The side of a cone's frustum: at height h along the unit axis, the radius is radius + slope h.
 template <typename R>
-struct WideFrustum {
+struct WideCone {
     Wide3<R> base, axis;
     R length, radius, slope;
     int material;
 };
 
 template <typename R>
-struct WideFace {
+struct WideTriangle {
     Wide3<R> corner, edge1, edge2;
     Wide3<R> normal;  ///< unit
     std::optional<std::array<Wide3<R>, 3>> normals;
@@ -60,37 +60,37 @@ WideSphere<R> wide_sphere(const Scene::Sphere& sphere) {
 }
 
 template <typename R>
-WideFrustum<R> wide_frustum(const Scene::Cone& cone) {
-    WideFrustum<R> frustum;
-    frustum.base = widened<R>(cone.base);
-    const Wide3<R> along = widened<R>(cone.apex) - frustum.base;
-    frustum.length = length(along);
-    frustum.axis = unit(along);
-    frustum.radius = cone.base_radius;
-    frustum.slope = (R(cone.apex_radius) - R(cone.base_radius)) / frustum.length;
-    frustum.material = cone.material;
-    return frustum;
+WideCone<R> wide_cone(const Scene::Cone& cone) {
+    WideCone<R> wide;
+    wide.base = widened<R>(cone.base);
+    const Wide3<R> along = widened<R>(cone.apex) - wide.base;
+    wide.length = length(along);
+    wide.axis = unit(along);
+    wide.radius = cone.base_radius;
+    wide.slope = (R(cone.apex_radius) - R(cone.base_radius)) / wide.length;
+    wide.material = cone.material;
+    return wide;
 }
 
 template <typename R>
-WideFace<R> wide_face(const Scene::Triangle& triangle) {
-    WideFace<R> face;
-    face.corner = widened<R>(triangle.vertices[0]);
-    face.edge1 = widened<R>(triangle.vertices[1]) - face.corner;
-    face.edge2 = widened<R>(triangle.vertices[2]) - face.corner;
-    face.normal = unit(cross(face.edge1, face.edge2));
+WideTriangle<R> wide_triangle(const Scene::Triangle& triangle) {
+    WideTriangle<R> wide;
+    wide.corner = widened<R>(triangle.vertices[0]);
+    wide.edge1 = widened<R>(triangle.vertices[1]) - wide.corner;
+    wide.edge2 = widened<R>(triangle.vertices[2]) - wide.corner;
+    wide.normal = unit(cross(wide.edge1, wide.edge2));
     if (triangle.normals) {
         const auto& n = *triangle.normals;
-        face.normals = {widened<R>(n[0]), widened<R>(n[1]), widened<R>(n[2])};
+        wide.normals = {widened<R>(n[0]), widened<R>(n[1]), widened<R>(n[2])};
     }
-    face.material = triangle.material;
-    return face;
+    wide.material = triangle.material;
+    return wide;
 }
 
 /// A bounding sphere with a margin of 1e-9 of its radius: rejects most rays that miss the shape, in
 /// long double, which takes a tenth of __float128's time.
 template <typename R>
-struct Ball {
+struct Bound {
     Wide3<R> center;
     long double squared_radius = 0;
 };
@@ -102,41 +102,41 @@ Wide3<long double> narrowed(const Wide3<R>& v) {
 }
 
 template <typename R>
-Ball<R> ball_around(const Wide3<R>& center, R squared_radius) {
+Bound<R> bound_around(const Wide3<R>& center, R squared_radius) {
     return {center, static_cast<long double>(squared_radius) * (1 + 2e-9L)};
 }
 
 template <typename R>
-Ball<R> ball_of(const WideSphere<R>& sphere) {
-    return ball_around(sphere.center, sphere.radius * sphere.radius);
+Bound<R> bound_of(const WideSphere<R>& sphere) {
+    return bound_around(sphere.center, sphere.radius * sphere.radius);
 }
 
 template <typename R>
-Ball<R> ball_of(const WideFrustum<R>& frustum) {
-    const R half = frustum.length / 2;
-    const R top = frustum.radius + frustum.slope * frustum.length;
-    const R widest = frustum.radius > top ? frustum.radius : top;
-    return ball_around(frustum.base + half * frustum.axis, half * half + widest * widest);
+Bound<R> bound_of(const WideCone<R>& cone) {
+    const R half = cone.length / 2;
+    const R top = cone.radius + cone.slope * cone.length;
+    const R widest = cone.radius > top ? cone.radius : top;
+    return bound_around(cone.base + half * cone.axis, half * half + widest * widest);
 }
 
 template <typename R>
-Ball<R> ball_of(const WideFace<R>& face) {
-    const Wide3<R> from_corner = (R(1) / 3) * (face.edge1 + face.edge2);
+Bound<R> bound_of(const WideTriangle<R>& triangle) {
+    const Wide3<R> from_corner = (R(1) / 3) * (triangle.edge1 + triangle.edge2);
     R farthest = dot(from_corner, from_corner);
-    for (const Wide3<R>& edge : {face.edge1, face.edge2}) {
+    for (const Wide3<R>& edge : {triangle.edge1, triangle.edge2}) {
         const R squared = dot(edge - from_corner, edge - from_corner);
         if (squared > farthest) farthest = squared;
     }
-    return ball_around(face.corner + from_corner, farthest);
+    return bound_around(triangle.corner + from_corner, farthest);
 }
 
-/// Whether a line certainly misses the ball. The slack is a hundred times the rounding error of the
-/// difference of squares.
+/// Whether a line certainly misses the bounding sphere. The slack is a hundred times the rounding
+/// error of the difference of squares.
 template <typename R>
-bool passes_by(const Wide3<R>& origin, const Wide3<long double>& unit_dir, const Ball<R>& ball) {
-    const Wide3<long double> f = narrowed(ball.center - origin);
+bool passes_by(const Wide3<R>& origin, const Wide3<long double>& unit_dir, const Bound<R>& bound) {
+    const Wide3<long double> f = narrowed(bound.center - origin);
     const long double along = dot(f, unit_dir), squared = dot(f, f);
-    return squared - along * along > ball.squared_radius + 1e-16L * squared;
+    return squared - along * along > bound.squared_radius + 1e-16L * squared;
 }
 
 /// How far beyond its edges a triangle reaches, so that rounding opens no gap between neighbors.
@@ -152,10 +152,10 @@ bool lies_on(const Wide3<R>& point, const WideSphere<R>& sphere) {
 }
 
 template <typename R>
-bool lies_on(const Wide3<R>& point, const WideFrustum<R>& frustum) {
-    const Wide3<R> w = point - frustum.base;
-    const R height = dot(w, frustum.axis), radius = frustum.radius + frustum.slope * height;
-    if (height < 0 || height > frustum.length) return false;
+bool lies_on(const Wide3<R>& point, const WideCone<R>& cone) {
+    const Wide3<R> w = point - cone.base;
+    const R height = dot(w, cone.axis), radius = cone.radius + cone.slope * height;
+    if (height < 0 || height > cone.length) return false;
     const R squared = dot(w, w) - height * height;
     return magnitude(squared - radius * radius) <= R(1e-14) * squared;
 }
@@ -175,10 +175,10 @@ R hit_sphere(const WideRay<R>& ray, const WideSphere<R>& sphere, bool leaving) {
 /// Roots of |w + t d|^2 - h^2 = (radius + slope h)^2, h the height above the base: the nearer one
 /// that lies between the rims, on the half of the double cone where the radius is positive.
 template <typename R>
-R hit_frustum(const WideRay<R>& ray, const WideFrustum<R>& frustum, bool leaving) {
-    const Wide3<R> w = ray.origin - frustum.base;
-    const R rise = dot(ray.dir, frustum.axis), height = dot(w, frustum.axis);
-    const R radius = frustum.radius + frustum.slope * height, growth = frustum.slope * rise;
+R hit_cone(const WideRay<R>& ray, const WideCone<R>& cone, bool leaving) {
+    const Wide3<R> w = ray.origin - cone.base;
+    const R rise = dot(ray.dir, cone.axis), height = dot(w, cone.axis);
+    const R radius = cone.radius + cone.slope * height, growth = cone.slope * rise;
     const R a = dot(ray.dir, ray.dir) - rise * rise - growth * growth;
     const R b = dot(w, ray.dir) - height * rise - radius * growth;
     const R c = leaving ? R(0) : dot(w, w) - height * height - radius * radius;
@@ -188,7 +188,7 @@ R hit_frustum(const WideRay<R>& ray, const WideFrustum<R>& frustum, bool leaving
     const R q = b < 0 ? root - b : -root - b;
     const auto counts = [&](R t) {
         const R there = height + t * rise;
-        return t > ray.least && there >= 0 && there <= frustum.length && radius + t * growth >= 0;
+        return t > ray.least && there >= 0 && there <= cone.length && radius + t * growth >= 0;
     };
     const R one = a == 0 ? R(-1) : q / a;
     const R other = leaving || q == 0 ? R(-1) : c / q;
@@ -199,17 +199,17 @@ R hit_frustum(const WideRay<R>& ray, const WideFrustum<R>& frustum, bool leaving
 
 /// Moller-Trumbore intersection.
 template <typename R>
-R hit_face(const WideRay<R>& ray, const WideFace<R>& face, R& u, R& v) {
-    const Wide3<R> p = cross(ray.dir, face.edge2);
-    const R determinant = dot(face.edge1, p);
+R hit_triangle(const WideRay<R>& ray, const WideTriangle<R>& triangle, R& u, R& v) {
+    const Wide3<R> p = cross(ray.dir, triangle.edge2);
+    const R determinant = dot(triangle.edge1, p);
     if (determinant == 0) return -1;
-    const Wide3<R> s = ray.origin - face.corner;
+    const Wide3<R> s = ray.origin - triangle.corner;
     u = dot(s, p) / determinant;
     if (!(u >= -rim<R> && u <= 1 + rim<R>)) return -1;
-    const Wide3<R> q = cross(s, face.edge1);
+    const Wide3<R> q = cross(s, triangle.edge1);
     v = dot(ray.dir, q) / determinant;
     if (!(v >= -rim<R> && u + v <= 1 + rim<R>)) return -1;
-    return dot(face.edge2, q) / determinant;
+    return dot(triangle.edge2, q) / determinant;
 }
 
 template <typename R>
@@ -219,30 +219,30 @@ WideSurface<R> sphere_surface(const WideRay<R>& ray, R t, const WideSphere<R>& s
 }
 
 template <typename R>
-WideSurface<R> frustum_surface(const WideRay<R>& ray, R t, const WideFrustum<R>& frustum) {
-    const Wide3<R> along = ray.origin - frustum.base + t * ray.dir;
-    const R height = dot(along, frustum.axis);
-    const Wide3<R> spoke = along - height * frustum.axis;
+WideSurface<R> cone_surface(const WideRay<R>& ray, R t, const WideCone<R>& cone) {
+    const Wide3<R> along = ray.origin - cone.base + t * ray.dir;
+    const R height = dot(along, cone.axis);
+    const Wide3<R> spoke = along - height * cone.axis;
     if (!(dot(spoke, spoke) > 0)) {  // the tip has no normal
-        return {frustum.base + along, -ray.dir, -ray.dir, frustum.material};
+        return {cone.base + along, -ray.dir, -ray.dir, cone.material};
     }
     const Wide3<R> outwards = unit(spoke);
-    const R radius = frustum.radius + frustum.slope * height;
-    const Wide3<R> normal = unit(outwards - frustum.slope * frustum.axis);
-    const Wide3<R> point = frustum.base + height * frustum.axis + radius * outwards;
-    return {point, normal, normal, frustum.material};
+    const R radius = cone.radius + cone.slope * height;
+    const Wide3<R> normal = unit(outwards - cone.slope * cone.axis);
+    const Wide3<R> point = cone.base + height * cone.axis + radius * outwards;
+    return {point, normal, normal, cone.material};
 }
 
 /// Vertex normals are interpolated; the face normal is used where the interpolated one vanishes.
 template <typename R>
-WideSurface<R> face_surface(const WideHit<R>& hit, const WideFace<R>& face) {
-    const Wide3<R> point = face.corner + hit.u * face.edge1 + hit.v * face.edge2;
-    WideSurface<R> surface{point, face.normal, face.normal, face.material};
-    if (!face.normals) return surface;
-    const auto& n = *face.normals;
+WideSurface<R> triangle_surface(const WideHit<R>& hit, const WideTriangle<R>& triangle) {
+    const Wide3<R> point = triangle.corner + hit.u * triangle.edge1 + hit.v * triangle.edge2;
+    WideSurface<R> surface{point, triangle.normal, triangle.normal, triangle.material};
+    if (!triangle.normals) return surface;
+    const auto& n = *triangle.normals;
     const Wide3<R> blend = (1 - hit.u - hit.v) * n[0] + hit.u * n[1] + hit.v * n[2];
     if (dot(blend, blend) > R(1e-12)) surface.normal = unit(blend);
-    if (dot(surface.normal, face.normal) < 0) surface.geometric = -face.normal;
+    if (dot(surface.normal, triangle.normal) < 0) surface.geometric = -triangle.normal;
     return surface;
 }
 

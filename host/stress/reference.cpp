@@ -1,15 +1,82 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/stress/reference_tracer.h"
+#include "host/stress/reference.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
-#include <vector>
 
-#include "host/stress/wide_camera.h"
+#include "host/base/parallel.h"
 #include "host/stress/wide_real.h"
 #include "host/stress/wide_shapes.h"
 
 namespace rt {
+
+namespace stress {
+
+/// The scene's camera for the reference, in wide reals.
+template <typename R>
+class WideCamera {
+   public:
+    explicit WideCamera(const Scene& scene)
+        : width_(scene.width),
+          height_(scene.height),
+          parallel_(scene.camera.projection == Scene::Projection::orthographic) {
+        const Scene::Camera& camera = scene.camera;
+        from_ = widened<R>(camera.from);
+        forward_ = unit(widened<R>(camera.at) - from_);
+        right_ = unit(cross(forward_, widened<R>(camera.up)));
+        up_ = cross(right_, forward_);
+        set_window(camera);
+    }
+
+    /// The ray through the point (x, y) of the picture, in pixels from its top left corner.
+    WideRay<R> eye_ray(R x, R y) const {
+        const R across = left_ + (right_side_ - left_) * x / width_;
+        const R upwards = top_ - (top_ - bottom_) * y / height_;
+        const Wide3<R> offset = across * right_ + upwards * up_;
+        if (parallel_) return {from_ + offset, forward_};
+        return {from_, unit(forward_ + offset)};
+    }
+
+    /// Whether all eye rays start at `from`.
+    bool has_one_eye() const { return !parallel_; }
+
+   private:
+    /// The window's sides; a field of view gives square pixels.
+    void set_window(const Scene::Camera& camera) {
+        using Fixed = Scene::FieldOfView::Fixed;
+        const double amount = camera.field_of_view.amount;
+        const long double angle = amount * (std::numbers::pi_v<long double> / 360);
+        const R half_angle = std::tan(angle);
+        switch (camera.field_of_view.fixed) {
+            case Fixed::window:
+                left_ = camera.window.left, right_side_ = camera.window.right;
+                bottom_ = camera.window.bottom, top_ = camera.window.top;
+                return;
+            case Fixed::horizontal:
+                return span(half_angle, half_angle * height_ / width_);
+            case Fixed::vertical:
+                return span(half_angle * width_ / height_, half_angle);
+            case Fixed::view_width:
+                return span(R(amount) / 2, R(amount) / 2 * height_ / width_);
+            case Fixed::view_height:
+                return span(R(amount) / 2 * width_ / height_, R(amount) / 2);
+        }
+    }
+
+    void span(R half_width, R half_height) {
+        left_ = -half_width, right_side_ = half_width;
+        bottom_ = -half_height, top_ = half_height;
+    }
+
+    R width_, height_;
+    bool parallel_;
+    Wide3<R> from_, forward_, right_, up_;
+    R left_ = -1, right_side_ = 1, bottom_ = -1, top_ = 1;
+};
+
+}  // namespace stress
 
 namespace {
 
@@ -26,7 +93,7 @@ constexpr R same_distance = R(1e-12);
 
 /// At glass, branches that count for less than half an ulp of white in double are dropped.
 template <typename R>
-constexpr R least_share = R(0x1p-53);
+constexpr R least_throughput = R(0x1p-53);
 
 template <typename R>
 struct WideLight {
@@ -37,7 +104,7 @@ struct WideLight {
 template <typename R>
 struct Branch {
     WideRay<R> ray;
-    Wide3<R> share{1, 1, 1};
+    Wide3<R> throughput{1, 1, 1};
     int bounce = 0;
 };
 
@@ -46,13 +113,13 @@ class Tracer final : public ReferenceTracer {
    public:
     explicit Tracer(const Scene& scene) : scene_(scene), camera_(scene) {
         for (const auto& sphere : scene.spheres) spheres_.push_back(stress::wide_sphere<R>(sphere));
-        for (const auto& cone : scene.cones) frusta_.push_back(stress::wide_frustum<R>(cone));
+        for (const auto& cone : scene.cones) cones_.push_back(stress::wide_cone<R>(cone));
         for (const auto& triangle : scene.triangles) {
-            faces_.push_back(stress::wide_face<R>(triangle));
+            triangles_.push_back(stress::wide_triangle<R>(triangle));
         }
-        for (const auto& sphere : spheres_) balls_.push_back(stress::ball_of(sphere));
-        for (const auto& frustum : frusta_) balls_.push_back(stress::ball_of(frustum));
-        for (const auto& face : faces_) balls_.push_back(stress::ball_of(face));
+        for (const auto& sphere : spheres_) bounds_.push_back(stress::bound_of(sphere));
+        for (const auto& cone : cones_) bounds_.push_back(stress::bound_of(cone));
+        for (const auto& triangle : triangles_) bounds_.push_back(stress::bound_of(triangle));
         for (const auto& light : scene.lights) {
             lights_.push_back({widened<R>(light.position), widened<R>(light.intensity)});
         }
@@ -72,10 +139,10 @@ class Tracer final : public ReferenceTracer {
     /// rays leave it.
     int surface_at_eye() const {
         const Wide3<R> eye = widened<R>(scene_.camera.from);
-        for (std::size_t prim = 0; prim < first_face(); ++prim) {
-            const bool is_ball = prim < spheres_.size();
-            const bool touches = is_ball ? stress::lies_on(eye, spheres_[prim])
-                                         : stress::lies_on(eye, frusta_[prim - spheres_.size()]);
+        for (std::size_t prim = 0; prim < first_triangle(); ++prim) {
+            const bool is_sphere = prim < spheres_.size();
+            const bool touches = is_sphere ? stress::lies_on(eye, spheres_[prim])
+                                           : stress::lies_on(eye, cones_[prim - spheres_.size()]);
             if (touches) return static_cast<int>(prim);
         }
         return -1;
@@ -87,17 +154,17 @@ class Tracer final : public ReferenceTracer {
         const bool leaving = static_cast<int>(prim) == ray.from;
         if (prim < spheres_.size()) {
             hit.t = stress::hit_sphere(ray, spheres_[prim], leaving);
-        } else if (prim < first_face()) {
-            hit.t = stress::hit_frustum(ray, frusta_[prim - spheres_.size()], leaving);
+        } else if (prim < first_triangle()) {
+            hit.t = stress::hit_cone(ray, cones_[prim - spheres_.size()], leaving);
         } else if (!leaving) {
-            hit.t = stress::hit_face(ray, faces_[prim - first_face()], hit.u, hit.v);
+            hit.t = stress::hit_triangle(ray, triangles_[prim - first_triangle()], hit.u, hit.v);
         }
         if (hit.t > ray.least) hit.prim = static_cast<int>(prim);
         return hit;
     }
 
-    std::size_t first_face() const { return spheres_.size() + frusta_.size(); }
-    std::size_t primitives() const { return first_face() + faces_.size(); }
+    std::size_t first_triangle() const { return spheres_.size() + cones_.size(); }
+    std::size_t primitives() const { return first_triangle() + triangles_.size(); }
 
     /// Calls take(hit) for each primitive that the ray hits, until it returns true.
     template <typename Take>
@@ -105,7 +172,7 @@ class Tracer final : public ReferenceTracer {
         const Wide3<long double> dir = stress::narrowed(ray.dir);
         for (std::size_t prim = 0; prim < primitives(); ++prim) {
             const bool leaving = static_cast<int>(prim) == ray.from;
-            if (!leaving && stress::passes_by(ray.origin, dir, balls_[prim])) continue;
+            if (!leaving && stress::passes_by(ray.origin, dir, bounds_[prim])) continue;
             const WideHit<R> hit = hit_primitive(ray, prim);
             if (hit.prim >= 0 && take(hit)) return;
         }
@@ -131,10 +198,10 @@ class Tracer final : public ReferenceTracer {
     WideSurface<R> surface_of(const WideRay<R>& ray, const WideHit<R>& hit) const {
         const auto prim = static_cast<std::size_t>(hit.prim);
         if (prim < spheres_.size()) return stress::sphere_surface(ray, hit.t, spheres_[prim]);
-        if (prim < first_face()) {
-            return stress::frustum_surface(ray, hit.t, frusta_[prim - spheres_.size()]);
+        if (prim < first_triangle()) {
+            return stress::cone_surface(ray, hit.t, cones_[prim - spheres_.size()]);
         }
-        return stress::face_surface(hit, faces_[prim - first_face()]);
+        return stress::triangle_surface(hit, triangles_[prim - first_triangle()]);
     }
 
     static R lobe(const Wide3<R>& normal, const Wide3<R>& half_vector, double exponent) {
@@ -191,14 +258,14 @@ class Tracer final : public ReferenceTracer {
     }
 
     /// Keeps mirrors that brighten at each bounce finite, far above anything visible.
-    static Wide3<R> saturated(const Wide3<R>& share) {
+    static Wide3<R> saturated(const Wide3<R>& throughput) {
         const R most = 1e300;
         const auto cut = [&](R value) { return value < most ? value : most; };
-        return {cut(share.x), cut(share.y), cut(share.z)};
+        return {cut(throughput.x), cut(throughput.y), cut(throughput.z)};
     }
 
-    static bool exceeds(const Wide3<R>& share, R least) {
-        return share.x > least || share.y > least || share.z > least;
+    static bool exceeds(const Wide3<R>& throughput, R least) {
+        return throughput.x > least || throughput.y > least || throughput.z > least;
     }
 
     /// Pushes the branches that continue from a surface, the mirrored one last.
@@ -207,10 +274,10 @@ class Tracer final : public ReferenceTracer {
                        std::vector<Branch<R>>& branches) {
         const Wide3<R>& dir = arriving.ray.dir;
         const int bounce = arriving.bounce + 1;
-        Wide3<R> mirror = arriving.share * widened<R>(material.mirror);
-        const Wide3<R> glass = arriving.share * widened<R>(material.transmission);
+        Wide3<R> mirror = arriving.throughput * widened<R>(material.mirror);
+        const Wide3<R> glass = arriving.throughput * widened<R>(material.transmission);
         const bool is_glass = exceeds(widened<R>(material.transmission), 0);
-        const R least = is_glass ? least_share<R> : R(0);
+        const R least = is_glass ? least_throughput<R> : R(0);
         if (is_glass) {
             const R eta = inside ? R(material.ior) : 1 / R(material.ior);
             const auto through = refracted(dir, surface, eta);
@@ -255,7 +322,7 @@ class Tracer final : public ReferenceTracer {
         while (!branches.empty()) {
             const Branch<R> next = branches.back();
             branches.pop_back();
-            color = color + next.share * follow(next, branches);
+            color = color + next.throughput * follow(next, branches);
         }
         return color;
     }
@@ -263,18 +330,93 @@ class Tracer final : public ReferenceTracer {
     const Scene scene_;
     const stress::WideCamera<R> camera_;
     std::vector<stress::WideSphere<R>> spheres_;
-    std::vector<stress::WideFrustum<R>> frusta_;
-    std::vector<stress::WideFace<R>> faces_;
-    std::vector<stress::Ball<R>> balls_;  ///< around each primitive
+    std::vector<stress::WideCone<R>> cones_;
+    std::vector<stress::WideTriangle<R>> triangles_;
+    std::vector<stress::Bound<R>> bounds_;  ///< around each primitive
     std::vector<WideLight<R>> lights_;
     int eye_surface_ = -1;
 };
+
+constexpr double nearby = 0.02;  // pixels
+constexpr double least_change = 0.5 / 255;
+constexpr std::size_t pixel_run = 16;
+
+/// The eight moves of a sample: along the axes and the diagonals.
+constexpr double diagonal = 0.70710678 * nearby;
+constexpr std::array<std::array<double, 2>, 8> moves{{{nearby, 0},
+                                                      {-nearby, 0},
+                                                      {0, nearby},
+                                                      {0, -nearby},
+                                                      {diagonal, diagonal},
+                                                      {-diagonal, diagonal},
+                                                      {diagonal, -diagonal},
+                                                      {-diagonal, -diagonal}}};
+
+bool differ(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double change = std::clamp(a[c], 0.0, 1.0) - std::clamp(b[c], 0.0, 1.0);
+        if (!(std::fabs(change) <= least_change)) return true;
+    }
+    return false;
+}
 
 }  // namespace
 
 std::unique_ptr<ReferenceTracer> make_reference_tracer(const Scene& scene, ReferenceKind kind) {
     if (kind == ReferenceKind::extended) return std::make_unique<Tracer<long double>>(scene);
     return std::make_unique<Tracer<stress::Quad>>(scene);
+}
+
+ReferencePicture::ReferencePicture(const Scene& scene, ReferenceKind kind)
+    : width_(scene.width),
+      height_(scene.height),
+      grid_(scene.aa.count),
+      tracer_(make_reference_tracer(scene, kind)),
+      colors_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)),
+      edges_(colors_.size(), -1) {
+    for_each_run(colors_.size(), pixel_run, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) colors_[i] = pixel_color(i, 0, 0);
+                 });
+}
+
+std::array<double, 3> ReferencePicture::pixel_color(std::size_t pixel, double dx, double dy) const {
+    const auto width = static_cast<std::size_t>(width_);
+    std::array<double, 3> sum{};
+    for (int i = 0; i < grid_ * grid_; ++i) {
+        const double x = static_cast<double>(pixel % width) + (i % grid_ + 0.5) / grid_;
+        const double y = static_cast<double>(pixel / width) + (i / grid_ + 0.5) / grid_;
+        const std::array<double, 3> color = tracer_->color_at(x, y, dx, dy);
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c] / (grid_ * grid_);
+    }
+    return sum;
+}
+
+bool ReferencePicture::changes_nearby(std::size_t pixel) const {
+    return std::any_of(moves.begin(), moves.end(), [&](const std::array<double, 2>& move) {
+        return differ(colors_[pixel], pixel_color(pixel, move[0], move[1]));
+    });
+}
+
+std::vector<bool> ReferencePicture::at_edges(std::span<const std::size_t> pixels) {
+    for_each_run(pixels.size(), pixel_run, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) {
+                         std::int8_t& edge = edges_[pixels[i]];
+                         if (edge < 0) edge = changes_nearby(pixels[i]) ? 1 : 0;
+                     }
+                 });
+    std::vector<bool> answer;
+    for (const std::size_t pixel : pixels) answer.push_back(edges_[pixel] == 1);
+    return answer;
+}
+
+Picture ReferencePicture::as_picture() const {
+    Picture picture{width_, height_, 3, {}};
+    for (const auto& color : colors_) {
+        for (const double value : color) picture.pixels.push_back(static_cast<float>(value));
+    }
+    return picture;
 }
 
 }  // namespace rt

@@ -19,10 +19,23 @@
 // Helpers for trials with many random rays.
 namespace rt {
 
+/// A trial that runs count<T>(rays, caster), a generic lambda over T, in float and in double.
+template <typename Count>
+RayTrial both_precisions(const Count& count) {
+    RayTrial trial;
+    trial.in_float = [=](std::uint64_t rays, const RayCaster& caster) {
+        return count.template operator()<float>(rays, caster);
+    };
+    trial.in_double = [=](std::uint64_t rays, const RayCaster& caster) {
+        return count.template operator()<double>(rays, caster);
+    };
+    return trial;
+}
+
 /// Random numbers, the same on every machine.
-class Dice {
+class RandomNumbers {
    public:
-    explicit Dice(std::uint64_t seed) : engine_(seed) {}
+    explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
 
     double uniform(double low, double high) {
         return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
@@ -60,13 +73,13 @@ typename Flat<T>::RayQuery ray_query(const glm::dvec3& origin, const glm::dvec3&
     return query;
 }
 
-/// Traces many rays and sums up the results. make(dice) returns a query; go_on(dice, query, answer)
-/// may set the direction of a secondary ray from the hit (nullptr: none); judge(query, answer,
-/// figures) counts. Each block of rays has its own dice, so that the rays are the same on any
-/// number of cores.
-template <typename T, typename Make, typename GoOn, typename Judge>
+/// Traces many rays and sums up the results. make(random) returns a query; continue_ray(random,
+/// query, answer) may set the direction of a secondary ray from the hit (nullptr: none);
+/// judge(query, answer, figures) counts. Each block of rays has its own numbers, so that the rays
+/// are the same on any number of cores.
+template <typename T, typename Make, typename Continue, typename Judge>
 RayFigures many_rays(const RayTracer<T>& trace, std::uint64_t rays, const Make& make,
-                     const GoOn& go_on, const Judge& judge) {
+                     const Continue& continue_ray, const Judge& judge) {
     constexpr std::size_t block = 4096, batch = 16 * block;
     std::vector<typename Flat<T>::RayQuery> queries;
     std::vector<typename Flat<T>::RayAnswer> answers;
@@ -74,26 +87,27 @@ RayFigures many_rays(const RayTracer<T>& trace, std::uint64_t rays, const Make& 
     std::mutex mutex;
     for (std::uint64_t at = 0; at < rays; at += batch) {
         const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(rays - at, batch));
-        std::vector<Dice> dice;
-        for (std::size_t i = 0; i < count; i += block) dice.emplace_back(at + i + 1);
+        std::vector<RandomNumbers> random;
+        for (std::size_t i = 0; i < count; i += block) random.emplace_back(at + i + 1);
         queries.resize(count);
         answers.resize(count);
         const auto in_blocks = [&](const auto& work) {
             for_each_run(count, block, available_cores(), [&](std::size_t first, std::size_t last) {
-                work(dice[first / block], first, last);
+                work(random[first / block], first, last);
             });
         };
-        in_blocks([&](Dice& own, std::size_t first, std::size_t last) {
+        in_blocks([&](RandomNumbers& own, std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) queries[i] = make(own);
         });
         trace(queries, answers);
-        if constexpr (!std::is_null_pointer_v<GoOn>) {
-            in_blocks([&](Dice& own, std::size_t first, std::size_t last) {
-                for (std::size_t i = first; i < last; ++i) go_on(own, queries[i], answers[i]);
+        if constexpr (!std::is_null_pointer_v<Continue>) {
+            in_blocks([&](RandomNumbers& own, std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i)
+                    continue_ray(own, queries[i], answers[i]);
             });
             trace(queries, answers);
         }
-        in_blocks([&](Dice&, std::size_t first, std::size_t last) {
+        in_blocks([&](RandomNumbers&, std::size_t first, std::size_t last) {
             RayFigures own;
             for (std::size_t i = first; i < last; ++i) judge(queries[i], answers[i], own);
             const std::lock_guard lock(mutex);
@@ -112,10 +126,10 @@ stress::Wide3<stress::Quad> in_quad(const V& v) {
 }
 
 /// A random direction at this angle above a surface with this normal.
-inline glm::dvec3 at_angle(Dice& dice, const glm::dvec3& normal, double angle) {
+inline glm::dvec3 at_angle(RandomNumbers& random, const glm::dvec3& normal, double angle) {
     const glm::dvec3 other = std::fabs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 across = glm::normalize(glm::cross(normal, other));
-    const double turn = dice.uniform(0, 2 * std::numbers::pi);
+    const double turn = random.uniform(0, 2 * std::numbers::pi);
     const glm::dvec3 tangent =
         std::cos(turn) * across + std::sin(turn) * glm::cross(normal, across);
     return std::cos(angle) * tangent + std::sin(angle) * normal;
@@ -134,6 +148,36 @@ inline void note_hit(RayFigures& figures, bool found, double t, stress::Quad exa
     ++figures.rays;
     figures.failures += found == expected && error <= tolerance ? 0 : 1;
     figures.max_error = std::max(figures.max_error, error);
+}
+
+/// Radians above the surface, negative inwards. Outwards, two in three are below 0.1, down to 1e-6;
+/// inwards, they go down to `shallowest`.
+inline double leaving_angle(RandomNumbers& random, bool outwards, double shallowest) {
+    constexpr double steepest = std::numbers::pi / 2;
+    if (!outwards) return -random.log_uniform(shallowest, steepest);
+    return random.index(3) == 0 ? random.uniform(0.1, steepest) : random.log_uniform(1e-6, 0.1);
+}
+
+/// Continues an eye ray from its hit on primitive prim, three times in four outwards.
+template <typename T>
+void leave_primitive(RandomNumbers& random, typename Flat<T>::RayQuery& query,
+                     const typename Flat<T>::RayAnswer& answer, typename Flat<T>::Index prim,
+                     double shallowest) {
+    if (answer.prim != prim) return;
+    const glm::dvec3 normal = glm::normalize(in_double(answer.normal));
+    const double angle = leaving_angle(random, random.index(4) != 0, shallowest);
+    query.next = rounded_unit<T>(at_angle(random, normal, angle));
+}
+
+/// Whether the ray was continued, and whether to the normal's side.
+template <typename T>
+bool has_left(const typename Flat<T>::RayQuery& query) {
+    return glm::length(in_double(query.next)) > 0;
+}
+template <typename T>
+bool is_outwards(const typename Flat<T>::RayQuery& query,
+                 const typename Flat<T>::RayAnswer& answer) {
+    return glm::dot(in_double(query.next), in_double(answer.normal)) > 0;
 }
 
 }  // namespace rt
