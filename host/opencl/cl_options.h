@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "host/render/kernel_choice.h"
 #include "host/render/picture_spec.h"
@@ -21,5 +22,14 @@ struct ClOptions {
     bool warnings_are_errors = false;     ///< for tests
     OpenDevices* open_devices = nullptr;  ///< caches context and program; null: no cache
 };
+
+/// What users add to every build of this process.
+struct BuildExtras {
+    std::string options;  ///< for the driver's compiler
+    std::string folder;   ///< for each program's source, options, log and binary; empty: nowhere
+};
+
+/// Set it before anything is built.
+BuildExtras& build_extras();
 
 }  // namespace rt
