@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -23,13 +24,13 @@ struct ClOptions {
     OpenDevices* open_devices = nullptr;  ///< caches context and program; null: no cache
 };
 
-/// What users add to every build of this process.
+/// What is asked for on top of what is best, for every build and launch of this process.
 struct BuildExtras {
-    std::string options;  ///< for the driver's compiler
-    std::string folder;   ///< for each program's source, options, log and binary; empty: nowhere
+    std::string options;    ///< for the driver's compiler
+    std::string folder;     ///< for each program's source, options, log and binary; empty: nowhere
+    std::size_t group = 0;  ///< work items of a group that renders; 0: as is best
 };
 
-/// Set it before anything is built.
 BuildExtras& build_extras();
 
 }  // namespace rt

@@ -93,7 +93,9 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     if (!options.entries.samples) text += " -DRT_RENDERS_SAMPLES=0";
     if (!options.entries.list) text += " -DRT_RENDERS_LIST=0";
     if (!options.entries.rays) text += " -DRT_TRACES_RAYS=0";
-    if (!build_extras().options.empty()) text += " " + build_extras().options;
+    for (const std::string& more : {build_extras().options, options.more}) {
+        if (!more.empty()) text += " " + more;
+    }
     return text;
 }
 
