@@ -25,7 +25,7 @@ namespace {
 
 constexpr AddVerb* verbs[] = {add_render, add_merge,    add_compare, add_bench,  add_converge,
                               add_stress, add_report,   add_devices, add_doctor, add_explain,
-                              add_scene,  add_selftest};
+                              add_scene,  add_selftest, add_blame};
 
 constexpr double deadline = 10;  ///< seconds without progress after which a driver counts as hung
 

@@ -36,6 +36,6 @@ struct Invocation {
 using AddVerb = void(const CommandLine& program, Invocation& call);
 
 AddVerb add_render, add_merge, add_compare, add_bench, add_converge, add_stress, add_report,
-    add_devices, add_doctor, add_explain, add_scene, add_selftest;
+    add_devices, add_doctor, add_explain, add_scene, add_selftest, add_blame;
 
 }  // namespace rt

@@ -86,6 +86,26 @@ class Selftest(WrongDriver):
     def test_of_no_check(self):
         self.selftest(2, "--filter", "nothing/*")
 
+    def reproduced(self, name):
+        """What blame says, and what its C program prints with the fault and without."""
+        folder = self.folder / name.replace(" ", "-").replace("^", "")
+        said = self.run_with(self.fault(name), "blame", "--device", "pocl", "-o", str(folder), code=1).stdout
+        subprocess.run(["cc", "-std=c99", "reproduce.c", "-lOpenCL"], cwd=folder, check=True)
+        run = [subprocess.run([folder / "a.out", "pthread"], cwd=folder, text=True, check=False,
+                              capture_output=True, env=dict(os.environ, **shim))
+               for shim in [{"LD_PRELOAD": str(BUILD / "libcl_shim.so"), **self.fault(name)}, {}]]
+        return said, run
+
+    def test_blame(self):
+        names = list(FAULTS) if ALL else ["fma undone"]
+        for name in names:
+            with self.subTest(name):
+                said, (wrong, right) = self.reproduced(name)
+                self.assertRegex(said, f"(?m)^to blame: .*{FAULTS[name][2].replace('^', '.')}")
+                self.assertEqual(wrong.returncode, 1, wrong.stdout + wrong.stderr)
+                self.assertIn(": WRONG, ", wrong.stdout)
+                self.assertEqual((right.returncode, right.stdout[-8:]), (0, ": right\n"), right.stderr)
+
     def test_all_faults(self):
         if not ALL:
             self.skipTest("takes hours; set MIRRORBALL_ALL_FAULTS")
