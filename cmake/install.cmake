@@ -9,7 +9,9 @@ set_source_files_properties(host/base/module_file.cpp PROPERTIES
     COMPILE_DEFINITIONS "MIRRORBALL_MODULE_DIR=\"${modules_from_program}\"")
 
 install(TARGETS mirrorball RUNTIME)
-install(TARGETS mirrorball_exr mirrorball_oiio LIBRARY DESTINATION ${module_folder})
+if(MIRRORBALL_MODULES)
+    install(TARGETS mirrorball_exr mirrorball_oiio LIBRARY DESTINATION ${module_folder})
+endif()
 if(SDL2_FOUND)
     install(TARGETS mirrorball_sdl LIBRARY DESTINATION ${module_folder})
 endif()

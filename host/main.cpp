@@ -23,9 +23,9 @@ namespace rt {
 
 namespace {
 
-constexpr AddVerb* verbs[] = {add_render,   add_merge,   add_compare, add_bench,
-                              add_converge, add_stress,  add_report,  add_devices,
-                              add_doctor,   add_explain, add_scene};
+constexpr AddVerb* verbs[] = {add_render, add_merge,    add_compare, add_bench,  add_converge,
+                              add_stress, add_report,   add_devices, add_doctor, add_explain,
+                              add_scene,  add_selftest, add_blame};
 
 constexpr double deadline = 10;  ///< seconds without progress after which a driver counts as hung
 
@@ -42,9 +42,8 @@ int run_in_worker(const Invocation& call) {
     const WorkerCommand command{call.command, {}, deadline, call.seconds_before_main};
     const WorkerEnd end = run_without_bad_drivers(command, call.drivers, false);
     if (end.is_regular) return end.status;
-    throw Error(ExitCode::device, (end.task.empty() ? "" : end.task + ": ") +
-                                      "the worker process " + end.how +
-                                      "; test each driver with 'mirrorball doctor'");
+    throw Error(call.crash, (end.task.empty() ? "" : end.task + ": ") + "the worker process " +
+                                end.how + "; test each driver with 'mirrorball doctor'");
 }
 
 int run(int argc, char** argv, double seconds_before_main) {

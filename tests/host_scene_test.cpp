@@ -196,7 +196,8 @@ std::vector<fs::path> committed_scenes() {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(MIRRORBALL_SCENES_DIR)) {
         const fs::path& path = entry.path();
-        if (path.extension() == ".json" && path.filename() != "scene.schema.json") {
+        if (path.extension() == ".json" && path.filename() != "scene.schema.json" &&
+            path.filename() != "golden.json") {
             files.push_back(path);
         }
     }

@@ -201,7 +201,7 @@ TYPED_TEST(Component3, PicksByNumber) {
               (std::vector<TypeParam>{7, 8, 9}));
 }
 
-/// ProbeShear of tests/probe_structs.h.
+/// ProbeShear of kernels/probes/probe_structs.h.
 template <typename T>
 struct ProbeShear {
     Index<T> kx, ky, kz;

@@ -29,7 +29,7 @@ struct ProbeField {
 template <typename T>
 std::vector<Field> host_layout() {
     return {
-#include "tests/layout_fields.h"
+#include "kernels/probes/layout_fields.h"
     };
 }
 #undef RT_STRUCT

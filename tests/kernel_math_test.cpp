@@ -32,6 +32,42 @@ std::vector<Packed3<T>> unit_vectors(Random& random) {
     return many(count, [&] { return pack<T>(random.unit_vector()); });
 }
 
+// Results of the C++ operators: IEEE 754 leaves no choice.
+KERNEL_SUITE(Arithmetic);
+TYPED_TEST(Arithmetic, RoundsOnce) {
+    using T = TypeParam;
+    Random random(20);
+    const auto a = any_numbers<T>(random), b = any_numbers<T>(random), c = any_numbers<T>(random);
+    const auto expect = [&](const std::vector<T>& device, const auto& f) {
+        EXPECT_TRUE(same_bits<T>(device, for_each_item(count, f)));
+    };
+    expect(run<T, T>("product", count, a, b), [&](std::size_t i) { return a[i] * b[i]; });
+    expect(run<T, T>("quotient", count, a, b), [&](std::size_t i) { return a[i] / b[i]; });
+    expect(run<T, T>("square_root", count, a), [&](std::size_t i) { return std::sqrt(a[i]); });
+    expect(run<T, T>("fused", count, a, b, c),
+           [&](std::size_t i) { return std::fma(a[i], b[i], c[i]); });
+}
+TYPED_TEST(Arithmetic, TakesTheSecondOfWhatCannotBeCompared) {
+    using T = TypeParam;
+    Random random(22);
+    const auto a = any_numbers<T>(random), b = any_numbers<T>(random);
+    EXPECT_TRUE(same_bits<T>(run<T, T>("min_of", count, a, b), for_each_item(count, [&](auto i) {
+                                 return a[i] < b[i] ? a[i] : b[i];
+                             })));
+    EXPECT_TRUE(same_bits<T>(run<T, T>("max_of", count, a, b), for_each_item(count, [&](auto i) {
+                                 return a[i] > b[i] ? a[i] : b[i];
+                             })));
+}
+TYPED_TEST(Arithmetic, ShiftsBits) {
+    Random random(21);
+    const auto word = [&] { return static_cast<std::uint32_t>(random.uniform(0, 0x1p32)); };
+    const auto a = many(count, word), b = many(count, word);
+    const auto shifted = run<TypeParam, std::uint32_t>("shifted", count, a, b);
+    for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(shifted[i], (a[i] << (b[i] & 31)) ^ (a[i] >> (b[i] & 31))) << i;
+    }
+}
+
 KERNEL_SUITE(Load3);
 TYPED_TEST(Load3, AndStore3CopyBits) {
     Random random(1);

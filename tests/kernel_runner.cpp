@@ -4,28 +4,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <map>
 #include <memory>
-#include <optional>
+#include <tuple>
+#include <utility>
 
 #include "host/base/error.h"
-#include "host/opencl/cl_program.h"
 #include "host/opencl/device_spec.h"
+#include "host/opencl/pocl.h"
+#include "host/selftest/probes.h"
 #include "tests/native_bits.h"
 
 namespace rt {
 
-/// tests/probes.cl with its includes, embedded at build time.
-extern const char* const probe_kernels;
-
 namespace {
-
-/// One work-group size and few items per launch: PoCL recompiles a kernel for any other size, and
-/// again for more than 64 K items.
-constexpr std::size_t local_size = 64;
-constexpr std::size_t launch_items = 65536 - local_size;
 
 /// Set while a FastMath lives.
 bool fast_math = false;
@@ -42,7 +37,7 @@ bool is_native_alone() { return asked_device() == "none"; }
 ClDevice default_device(const std::vector<ClDevice>& devices) {
     const auto usable = [](const ClDevice& device) { return device.unusable.empty(); };
     auto found = std::find_if(devices.begin(), devices.end(), [&](const ClDevice& device) {
-        return usable(device) && device.platform == "Portable Computing Language";
+        return usable(device) && device.platform == pocl_platform;
     });
     if (found == devices.end()) found = std::find_if(devices.begin(), devices.end(), usable);
     if (found == devices.end()) {
@@ -66,88 +61,87 @@ ClDevice test_device() {
     return choice.device;
 }
 
-/// A device with its queue and the probes in both precisions and both arithmetics, each built on
-/// first use.
-class ProbeDevice {
+/// What scripts/record-probes asks for: the file to write, or nothing.
+std::string recorded_file() {
+    const char* file = std::getenv("MIRRORBALL_RECORD_PROBES");
+    return file == nullptr ? "" : file;
+}
+
+/// Collects the launches of strict probes, the first items of each, for `mirrorball selftest`.
+class Recorder {
    public:
-    ProbeDevice() : device_(test_device()), context_(handle_of(device_)), queue_(context_) {}
-
-    const ClDevice& device() const { return device_; }
-
-    void launch(bool double_precision, const std::string& function, std::size_t count,
-                std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
-        cl::Kernel kernel(program(double_precision), ("probe_" + function).c_str());
-        check_arguments(kernel, 2 + inputs.size() + outputs.size());
-        const std::vector<cl::Buffer> buffers = bind(kernel, inputs, outputs);
-        kernel.setArg(1, static_cast<cl_uint>(count));
-        for (std::size_t first = 0; first < count; first += launch_items) {
-            kernel.setArg(0, static_cast<cl_uint>(first));
-            const std::size_t items = std::min(count - first, launch_items);
-            const std::size_t rounded = (items + local_size - 1) / local_size * local_size;
-            queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(rounded),
-                                        cl::NDRange(local_size));
+    void add(bool is_double, const std::string& function, std::size_t all,
+             std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
+        const bool has_scene = inputs.size() >= scene_inputs;
+        const std::size_t most = has_scene ? 24 : 64;
+        const auto count = function == "layout" ? all : std::min(all, most);
+        auto& [items, records] = launches_[{has_scene, function, is_double}];
+        ProbeRecord record{function, is_double, static_cast<std::uint32_t>(count), {}, {}};
+        std::size_t bytes = 0;
+        for (const ProbeInput& input : inputs) {
+            record.inputs.push_back(cut(input, count, all));
+            bytes += record.inputs.back().bytes.size();
         }
-        for (std::size_t i = 0; i < outputs.size(); ++i) {
-            const cl::Buffer& buffer = buffers[inputs.size() + i];
-            queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, outputs[i].bytes(), outputs[i].data);
+        if (items + count > 3 * most || bytes > most_bytes) return;
+        for (const ProbeOutput& output : outputs) {
+            const auto* begin = static_cast<const std::byte*>(output.data);
+            record.outputs.push_back({{begin, begin + count * output.item_bytes},
+                                      static_cast<std::uint32_t>(output.item_bytes),
+                                      output.holds_numbers});
         }
+        items += count;
+        check(record, outputs);
+        records.push_back(std::move(record));
+    }
+
+    void save(const std::string& file) {
+        std::vector<ProbeRecord> all;
+        for (auto& [function, launches] : launches_) {
+            all.insert(all.end(), launches.second.begin(), launches.second.end());
+        }
+        std::ofstream(file, std::ios::binary) << encoded(all);
     }
 
    private:
-    const cl::Program& program(bool double_precision) {
-        auto& program = programs_[(double_precision ? 1 : 0) + (fast_math ? 2 : 0)];
-        if (!program) {
-            ProgramOptions options;
-            options.precision = double_precision ? Precision::float64 : Precision::float32;
-            options.math = fast_math ? Math::fast : Math::strict;
-            options.warnings_are_errors = true;
-            program = build_program(context_, device_, probe_kernels, options);
-        }
-        return *program;
+    static constexpr std::size_t most_bytes = 20000;
+
+    /// The input for the first `count` of `all` items. A list of another length than theirs is the
+    /// same for all items.
+    static ProbeArray cut(const ProbeInput& input, std::size_t count, std::size_t all) {
+        const auto* begin = static_cast<const std::byte*>(input.data);
+        const bool is_shared = input.item_bytes == 0 || input.bytes != all * input.item_bytes;
+        return {{begin, begin + (is_shared ? input.bytes : count * input.item_bytes)},
+                is_shared ? 0 : static_cast<std::uint32_t>(input.item_bytes)};
     }
 
-    static void check_arguments(const cl::Kernel& kernel, std::size_t given) {
-        const auto wanted = kernel.getInfo<CL_KERNEL_NUM_ARGS>();
-        if (wanted != given) {
-            throw Error(ExitCode::usage,
-                        fmt::format("the probe takes {} arguments (first, count, ...) and was "
-                                    "given {}",
-                                    wanted, given));
+    /// Whether these inputs give these results.
+    static void check(const ProbeRecord& record, std::span<const ProbeOutput> outputs) {
+        std::vector<ProbeInput> inputs;
+        for (const ProbeArray& input : record.inputs) {
+            inputs.push_back({input.bytes.data(), input.bytes.size(), input.item_bytes});
         }
+        expect_native_bits(record.is_double, record.function, record.count, inputs, outputs);
     }
 
-    /// Makes the buffers, inputs first, and binds them from argument 2 on. An empty array becomes
-    /// one unused byte, since OpenCL has no empty buffers.
-    std::vector<cl::Buffer> bind(cl::Kernel& kernel, std::span<const ProbeInput> inputs,
-                                 std::span<const ProbeOutput> outputs) {
-        std::vector<cl::Buffer> buffers;
-        for (const ProbeInput& input : inputs) {
-            buffers.emplace_back(context_, CL_MEM_READ_ONLY, std::max<std::size_t>(input.bytes, 1));
-            if (input.bytes == 0) continue;
-            queue_.enqueueWriteBuffer(buffers.back(), CL_TRUE, 0, input.bytes, input.data);
-        }
-        for (const ProbeOutput& output : outputs) {
-            buffers.emplace_back(context_, CL_MEM_READ_WRITE, output.bytes());
-        }
-        for (cl_uint i = 0; i < buffers.size(); ++i) kernel.setArg(2 + i, buffers[i]);
-        return buffers;
-    }
-
-    ClDevice device_;
-    cl::Context context_;
-    cl::CommandQueue queue_;
-    std::array<std::optional<cl::Program>, 4> programs_;
+    /// Items and launches of each function and precision, those that take scenes last.
+    std::map<std::tuple<bool, std::string, bool>, std::pair<std::size_t, std::vector<ProbeRecord>>>
+        launches_;
 };
+
+Recorder recorder;
 
 /// Opens the device on first use and releases it after the last test, while the OpenCL library is
 /// still intact: static destructors would be too late.
 class ProbeEnvironment : public testing::Environment {
    public:
     ProbeDevice& open() {
-        if (!device_) device_ = std::make_unique<ProbeDevice>();
+        if (!device_) device_ = std::make_unique<ProbeDevice>(test_device());
         return *device_;
     }
-    void TearDown() override { device_.reset(); }
+    void TearDown() override {
+        device_.reset();
+        if (!recorded_file().empty()) recorder.save(recorded_file());
+    }
 
    private:
     std::unique_ptr<ProbeDevice> device_;
@@ -175,7 +169,11 @@ void launch_on_device(bool double_precision, const std::string& function, std::s
                                                    probes.device().name, what));
     };
     try {
-        probes.launch(double_precision, function, count, inputs, outputs);
+        ProgramOptions build;
+        build.precision = double_precision ? Precision::float64 : Precision::float32;
+        build.math = fast_math ? Math::fast : Math::strict;
+        build.warnings_are_errors = probes.device().platform == pocl_platform;
+        probes.launch(build, function, count, inputs, outputs);
     } catch (const cl::Error& error) {
         throw failed(fmt::format("{}: {}", error.what(), cl_status_text(error.err())));
     } catch (const Error& error) {
@@ -189,7 +187,12 @@ void launch_probe(bool double_precision, const std::string& function, std::size_
                   std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
     const auto launch = is_native_alone() ? launch_native : launch_on_device;
     launch(double_precision, function, count, inputs, outputs);
-    if (!fast_math) expect_native_bits(double_precision, function, count, inputs, outputs);
+    if (fast_math) return;
+    if (!recorded_file().empty()) {
+        recorder.add(double_precision, function, count, inputs, outputs);
+    } else {
+        expect_native_bits(double_precision, function, count, inputs, outputs);
+    }
 }
 
 FastMath::FastMath() { fast_math = true; }

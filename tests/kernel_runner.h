@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "host/flatten/flat_scene.h"
+#include "host/selftest/probes.h"
 
-// Runs the probe kernels of tests/probes.cl. To test a new device function, add a probe there and
+// Runs the probe kernels of kernels/probes/probes.cl. To test a new device function, add a probe
+// there and
 //
 //     KERNEL_SUITE(Dot3);
 //     TYPED_TEST(Dot3, IsExactOnSmallIntegers) {
@@ -24,26 +26,12 @@
 // device, else the first that can render; `none` takes the native probes for it, without OpenCL.
 namespace rt {
 
-struct ProbeInput {
-    const void* data;
-    std::size_t bytes;
-};
-
-/// Room for `count` items.
-struct ProbeOutput {
-    void* data;
-    std::size_t count, item_bytes;
-    bool holds_numbers;  ///< possibly among integers; else integers only
-
-    std::size_t bytes() const { return count * item_bytes; }
-};
-
 /// Runs probe_FUNCTION over `count` items; the kernel's arguments are first, count, the inputs and
-/// the outputs. Builds the probes on first use, once per precision and arithmetic, with warnings as
-/// errors. In strict arithmetic the same probe also runs on this processor, in packets of every
-/// width, and the test fails if any bit differs; all NaNs are equal, since IEEE 754 leaves sign and
-/// payload to the machine. Throws Error (ExitCode::device) that names the device, the probe and the
-/// OpenCL status.
+/// the outputs. Builds the probes on first use, once per precision and arithmetic, on PoCL with
+/// warnings as errors. In strict arithmetic the same probe also runs on this processor, in packets
+/// of every width, and the test fails if any bit differs; all NaNs are equal, since IEEE 754 leaves
+/// sign and payload to the machine. Throws Error (ExitCode::device) that names the device, the
+/// probe and the OpenCL status.
 void launch_probe(bool double_precision, const std::string& function, std::size_t count,
                   std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs);
 
@@ -70,13 +58,14 @@ inline constexpr bool is_integers<f64::RayCounts> = true;
 
 template <typename X, typename Allocator>
 void add_inputs(std::vector<ProbeInput>& inputs, const std::vector<X, Allocator>& values) {
-    inputs.push_back({values.data(), values.size() * sizeof(X)});
+    inputs.push_back({values.data(), values.size() * sizeof(X), sizeof(X)});
 }
 
 /// A scene is ten arguments, the PROBE_SCENE of probes.cl.
 template <typename T>
 void add_inputs(std::vector<ProbeInput>& inputs, const FlatScene<T>& scene) {
-#define RT_PROBE_ARRAY(type, name, what) add_inputs(inputs, scene.name);
+#define RT_PROBE_ARRAY(type, name, what) \
+    inputs.push_back({scene.name.data(), scene.name.size() * sizeof(scene.name[0])});
     RT_SCENE_ARRAYS(RT_PROBE_ARRAY)
 #undef RT_PROBE_ARRAY
     inputs.push_back({&scene.params, sizeof(scene.params)});

@@ -7,4 +7,4 @@
 
 static size_t get_global_id(uint dimension) { return 0; }
 
-#include "tests/probes.cl"
+#include "kernels/probes/probes.cl"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "host/flatten/flat_types.h"
-#include "tests/probe_fields.h"
+#include "kernels/probes/probe_fields.h"
 
 // The structs passed between the kernel tests and the probes besides the shared ones
-// (tests/probe_structs.h), and short ways to make them.
+// (kernels/probes/probe_structs.h), and short ways to make them.
 namespace rt {
 
 template <typename T>

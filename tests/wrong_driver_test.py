@@ -16,6 +16,7 @@ from batch_cases import DiesInABatch
 from dies_cases import Dies, IsNotAsked
 from fails_cases import Fails
 from measure_cases import Bench, Converge, Math, Stress
+from selftest_cases import Selftest
 from wrong_cases import Wrong
 
 del sys.argv[1:3]

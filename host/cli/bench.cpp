@@ -122,6 +122,7 @@ void add_bench(const CommandLine& program, Invocation& call) {
     verb.flag("--ablate", bench.ablate,
               "measure what leaving out each feature saves, with and without it in alternation "
               "(default: --sizes 500 --aa grid:2 --precision float)");
+    add_build_extras(verb);
     verb.flag("-q,--quiet", bench.quiet, quiet_help);
     verb.when_chosen([asked, verb, &call] {
         check_result_files(asked->results);

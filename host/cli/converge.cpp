@@ -90,6 +90,7 @@ void add_converge(const CommandLine& program, Invocation& call) {
     verb.value("--reference", "FILE", converge.reference,
                "keep the reference in this EXR or PFM file, or read it from there if it exists");
     add_result_files(verb, converge.results);
+    add_build_extras(verb);
     verb.flag("-q,--quiet", converge.quiet, quiet_help);
     verb.when_chosen([asked, &call] {
         check_result_files(asked->results);

@@ -14,6 +14,7 @@
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
 #include "host/image/picture_io.h"
+#include "host/opencl/cl_options.h"
 #include "host/opencl/pocl.h"
 #include "host/picture/default_scene.h"
 #include "host/picture/render_picture.h"
@@ -100,11 +101,12 @@ int test_device(const std::string& spec) {
 Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
                        const std::string& name, const std::vector<std::string>& changes) {
     const Stopwatch watch;
-    const WorkerEnd end = run_worker({{"mirrorball", "doctor", "--device", spec},
-                                      changes,
-                                      options.deadline,
-                                      0,
-                                      longest_test * options.deadline});
+    std::vector<std::string> command{"mirrorball", "doctor", "--device", spec};
+    const auto& [cl_options, folder, group] = build_extras();
+    if (!cl_options.empty()) command.push_back("--cl-options=" + cl_options);
+    if (!folder.empty()) command.push_back("--save-kernels=" + folder);
+    const WorkerEnd end =
+        run_worker({command, changes, options.deadline, 0, longest_test * options.deadline});
     end_if_stopped(end);
     Finding finding{State::broken, name, ""};
     if (!end.is_regular) {
@@ -261,6 +263,7 @@ void add_doctor(const CommandLine& program, Invocation& call) {
     verb.value("--deadline", "S", doctor.deadline, seconds_from(0.1),
                "seconds without progress after which a device counts as hung; its test may take "
                "ten times as long (default: 30)");
+    add_build_extras(verb);
     verb.when_chosen([asked, &call] {
         asked->drivers = call.drivers;
         call.here([asked] { return run_doctor(*asked); });

@@ -13,6 +13,7 @@
 
 #include "host/base/error.h"
 #include "host/image/output_path.h"
+#include "host/opencl/cl_options.h"
 #include "host/opencl/device_spec.h"
 #include "host/scene/words.h"
 
@@ -207,6 +208,13 @@ void add_result_file(const CommandLine& verb, const std::string& option, std::st
 void add_result_files(const CommandLine& verb, ResultFiles& files) {
     add_result_file(verb, "--json", files.json, "write all measurements as JSON");
     add_result_file(verb, "--csv", files.csv, "write one row per run as CSV");
+}
+
+void add_build_extras(const CommandLine& verb) {
+    verb.option("--cl-options", "TEXT", "further options for the compilers of OpenCL drivers",
+                [](const std::string& text) { build_extras().options = text; });
+    verb.value("--save-kernels", "FOLDER", build_extras().folder,
+               "save source, options, log and binary of every program that a driver builds");
 }
 
 void check_result_files(const ResultFiles& files) {

@@ -157,6 +157,9 @@ void add_result_file(const CommandLine& verb, const std::string& option, std::st
                      const std::string& help);
 void add_result_files(const CommandLine& verb, ResultFiles& files);
 
+/// --cl-options and --save-kernels, for every verb that builds kernels.
+void add_build_extras(const CommandLine& verb);
+
 /// Throws Error (ExitCode::usage) when both would go to stdout.
 void check_result_files(const ResultFiles& files);
 

@@ -237,6 +237,7 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
                "auto (default): load OpenCL drivers in a separate process; never: in this one");
     verb.value("--deadline", "S", render.deadline, seconds_from(0.1),
                "seconds without progress after which a driver counts as hung (default: 10)");
+    add_build_extras(verb);
     verb.flag("--no-fallback", render.no_fallback,
               "fail if the device fails, instead of finishing on threads");
     verb.value("--check", "P%", render.check, percent_to(100),

@@ -62,6 +62,7 @@ void add_stress(const CommandLine& program, Invocation& call) {
     verb.value("-o,--output", "DIR", stress.output,
                "folder for each case's reference, worst picture and error map");
     verb.flag("-v,--verbose", stress.verbose, "print a line per case and renderer");
+    add_build_extras(verb);
     verb.flag("-q,--quiet", stress.quiet, quiet_help);
     verb.when_chosen([asked, &call] {
         if (asked->list && !(asked->json.empty() && asked->output.empty())) {

@@ -17,9 +17,10 @@ struct Invocation {
     std::string drivers;  ///< where OpenCL finds its .icd files: a folder, or one of them
     double seconds_before_main = 0;
 
-    std::function<int()> run;  ///< returns the exit status: an ExitCode, or 128 + a signal
-    bool measures = false;     ///< to be run in a worker process, for drivers may crash
-    bool quiet = false;        ///< -q
+    std::function<int()> run;           ///< returns the exit status: an ExitCode, or 128 + a signal
+    bool measures = false;              ///< to be run in a worker process, for drivers may crash
+    ExitCode crash = ExitCode::device;  ///< what a crash of that process means
+    bool quiet = false;                 ///< -q
 
     void here(std::function<int()> verb, bool is_quiet = false) {
         run = std::move(verb);
@@ -35,6 +36,6 @@ struct Invocation {
 using AddVerb = void(const CommandLine& program, Invocation& call);
 
 AddVerb add_render, add_merge, add_compare, add_bench, add_converge, add_stress, add_report,
-    add_devices, add_doctor, add_explain, add_scene;
+    add_devices, add_doctor, add_explain, add_scene, add_selftest, add_blame;
 
 }  // namespace rt

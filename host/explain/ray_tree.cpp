@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/base/error.h"
 #include "host/flatten/triangle_list.h"
 #include "host/flatten/view_frame.h"
 #include "host/render/native_kernels.h"
@@ -164,6 +165,11 @@ class TreeBuilder {
 
 }  // namespace
 
+#ifdef MIRRORBALL_WITHOUT_NATIVE
+ExplainedPixel explain_pixel(const FlatScene<double>&, int, int) {
+    throw Error(ExitCode::device, "this program was built without kernels for threads");
+}
+#else
 ExplainedPixel explain_pixel(const FlatScene<double>& scene, int x, int y) {
     ExplainedPixel pixel;
     const NativeView<double> view = native_view(scene);
@@ -174,6 +180,7 @@ ExplainedPixel explain_pixel(const FlatScene<double>& scene, int x, int y) {
     listener = nullptr;
     return pixel;
 }
+#endif
 
 std::vector<SampleTree> ray_trees(const ExplainedPixel& pixel, const Scene& scene,
                                   const FlatScene<double>& flat) {

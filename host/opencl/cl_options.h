@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <string>
 
 #include "host/render/kernel_choice.h"
 #include "host/render/picture_spec.h"
@@ -21,5 +23,14 @@ struct ClOptions {
     bool warnings_are_errors = false;     ///< for tests
     OpenDevices* open_devices = nullptr;  ///< caches context and program; null: no cache
 };
+
+/// What is asked for on top of what is best, for every build and launch of this process.
+struct BuildExtras {
+    std::string options;    ///< for the driver's compiler
+    std::string folder;     ///< for each program's source, options, log and binary; empty: nowhere
+    std::size_t group = 0;  ///< work items of a group that renders; 0: as is best
+};
+
+BuildExtras& build_extras();
 
 }  // namespace rt

@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/opencl/cl_options.h"
 #include "host/opencl/opencl.h"
 #include "host/opencl/pocl.h"
@@ -16,9 +20,43 @@ namespace rt {
 
 namespace {
 
+/// Empty where the driver has none.
+std::string build_log(const cl::Program& program, const ClDevice& device) {
+    try {
+        return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(handle_of(device));
+    } catch (const cl::Error&) {
+        return "";
+    }
+}
+
+/// HASH.cl, .options, .log and .bin in the folder of build_extras.
+void save_build(const cl::Program& program, const ClDevice& device, const std::string& flags) {
+    const std::filesystem::path folder = build_extras().folder;
+    const auto source = program.getInfo<CL_PROGRAM_SOURCE>();
+    Hasher hasher;
+    for (const std::string& part : {device.name, source, flags}) hasher.add(part);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    const auto save = [&](const char* extension, const std::string& text) {
+        const std::filesystem::path file = folder / (hash_text(hasher.value()) + extension);
+        if (std::ofstream(file, std::ios::binary).write(text.data(), std::ssize(text)).flush()) {
+            return;
+        }
+        throw Error(ExitCode::output, file.string() + ": cannot be written");
+    };
+    save(".cl", source);
+    save(".options", flags + "\n");
+    save(".log", build_log(program, device));
+    const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();  // empty where it did not build
+    for (const auto& binary : binaries) save(".bin", {binary.begin(), binary.end()});
+}
+
 /// The status of clBuildProgram: cl::Program::build hides it where there is no log.
 cl_int build(const cl::Program& program, const ClDevice& device, const std::string& flags) {
-    return clBuildProgram(program(), 1, &device.handle, flags.c_str(), nullptr, nullptr);
+    const cl_int status =
+        clBuildProgram(program(), 1, &device.handle, flags.c_str(), nullptr, nullptr);
+    if (!build_extras().folder.empty()) save_build(program, device, flags);
+    return status;
 }
 
 /// The program as PoCL builds it fastest; empty if it cannot, and on all other devices.
@@ -30,16 +68,12 @@ std::optional<cl::Program> built_for_pocl(const cl::Context& context, const ClDe
     return program;
 }
 
-/// Empty where the driver has none.
-std::string build_log(const cl::Program& program, const ClDevice& device) {
-    try {
-        return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(handle_of(device));
-    } catch (const cl::Error&) {
-        return "";
-    }
-}
-
 }  // namespace
+
+BuildExtras& build_extras() {
+    static BuildExtras extras;
+    return extras;
+}
 
 std::string build_options(const ClDevice& device, const ProgramOptions& options) {
     std::string text = "-cl-std=CL1.2";
@@ -59,6 +93,9 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     if (!options.entries.samples) text += " -DRT_RENDERS_SAMPLES=0";
     if (!options.entries.list) text += " -DRT_RENDERS_LIST=0";
     if (!options.entries.rays) text += " -DRT_TRACES_RAYS=0";
+    for (const std::string& more : {build_extras().options, options.more}) {
+        if (!more.empty()) text += " " + more;
+    }
     return text;
 }
 

@@ -33,6 +33,7 @@ struct ProgramOptions {
     int samples = 0;  ///< per pixel, if a packet holds them all: compiled in; 0: any number
     Features features;
     EntryPoints entries;
+    std::string more;  ///< options for the driver's compiler
 };
 
 /// The options for clBuildProgram; the same for the same arguments, since drivers cache by them.

@@ -58,6 +58,7 @@ class ClRenderer : public Renderer<T> {
         launch_samples_ = launches_samples(options.kernels.launch, device);
         lanes_ = packet_lanes<T>(options.kernels.lanes, device);
         group_ = lanes_ == 1 ? single_group : packet_group;
+        if (build_extras().group != 0) group_ = build_extras().group;
         try {
             open();
             upload(scene);

@@ -53,13 +53,13 @@ std::span<const NativeKernels<T>> all_kernels();
 
 template <>
 std::span<const NativeKernels<float>> all_kernels() {
-    static const NativeKernels<float> kernels[] = {RT_NATIVE_FLOAT(RT_NATIVE_ROW)};
+    static const std::vector<NativeKernels<float>> kernels{RT_NATIVE_FLOAT(RT_NATIVE_ROW)};
     return kernels;
 }
 
 template <>
 std::span<const NativeKernels<double>> all_kernels() {
-    static const NativeKernels<double> kernels[] = {RT_NATIVE_DOUBLE(RT_NATIVE_ROW)};
+    static const std::vector<NativeKernels<double>> kernels{RT_NATIVE_DOUBLE(RT_NATIVE_ROW)};
     return kernels;
 }
 

@@ -47,7 +47,7 @@ def scene_path(name):
 
 
 def all_scenes():
-    return sorted(p for p in SETTINGS["scenes"].glob("*.json") if p.name != "scene.schema.json")
+    return sorted(p for p in SETTINGS["scenes"].glob("*.json") if p.name not in ("golden.json", "scene.schema.json"))
 
 
 def malformed_files(ending, beginning=""):

@@ -81,6 +81,31 @@ class Math(WrongDriver):
         self.assertIn(" -DRT_FAST_MATH=1", fast)
         self.assertIn(" -cl-mad-enable", fast)
 
+    def test_further_options_reach_every_build_and_each_is_saved(self):
+        kernels = self.folder / "kernels"
+        for verb in ["render", "bench", "converge", "stress", "doctor"]:
+            log = self.folder / f"{verb}.log"
+            arguments = {"render": [SCENE, "--size", "8", "--device", "pocl"], "doctor": [],
+                         "bench": [SCENE, "--sizes", "8", "--devices", "pocl", "--repeats", "1"],
+                         "converge": [SCENE, "--size", "8", "--devices", "pocl", "--aa", "none",
+                                      "--reference-samples", "2"],
+                         "stress": ["--case", "scale-2/2^0", "--device", "pocl"]}[verb]
+            self.run_with({"CL_SHIM_LOG": str(log)}, verb, *arguments, "--cl-options=-DMINE=1 -w",
+                          "--save-kernels", str(kernels / verb), code=0)
+            builds = log.read_text().splitlines()
+            self.assertTrue(builds and all(" -DMINE=1 -w" in build for build in builds), builds)
+            saved = {path.suffix: path for path in (kernels / verb).iterdir()}
+            self.assertEqual(set(saved), {".cl", ".options", ".log", ".bin"})
+            self.assertIn(saved[".options"].read_text().strip(), [build.strip() for build in builds])
+            self.assertIn("__kernel void render_pixels", saved[".cl"].read_text())
+            self.assertGreater(saved[".bin"].stat().st_size, 1000)
+
+    def test_kernels_that_do_not_build_are_saved_with_the_log(self):
+        kernels = self.folder / "kernels"
+        self.run_with({"CL_SHIM_OLD": "__kernel", "CL_SHIM_NEW": "nonsense"}, "render", SCENE, "--size", "8",
+                      "--device", "pocl", "--no-fallback", "--save-kernels", str(kernels), code=5)
+        self.assertTrue(any("nonsense" in log.read_text() for log in kernels.glob("*.log")))
+
     def test_strict_does_not(self):
         strict = self.options()
         self.assertNotIn("FAST_MATH", strict)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves the items of a probe (tests/probes.cl) into a packet's lanes and back: items at, at + 1..
-// of `count`. Lanes past the end take the last item again, and their results are discarded.
+// Moves the items of a probe (kernels/probes/probes.cl) into a packet's lanes and back: items at,
+// at + 1.. of `count`. Lanes past the end take the last item again, and their results are
+// discarded.
 #ifndef RT_PROBE_LANES_H
 #define RT_PROBE_LANES_H
 

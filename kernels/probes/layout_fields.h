@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every struct of kernels/shared.h and every member of it, once; included by the device
-// (tests/probes.cl) and by C++ (tests/kernel_layout_test.cpp) with their own RT_STRUCT and
+// (kernels/probes/probes.cl) and by C++ (tests/kernel_layout_test.cpp) with their own RT_STRUCT and
 // RT_FIELD. No include guard.
 RT_STRUCT(Packed3)
 RT_FIELD(Packed3, x)

@@ -8,12 +8,8 @@
 // A packet holds RT_LANES items, one per lane. A function that takes one primitive for all lanes is
 // called once per lane with that lane's primitive, and only that lane's result is kept.
 #include "kernels/render.cl"
-#include "tests/probe_structs.h"
-
-#define PROBE_SCENE RT_SCENE_ARRAYS(RT_SCENE_PASSED) __global const LaunchParams* params
-#define PROBE_SCENE_PACKET \
-    PROBE_PACKET;          \
-    SceneView scene = {RT_SCENE_ARRAYS(RT_SCENE_NAME) * params}
+// It uses the tracer's types.
+#include "kernels/probes/probe_structs.h"
 
 // PROBE2(dot3, REALS, REAL3, REAL3): the entry point of dot3, whose result is one number for each
 // lane, from two arguments of three. The kinds are those of probe_lanes.h.
@@ -43,12 +39,7 @@
         PUT_##result(out, function(A(a), B(b), C(c), D(d)));                                    \
     }
 
-// The materials of the surfaces of a probe's scene.
-Materials probe_materials(const SceneView* scene, const Surface* surface) {
-    return materials_of(scene, surface->material, RT_ALL_LANES);
-}
-
-// shared.h: offset and size of entry i of tests/layout_fields.h
+// shared.h: offset and size of entry i of kernels/probes/layout_fields.h
 
 __kernel void probe_layout(PROBE_ITEMS, __global ProbeField* out) {
     PROBE_PACKET;
@@ -65,7 +56,7 @@ __kernel void probe_layout(PROBE_ITEMS, __global ProbeField* out) {
         out[i].offset = (ulong)((char*)&object.member - (char*)&object); \
         out[i].bytes = sizeof(object.member);                            \
     }
-#include "tests/layout_fields.h"
+#include "kernels/probes/layout_fields.h"
     }
 }
 
@@ -79,6 +70,20 @@ PROBE3(log2_cosine, REALS, REALS, REALS, REALS)
 PROBE2(exp2_of_product, REALS, REALS, REALS)
 PROBE4(blinn_lobe, REALS, REALS, REALS, REALS, REALS)
 
+// What all of them are made of: the device's own arithmetic.
+
+Reals product(Reals a, Reals b) { return a * b; }
+Reals quotient(Reals a, Reals b) { return a / b; }
+Reals square_root(Reals a) { return sqrt(a); }
+Reals fused(Reals a, Reals b, Reals c) { return fma(a, b, c); }
+Uints shifted(Uints a, Uints b) { return (a << (b & 31)) ^ (a >> (b & 31)); }
+
+PROBE2(product, REALS, REALS, REALS)
+PROBE2(quotient, REALS, REALS, REALS)
+PROBE1(square_root, REALS, REALS)
+PROBE3(fused, REALS, REALS, REALS, REALS)
+PROBE2(shifted, UINTS, UINTS, UINTS)
+
 // math.cl
 
 Reals multiply_add(Reals a, Reals b, Reals c) { return a * b + c; }
@@ -90,6 +95,8 @@ __kernel void probe_load3(PROBE_ITEMS, __global const Packed3* a, __global Packe
     PUT_REAL3(out, loaded);
 }
 
+PROBE2(min_of, REALS, REALS, REALS)
+PROBE2(max_of, REALS, REALS, REALS)
 PROBE2(dot3, REALS, REAL3, REAL3)
 PROBE3(add_scaled, REAL3, REAL3, REALS, REAL3)
 PROBE3(multiply_add, REALS, REALS, REALS, REALS)
@@ -208,48 +215,6 @@ __kernel void probe_meets_box(PROBE_ITEMS, __global const ProbeRay* rays,
     PUT_REALS(out, found);
 }
 
-// Distance to primitive prims[i] alone.
-__kernel void probe_intersect_primitive(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                                        __global const Index* prims, __global ProbeHit* out) {
-    PROBE_PACKET;
-    Ray ray = RAYS(rays);
-    RayShear shear = make_shear(&ray, RT_ALL_LANES);
-    Hit hit = no_hit();
-    hit.prim = INDICES(prims);
-    PROBE_EACH_LANE {
-        Index prim = prims[THIS_ITEM];
-        Index cone = prim - params->sphere_count;
-        Index triangle = cone - params->cone_count;
-        Reals t = (Reals)0, far, u, v;
-        Mask met = THIS_LANE;
-        if (cone < 0) {
-            met &= intersect_sphere(&ray, &spheres[prim], prim, &t);
-        } else if (triangle < 0) {
-            met &= intersect_cone(&ray, &cones[cone], ray.from == prim, &t, &far);
-        } else {
-            met &= intersect_triangle(&shear, &triangles[triangle], &t, &u, &v);
-            met &= ray.from != prim;
-        }
-        hit.t = met ? t : hit.t;
-    }
-    PUT_HIT(out, hit);
-}
-
-__kernel void probe_closest_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                                __global ProbeHit* out) {
-    PROBE_SCENE_PACKET;
-    Ray ray = RAYS(rays);
-    PUT_HIT(out, closest_hit(&scene, &ray, RT_ALL_LANES));
-}
-
-// Towards light 0.
-__kernel void probe_any_hit(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                            __global Index* out) {
-    PROBE_SCENE_PACKET;
-    Ray ray = RAYS(rays);
-    PUT_MASK(out, any_hit(&scene, &ray, RT_TOUCHES_FIRST_LIGHT, 0, params->triangle_count));
-}
-
 // surface.cl, hit_surface.cl
 
 #define PROBE_SURFACE_OF(function, Primitive)                                                    \
@@ -296,34 +261,6 @@ __kernel void probe_triangle_surface(PROBE_ITEMS, __global const ProbeRay* rays,
     PUT_SURFACE(out, surface);
 }
 
-__kernel void probe_primitive_surface(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                                      __global const ProbeHit* hits, __global ProbeSurface* out) {
-    PROBE_SCENE_PACKET;
-    Ray ray = RAYS(rays);
-    Hit hit = HITS(hits);
-    Surface surface = no_surface();
-    PROBE_EACH_LANE {
-        Surface met = primitive_surface(&scene, &ray, &hit, hits[THIS_ITEM].prim);
-        surface = select_surface(THIS_LANE, met, surface);
-    }
-    PUT_SURFACE(out, surface);
-}
-
-__kernel void probe_is_on_edge(PROBE_ITEMS, PROBE_SCENE, __global const ProbeHit* hits,
-                               __global Index* out) {
-    PROBE_SCENE_PACKET;
-    Hit hit = HITS(hits);
-    PUT_MASK(out, is_on_edge(&scene, &hit));
-}
-
-__kernel void probe_surface_at(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                               __global const ProbeHit* hits, __global ProbeSurface* out) {
-    PROBE_SCENE_PACKET;
-    Ray ray = RAYS(rays);
-    Hit hit = HITS(hits);
-    PUT_SURFACE(out, surface_at(&scene, &ray, &hit, RT_ALL_LANES));
-}
-
 __kernel void probe_offset_origin(PROBE_ITEMS, __global const ProbeSurface* surfaces,
                                   __global const Packed3* sides, __global Packed3* out) {
     PROBE_PACKET;
@@ -343,33 +280,6 @@ __kernel void probe_spawn_ray(PROBE_ITEMS, __global const ProbeSurface* surfaces
 
 PROBE1(is_black, MASK, REAL3)
 PROBE4(specular_lobe, REALS, REAL3, REAL3, REAL3, REALS)
-
-// Light 0 of the scene; the surface gives the material and, if it is on one, the primitive.
-__kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
-                                       __global const ProbeSurface* surfaces,
-                                       __global const Packed3* origins,
-                                       __global const Packed3* to_eye, __global const Index* prims,
-                                       __global Packed3* out, __global RayCounts* counts) {
-    PROBE_SCENE_PACKET;
-    Surface surface = SURFACES(surfaces);
-    Materials material = probe_materials(&scene, &surface);
-    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
-    PUT_REAL3(out, light_contribution(&scene, &surface, &material, 0, REAL3(origins), REAL3(to_eye),
-                                      INDICES(prims), RT_ALL_LANES, &used));
-    PUT_COUNTS(counts, used);
-}
-
-__kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface* surfaces,
-                          __global const Packed3* to_eye, __global const Index* prims,
-                          __global Packed3* out, __global RayCounts* counts) {
-    PROBE_SCENE_PACKET;
-    Surface surface = SURFACES(surfaces);
-    Materials material = probe_materials(&scene, &surface);
-    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
-    PUT_REAL3(out, shade(&scene, &surface, &material, REAL3(to_eye), INDICES(prims), RT_ALL_LANES,
-                         &used));
-    PUT_COUNTS(counts, used);
-}
 
 // whitted.cl
 
@@ -392,45 +302,7 @@ __kernel void probe_refracted_ray(PROBE_ITEMS, __global const ProbeSurface* surf
     PUT_MASK(total, is_total);
 }
 
-__kernel void probe_trace_path(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
-                               __global Packed3* out, __global RayCounts* counts) {
-    PROBE_SCENE_PACKET;
-    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
-    PUT_REAL3(out, trace_path(&scene, RAYS(rays), RT_ALL_LANES, &used));
-    PUT_COUNTS(counts, used);
-}
-
-__kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
-                                 __global const Index* y, __global const Index* k,
-                                 __global Packed3* out, __global RayCounts* counts) {
-    PROBE_SCENE_PACKET;
-    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
-    PUT_REAL3(out, trace_sample(&scene, INDICES(x), INDICES(y), INDICES(k), RT_ALL_LANES, &used));
-    PUT_COUNTS(counts, used);
-}
-
 // packet.cl, film.cl
-
-// Pixels anywhere, as many at a time as a packet holds.
-__kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* x,
-                                __global const Index* y, __global Packed3* out) {
-    PROBE_SCENE_PACKET;
-    Packet packet = make_packet(params->samples, RT_SAMPLES_TOGETHER);
-    for (Index done = 0; done < RT_LANES; done += packet.pixels) {
-        IndexLanes pixel, column, row;
-        pixel.all = packet.pixel + done;
-        PROBE_EACH_LANE {
-            size_t i = lane_item(at, count, pixel.lane[lane]);
-            column.lane[lane] = x[i];
-            row.lane[lane] = y[i];
-        }
-        RayCounts counts = {0, 0, 0};
-        real3 colors = trace_pixels(&scene, &packet, column.all, row.all, RT_ALL_LANES, &counts);
-        Indices places = packet.pixel + (done + (Index)at);
-        places = places < (Indices)(Index)count ? places : (Indices)-1;
-        store_lanes((__global Real*)out, colors, places, packet.pixels);
-    }
-}
 
 __kernel void probe_store3(PROBE_ITEMS, __global const Packed3* colors, __global Packed3* out) {
     PROBE_PACKET;
@@ -509,3 +381,10 @@ __kernel void probe_sample(PROBE_ITEMS, __global const LaunchParams* params,
     PUT_REALS(sample_y, sample.y);
     PUT_REALS(weight, sample_weight(&f, INDICES(x), INDICES(y), INDICES(k)));
 }
+
+#ifndef RT_SCENE_PROBES
+#define RT_SCENE_PROBES 1
+#endif
+#if RT_SCENE_PROBES
+#include "kernels/probes/scene_probes.cl"
+#endif

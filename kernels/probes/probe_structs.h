@@ -4,8 +4,8 @@
 #ifndef RT_PROBE_STRUCTS_H
 #define RT_PROBE_STRUCTS_H
 
-#include "tests/probe_fields.h"
-#include "tests/probe_lanes.h"
+#include "kernels/probes/probe_fields.h"
+#include "kernels/probes/probe_lanes.h"
 
 // Probe##Type, whose members are those of Type that tests set, and how it gets into lanes and back.
 // `rest` sets the other members.

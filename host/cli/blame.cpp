@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/selftest/blame.h"
+
+#include <fmt/format.h>
+
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/cli/options.h"
+#include "host/cli/verb.h"
+#include "host/measure/device_list.h"
+#include "host/process/worker.h"
+
+namespace rt {
+
+namespace {
+
+int run_blame(const std::string& spec, const std::string& folder) {
+    const std::vector<ListedDevice> devices = listed_devices({spec});
+    if (devices.size() != 1 || devices[0].is_threads()) {
+        usage_error("--device {}: blame takes one OpenCL device", spec);
+    }
+    const DriverTask task(devices[0].name);
+    const Blame blame = blame_device(devices[0].choice.device, folder);
+    print_result(blame.text);
+    if (blame.verdict.empty()) {
+        print_result("nothing is wrong\n");
+        return 0;
+    }
+    print_result("to blame: " + blame.verdict + "\n");
+    if (!blame.reproducer.empty()) {
+        print_result(fmt::format("to see it: cd {} && cc reproduce.c -lOpenCL && ./a.out\n",
+                                 blame.reproducer));
+    }
+    return static_cast<int>(ExitCode::different);
+}
+
+}  // namespace
+
+void add_blame(const CommandLine& program, Invocation& call) {
+    struct Asked {
+        std::string device, folder = "blame";
+    };
+    const auto asked = std::make_shared<Asked>();
+    const CommandLine verb = program.verb(
+        "blame", "find which function, option, pixel or ray a device gets wrong, and reproduce it");
+    verb.value("--device", "SPEC", asked->device, parse_device, "the OpenCL device", true);
+    verb.value("-o,--output", "FOLDER", asked->folder,
+               "folder for a C program that shows the fault (default: blame)");
+    add_build_extras(verb);
+    verb.when_chosen([asked, &call] {
+        call.in_worker([asked] { return run_blame(asked->device, asked->folder); }, false);
+        call.crash = ExitCode::different;
+    });
+}
+
+}  // namespace rt

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/selftest/selftest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/base/console.h"
+#include "host/base/error.h"
+#include "host/cli/options.h"
+#include "host/cli/result_file.h"
+#include "host/cli/verb.h"
+#include "host/measure/device_list.h"
+#include "host/print/print_run.h"
+#include "host/process/stop_signal.h"
+#include "host/render/stopwatch.h"
+
+namespace rt {
+
+namespace {
+
+/// `mirrorball selftest`
+struct SelftestOptions {
+    std::vector<std::string> devices;  ///< empty: every usable OpenCL device
+    std::vector<std::string> filters;  ///< globs of names; empty: all
+    std::string json, junit;           ///< files for the results; empty: none
+    std::string expect;                ///< file of checks that are known to fail; empty: none
+    bool quick = false;
+    bool write_golden = false;
+    bool quiet = false;
+};
+
+/// Throws Error (ExitCode::device) where there is none.
+std::vector<ListedDevice> chosen_devices(const std::vector<std::string>& specs) {
+    try {
+        if (!specs.empty()) return listed_devices(specs);
+        std::vector<ListedDevice> devices = listed_devices({"all"});
+        std::erase_if(devices, [](const ListedDevice& device) { return device.is_threads(); });
+        if (!devices.empty()) return devices;
+    } catch (const Error& error) {
+        throw Error(ExitCode::device, error.what());
+    }
+    throw Error(ExitCode::device, "no usable OpenCL device; see 'mirrorball doctor'");
+}
+
+int run_selftest(const SelftestOptions& options) {
+    if (options.write_golden) {
+        print_result(write_golden_pictures() + "\n");
+        return 0;
+    }
+    check_result_path(options.json, json_start("mirrorball-selftest"));
+    check_result_path(options.junit, "<?xml");
+    const Stopwatch watch;
+    Checks checks(options.filters, known_failures(options.expect));
+    const std::vector<ListedDevice> devices = chosen_devices(options.devices);
+    install_stop_signals();
+    for (const ListedDevice& device : devices) {
+        const std::string prefix = devices.size() > 1 ? device.spec + ":" : "";
+        if (!options.quiet) print_note("checking " + device.name);
+        if (!device.is_threads()) {
+            check_functions(checks, device.choice.device, prefix, options.quick);
+        }
+        check_pictures(checks, device.choice, prefix, options.quick);
+        if (!options.quick) check_stress(checks, device.spec, prefix);
+    }
+    if (stop_flag() != 0) return 128 + stop_flag();
+    if (checks.list().empty()) usage_error("--filter fits no check");
+    const double seconds = watch.seconds();
+    if (options.json != "-") print_result(checks.text(seconds));
+    write_result(options.json, options.json.empty() ? "" : checks.json(seconds));
+    write_result(options.junit, options.junit.empty() ? "" : checks.junit(seconds));
+    return static_cast<int>(checks.is_all_expected() ? ExitCode::done : ExitCode::different);
+}
+
+}  // namespace
+
+void add_selftest(const CommandLine& program, Invocation& call) {
+    const auto asked = std::make_shared<SelftestOptions>();
+    SelftestOptions& selftest = *asked;
+    const CommandLine verb = program.verb(
+        "selftest", "check every device function, the golden pictures and quick stress cases");
+    verb.value("--device", "SPEC,..", selftest.devices, list_of(parse_device),
+               "devices as for render --device (default: as the environment says, else every "
+               "OpenCL device)");
+    verb.flag("--quick", selftest.quick, "only what takes some 20 s with a cold kernel cache");
+    verb.value("--filter", "GLOB,...", selftest.filters, list_of(parse_text),
+               "names of checks to run, such as dot3/* (default: all)");
+    verb.value("--expect", "FILE", selftest.expect,
+               "names of checks known to fail, one a line: that one of them passes is an error");
+    add_result_file(verb, "--json", selftest.json, "write JSON, to FILE or to stdout");
+    verb.value("--junit", "FILE", selftest.junit, "write JUnit's XML");
+    verb.flag("--write-golden", selftest.write_golden,
+              "render the golden pictures on threads and write scenes/golden.json (maintainers)");
+    add_build_extras(verb);
+    verb.flag("-q,--quiet", selftest.quiet, quiet_help);
+    verb.when_chosen([asked, &call] {
+        const std::string device = device_from_environment();
+        if (asked->devices.empty() && !device.empty()) asked->devices = split_list(device);
+        call.in_worker([asked] { return run_selftest(*asked); }, asked->quiet);
+        call.crash = ExitCode::different;
+    });
+}
+
+}  // namespace rt

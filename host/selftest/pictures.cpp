@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <span>
+
+#include "host/base/error.h"
+#include "host/base/hash.h"
+#include "host/image/atomic_file.h"
+#include "host/picture/crew_members.h"
+#include "host/process/stop_signal.h"
+#include "host/record/record.h"
+#include "host/scene/scene_file.h"
+#include "host/selftest/selftest.h"
+
+namespace rt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* modes[] = {"none", "grid:2", "grid:3", "sobol:16", "adaptive:0.05"};
+constexpr int width = 64;
+
+/// The shipped scenes: next to the installed program, or to the build folder.
+fs::path scenes_folder() {
+    std::error_code error;
+    const fs::path home = fs::read_symlink("/proc/self/exe", error).parent_path();
+    for (const char* place : {"../share/mirrorball/scenes", "../../scenes"}) {
+        const fs::path folder = (home / place).lexically_normal();
+        if (fs::exists(folder / "cornell-box.json", error)) return folder;
+    }
+    throw Error(ExitCode::input,
+                "the shipped scenes are not installed next to the program, in " +
+                    (home / "../share/mirrorball/scenes").lexically_normal().string());
+}
+
+/// "cornell-box", "gallery/chain".
+std::set<std::string> scenes_in(const fs::path& folder) {
+    std::set<std::string> scenes;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const fs::path scene = entry.path().lexically_relative(folder).replace_extension();
+        if (entry.path().extension() == ".json") scenes.insert(scene);
+    }
+    for (const char* other : {"golden", "scene.schema"}) scenes.erase(other);
+    return scenes;
+}
+
+using Hashes = std::map<std::string, std::string>;
+
+Hashes read_golden(const fs::path& folder) {
+    std::ifstream in(folder / "golden.json");
+    const Json json = Json::parse(in, nullptr, false);
+    return json.is_object() ? json.value("pictures", Hashes()) : Hashes();
+}
+
+RenderSettings golden_settings(const GoldenPicture& picture) {
+    RenderSettings settings;
+    settings.precision = picture.precision;
+    settings.aa = parse_aa_mode(picture.mode);
+    settings.no_fallback = true;
+    settings.self_test = false;
+    return settings;
+}
+
+/// One program for all scenes.
+KernelChoice all_features() {
+    KernelChoice kernels;
+    kernels.features = Features{};
+    kernels.any_samples = true;
+    return kernels;
+}
+
+}  // namespace
+
+std::string GoldenPicture::name() const {
+    return fmt::format("{}/{}/{}", scene, mode, to_string(precision));
+}
+
+std::vector<GoldenPicture> golden_pictures() {
+    const fs::path folder = scenes_folder();
+    Hashes hashes = read_golden(folder);
+    std::vector<GoldenPicture> pictures;
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        for (const std::string& scene : scenes_in(folder)) {
+            for (const char* mode : modes) {
+                GoldenPicture& picture =
+                    pictures.emplace_back(GoldenPicture{scene, mode, precision, ""});
+                picture.hash = hashes[picture.name()];
+            }
+        }
+    }
+    return pictures;
+}
+
+Scene golden_scene(const GoldenPicture& picture) {
+    Scene scene = load_scene(scenes_folder() / (picture.scene + ".json"));
+    RenderSettings settings = golden_settings(picture);
+    settings.size = PictureSize{width, std::max(1, width * scene.height / scene.width)};
+    apply_overrides(scene, settings);
+    return scene;
+}
+
+RenderedPicture render_golden(const GoldenPicture& picture, const DeviceChoice& device,
+                              const KernelChoice& kernels, RenderCache* cache) {
+    RenderSettings settings = golden_settings(picture);
+    settings.kernels = kernels;
+    return render_picture(golden_scene(picture), settings, {device}, {}, stop_flag(), cache);
+}
+
+void check_pictures(Checks& checks, const DeviceChoice& device, const std::string& prefix,
+                    bool quick) {
+    const bool has_double = device.use_threads || device.device.has_double;
+    RenderCache cache;
+    const auto run = [&](const char* how, const GoldenPicture& picture,
+                         const KernelChoice& kernels) {
+        checks.run(prefix + how + "/" + picture.name(), [&]() -> std::string {
+            const std::string hash =
+                hash_text(render_golden(picture, device, kernels, &cache).stats.image_hash);
+            if (hash == picture.hash) return "";
+            return fmt::format("another picture: {} instead of {}", hash,
+                               picture.hash.empty() ? "any of the golden ones" : picture.hash);
+        });
+    };
+    KernelChoice own, samples;
+    own.launch = Launch::pixel;
+    samples.launch = Launch::sample;
+    for (const GoldenPicture& picture : golden_pictures()) {
+        const bool is_double = picture.precision == Precision::float64;
+        const bool refines = picture.mode.starts_with("adaptive");
+        if (is_double && !has_double) continue;
+        if (quick && (is_double || refines)) continue;
+        run("picture", picture, all_features());
+        const bool is_paper = picture.scene == "cornell-box";
+        if (device.use_threads || picture.mode != "grid:2" || is_double || !is_paper) continue;
+        if (!quick) run("own-features", picture, own);
+        run("samples", picture, samples);
+    }
+}
+
+std::string write_golden_pictures() {
+    RenderCache cache;
+    Hashes hashes;
+    for (const GoldenPicture& picture : golden_pictures()) {
+        hashes[picture.name()] = hash_text(
+            render_golden(picture, threads_choice(), all_features(), &cache).stats.image_hash);
+    }
+    const std::string file = scenes_folder() / "golden.json";
+    const std::string text = json_text(
+        {{"format", "mirrorball-golden"}, {"version", 1}, {"width", width}, {"pictures", hashes}});
+    write_file_atomically(file, std::as_bytes(std::span(text)));
+    return file;
+}
+
+}  // namespace rt

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/selftest/probes.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "host/base/error.h"
+#include "host/record/record.h"
+
+// The file as it stands, between two symbols.
+asm(R"(.pushsection .rodata
+.global mirrorball_probes_begin, mirrorball_probes_end
+mirrorball_probes_begin: .incbin ")" MIRRORBALL_PROBES_FILE R"("
+mirrorball_probes_end:
+.popsection)");
+extern "C" const unsigned char mirrorball_probes_begin[], mirrorball_probes_end[];
+
+namespace rt {
+
+namespace {
+
+/// One work-group size: PoCL compiles a kernel again for any other.
+constexpr std::size_t group = 64;
+
+/// Of the file before it is compressed: {function, is_double, count, {inputs}, {outputs}}.
+Json json_of(const std::vector<ProbeArray>& arrays) {
+    Json list = Json::array();
+    for (const ProbeArray& array : arrays) {
+        const auto* const begin = reinterpret_cast<const std::uint8_t*>(array.bytes.data());
+        list.push_back({array.item_bytes, array.holds_numbers,
+                        Json::binary({begin, begin + array.bytes.size()})});
+    }
+    return list;
+}
+
+std::vector<ProbeArray> arrays_of(const Json& list) {
+    std::vector<ProbeArray> arrays;
+    for (const Json& json : list) {
+        const auto bytes = std::as_bytes(std::span(json[2].get_binary()));
+        arrays.push_back({{bytes.begin(), bytes.end()}, json[0], json[1]});
+    }
+    return arrays;
+}
+
+template <typename T>
+bool is_same_number(const std::byte* a, const std::byte* b) {
+    T x, y;
+    std::memcpy(&x, a, sizeof(T));
+    std::memcpy(&y, b, sizeof(T));
+    return (x != x && y != y) || std::memcmp(a, b, sizeof(T)) == 0;
+}
+
+}  // namespace
+
+bool is_same_item(bool is_double, const std::byte* a, const std::byte* b, std::size_t bytes,
+                  bool holds_numbers) {
+    if (std::memcmp(a, b, bytes) == 0) return true;
+    const auto is_same = is_double ? is_same_number<double> : is_same_number<float>;
+    for (std::size_t at = 0; at < bytes && holds_numbers; at += is_double ? 8 : 4) {
+        if (!is_same(a + at, b + at)) return false;
+    }
+    return holds_numbers;
+}
+
+std::vector<ProbeRecord> recorded_probes() {
+    uLongf size = 0;
+    constexpr std::size_t start = sizeof(size);
+    std::memcpy(&size, mirrorball_probes_begin, start);
+    std::vector<std::uint8_t> plain(size);
+    const auto bytes = static_cast<uLong>(mirrorball_probes_end - mirrorball_probes_begin - start);
+    if (uncompress(plain.data(), &size, mirrorball_probes_begin + start, bytes) != Z_OK) {
+        throw Error(ExitCode::bug, "the records of the probes cannot be read");
+    }
+    std::vector<ProbeRecord> records;
+    for (const Json& json : Json::from_msgpack(plain)) {
+        records.push_back({json[0], json[1], json[2], arrays_of(json[3]), arrays_of(json[4])});
+    }
+    return records;
+}
+
+std::string encoded(const std::vector<ProbeRecord>& records) {
+    Json list = Json::array();
+    for (const ProbeRecord& record : records) {
+        list.push_back({record.function, record.is_double, record.count, json_of(record.inputs),
+                        json_of(record.outputs)});
+    }
+    const std::vector<std::uint8_t> plain = Json::to_msgpack(list);
+    const uLongf plain_size = plain.size();
+    uLongf size = compressBound(plain_size);
+    std::vector<Bytef> packed(size);
+    compress2(packed.data(), &size, plain.data(), plain_size, Z_BEST_COMPRESSION);
+    return std::string(reinterpret_cast<const char*>(&plain_size), sizeof(plain_size)) +
+           std::string(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size));
+}
+
+ProbeDevice::ProbeDevice(const ClDevice& device)
+    : device_(device), queue_(programs_.context(device_), handle_of(device_)) {}
+
+void ProbeDevice::launch(ProgramOptions build, const std::string& function, std::size_t count,
+                         std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs,
+                         std::size_t most_items) {
+    build.entries = {false, false, false, false};
+    if (inputs.size() < scene_inputs) build.more += " -DRT_SCENE_PROBES=0";
+    cl::Kernel kernel(programs_.program(device_, probe_kernels, build),
+                      ("probe_" + function).c_str());
+    const std::size_t given = 2 + inputs.size() + outputs.size();
+    if (const auto wanted = kernel.getInfo<CL_KERNEL_NUM_ARGS>(); wanted != given) {
+        usage_error("the probe takes {} arguments (first, count, ...) and was given {}", wanted,
+                    given);
+    }
+    const cl::Context context = programs_.context(device_);
+    std::vector<cl::Buffer> buffers;
+    const auto add = [&](const void* data, std::size_t bytes) {  // OpenCL has no empty buffers
+        buffers.emplace_back(context, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 1));
+        if (bytes != 0) queue_.enqueueWriteBuffer(buffers.back(), CL_TRUE, 0, bytes, data);
+        kernel.setArg(static_cast<cl_uint>(1 + buffers.size()), buffers.back());
+    };
+    for (const ProbeInput& input : inputs) add(input.data, input.bytes);
+    for (const ProbeOutput& output : outputs) add(output.data, output.bytes());
+    kernel.setArg(1, static_cast<cl_uint>(count));
+    const std::size_t lanes = static_cast<std::size_t>(build.lanes);
+    const std::size_t packets = (count + lanes - 1) / lanes;
+    for (std::size_t first = 0; first < packets; first += most_items) {
+        kernel.setArg(0, static_cast<cl_uint>(first));
+        const std::size_t items = std::min(packets - first, most_items);
+        queue_.enqueueNDRangeKernel(kernel, cl::NullRange, (items + group - 1) / group * group,
+                                    group);
+    }
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        queue_.enqueueReadBuffer(buffers[inputs.size() + i], CL_TRUE, 0, outputs[i].bytes(),
+                                 outputs[i].data);
+    }
+}
+
+}  // namespace rt

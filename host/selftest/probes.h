@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/opencl/cl_program.h"
+
+// The probes of device functions (kernels/probes/probes.cl) on a device, and what the kernel tests
+// gave to them and natively got back in strict arithmetic: recorded by scripts/record-probes, part
+// of the program.
+namespace rt {
+
+/// An argument of a probe.
+struct ProbeArray {
+    std::vector<std::byte> bytes;
+    std::uint32_t item_bytes = 0;  ///< 0: the same for all items
+    bool holds_numbers = true;     ///< of a result, possibly among integers; else integers only
+};
+
+/// One launch of probe_FUNCTION over `count` items.
+struct ProbeRecord {
+    std::string function;
+    bool is_double = false;
+    std::uint32_t count = 0;
+    std::vector<ProbeArray> inputs, outputs;
+};
+
+/// Whether two items of a result hold the same bits; all NaNs are equal, since IEEE 754 leaves sign
+/// and payload to the machine.
+bool is_same_item(bool is_double, const std::byte* a, const std::byte* b, std::size_t bytes,
+                  bool holds_numbers);
+
+/// A function's one after the other, those that take scenes last.
+std::vector<ProbeRecord> recorded_probes();
+
+/// The file that holds them.
+std::string encoded(const std::vector<ProbeRecord>& records);
+
+/// kernels/probes/probes.cl with its includes, embedded at build time.
+extern const char* const probe_kernels;
+
+/// A scene is so many inputs. Probes that take one are a program of their own: they hold much of
+/// the tracer, and take long to compile.
+inline constexpr std::size_t scene_inputs = 10;
+
+/// Arguments of a launch that others own.
+struct ProbeInput {
+    const void* data;
+    std::size_t bytes;
+    std::size_t item_bytes = 0;  ///< 0: the same for all items
+};
+
+/// Room for `count` items.
+struct ProbeOutput {
+    void* data;
+    std::size_t count, item_bytes;
+    bool holds_numbers;  ///< possibly among integers; else integers only
+
+    std::size_t bytes() const { return count * item_bytes; }
+};
+
+/// A device with the probes, each build of them made on first use.
+class ProbeDevice {
+   public:
+    explicit ProbeDevice(const ClDevice& device);
+
+    const ClDevice& device() const { return device_; }
+
+    /// Runs probe_FUNCTION over `count` items in packets of build.lanes; its arguments are first,
+    /// count, the inputs and the outputs, which are uploaded before. `most_items`: work items of a
+    /// launch. Throws cl::Error, and Error as build_program does.
+    void launch(ProgramOptions build, const std::string& function, std::size_t count,
+                std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs,
+                std::size_t most_items = 65536 - 64);
+
+   private:
+    ClDevice device_;
+    OpenDevices programs_;
+    cl::CommandQueue queue_;
+};
+
+}  // namespace rt

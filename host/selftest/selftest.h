@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "host/picture/render_picture.h"
+#include "host/record/describe.h"
+#include "host/selftest/probes.h"
+
+namespace rt {
+
+struct Check {
+    std::string name;  ///< "dot3/float/16": what is checked, precision, lanes
+    std::string why;   ///< what is wrong; empty: nothing
+    double seconds = 0;
+    bool is_known = false;  ///< to fail, by --expect
+
+    bool is_expected() const { return why.empty() != is_known; }
+};
+
+template <typename A, Of<Check> X>
+void describe(A& a, X& x) {
+    a("name", x.name, "what is checked, precision, rays of a packet");
+    a("right", x.why.empty(), "whether it is");
+    a("why", unless_empty(x.why), "what is wrong");
+    a("known", x.is_known, "whether --expect says that it fails");
+    a("seconds", x.seconds, "that it took, compiling included");
+}
+
+/// The checks of `mirrorball selftest`, run one after the other.
+class Checks {
+   public:
+    /// Runs those whose names fit a glob, or all if there is none. `known`: which fail.
+    Checks(std::vector<std::string> filters, std::set<std::string> known)
+        : filters_(std::move(filters)), known_(std::move(known)) {}
+
+    /// Runs a check, unless a filter or a stop signal leaves it out; `check` returns what is wrong,
+    /// or nothing. An Error and a cl::Error are wrong, too.
+    void run(const std::string& name, const std::function<std::string()>& check);
+
+    const std::vector<Check>& list() const { return list_; }
+
+    bool is_all_expected() const;
+
+    std::string text(double seconds) const;  ///< a line for each failure or surprise, one for all
+    std::string json(double seconds) const;
+    std::string junit(double seconds) const;
+
+   private:
+    bool wants(const std::string& name) const;
+
+    std::vector<std::string> filters_;
+    std::set<std::string> known_;
+    std::vector<Check> list_;
+};
+
+/// The names in a file of --expect, one a line; # starts a comment. Throws Error (input).
+std::set<std::string> known_failures(const std::string& file);
+
+/// Runs a record's probe and compares; empty if all is right, NaNs being equal. `most_items`: in
+/// one launch. Throws as ProbeDevice::launch.
+std::string what_is_wrong(ProbeDevice& device, const ProbeRecord& record, int lanes,
+                          const std::string& more_options = "",
+                          std::size_t most_items = 65536 - 64);
+
+/// The name of a record's precision.
+inline const char* precision_name(const ProbeRecord& record) {
+    return record.is_double ? "double" : "float";
+}
+
+/// A launch of more than 2^20 work items.
+ProbeRecord many_items_record(const std::vector<ProbeRecord>& records);
+
+/// A shipped scene as its golden picture shows it.
+struct GoldenPicture {
+    std::string scene;  ///< "cornell-box": its file in scenes/
+    std::string mode;   ///< of anti-aliasing
+    Precision precision = Precision::float32;
+    std::string hash;  ///< empty: not in scenes/golden.json
+
+    std::string name() const;
+};
+
+/// Of all shipped scenes, in float and then in double. Throws Error (input) where they are not
+/// installed.
+std::vector<GoldenPicture> golden_pictures();
+
+/// The scene at the picture's size, with its AA mode.
+Scene golden_scene(const GoldenPicture& picture);
+
+/// Renders it on that device alone; the cache may be null.
+RenderedPicture render_golden(const GoldenPicture& picture, const DeviceChoice& device,
+                              const KernelChoice& kernels, RenderCache* cache);
+
+/// Renders all on threads, writes scenes/golden.json and returns its name.
+std::string write_golden_pictures();
+
+// What `selftest` checks on a device. `prefix`: of the names; `quick`: what takes some 20 s with a
+// cold kernel cache.
+void check_functions(Checks& checks, const ClDevice& device, const std::string& prefix, bool quick);
+void check_pictures(Checks& checks, const DeviceChoice& device, const std::string& prefix,
+                    bool quick);
+void check_stress(Checks& checks, const std::string& spec, const std::string& prefix);
+
+}  // namespace rt

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`mirrorball selftest` and `blame` find planted faults."""
+import json
+import os
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+from driver_case import BUILD, ROOT, WrongDriver
+from planted_faults import FAULTS
+
+# Where each fault of a single function shows; MIRRORBALL_ALL_FAULTS for whole runs of all faults.
+CHECKS = {"fma undone": "dot3", "dot product in another order": "dot3", "division by a reciprocal": "divide3",
+          "square root an ulp off": "square_root", "flushed subnormals": "scale3",
+          "a dropped rounding": "difference_of_products", "fmax returns NaN": "max_of",
+          "a shift off by one": "hash_bits", "a field elsewhere": "layout"}
+ALL = bool(os.environ.get("MIRRORBALL_ALL_FAULTS"))
+
+
+class Selftest(WrongDriver):
+    def selftest(self, code, *arguments, shim=None):
+        return self.run_with(shim or {}, "selftest", "--device", "pocl", "-q", *arguments, code=code)
+
+    def fault(self, name):
+        return {"CL_SHIM_OLD": FAULTS[name][0], "CL_SHIM_NEW": FAULTS[name][1]}
+
+    def test_finds_faults(self):
+        for name, function in CHECKS.items():
+            with self.subTest(name):
+                check = f"{function}/float/1"
+                result = self.selftest(1, "--filter", f"{check},mul3/float/1", shim=self.fault(name))
+                lines = result.stdout.splitlines()
+                self.assertEqual(len(lines), 2, result.stdout)
+                self.assertRegex(lines[0], f"^wrong +{check}: ")
+                self.assertRegex(lines[1], r"^2 checks, 1 wrong, ")
+
+    def test_tells_inexact_from_wrong(self):
+        result = self.selftest(1, "--filter", "square_root/float/1",
+                               shim=self.fault("square root an ulp off"))
+        self.assertRegex(result.stdout, r"by up to [12]\.\d+ ulps from the exact value")
+
+    def test_of_a_right_device(self):
+        report, junit = self.folder / "report.json", self.folder / "junit.xml"
+        self.selftest(0, "--filter", "dot3/float/*,picture/empty/*/float", "--json", str(report),
+                      "--junit", str(junit))
+        figures = json.loads(report.read_text())
+        names = [check["name"] for check in figures["checks"]]
+        self.assertEqual(names[0], "dot3/float/1")
+        self.assertIn("picture/empty/adaptive:0.05/float", names)
+        self.assertTrue(figures["passed"] and all(check["right"] for check in figures["checks"]))
+        suite = ElementTree.parse(junit).getroot()
+        self.assertEqual([suite.get("tests"), suite.get("failures")], [str(len(names)), "0"])
+        self.assertEqual([case.get("name") for case in suite], names)
+
+    def test_of_a_device_that_renders_wrong_pictures(self):
+        name = "picture/cornell-box/none/float"
+        result = self.selftest(1, "--filter", name + ",picture/empty/none/float", shim=self.fault("only with glass"))
+        self.assertRegex(result.stdout, rf"(?m)^wrong +{name}: another picture: [0-9a-f]+ instead of [0-9a-f]+$")
+
+    def test_of_a_scene_that_is_not_golden(self):
+        """Those that are shipped all are."""
+        golden = json.loads((ROOT / "scenes" / "golden.json").read_text())["pictures"]
+        folder = ROOT / "scenes"
+        scenes = {str(path.relative_to(folder).with_suffix("")) for path in folder.rglob("*.json")}
+        scenes -= {"golden", "scene.schema"}
+        self.assertEqual({name.rsplit("/", 2)[0] for name in golden}, scenes)
+        self.assertEqual(len(golden), 10 * len(scenes))
+
+    def test_known_failures(self):
+        known = self.folder / "known"
+        known.write_text("# of this driver\ndot3/float/1  # fma\n")
+        options = ["--filter", "dot3/float/1,mul3/float/1", "--expect", str(known)]
+        result = self.selftest(0, *options, shim=self.fault("fma undone"))
+        self.assertRegex(result.stdout, r"(?m)^known +dot3/float/1: [\s\S]*1 wrong, 1 known to be, 0 unexpected")
+        result = self.selftest(1, *options)
+        self.assertRegex(result.stdout, r"(?m)^passes dot3/float/1: right, but expected to fail")
+
+    def test_of_a_driver_that_crashes(self):
+        shim = {"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "abort"}
+        result = self.selftest(1, "--filter", "dot3/float/1,mul3/float/1", shim=shim)
+        self.assertIn("dot3/float/1: the worker process was killed by SIGABRT", result.stderr)
+
+    def test_without_such_a_device(self):
+        self.run_with({}, "selftest", "--device", "name:nobody's", code=5)
+        self.run_with({"OCL_ICD_VENDORS": str(self.folder)}, "selftest", code=5)
+
+    def test_of_no_check(self):
+        self.selftest(2, "--filter", "nothing/*")
+
+    def reproduced(self, name):
+        """What blame says, and what its C program prints with the fault and without."""
+        folder = self.folder / name.replace(" ", "-").replace("^", "")
+        said = self.run_with(self.fault(name), "blame", "--device", "pocl", "-o", str(folder), code=1).stdout
+        subprocess.run(["cc", "-std=c99", "reproduce.c", "-lOpenCL"], cwd=folder, check=True)
+        run = [subprocess.run([folder / "a.out", "pthread"], cwd=folder, text=True, check=False,
+                              capture_output=True, env=dict(os.environ, **shim))
+               for shim in [{"LD_PRELOAD": str(BUILD / "libcl_shim.so"), **self.fault(name)}, {}]]
+        return said, run
+
+    def test_blame(self):
+        names = list(FAULTS) if ALL else ["fma undone"]
+        for name in names:
+            with self.subTest(name):
+                said, (wrong, right) = self.reproduced(name)
+                self.assertRegex(said, f"(?m)^to blame: .*{FAULTS[name][2].replace('^', '.')}")
+                self.assertEqual(wrong.returncode, 1, wrong.stdout + wrong.stderr)
+                self.assertIn(": WRONG, ", wrong.stdout)
+                self.assertEqual((right.returncode, right.stdout[-8:]), (0, ": right\n"), right.stderr)
+
+    def test_all_faults(self):
+        if not ALL:
+            self.skipTest("takes hours; set MIRRORBALL_ALL_FAULTS")
+        for name in FAULTS:
+            with self.subTest(name):
+                self.selftest(1, shim=self.fault(name))
