@@ -187,6 +187,9 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
     add_encoding(verb, render.encoding);
     verb.value("--reference", "FILE", render.reference,
                "also print the error relative to this picture");
+    verb.flag(
+        "--estimate", render.estimate,
+        "also estimate the picture's RMSE, without a reference, from some pixels traced again");
     verb.value("--expect", "HASH", render.expected_hash, parse_hash,
                "exit 1 if the picture has another hash");
 }

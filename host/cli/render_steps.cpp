@@ -162,6 +162,9 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     PictureMetadata metadata =
         picture_metadata(stats.scene.name, hash_text(stats.scene.hash), to_string(stats.picture),
                          hash_text(stats.image_hash));
+    if (stats.estimate) {
+        metadata.push_back({"mirrorball:EstimatedError", estimate_text(*stats.estimate)});
+    }
     if (!stats.device.fallback_from.empty()) {
         metadata.push_back({"mirrorball:FallbackFrom", stats.device.fallback_from});
         for (const DeviceShare& share : stats.shares) {

@@ -29,6 +29,12 @@ void settle_journal(RenderOptions& render) {
     if (!render.output.ends_with(".mbj")) usage_error("--shard requires -o FILE.mbj");
 }
 
+void settle_estimate(const RenderOptions& render) {
+    if (render.estimate && render.shares) {
+        usage_error("--estimate works only for a whole picture, without --shard");
+    }
+}
+
 /// Threads have no fast math, so every tile would differ.
 void settle_check(const RenderOptions& render) {
     if (render.check > 0 && render.math == Math::fast)
@@ -126,6 +132,7 @@ void settle_render(RenderOptions& render) {
     settle_streams(render);
     settle_scenes(render);
     settle_journal(render);
+    settle_estimate(render);
     settle_check(render);
     settle_watch(render);
     settle_aovs(render);

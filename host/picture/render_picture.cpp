@@ -148,6 +148,7 @@ class Job {
             render_by(devices);
         }
         if (stats_.complete()) check_again(devices);
+        if (stats_.complete() && settings_.estimate) estimate();
         journal_->end(stats_.complete());
         stats_.phases.renderer.open += wait_seconds;
         return finished_picture();
@@ -308,6 +309,17 @@ class Job {
         std::vector<DeviceShare> shares = stats_.shares;
         if (shares.size() == 1) shares.front().failure = wrong;
         render_again(stats_.device.name, std::move(shares));
+    }
+
+    /// Estimates the picture's error.
+    void estimate() {
+        const Stopwatch watch;
+        ThreadsOptions threads{settings_.threads};
+        threads.kernels.isa = settings_.kernels.isa;
+        const ControlPixels controls =
+            trace_controls(*scene_, picture_.aa, region_, film_, threads);
+        stats_.estimate = controls.estimate_of(film_);
+        stats_.estimate->seconds = watch.seconds();
     }
 
     RenderedPicture finished_picture() {

@@ -44,6 +44,7 @@ struct RenderSettings {
     double journal_delay = 2;      ///< seconds of tracing not worth saving
     bool fresh = false;            ///< ignore an existing journal
     std::optional<Shares> shares;  ///< render only these, into the journal, which is the result
+    bool estimate = false;         ///< also estimate the picture's error
     double check = 0;  ///< share of the tiles to trace again on threads and compare, 0 to 1
 };
 
