@@ -154,6 +154,7 @@ TEST(ControlPixels, WeighWhatTheyStandFor) {
                                  {0.1, 0.1},
                                  2,
                                  {std::vector<double>{0, 0, 0, 0.5, 2, 1}, {0, 0, 0, 0.5, 1, 1}},
+                                 4,
                                  20};
     // Off by 1 in every channel; off by .3, -.2 and, clamped, 0.
     const ErrorEstimate about = controls.estimate(std::vector<double>{1, 1, 1, 0.8, 0.8, 3});

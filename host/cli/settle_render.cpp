@@ -29,7 +29,15 @@ void settle_journal(RenderOptions& render) {
     if (!render.output.ends_with(".mbj")) usage_error("--shard requires -o FILE.mbj");
 }
 
-void settle_estimate(const RenderOptions& render) {
+/// A target starts with a few samples; its journal would be of another picture each time.
+void settle_estimate(RenderOptions& render) {
+    if (render.target_rmse > 0) {
+        if (render.shares || render.resume) {
+            usage_error("--target-rmse cannot be combined with --shard or --resume");
+        }
+        if (!render.aa) render.aa = parse_aa("sobol:4");
+        if (render.aa->refines()) usage_error("--target-rmse requires --aa sobol:N or grid:N");
+    }
     if (render.estimate && render.shares) {
         usage_error("--estimate works only for a whole picture, without --shard");
     }

@@ -36,6 +36,17 @@ double random_number(std::size_t n) {
     return (v ^ (v >> 14)) * 0x1p-32;
 }
 
+AaMode sobol_aa(int samples) { return {AaMode::Pattern::sobol, samples, 0}; }
+
+/// The next of 2, 3, 4, 6, 8, 12, ... samples or rows.
+AaMode finer(AaMode aa) {
+    const bool is_power_of_two = (aa.count & (aa.count - 1)) == 0;
+    const int more = is_power_of_two ? aa.count / 2 : aa.count / 3;
+    const int most = aa.pattern == AaMode::Pattern::grid ? AaMode::max_grid : AaMode::max_sobol;
+    aa.count = std::min(aa.count + std::max(more, 1), most);
+    return aa;
+}
+
 double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -77,21 +88,23 @@ double product(const double* value, const double* a, const double* b) {
     return std::isfinite(sum) ? sum / 3 : 0;
 }
 
-/// The colors, RGB, of pixels with so many Sobol samples.
+/// The colors, RGB, of pixels sampled so. `seed`: to be combined with the picture's.
 template <typename T>
 std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
-                          const std::vector<std::int32_t>& pixels, int samples, int seed,
+                          const std::vector<std::int32_t>& pixels, const AaMode& aa, int seed,
                           ThreadsOptions options) {
     options.kernels.any_samples = true;
     options.kernels.features.sobol = true;
     const NativeKernels<T>& kernels = native_kernels_for(scene, options);
     NativeView<T> view = native_view(scene);
-    view.params.sampling = f32::RT_SAMPLES_SOBOL;
-    view.params.samples = samples;
+    const bool is_sobol = aa.pattern == AaMode::Pattern::sobol;
+    view.params.sampling = is_sobol ? f32::RT_SAMPLES_SOBOL : f32::RT_SAMPLES_GRID;
+    view.params.grid = is_sobol ? 0 : aa.count;
+    view.params.samples = aa.samples();
     view.params.seed ^= seed;
     std::vector<T> colors(3 * pixels.size());
     constexpr std::size_t run = 16;
-    const int held = packet_shape(kernels.lanes, samples, kernels.lanes).pixels();
+    const int held = packet_shape(kernels.lanes, aa.samples(), kernels.lanes).pixels();
     for_each_run(pixels.size(), run, thread_count(options, 1),
                  [&](std::size_t first, std::size_t last) {
                      auto tile = flat_tile<T>(region, region);
@@ -114,8 +127,8 @@ ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, con
         candidates.weights.push_back(weight / static_cast<double>(contrasts.size()));
     });
     const std::vector<double> own = colors_of(candidates.pixels, film);
-    const std::vector<double> others =
-        trace(scene, region, candidates.pixels, candidate_samples, candidates_seed, options);
+    const std::vector<double> others = trace(scene, region, candidates.pixels,
+                                             sobol_aa(candidate_samples), candidates_seed, options);
     std::vector<double> squares;
     for (std::size_t i = 0; i < candidates.pixels.size(); ++i) {
         squares.push_back(candidates.weights[i] *
@@ -129,6 +142,18 @@ ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, con
     controls.candidates = candidates.pixels.size();
     controls.samples = candidates.pixels.size() * candidate_samples;
     return controls;
+}
+
+/// The two means, of so many samples each.
+template <typename T>
+void trace_means(const FlatScene<T>& scene, const Rect& region, int depth,
+                 const ThreadsOptions& options, ControlPixels& controls) {
+    for (std::size_t k = 0; k < 2; ++k) {
+        controls.means[k] =
+            trace(scene, region, controls.pixels, sobol_aa(depth), control_seeds[k], options);
+        controls.samples += controls.pixels.size() * static_cast<std::uint64_t>(depth);
+    }
+    controls.depth = depth;
 }
 
 }  // namespace
@@ -170,25 +195,45 @@ template <typename T>
 ControlPixels trace_controls(const FlatScene<T>& scene, const AaMode& aa, const Rect& region,
                              const Film<T>& film, const ThreadsOptions& options) {
     ControlPixels controls = choose_controls(scene, region, film, options);
-    const std::vector<double> colors = colors_of(controls.pixels, film);
     const int most = aa.fixed_samples().value_or(adaptive_samples);
-    for (int samples = control_samples;; samples *= 4) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            controls.means[k] =
-                trace(scene, region, controls.pixels, samples, control_seeds[k], options);
-            controls.samples += controls.pixels.size() * static_cast<std::uint64_t>(samples);
-        }
-        const ErrorEstimate estimate = controls.estimate(colors);
+    for (int depth = control_samples;; depth *= 4) {
+        trace_means(scene, region, depth, options, controls);
+        const ErrorEstimate estimate = controls.estimate_of(film);
         const bool is_clear = estimate.rmse > large_rmse || estimate.high < 2 * estimate.low;
-        if (is_clear || samples >= most) return controls;
+        if (is_clear || depth >= most) return controls;
     }
+}
+
+template <typename T>
+std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMode aa,
+                                    const Rect& region, ControlPixels& controls,
+                                    const ThreadsOptions& options, const StopFlag& stop) {
+    while (stop == 0) {
+        const AaMode next = finer(aa);
+        if (next == aa) return aa;
+        aa = next;
+        if (aa.samples() > controls.depth) {
+            trace_means(scene, region, std::max(aa.samples(), 2 * controls.depth), options,
+                        controls);
+        }
+        const auto colors = trace(scene, region, controls.pixels, aa, 0, options);
+        controls.samples += controls.pixels.size() * static_cast<std::uint64_t>(aa.samples());
+        if (controls.estimate(colors).reaches(rmse)) return aa;
+    }
+    return std::nullopt;
 }
 
 template std::vector<double> colors_of(const std::vector<std::int32_t>&, const Film<float>&);
 template std::vector<double> colors_of(const std::vector<std::int32_t>&, const Film<double>&);
 template ControlPixels trace_controls(const FlatScene<float>&, const AaMode&, const Rect&,
                                       const Film<float>&, const ThreadsOptions&);
+template std::optional<AaMode> mode_to_reach(double, const FlatScene<float>&, AaMode, const Rect&,
+                                             ControlPixels&, const ThreadsOptions&,
+                                             const StopFlag&);
 template ControlPixels trace_controls(const FlatScene<double>&, const AaMode&, const Rect&,
                                       const Film<double>&, const ThreadsOptions&);
+template std::optional<AaMode> mode_to_reach(double, const FlatScene<double>&, AaMode, const Rect&,
+                                             ControlPixels&, const ThreadsOptions&,
+                                             const StopFlag&);
 
 }  // namespace rt

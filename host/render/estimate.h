@@ -11,6 +11,7 @@
 #include "host/record/describe.h"
 #include "host/render/film.h"
 #include "host/render/threads_renderer.h"
+#include "host/render/tile_queue.h"
 #include "host/scene/aa_mode.h"
 
 // The error of a picture without a reference, from a few control pixels that are traced again with
@@ -27,6 +28,9 @@ struct ErrorEstimate {
     std::uint64_t pixels = 0;   ///< control pixels
     std::uint64_t samples = 0;  ///< traced for the estimate; no part of the picture's rays
     double seconds = 0;
+    double target = 0;  ///< the RMSE wanted; 0: none
+
+    bool reaches(double target_rmse) const { return (rmse > 0 ? rmse : high) <= target_rmse; }
 };
 
 template <typename A, Of<ErrorEstimate> X>
@@ -38,6 +42,7 @@ void describe(A& a, X& x) {
     a("pixels", x.pixels, "control pixels");
     a("samples", x.samples, "traced for the estimate");
     a("seconds", x.seconds, "to estimate");
+    a("target", x.target > 0 ? std::optional(x.target) : std::nullopt, "of --target-rmse");
 }
 
 /// The film's colors, RGB, in these pixels of it.
@@ -51,6 +56,7 @@ struct ControlPixels {
     std::vector<double> candidate_weights;     ///< among all candidates, ...
     std::size_t candidates = 0;                ///< ... of which there were so many
     std::array<std::vector<double>, 2> means;  ///< RGB, independent
+    int depth = 0;                             ///< samples of each mean
     std::uint64_t samples = 0;                 ///< traced for all this
 
     /// Of a picture with these colors, RGB, in the control pixels. Those that are not finite count
@@ -71,5 +77,13 @@ struct ControlPixels {
 template <typename T>
 ControlPixels trace_controls(const FlatScene<T>& scene, const AaMode& aa, const Rect& region,
                              const Film<T>& film, const ThreadsOptions& options);
+
+/// The first AA mode after `aa`, a grid or Sobol, that reaches the RMSE in the control pixels, with
+/// 2, 3, 4, 6, 8, 12, ... samples or rows of them; the finest of all if none does. Only the control
+/// pixels are traced, so it takes little time; their means get as many samples. Empty if stopped.
+template <typename T>
+std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMode aa,
+                                    const Rect& region, ControlPixels& controls,
+                                    const ThreadsOptions& options, const StopFlag& stop);
 
 }  // namespace rt
