@@ -100,6 +100,11 @@ class Bench(FiguresTest):
             self.assertEqual(row["verdict"], "right", row["why"])
             self.assertEqual((len(row["warm_up"]), len(row["repeats"])), (1, 5))
 
+    def test_tells_the_sampling_error_of_each_picture(self):
+        errors = [run["estimate"]["rmse"] for run in self.result["references"]]
+        self.assertEqual(len(set(errors)), 4)
+        self.assertEqual(self.table.count("\n  sampling error: RMSE about "), 8)
+
     def test_rounds_go_over_all_rows(self):
         """A B A B: all rows warm up, then all have their first repeat, and so on."""
         rounds = [[row["warm_up"][0] for row in self.result["rows"]]]
@@ -215,6 +220,14 @@ class Converge(FiguresTest):
     def test_schema(self):
         validator("converge").validate(self.result)
         self.assertLessEqual(max(map(len, self.table.splitlines())), 80)
+
+    def test_promises_nearly_the_true_error(self):
+        self.assertRegex(self.table, r"(?m)^  AA .* RMSE +estimate$")
+        points = [p for p in self.points if p["max_bounces"] == 8]
+        self.assertEqual(len({p["estimate"]["rmse"] for p in points}), 8)
+        for point in points:
+            ratio = point["estimate"]["rmse"] / point["figures"]["rmse"]
+            self.assertTrue(0.5 < ratio < 2, f"{point['aa']}: {ratio}")
 
     def test_scalar_threads_trace_one_ray_at_a_time_to_the_same_bits(self):
         result = json.loads(run("converge", SCENE, "--size", "16x12", "--reference-samples", "256", "-q",

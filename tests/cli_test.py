@@ -19,7 +19,7 @@ MODULES = {
              "explain_cases", "frames_cases", "scene_cases", "pipe_cases",
              "view_cases", "watch_cases", "aov_cases",
              "output_cases", "device_cases", "picture_cases",
-             "render_cases", "compare_cases", "stats_cases", "failure_cases"],
+             "render_cases", "compare_cases", "stats_cases", "failure_cases", "estimate_cases"],
     "timed": ["stream_cases", "signal_cases"],
 }
 

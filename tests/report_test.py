@@ -354,6 +354,12 @@ class Report(unittest.TestCase):
         trial = re.search(r"kernels compiled with.*?</table>", TEXT, re.S).group(0)
         self.assertNotIn("trace", trial)
 
+    def test_pictures_have_an_estimate_of_their_error(self):
+        for picture in json.loads(PAGE.blocks["pictures-0"][1]).values():
+            ratio = picture["estimate"]["rmse"] / picture["error"]["rmse"]
+            self.assertTrue(0.5 < ratio < 2, ratio)
+        self.assertEqual(TEXT.count(" (estimated without the reference: "), 4)  # captions and their images
+
     def chromium(self, *arguments, page="report.html"):
         program = shutil.which("chromium") or shutil.which("chromium-browser")
         if program is None:

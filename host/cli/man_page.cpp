@@ -116,7 +116,7 @@ non\-finite pixels
 over a memory or size limit
 .TP
 8
-incomplete: parts of the picture are missing, or \-\-timeout ran out
+incomplete: parts of the picture are missing, \-\-timeout ran out, or \-\-target\-rmse was not reached
 .TP
 70
 a bug in mirrorball

@@ -18,6 +18,7 @@
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
+#include "host/picture/target.h"
 #include "host/picture/tile_check.h"
 #include "host/process/drivers.h"
 #include "host/process/stop_signal.h"
@@ -120,7 +121,9 @@ int render_scene(RenderOptions options, double seconds_before_main, LivePicture*
     RenderedPicture rendered;
     try {
         rendered =
-            render_picture(scene, options, std::move(devices), console.events(), stop_flag());
+            options.target_rmse > 0
+                ? render_to_target(scene, options, devices.get(), console.events(), stop_flag())
+                : render_picture(scene, options, std::move(devices), console.events(), stop_flag());
     } catch (const WrongPicture& wrong) {
         throw Error(wrong.exit_code(), wrong.what() + keep_wrong_picture(scene, options));
     }

@@ -18,6 +18,7 @@
 #include "host/image/picture_io.h"
 #include "host/opencl/device_spec.h"
 #include "host/picture/crew_members.h"
+#include "host/picture/target.h"
 #include "host/print/print_stats.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
@@ -151,8 +152,11 @@ class Batch {
         const double load_seconds = watch.lap();
         const auto live = make_live_picture(options);
         RenderConsole console(options, live.get());
+        using Render = decltype(render_to_target);
+        Render* const render =
+            options.target_rmse > 0 ? &render_to_target : static_cast<Render*>(&render_picture);
         RenderedPicture rendered =
-            render_picture(scene, options, devices_, console.events(), stop_flag(), &cache_);
+            render(scene, options, devices_, console.events(), stop_flag(), &cache_);
         prepare_for_next(devices_, rendered.stats);
         if (live) live->finish(rendered.picture);
         note_failed_device(rendered.stats, options);

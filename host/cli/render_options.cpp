@@ -135,6 +135,12 @@ std::string parse_isa(const std::string& text) {
     return text;
 }
 
+double parse_target(const std::string& text) {
+    const auto rmse = parse_number<double>(text);
+    if (!rmse || !(*rmse >= 1e-5 && *rmse <= 1)) refuse(text, "expected an RMSE from 1e-5 to 1");
+    return *rmse;
+}
+
 std::uint64_t parse_hash(const std::string& text) {
     std::uint64_t hash = 0;
     const char* const end = text.data() + text.size();
@@ -176,6 +182,12 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
     add_encoding(verb, render.encoding);
     verb.value("--reference", "FILE", render.reference,
                "also print the error relative to this picture");
+    verb.flag(
+        "--estimate", render.estimate,
+        "also estimate the picture's RMSE, without a reference, from some pixels traced again");
+    verb.value("--target-rmse", "E", render.target_rmse, parse_target,
+               "as many samples as it takes for an estimated RMSE of at most E (default mode: "
+               "sobol); implies --estimate");
     verb.value("--expect", "HASH", render.expected_hash, parse_hash,
                "exit 1 if the picture has another hash");
 }

@@ -123,7 +123,7 @@ void check_output(const RenderOptions& options) {
 }
 
 void choose_journal(RenderOptions& options) {
-    if (options.output.empty()) return;
+    if (options.output.empty() || options.target_rmse > 0) return;
     std::error_code ignored;
     if (options.scene != stdin_scene) {
         options.scene_file = std::filesystem::absolute(options.scene, ignored).string();
@@ -162,6 +162,9 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     PictureMetadata metadata =
         picture_metadata(stats.scene.name, hash_text(stats.scene.hash), to_string(stats.picture),
                          hash_text(stats.image_hash));
+    if (stats.estimate) {
+        metadata.push_back({"mirrorball:EstimatedError", estimate_text(*stats.estimate)});
+    }
     if (!stats.device.fallback_from.empty()) {
         metadata.push_back({"mirrorball:FallbackFrom", stats.device.fallback_from});
         for (const DeviceShare& share : stats.shares) {
@@ -271,6 +274,15 @@ int verdict(const RenderedPicture& rendered, const std::string& output) {
                                output.empty() ? "" : "; the finished part is in " + output,
                                can_go_on ? "; the same command resumes from there" : ""));
         return exit_code_of_stop(stop_flag());
+    }
+    if (stats.estimate && stats.estimate->target > 0 &&
+        !stats.estimate->reaches(stats.estimate->target)) {
+        print_note(fmt::format("{} with {}, not the target of {:g}: {}",
+                               estimate_text(*stats.estimate), to_string(stats.picture.aa),
+                               stats.estimate->target,
+                               stop_flag() != 0 ? stop_reason() : "no mode has more samples"));
+        return stop_flag() != 0 ? exit_code_of_stop(stop_flag())
+                                : static_cast<int>(ExitCode::incomplete);
     }
     return static_cast<int>(non_finite ? ExitCode::non_finite : ExitCode::done);
 }

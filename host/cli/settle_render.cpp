@@ -29,6 +29,20 @@ void settle_journal(RenderOptions& render) {
     if (!render.output.ends_with(".mbj")) usage_error("--shard requires -o FILE.mbj");
 }
 
+/// A target starts with a few samples; its journal would be of another picture each time.
+void settle_estimate(RenderOptions& render) {
+    if (render.target_rmse > 0) {
+        if (render.shares || render.resume) {
+            usage_error("--target-rmse cannot be combined with --shard or --resume");
+        }
+        if (!render.aa) render.aa = parse_aa("sobol:4");
+        if (render.aa->refines()) usage_error("--target-rmse requires --aa sobol:N or grid:N");
+    }
+    if (render.estimate && render.shares) {
+        usage_error("--estimate works only for a whole picture, without --shard");
+    }
+}
+
 /// Threads have no fast math, so every tile would differ.
 void settle_check(const RenderOptions& render) {
     if (render.check > 0 && render.math == Math::fast)
@@ -126,6 +140,7 @@ void settle_render(RenderOptions& render) {
     settle_streams(render);
     settle_scenes(render);
     settle_journal(render);
+    settle_estimate(render);
     settle_check(render);
     settle_watch(render);
     settle_aovs(render);

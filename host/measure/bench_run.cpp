@@ -166,6 +166,7 @@ class Plan {
 
     bool add_reference(const LoadedScene& loaded, RenderSettings picture, BenchResult& result) {
         picture.precision = Precision::float64;
+        picture.estimate = true;
         Scene scene = loaded.scene;
         apply_overrides(scene, picture);
         spec_ = picture_spec(scene, picture);
@@ -178,6 +179,7 @@ class Plan {
         result.references.push_back({{std::move(rendered.stats), {}}});
         references_.push_back(std::move(rendered.picture));
         picture.precision = Precision::float32;
+        picture.estimate = false;
         const RenderedPicture in_float = render_quietly(scene, picture, threads_choice());
         hashes_[Precision::float32] = in_float.stats.image_hash;
         return in_float.stats.complete();

@@ -49,7 +49,8 @@ void describe(A& a, X& x) {
 /// converged reference, on values clamped to [0,1].
 struct ConvergePoint : TimedRuns {
     ConvergeCase asked;
-    std::optional<PointFigures> figures;  ///< empty unless the point is right
+    std::optional<ErrorEstimate> estimate;  ///< of the picture's error, in strict arithmetic
+    std::optional<PointFigures> figures;    ///< empty unless the point is right
 };
 
 template <typename A, Of<ConvergePoint> X>
@@ -59,6 +60,7 @@ void describe(A& a, X& x) {
     a("aa", x.asked.picture.aa, "as for --aa");
     a("filter", x.asked.picture.filter, "reconstruction filter");
     a("seed", x.asked.picture.seed, "of sobol samples");
+    a("estimate", x.estimate, "of its error, without a reference; for strict math");
     describe_runs(a, x, x.figures);
 }
 

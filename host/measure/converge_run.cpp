@@ -179,21 +179,22 @@ TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
     return timed;
 }
 
-/// Hashes of a scene's pictures as threads compute them: every device must give these bits.
-class ThreadsHashes {
+/// A scene's pictures as threads compute them: every device must give these bits.
+class ThreadsPictures {
    public:
-    explicit ThreadsHashes(const Scene& scene) : scene_(scene) {}
+    explicit ThreadsPictures(const Scene& scene) : scene_(scene) {}
 
-    /// Empty if the render was stopped.
-    std::optional<std::uint64_t> of(RenderSettings settings) {
-        const auto [place, is_new] = hashes_.try_emplace(
+    /// With an estimate of the error; empty if the render was stopped.
+    const std::optional<RenderStats>& of(RenderSettings settings) {
+        const auto [place, is_new] = pictures_.try_emplace(
             Key{settings.precision, settings.max_bounces, to_string(*settings.aa)});
         if (is_new) {
             settings.kernels.lanes = 0;
+            settings.estimate = true;
             Scene scene = scene_;
             apply_overrides(scene, settings);
-            const RenderStats stats = render_quietly(scene, settings, threads_choice()).stats;
-            if (stats.complete()) place->second = stats.image_hash;
+            RenderStats stats = render_quietly(scene, settings, threads_choice()).stats;
+            if (stats.complete()) place->second = std::move(stats);
         }
         return place->second;
     }
@@ -201,7 +202,7 @@ class ThreadsHashes {
    private:
     using Key = std::tuple<Precision, std::optional<int>, std::string>;
     const Scene& scene_;
-    std::map<Key, std::optional<std::uint64_t>> hashes_;
+    std::map<Key, std::optional<RenderStats>> pictures_;
 };
 
 /// Times the points of the result against the converged picture.
@@ -209,14 +210,18 @@ void time_points(const Scene& scene, double load_seconds, const ConvergedPicture
                  const ConvergeOptions& options, const std::vector<ListedDevice>& devices,
                  ConvergeResult& result) {
     std::vector<TimedCase> cases;
-    ThreadsHashes hashes(scene);
-    for (const ConvergePoint& point : result.points) {
+    ThreadsPictures pictures(scene);
+    for (ConvergePoint& point : result.points) {
         TimedCase timed = timed_case(point.asked, options, devices);
         timed.scene = &scene;
         timed.reference = &converged.picture;
         timed.load_seconds = load_seconds;
-        if (point.asked.picture.math == Math::strict)
-            timed.expected_hash = hashes.of(timed.settings);
+        if (point.asked.picture.math == Math::strict) {
+            if (const auto& picture = pictures.of(timed.settings)) {
+                timed.expected_hash = picture->image_hash;
+                point.estimate = picture->estimate;
+            }
+        }
         cases.push_back(std::move(timed));
     }
     result.interrupted = !run_rounds(cases, options.repeats, options.quiet);

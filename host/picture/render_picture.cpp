@@ -146,6 +146,7 @@ class Job {
             render_by(devices);
         }
         if (stats_.complete()) check_again(devices);
+        if (stats_.complete() && settings_.estimate) estimate();
         journal_->end(stats_.complete());
         stats_.phases.renderer.open += wait_seconds;
         return finished_picture();
@@ -308,6 +309,26 @@ class Job {
         render_again(stats_.device.name, std::move(shares));
     }
 
+    /// Estimates the picture's error, and looks for a mode that reaches the target.
+    void estimate() {
+        const Stopwatch watch;
+        const double target = settings_.target_rmse;
+        ThreadsOptions threads{settings_.threads};
+        threads.kernels.isa = settings_.kernels.isa;
+        controls_ = settings_.controls;
+        if (!controls_) {
+            controls_ = std::make_shared<ControlPixels>(
+                trace_controls(*scene_, picture_.aa, region_, film_, threads));
+        }
+        stats_.estimate = controls_->estimate_of(film_);
+        if (target > 0 && !settings_.controls && !stats_.estimate->reaches(target)) {
+            finer_ =
+                mode_to_reach(target, *scene_, picture_.aa, region_, *controls_, threads, stop_);
+        }
+        stats_.estimate->target = target;
+        stats_.estimate->seconds = watch.seconds();
+    }
+
     RenderedPicture finished_picture() {
         stats_.scene.compiled = either_of(stats_.scene.features, stats_.device.kernels);
         stats_.image_hash = hash_of(film_);
@@ -318,6 +339,8 @@ class Job {
         stats_.non_finite = count_non_finite(rendered.picture);
         rendered.stats = stats_;
         rendered.journal = journal_->file();
+        rendered.controls = controls_;
+        rendered.finer = finer_;
         return rendered;
     }
 
@@ -337,6 +360,8 @@ class Job {
     Film<T> film_{0, 0};
     PictureSize tile_{};
     RenderStats stats_;
+    std::shared_ptr<ControlPixels> controls_;
+    std::optional<AaMode> finer_;
 };
 
 /// `devices` is called once the scene is flattened.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct RenderedPicture {
     RenderStats stats;
     std::shared_ptr<JournalFile>
         journal;  ///< locked, to be removed with the picture saved; or null
+    std::shared_ptr<ControlPixels> controls;  ///< that its error was estimated from; or null
+    std::optional<AaMode> finer;  ///< what should reach settings.target_rmse, if it does not
 };
 
 /// Events for the caller of render_picture, on its own thread unless noted. Each may be empty.

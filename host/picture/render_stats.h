@@ -11,6 +11,7 @@
 #include "host/base/text.h"
 #include "host/flatten/flat_scene.h"
 #include "host/image/image_error.h"
+#include "host/render/estimate.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/picture_spec.h"
 #include "host/render/renderer.h"
@@ -175,6 +176,7 @@ struct RenderStats {
     bool refined = true;            ///< false if stopped before an adaptive mode finished
     std::uint64_t image_hash = 0;
     std::size_t non_finite = 0;  ///< pixels
+    std::optional<ErrorEstimate> estimate;
     std::optional<ImageError> error;
 
     /// Rays per second while tracing; 0 when nothing was traced.
@@ -212,6 +214,7 @@ void describe_run(A& a, X& x) {
         inner("hash", hash_text(x.image_hash), "of every bit of the picture");
         inner("non_finite", x.non_finite, "pixels with a NaN or an infinity");
     });
+    a("estimate", x.estimate, "of the picture's error, without a reference");
 }
 
 template <typename A, Of<RenderStats> X>

@@ -7,6 +7,7 @@
 #include "host/base/text.h"
 #include "host/measure/machine_load.h"
 #include "host/print/print_run.h"
+#include "host/print/print_stats.h"
 
 namespace rt {
 
@@ -20,6 +21,17 @@ std::string group_of(const BenchCase& asked) {
     return fmt::format("{} {}x{}, {}, {} filter, {}", printable(asked.scene.path), picture.width,
                        picture.height, to_string(picture.aa), to_string(picture.filter),
                        to_string(picture.precision));
+}
+
+/// What is known of the error of the rows' picture, apart from rounding.
+std::string estimate_line(const BenchResult& result, const BenchCase& asked) {
+    for (const ReferenceRun& run : result.references) {
+        if (run.scene.hash == asked.scene.hash && run.picture.aa == asked.picture.aa &&
+            run.picture.region == asked.picture.region && run.estimate) {
+            return fmt::format("  sampling error: {}\n", estimate_text(*run.estimate));
+        }
+    }
+    return "";
 }
 
 std::string device_text(const BenchCase& asked) {
@@ -121,7 +133,8 @@ std::string bench_text(const BenchResult& result) {
     std::map<std::string, std::vector<std::string>> images;
     for (const BenchRow& row : result.rows) {
         if (const std::string next = group_of(row.asked); next != group) {
-            text += images_text(images) + (group.empty() ? "" : "\n") + next + "\n" + header_text();
+            text += images_text(images) + (group.empty() ? "" : "\n") + next + "\n" +
+                    estimate_line(result, row.asked) + header_text();
             images.clear();
             group = next;
         }

@@ -34,9 +34,10 @@ std::string point_text(const ConvergePoint& point, bool on_front) {
     const std::string head = fmt::format("  {:<16}", to_string(point.asked.picture.aa));
     const auto& figures = point.figures;
     if (!figures) return fmt::format("{} {} {}\n", head, to_string(point.verdict), point.why);
-    return fmt::format("{} {:>9.5f} {:>4.1f} {:>9.5f} {:>9.2e} {}{}\n", head,
+    const std::string promised = point.estimate ? fmt::format("{:.2e}", point.estimate->rmse) : "";
+    return fmt::format("{} {:>9.5f} {:>4.1f} {:>9.5f} {:>9.2e} {:>9} {}{}\n", head,
                        figures->seconds.median, figures->seconds.noise_percent(),
-                       figures->seconds.max, figures->rmse, on_front ? "*" : " ",
+                       figures->seconds.max, figures->rmse, promised, on_front ? "*" : " ",
                        figures->below_floor ? "<" : "");
 }
 
@@ -44,8 +45,8 @@ std::string points_text(const ConvergeResult& result) {
     std::string text, group;
     for (std::size_t i = 0; i < result.points.size(); ++i) {
         if (const std::string next = group_of(result.points[i].asked); next != group) {
-            text += fmt::format("{}\n  {:<16} {:>9} {:>4} {:>9} {:>9}\n", next, "AA", "seconds",
-                                "+-%", "slowest", "RMSE");
+            text += fmt::format("{}\n  {:<16} {:>9} {:>4} {:>9} {:>9} {:>9}\n", next, "AA",
+                                "seconds", "+-%", "slowest", "RMSE", "estimate");
             group = next;
         }
         const bool on_front = std::count(result.front.begin(), result.front.end(), i) > 0;
@@ -53,7 +54,8 @@ std::string points_text(const ConvergeResult& result) {
     }
     return text +
            "* on the Pareto front; < below the reference's own error, not resolved.\n"
-           "seconds: medians without open and build; +-%: median absolute deviation.\n";
+           "seconds: medians without open and build; +-%: median absolute deviation.\n"
+           "estimate: what 'render --estimate' says of the RMSE.\n";
 }
 
 std::string curves_text(const ConvergeResult& result) {

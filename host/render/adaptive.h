@@ -24,4 +24,8 @@ template <typename T>
 std::vector<Refinement> plan_refinement(const Film<T>& film, double threshold,
                                         std::vector<std::uint8_t>& levels);
 
+/// Each pixel's largest channel difference from its eight neighbors, clamped to 0..1; 1 near a NaN.
+template <typename T>
+std::vector<double> contrasts_of(const Film<T>& film);
+
 }  // namespace rt

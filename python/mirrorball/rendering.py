@@ -33,7 +33,8 @@ def render(scene: Scene, *, progress: Union[bool, Progress, None] = None,
     fraction done, 0 to 1. options: those of `mirrorball render`, except for those that say where the picture
     and the figures go or that make several pictures:
 
-        what: size=500 or (640, 480), aa="grid:2", filter, crop, max_bounces, light_scale, ambient, reference
+        what: size=500 or (640, 480), aa="grid:2", filter, crop, max_bounces, light_scale, ambient, reference,
+            estimate, target_rmse=1e-3
         on what: device="pocl", threads, schedule, lanes, isa, launch, tile, isolate, deadline, no_fallback
         how: precision="double", math, features, hierarchies, caster_lists, check, timeout, encoding, expect, verbose
         journals and viewers: resume, fresh, tev

@@ -95,7 +95,7 @@ def _study(lab: Laboratory, index: int, scene: str, arguments: argparse.Namespac
     stats, pixels = {}, {}
     for kind, mode in (("plain", "none"), ("smooth", aa)):
         file = lab.folder / f"{kind}.pfm"
-        stats[kind] = lab.run(*render, "--aa", mode, "-o", str(file))
+        stats[kind] = lab.run(*render, "--aa", mode, "--estimate", "-o", str(file))
         pixels[kind] = numpy.clip(read_pfm(file), 0, 1)
     _measure_errors(lab, reference, stats)
     features = _features(lab, [*render, "--aa", aa], max(arguments.repeats, 9), bench) if device else None

@@ -146,7 +146,9 @@ def pictures(study: Study) -> str:
         made = f"traced in {duration(trace_seconds(timed))} on {on}" if timed else f"on {on}"
         out += image(pixels[kind], f"{study.name}, {name}", f"{name}: {sampling_text(settings['aa'])}, {made}, "
                      f"{settings['precision']}.", source, window)
-        wrong = (f"RMSE {scientific(error['rmse'])}, PSNR {significant(error['psnr_db'] or math.inf)}{NBSP}dB, "
+        about = stats.get("estimate")
+        guess = f" (estimated without the reference: {scientific(about['rmse'] or 0)})" if about else ""
+        wrong = (f"RMSE {scientific(error['rmse'])}{guess}, PSNR {significant(error['psnr_db'] or math.inf)}{NBSP}dB, "
                  f"{error['pixels_over_1_255']} of {settings['width'] * settings['height']} pixels off by more than "
                  f"1/255, {error['pixels_over_8_255']} by more than 8/255")
         difference = numpy.abs(pixels[kind] - study.reference).max(axis=2)

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "host/base/parallel.h"
+#include "host/render/adaptive.h"
+#include "host/render/packet_shape.h"
+
+namespace rt {
+
+namespace {
+
+// Together 0.5 samples per pixel at 500 x 500. Candidates are many, to find errors that lie in few
+// pixels; control pixels have many samples, to tell small errors from noise.
+constexpr std::size_t candidate_count = 8192, control_count = 512;
+constexpr int candidate_samples = 8, control_samples = 64;
+
+/// An error above this is not worth more samples.
+constexpr double large_rmse = 1e-3;
+
+/// Most samples of an adaptive picture's pixel.
+constexpr int adaptive_samples = 256;
+
+/// Sampling seeds, to be combined with the picture's own: all sets of samples are independent.
+constexpr int candidates_seed = 0x2f6e2b10, control_seeds[] = {0x2f6e2b11, 0x2f6e2b12};
+
+/// In 0..1, by Wellons' triple32 as in kernels/sampling.cl.
+double random_number(std::size_t n) {
+    auto v = static_cast<std::uint32_t>(n);
+    v = (v ^ (v >> 17)) * 0xed5ad4bbu;
+    v = (v ^ (v >> 11)) * 0xac4c1b51u;
+    v = (v ^ (v >> 15)) * 0x31848babu;
+    return (v ^ (v >> 14)) * 0x1p-32;
+}
+
+AaMode sobol_aa(int samples) { return {AaMode::Pattern::sobol, samples, 0}; }
+
+/// The next of 2, 3, 4, 6, 8, 12, ... samples or rows.
+AaMode finer(AaMode aa) {
+    const bool is_power_of_two = (aa.count & (aa.count - 1)) == 0;
+    const int more = is_power_of_two ? aa.count / 2 : aa.count / 3;
+    const int most = aa.pattern == AaMode::Pattern::grid ? AaMode::max_grid : AaMode::max_sobol;
+    aa.count = std::min(aa.count + std::max(more, 1), most);
+    return aa;
+}
+
+double sum_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// The chances of items to be drawn, summing to 1: half in proportion to `even`, half to `sizes`.
+std::vector<double> chances_of(const std::vector<double>& even, const std::vector<double>& sizes) {
+    const double all = sum_of(even), size = sum_of(sizes);
+    std::vector<double> chances;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        chances.push_back(size > 0 ? (even[i] / all + sizes[i] / size) / 2 : even[i] / all);
+    }
+    return chances;
+}
+
+/// Draws items, one from each of `count` equal parts of the sum of chances, so that they are spread
+/// over all. Calls take(item, times drawn over times expected).
+template <typename Take>
+void draw(const std::vector<double>& chances, std::size_t count, const Take& take) {
+    const auto draws = static_cast<double>(count);
+    double reached = 0;
+    std::size_t drawn = 0;
+    for (std::size_t i = 0; i < chances.size(); ++i) {
+        reached += chances[i] * draws;
+        const std::size_t before = drawn;
+        while (drawn < count && static_cast<double>(drawn) + random_number(drawn) < reached) {
+            ++drawn;
+        }
+        if (drawn > before) take(i, static_cast<double>(drawn - before) / (chances[i] * draws));
+    }
+}
+
+/// The mean over channels of (value - a)(value - b), all clamped to 0..1; 0 if not finite.
+double product(const double* value, const double* a, const double* b) {
+    const auto clamped = [](double v) { return std::clamp(v, 0.0, 1.0); };
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) {
+        sum += (clamped(value[c]) - clamped(a[c])) * (clamped(value[c]) - clamped(b[c]));
+    }
+    return std::isfinite(sum) ? sum / 3 : 0;
+}
+
+/// The colors, RGB, of pixels sampled so. `seed`: to be combined with the picture's.
+template <typename T>
+std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
+                          const std::vector<std::int32_t>& pixels, const AaMode& aa, int seed,
+                          ThreadsOptions options) {
+    options.kernels.any_samples = true;
+    options.kernels.features.sobol = true;
+    const NativeKernels<T>& kernels = native_kernels_for(scene, options);
+    NativeView<T> view = native_view(scene);
+    const bool is_sobol = aa.pattern == AaMode::Pattern::sobol;
+    view.params.sampling = is_sobol ? f32::RT_SAMPLES_SOBOL : f32::RT_SAMPLES_GRID;
+    view.params.grid = is_sobol ? 0 : aa.count;
+    view.params.samples = aa.samples();
+    view.params.seed ^= seed;
+    std::vector<T> colors(3 * pixels.size());
+    constexpr std::size_t run = 16;
+    const int held = packet_shape(kernels.lanes, aa.samples(), kernels.lanes).pixels();
+    for_each_run(pixels.size(), run, thread_count(options, 1),
+                 [&](std::size_t first, std::size_t last) {
+                     auto tile = flat_tile<T>(region, region);
+                     tile.width = static_cast<typename Flat<T>::Index>(last - first);
+                     typename Flat<T>::RayCounts counts{};
+                     kernels.render_list(&colors[3 * first], &counts, &view, &tile, &pixels[first],
+                                         0, (tile.width + held - 1) / held);
+                 });
+    return {colors.begin(), colors.end()};
+}
+
+template <typename T>
+ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, const Film<T>& film,
+                              const ThreadsOptions& options) {
+    const std::vector<double> contrasts = contrasts_of(film);
+    const std::vector<double> even(contrasts.size(), 1.0);
+    ControlPixels candidates, controls;
+    draw(chances_of(even, contrasts), candidate_count, [&](std::size_t i, double weight) {
+        candidates.pixels.push_back(static_cast<std::int32_t>(i));
+        candidates.weights.push_back(weight / static_cast<double>(contrasts.size()));
+    });
+    const std::vector<double> own = colors_of(candidates.pixels, film);
+    const std::vector<double> others = trace(scene, region, candidates.pixels,
+                                             sobol_aa(candidate_samples), candidates_seed, options);
+    std::vector<double> squares;
+    for (std::size_t i = 0; i < candidates.pixels.size(); ++i) {
+        squares.push_back(candidates.weights[i] *
+                          product(&own[3 * i], &others[3 * i], &others[3 * i]));
+    }
+    draw(chances_of(candidates.weights, squares), control_count, [&](std::size_t i, double weight) {
+        controls.pixels.push_back(candidates.pixels[i]);
+        controls.candidate_weights.push_back(candidates.weights[i]);
+        controls.weights.push_back(candidates.weights[i] * weight);
+    });
+    controls.candidates = candidates.pixels.size();
+    controls.samples = candidates.pixels.size() * candidate_samples;
+    return controls;
+}
+
+/// The two means, of so many samples each.
+template <typename T>
+void trace_means(const FlatScene<T>& scene, const Rect& region, int depth,
+                 const ThreadsOptions& options, ControlPixels& controls) {
+    for (std::size_t k = 0; k < 2; ++k) {
+        controls.means[k] =
+            trace(scene, region, controls.pixels, sobol_aa(depth), control_seeds[k], options);
+        controls.samples += controls.pixels.size() * static_cast<std::uint64_t>(depth);
+    }
+    controls.depth = depth;
+}
+
+}  // namespace
+
+ErrorEstimate ControlPixels::estimate(std::span<const double> colors) const {
+    double sum = 0, squares = 0, candidate_squares = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const double part =
+            weights[i] * product(&colors[3 * i], &means[0][3 * i], &means[1][3 * i]);
+        sum += part;
+        squares += part * part;
+        candidate_squares += part * part * candidate_weights[i] / weights[i];
+    }
+    // Of drawing control pixels from the candidates, and of drawing those.
+    const double variance =
+        std::max(squares - sum * sum / static_cast<double>(pixels.size()), 0.0) +
+        std::max(candidate_squares - sum * sum / static_cast<double>(candidates), 0.0);
+    const double margin = 1.645 * std::sqrt(variance);  // 90 % of a normal distribution
+    ErrorEstimate estimate;
+    estimate.rmse = std::sqrt(std::max(sum, 0.0));
+    estimate.low = std::sqrt(std::max(sum - margin, 0.0));
+    estimate.high = std::sqrt(std::max(sum, 0.0) + margin);
+    estimate.pixels = pixels.size();
+    estimate.samples = samples;
+    return estimate;
+}
+
+template <typename T>
+std::vector<double> colors_of(const std::vector<std::int32_t>& pixels, const Film<T>& film) {
+    std::vector<double> colors;
+    for (const std::int32_t pixel : pixels) {
+        const T* const rgb = &film.rgb[3 * static_cast<std::size_t>(pixel)];
+        colors.insert(colors.end(), rgb, rgb + 3);
+    }
+    return colors;
+}
+
+template <typename T>
+ControlPixels trace_controls(const FlatScene<T>& scene, const AaMode& aa, const Rect& region,
+                             const Film<T>& film, const ThreadsOptions& options) {
+    ControlPixels controls = choose_controls(scene, region, film, options);
+    const int most = aa.fixed_samples().value_or(adaptive_samples);
+    for (int depth = control_samples;; depth *= 4) {
+        trace_means(scene, region, depth, options, controls);
+        const ErrorEstimate estimate = controls.estimate_of(film);
+        const bool is_clear = estimate.rmse > large_rmse || estimate.high < 2 * estimate.low;
+        if (is_clear || depth >= most) return controls;
+    }
+}
+
+template <typename T>
+std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMode aa,
+                                    const Rect& region, ControlPixels& controls,
+                                    const ThreadsOptions& options, const StopFlag& stop) {
+    while (stop == 0) {
+        const AaMode next = finer(aa);
+        if (next == aa) return aa;
+        aa = next;
+        if (aa.samples() > controls.depth) {
+            trace_means(scene, region, std::max(aa.samples(), 2 * controls.depth), options,
+                        controls);
+        }
+        const auto colors = trace(scene, region, controls.pixels, aa, 0, options);
+        controls.samples += controls.pixels.size() * static_cast<std::uint64_t>(aa.samples());
+        if (controls.estimate(colors).reaches(rmse)) return aa;
+    }
+    return std::nullopt;
+}
+
+template std::vector<double> colors_of(const std::vector<std::int32_t>&, const Film<float>&);
+template std::vector<double> colors_of(const std::vector<std::int32_t>&, const Film<double>&);
+template ControlPixels trace_controls(const FlatScene<float>&, const AaMode&, const Rect&,
+                                      const Film<float>&, const ThreadsOptions&);
+template std::optional<AaMode> mode_to_reach(double, const FlatScene<float>&, AaMode, const Rect&,
+                                             ControlPixels&, const ThreadsOptions&,
+                                             const StopFlag&);
+template ControlPixels trace_controls(const FlatScene<double>&, const AaMode&, const Rect&,
+                                      const Film<double>&, const ThreadsOptions&);
+template std::optional<AaMode> mode_to_reach(double, const FlatScene<double>&, AaMode, const Rect&,
+                                             ControlPixels&, const ThreadsOptions&,
+                                             const StopFlag&);
+
+}  // namespace rt

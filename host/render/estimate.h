@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/record/describe.h"
+#include "host/render/film.h"
+#include "host/render/threads_renderer.h"
+#include "host/render/tile_queue.h"
+#include "host/scene/aa_mode.h"
+
+// The error of a picture without a reference, from a few control pixels that are traced again with
+// many samples, in two independent sets. If I is a pixel's value and R1 and R2 are unbiased means
+// of such sets, the expectation of (I - R1)(I - R2) is the squared error of I, however I was
+// computed.
+namespace rt {
+
+/// An estimate of a picture's RMSE over channels, clamped to 0..1, relative to what more and more
+/// samples would give.
+struct ErrorEstimate {
+    double rmse = 0;            ///< 0: too small to tell, below `high`
+    double low = 0, high = 0;   ///< the true RMSE lies between them in about 9 of 10 pictures
+    std::uint64_t pixels = 0;   ///< control pixels
+    std::uint64_t samples = 0;  ///< traced for the estimate; no part of the picture's rays
+    double seconds = 0;
+    double target = 0;  ///< the RMSE wanted; 0: none
+
+    bool reaches(double target_rmse) const { return (rmse > 0 ? rmse : high) <= target_rmse; }
+};
+
+template <typename A, Of<ErrorEstimate> X>
+void describe(A& a, X& x) {
+    a("rmse", or_null(x.rmse > 0 ? std::optional(x.rmse) : std::nullopt),
+      "over channels, clamped to 0..1; null: too small to tell, below high");
+    a("low", x.low, "in about 9 of 10 pictures the true RMSE is between low and high");
+    a("high", x.high, "");
+    a("pixels", x.pixels, "control pixels");
+    a("samples", x.samples, "traced for the estimate");
+    a("seconds", x.seconds, "to estimate");
+    a("target", x.target > 0 ? std::optional(x.target) : std::nullopt, "of --target-rmse");
+}
+
+/// The film's colors, RGB, in these pixels of it.
+template <typename T>
+std::vector<double> colors_of(const std::vector<std::int32_t>& pixels, const Film<T>& film);
+
+/// Some of a picture's pixels, and what they should be.
+struct ControlPixels {
+    std::vector<std::int32_t> pixels;          ///< indices into the film, ascending
+    std::vector<double> weights;               ///< of each in the mean over the whole picture
+    std::vector<double> candidate_weights;     ///< among all candidates, ...
+    std::size_t candidates = 0;                ///< ... of which there were so many
+    std::array<std::vector<double>, 2> means;  ///< RGB, independent
+    int depth = 0;                             ///< samples of each mean
+    std::uint64_t samples = 0;                 ///< traced for all this
+
+    /// Of a picture with these colors, RGB, in the control pixels. Those that are not finite count
+    /// as right.
+    ErrorEstimate estimate(std::span<const double> colors) const;
+
+    template <typename T>
+    ErrorEstimate estimate_of(const Film<T>& film) const {
+        return estimate(colors_of(pixels, film));
+    }
+};
+
+/// Chooses control pixels of a film that shows `region` of the picture sampled with `aa`, and
+/// traces them on threads. First candidates are chosen, half of them evenly and half where
+/// neighbors differ; then control pixels among these, half of them where a few more samples differ
+/// from the film. If the error is below 1e-3 and lost in the noise of the control pixels, these get
+/// up to as many samples as the picture's. Everything depends on the scene and the film alone.
+template <typename T>
+ControlPixels trace_controls(const FlatScene<T>& scene, const AaMode& aa, const Rect& region,
+                             const Film<T>& film, const ThreadsOptions& options);
+
+/// The first AA mode after `aa`, a grid or Sobol, that reaches the RMSE in the control pixels, with
+/// 2, 3, 4, 6, 8, 12, ... samples or rows of them; the finest of all if none does. Only the control
+/// pixels are traced, so it takes little time; their means get as many samples. Empty if stopped.
+template <typename T>
+std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMode aa,
+                                    const Rect& region, ControlPixels& controls,
+                                    const ThreadsOptions& options, const StopFlag& stop);
+
+}  // namespace rt
