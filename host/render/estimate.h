@@ -24,7 +24,7 @@ namespace rt {
 /// samples would give.
 struct ErrorEstimate {
     double rmse = 0;            ///< 0: too small to tell, below `high`
-    double low = 0, high = 0;   ///< the true RMSE lies between them in about 9 of 10 pictures
+    double low = 0, high = 0;   ///< the true RMSE lies between them in about 6 of 7 pictures
     std::uint64_t pixels = 0;   ///< control pixels
     std::uint64_t samples = 0;  ///< traced for the estimate; no part of the picture's rays
     double seconds = 0;
@@ -37,7 +37,7 @@ template <typename A, Of<ErrorEstimate> X>
 void describe(A& a, X& x) {
     a("rmse", or_null(x.rmse > 0 ? std::optional(x.rmse) : std::nullopt),
       "over channels, clamped to 0..1; null: too small to tell, below high");
-    a("low", x.low, "in about 9 of 10 pictures the true RMSE is between low and high");
+    a("low", x.low, "in about 6 of 7 pictures the true RMSE is between low and high");
     a("high", x.high, "");
     a("pixels", x.pixels, "control pixels");
     a("samples", x.samples, "traced for the estimate");
