@@ -12,7 +12,6 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "host/base/error.h"
@@ -95,7 +94,8 @@ double processor_seconds() {
 
 std::istringstream stat_fields(const std::string& file) {
     std::ifstream stream(file);
-    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    std::string text;
+    std::getline(stream, text, '\0');  // unlike an iterator, never throws where the process ends
     const std::size_t name_end = text.rfind(')');  // field 2, in parentheses, may hold anything
     return std::istringstream(name_end == text.npos ? "" : text.substr(name_end + 1));
 }

@@ -36,7 +36,8 @@ def render(scene: Scene, *, progress: Union[bool, Progress, None] = None,
         what: size=500 or (640, 480), aa="grid:2", filter, crop, max_bounces, light_scale, ambient, reference,
             estimate, target_rmse=1e-3
         on what: device="pocl", threads, schedule, lanes, isa, launch, tile, isolate, deadline, no_fallback
-        how: precision="double", math, features, hierarchies, caster_lists, check, timeout, encoding, expect, verbose
+        how: precision="double", math, features, hierarchies, caster_lists, check, timeout, encoding, expect,
+            cl_options, save_kernels, verbose
         journals and viewers: resume, fresh, tev
 
     `mirrorball render --help` describes them. Raises Error.
