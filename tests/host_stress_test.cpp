@@ -6,11 +6,13 @@
 #include <set>
 
 #include "host/base/error.h"
+#include "host/picture/crew_members.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stress.h"
 #include "host/record/record.h"
 #include "host/stress/judge.h"
 #include "host/stress/ray_trials.h"
+#include "host/stress/stress_run.h"
 #include "host/stress/stress_scenes.h"
 
 namespace rt {
@@ -213,6 +215,33 @@ TEST(StressJson, SaysTheSame) {
     EXPECT_EQ(json["families"][0]["cases"][1]["rows"][0]["verdict"], "fail");
     EXPECT_EQ(json["families"][0]["cases"][1]["rows"][1]["verdict"], "not judged");
     EXPECT_TRUE(json["families"][0]["cases"][0]["bar"]["wrong_at_edges"].is_null());
+}
+
+// The runner
+
+TEST(StressRun, CasesThatShouldHaveTheSameBitsAndDoNotFail) {
+    StressFamily family{"two", "background", "", {}};
+    for (const double blue : {0.5, 0.5, 0.5 + 1e-6}) {
+        PictureTrial trial;
+        trial.scene = [=] {
+            Scene scene = small_still_life();
+            scene.background.z = blue;
+            return scene;
+        };
+        trial.same_bits = "the first";
+        family.cases.push_back({std::to_string(family.cases.size()), 0, {}, trial, false});
+    }
+    StressOptions options;
+    options.devices = {"threads"};
+    options.quiet = true;
+    RenderCache cache;
+    const StressResult result = run_stress_cases({family}, options, cache);
+    ASSERT_EQ(result.families.at(0).cases.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (const StressRow& row : result.families[0].cases[i].rows) {
+            EXPECT_EQ(row.why, i < 2 ? "" : "bits differ from the first");
+        }
+    }
 }
 
 // Rays

@@ -5,6 +5,7 @@
 #include "host/cli/result_file.h"
 #include "host/cli/verb.h"
 #include "host/image/output_path.h"
+#include "host/picture/crew_members.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stress.h"
 #include "host/process/stop_signal.h"
@@ -34,7 +35,8 @@ int run_stress(const StressCall& options) {
         create_output_folder(options.output);
         check_output_path(options.output + "/reference.png");
     }
-    const StressResult result = run_stress_cases(families, options);
+    RenderCache cache;
+    const StressResult result = run_stress_cases(families, options, cache);
     if (options.json != "-") print_result(stress_text(result, options.verbose));
     write_result(options.json, options.json.empty() ? "" : result_json("stress", result));
     if (result.interrupted) return 128 + stop_flag();

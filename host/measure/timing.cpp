@@ -84,13 +84,13 @@ RenderSettings timed_settings(RenderSettings settings) {
 }
 
 RenderedPicture render_quietly(const Scene& scene, const RenderSettings& settings,
-                               const DeviceChoice& device) {
+                               const DeviceChoice& device, RenderCache* cache) {
     RenderEvents events;
     events.started = [](const TileQueue&) { install_stop_signals(); };
     events.driver_loaded = restore_stop_signals;
     if (is_worker()) events.progressed = note_worker_progress;
     const DriverTask task(device.use_threads ? "" : device.device.name);
-    return render_picture(scene, settings, std::vector{device}, events, stop_flag());
+    return render_picture(scene, settings, std::vector{device}, events, stop_flag(), cache);
 }
 
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {

@@ -31,9 +31,9 @@ struct TimedCase : TimedRuns {
 /// benchmark itself.
 RenderSettings timed_settings(RenderSettings settings = {});
 
-/// Renders on the device silently, until a stop signal.
+/// Renders on the device silently, until a stop signal; the cache may be null.
 RenderedPicture render_quietly(const Scene& scene, const RenderSettings& settings,
-                               const DeviceChoice& device);
+                               const DeviceChoice& device, RenderCache* cache = nullptr);
 
 /// Renders every case once to warm up, then again `repeats` times; the rounds go over all cases (A
 /// B A B), so that a slow moment of the machine hits all alike. Every picture is judged; a case

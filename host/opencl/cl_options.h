@@ -21,7 +21,7 @@ struct ClOptions {
     bool will_refine = false;             ///< also build the kernel that `refine` needs
     bool shares_film = false;             ///< others render into the film at the same time
     bool warnings_are_errors = false;     ///< for tests
-    OpenDevices* open_devices = nullptr;  ///< caches context and program; null: no cache
+    OpenDevices* open_devices = nullptr;  ///< keeps context and program; null: not kept
 };
 
 /// What is asked for on top of what is best, for every build and launch of this process.

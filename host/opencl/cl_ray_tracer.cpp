@@ -22,7 +22,8 @@ class ClRayTracer {
    public:
     ClRayTracer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
         : device_(device),
-          context_(handle_of(device)),
+          programs_(options.open_devices != nullptr ? *options.open_devices : own_programs_),
+          context_(programs_.context(device)),
           queue_(context_, handle_of(device)),
           scene_(scene, context_, queue_, device) {
         ProgramOptions program;
@@ -32,8 +33,7 @@ class ClRayTracer {
         program.warnings_are_errors = options.warnings_are_errors;
         program.entries = {false, false, false, true};
         lanes_ = static_cast<std::size_t>(program.lanes);
-        kernel_ =
-            cl::Kernel(build_program(context_, device, render_kernels, program), "trace_rays");
+        kernel_ = cl::Kernel(programs_.program(device, render_kernels, program), "trace_rays");
         const cl_uint params = scene_.set_arguments(kernel_, 2);
         kernel_.setArg(params, scene.params);
         count_argument_ = params + 1;
@@ -68,6 +68,8 @@ class ClRayTracer {
     }
 
     const ClDevice device_;
+    OpenDevices own_programs_;
+    OpenDevices& programs_;
     cl::Context context_;
     cl::CommandQueue queue_;
     ClScene<T> scene_;

@@ -52,6 +52,7 @@ class ClRenderer : public Renderer<T> {
     ClRenderer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
         : device_(device),
           options_(options),
+          programs_(options.open_devices != nullptr ? *options.open_devices : own_programs_),
           params_(scene.params),
           pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
                  device.is_cpu ? cpu_most_samples : gpu_most_samples) {
@@ -169,8 +170,7 @@ class ClRenderer : public Renderer<T> {
     void open() {
         const Stopwatch watch;
         const cl::Device device = handle_of(device_);
-        OpenDevices* const kept = options_.open_devices;
-        context_ = kept != nullptr ? kept->context(device_) : cl::Context(device);
+        context_ = programs_.context(device_);
         queue_ = cl::CommandQueue(context_, device, CL_QUEUE_PROFILING_ENABLE);
         reads_ = cl::CommandQueue(context_, device);
         times_.open = watch.seconds();
@@ -210,10 +210,7 @@ class ClRenderer : public Renderer<T> {
             program_options.samples = held;
         }
         const Stopwatch watch;
-        OpenDevices* const kept = options.open_devices;
-        const cl::Program program =
-            kept != nullptr ? kept->program(device_, render_kernels, program_options)
-                            : build_program(context_, device_, render_kernels, program_options);
+        const cl::Program program = programs_.program(device_, render_kernels, program_options);
         render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
         set_scene_arguments(render_, params_);
         if (launch_samples_) {
@@ -371,6 +368,8 @@ class ClRenderer : public Renderer<T> {
 
     const ClDevice device_;
     const ClOptions options_;
+    OpenDevices own_programs_;
+    OpenDevices& programs_;
     typename Flat<T>::LaunchParams params_;
     bool launch_samples_ = false;
     bool is_half_launched_ = false;  ///< samples are launched, but not their average

@@ -7,6 +7,7 @@
 
 #include "host/base/error.h"
 #include "host/base/version.h"
+#include "host/picture/crew_members.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/record/record.h"
@@ -132,9 +133,10 @@ void check_stress(Checks& checks, const std::string& spec, const std::string& pr
     StressOptions stress;
     stress.devices = {spec};
     stress.quick = stress.quiet = true;
+    RenderCache cache;  // one build for all
     for (const StressFamily& family : chosen_families(all_stress_families(), {}, {}, true)) {
         checks.run(prefix + "stress/" + family.name, [&]() -> std::string {
-            const StressResult result = run_stress_cases({family}, stress);
+            const StressResult result = run_stress_cases({family}, stress, cache);
             if (result.families.empty()) return "";  // stopped
             for (const StressCaseResult& one : result.families.front().cases) {
                 for (const StressRow& row : one.rows) {

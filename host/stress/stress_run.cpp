@@ -18,7 +18,7 @@
 #include "host/measure/timing.h"
 #include "host/opencl/cl_ray_tracer.h"
 #include "host/opencl/device_spec.h"
-#include "host/picture/render_picture.h"
+#include "host/picture/crew_members.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
@@ -40,11 +40,12 @@ RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
 }
 
 /// Traces a trial's rays on the device that renders its pictures.
-RayCaster ray_caster(const DeviceChoice& choice) {
+RayCaster ray_caster(const DeviceChoice& choice, OpenDevices& open) {
     if (choice.use_threads) return threads_ray_caster();
-    const ClDevice device = choice.device;
-    const auto make = [=](const auto& scene) {
-        return [tracer = make_cl_ray_tracer(scene, device, {})](auto queries, auto answers) {
+    ClOptions options;
+    options.open_devices = &open;
+    const auto make = [device = choice.device, options](const auto& scene) {
+        return [tracer = make_cl_ray_tracer(scene, device, options)](auto queries, auto answers) {
             tracer(queries, answers);
             note_worker_progress();
         };
@@ -93,8 +94,8 @@ class StressPictures {
 
 class Runner {
    public:
-    explicit Runner(const StressOptions& options)
-        : options_(options), devices_(listed_devices(options.devices)) {
+    Runner(const StressOptions& options, RenderCache& cache)
+        : options_(options), cache_(cache), devices_(listed_devices(options.devices)) {
         if (devices_.empty())
             throw Error(ExitCode::device, "no usable device; see 'mirrorball devices'");
     }
@@ -137,7 +138,7 @@ class Runner {
     }
 
     RenderedPicture rendered_row(const Scene& scene, const StressRow& row) const {
-        return render_quietly(scene, row_settings(row, options_), device_of(row));
+        return render_quietly(scene, row_settings(row, options_), device_of(row), &cache_);
     }
 
     void judge(const Picture& picture, ReferencePicture* reference,
@@ -200,7 +201,7 @@ class Runner {
             try {
                 const DeviceChoice& device = device_of(row);
                 const DriverTask task(device.use_threads ? "" : row.renderer);
-                const RayCaster caster = ray_caster(device);
+                const RayCaster caster = ray_caster(device, *cache_.devices);
                 row.rays = row.precision == Precision::float64 ? trial.in_double(rays, caster)
                                                                : trial.in_float(rays, caster);
                 row.why = exceeded_tolerance(*row.rays, one.tolerance);
@@ -227,6 +228,7 @@ class Runner {
     }
 
     const StressOptions& options_;
+    RenderCache& cache_;
     const std::vector<ListedDevice> devices_;
     FirstHashes first_hashes_;
 };
@@ -234,12 +236,12 @@ class Runner {
 }  // namespace
 
 StressResult run_stress_cases(const std::vector<StressFamily>& families,
-                              const StressOptions& options) {
+                              const StressOptions& options, RenderCache& cache) {
     StressResult result;
     other_load();
     result.quick = options.quick;
     const Stopwatch watch;
-    Runner runner(options);
+    Runner runner(options, cache);
     install_stop_signals();
     for (const StressFamily& family : families) {
         if (!options.quiet) {

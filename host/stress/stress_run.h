@@ -8,6 +8,8 @@
 
 namespace rt {
 
+struct RenderCache;
+
 /// What to run.
 struct StressOptions {
     std::vector<std::string> cases;   ///< globs; empty: all
@@ -20,9 +22,9 @@ struct StressOptions {
 };
 
 /// Runs the families' cases on the devices that the options name, threads and OpenCL, in float and
-/// in double. Stops early, with `interrupted` on, at a stop signal. Throws Error: usage or device
-/// for the devices, output for pictures.
+/// in double; the cache keeps what is built for the next call. Stops early, with `interrupted` on,
+/// at a stop signal. Throws Error: usage or device for the devices, output for pictures.
 StressResult run_stress_cases(const std::vector<StressFamily>& families,
-                              const StressOptions& options);
+                              const StressOptions& options, RenderCache& cache);
 
 }  // namespace rt
