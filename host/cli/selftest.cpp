@@ -48,8 +48,9 @@ int run_selftest(const SelftestOptions& options) {
         print_result(write_golden_pictures() + "\n");
         return 0;
     }
-    check_result_path(options.json, json_start("mirrorball-selftest"));
+    check_result_path(options.json, json_start("selftest"));
     check_result_path(options.junit, "<?xml");
+    check_outputs_differ({options.json, options.junit});
     const Stopwatch watch;
     Checks checks(options.filters, known_failures(options.expect));
     const std::vector<ListedDevice> devices = chosen_devices(options.devices);
@@ -66,7 +67,7 @@ int run_selftest(const SelftestOptions& options) {
     if (stop_flag() != 0) return 128 + stop_flag();
     if (checks.list().empty()) usage_error("--filter fits no check");
     const double seconds = watch.seconds();
-    if (options.json != "-") print_result(checks.text(seconds));
+    if (options.json != "-" && options.junit != "-") print_result(checks.text(seconds));
     write_result(options.json, options.json.empty() ? "" : checks.json(seconds));
     write_result(options.junit, options.junit.empty() ? "" : checks.junit(seconds));
     return static_cast<int>(checks.is_all_expected() ? ExitCode::done : ExitCode::different);
@@ -94,6 +95,9 @@ void add_selftest(const CommandLine& program, Invocation& call) {
     add_build_extras(verb);
     verb.flag("-q,--quiet", selftest.quiet, quiet_help);
     verb.when_chosen([asked, &call] {
+        if (asked->json == "-" && asked->junit == "-") {
+            usage_error("--json and --junit cannot both write to stdout; send one to a file");
+        }
         const std::string device = device_from_environment();
         if (asked->devices.empty() && !device.empty()) asked->devices = split_list(device);
         call.in_worker([asked] { return run_selftest(*asked); }, asked->quiet);

@@ -3,7 +3,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "host/base/error.h"
 #include "host/base/version.h"
@@ -12,6 +11,8 @@
 #include "host/process/worker.h"
 #include "host/record/record.h"
 #include "host/render/stopwatch.h"
+#include "host/scene/line_scanner.h"
+#include "host/scene/text_file.h"
 #include "host/selftest/selftest.h"
 #include "host/stress/families.h"
 #include "host/stress/stress_run.h"
@@ -19,6 +20,8 @@
 namespace rt {
 
 namespace {
+
+constexpr std::size_t most_known_bytes = 1 << 20;
 
 std::string xml(const std::string& text) {
     std::string safe;
@@ -43,13 +46,15 @@ std::string reason(const Check& check) {
 std::set<std::string> known_failures(const std::string& file) {
     std::set<std::string> names;
     if (file.empty()) return names;
-    std::ifstream in(file);
-    if (!in) throw Error(ExitCode::input, file + ": cannot be read");
-    for (std::string line; std::getline(in, line);) {
-        line = line.substr(0, line.find('#'));
-        line.erase(std::remove_if(line.begin(), line.end(), isspace), line.end());
-        if (!line.empty()) names.insert(line);
+    const FileText text = read_text_file(file, most_known_bytes);
+    Mistakes mistakes(text.view(), file);
+    for (LineScanner scanner(text.view()); scanner.find_word(); scanner.next_line()) {
+        names.emplace(scanner.word());
+        if (!scanner.word_follows()) continue;
+        mistakes.add(scanner.offset(),
+                     "another word; put one name on a line, and # before comments");
     }
+    mistakes.throw_if_any();
     return names;
 }
 

@@ -59,7 +59,11 @@ std::string error_text(const ProbeRecord& record, const ProbeArray& got, const P
     bool is_exact = false;
     for (std::size_t at = 0; at < right.bytes.size(); at += sizeof(T)) {
         const T x = number_at<T>(got, at), y = number_at<T>(right, at);
-        if (!std::isfinite(x) || !std::isfinite(y)) continue;
+        if (!std::isfinite(x) || !std::isfinite(y)) {
+            const bool is_same = x == y || (std::isnan(x) && std::isnan(y));
+            if (!is_same) return ", by far";
+            continue;
+        }
         const auto exact = unrounded<T>(record, at / right.item_bytes);
         is_exact = exact.has_value();
         worst = std::max(worst, ulps_between(x, exact.value_or(y)));
@@ -69,15 +73,20 @@ std::string error_text(const ProbeRecord& record, const ProbeArray& got, const P
                        is_exact ? "exact value (0.5 is right)" : "right bits");
 }
 
-template <typename T>
+template <typename Word>
 std::string words(const ProbeArray& array, std::size_t item) {
+    constexpr const char* format = std::is_integral_v<Word> ? " {:#x}" : " {:a}";
     std::string text;
     const std::size_t begin = item * array.item_bytes, end = begin + array.item_bytes;
-    for (std::size_t at = begin; at + sizeof(T) <= end; at += sizeof(T)) {
-        text += array.holds_numbers ? fmt::format(" {:a}", number_at<T>(array, at))
-                                    : fmt::format(" {:#x}", number_at<std::uint32_t>(array, at));
+    for (std::size_t at = begin; at + sizeof(Word) <= end; at += sizeof(Word)) {
+        text += fmt::format(format, number_at<Word>(array, at));
     }
     return text;
+}
+
+template <typename T>
+std::string item_text(const ProbeArray& array, std::size_t item) {
+    return array.holds_numbers ? words<T>(array, item) : words<std::uint32_t>(array, item);
 }
 
 template <typename T>
@@ -93,7 +102,7 @@ std::string difference(const ProbeRecord& record, const ProbeArray& got, const P
         ++wrong;
     }
     if (wrong == 0) return "";
-    const std::string both = words<T>(got, first) + " instead of" + words<T>(right, first);
+    const std::string both = item_text<T>(got, first) + " instead of" + item_text<T>(right, first);
     if (record.function == "layout") {
         return fmt::format("{} is elsewhere than in C++:{}", layout_names[first], both);
     }

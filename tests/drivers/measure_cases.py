@@ -60,6 +60,12 @@ class Stress(WrongDriver):
         self.assertRegex(self.stress(brighter("1.000001"), 1, *case),
                          "devices give 2 different pictures in (float|double)")
 
+    def test_a_device_that_fails_does_not_disagree(self):
+        case = ["--case", "scale-2/2^0", "--device", "threads,pocl"]
+        said = self.stress({"CL_SHIM_FAIL_LAUNCH": "1"}, 1, *case)
+        self.assertIn("FAIL scale-2/2^0", said)
+        self.assertNotIn("different pictures", said)
+
     def test_builds_each_program_once(self):
         log = self.folder / "builds"
         cases = "scale-2/2^0,scale-2/2^20,leaving-sphere/1,leaving-sphere/1e-06"

@@ -38,6 +38,14 @@ class Selftest(WrongDriver):
                                shim=self.fault("square root an ulp off"))
         self.assertRegex(result.stdout, r"by up to [12]\.\d+ ulps from the exact value")
 
+    def test_tells_nan_from_numbers(self):
+        result = self.selftest(1, "--filter", "max_of/float/1", shim=self.fault("fmax returns NaN"))
+        self.assertIn(" differ, by far; ", result.stdout)
+
+    def test_tells_words_in_double(self):
+        result = self.selftest(1, "--filter", "hash_bits/double/1", shim=self.fault("a shift off by one"))
+        self.assertRegex(result.stdout, r"items differ; item \d+: 0x[0-9a-f]+ instead of 0x[0-9a-f]+\n")
+
     def test_of_a_right_device(self):
         report, junit = self.folder / "report.json", self.folder / "junit.xml"
         self.selftest(0, "--filter", "dot3/float/*,picture/empty/*/float", "--json", str(report),
@@ -50,6 +58,15 @@ class Selftest(WrongDriver):
         suite = ElementTree.parse(junit).getroot()
         self.assertEqual([suite.get("tests"), suite.get("failures")], [str(len(names)), "0"])
         self.assertEqual([case.get("name") for case in suite], names)
+        self.selftest(0, "--filter", "dot3/float/1", "--json", str(report))
+        self.assertEqual(len(json.loads(report.read_text())["checks"]), 1)
+
+    def test_results_on_stdout_come_alone(self):
+        said = [self.selftest(0, "--filter", "dot3/float/1", option, "-").stdout for option in ["--json", "--junit"]]
+        self.assertEqual(json.loads(said[0])["format"], "mirrorball-selftest")
+        self.assertEqual(ElementTree.fromstring(said[1].encode()).get("tests"), "1")
+        self.selftest(2, "--json", "-", "--junit", "-")
+        self.selftest(2, "--json", "a", "--junit", "a")
 
     def test_of_a_device_that_renders_wrong_pictures(self):
         name = "picture/cornell-box/none/float"
@@ -73,6 +90,8 @@ class Selftest(WrongDriver):
         self.assertRegex(result.stdout, r"(?m)^known +dot3/float/1: [\s\S]*1 wrong, 1 known to be, 0 unexpected")
         result = self.selftest(1, *options)
         self.assertRegex(result.stdout, r"(?m)^passes dot3/float/1: right, but expected to fail")
+        known.write_text("dot3/float/1\nmul3/float/1 fails\n")
+        self.assertIn(f"{known}:2:14: ", self.selftest(3, *options).stderr)
 
     def test_of_a_driver_that_crashes(self):
         shim = {"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "abort"}
