@@ -20,7 +20,7 @@
 enum { most_arguments = 32, most_devices = 32 };
 
 static struct {
-    char what[8];
+    char what[16];
     unsigned char *bytes;
     size_t size;
 } arguments[most_arguments];
@@ -50,28 +50,25 @@ static unsigned char *read_file(const char *name, size_t *size) {
 }
 
 static void read_launch(void) {
-    static char line[8000];
+    char word[16];
+    static char text[4000];
     FILE *file = fopen("launch.txt", "r");
     check(file != NULL, "launch.txt");
-    while (fgets(line, sizeof line, file)) {
-        char *text = strchr(line, ' ');
-        line[strcspn(line, "\n")] = 0;
-        check(text != NULL, line);
-        *text++ = 0;
-        if (!strcmp(line, "kernel")) {
-            strncpy(kernel_name, text, sizeof kernel_name - 1);
-        } else if (!strcmp(line, "options")) {
-            strncpy(options, text, sizeof options - 1);
-        } else if (!strcmp(line, "numbers")) {
-            strncpy(numbers, text, sizeof numbers - 1);
-        } else if (!strcmp(line, "global")) {
+    while (fscanf(file, "%15s %3999[^\n]", word, text) == 2) {
+        if (!strcmp(word, "kernel")) {
+            sprintf(kernel_name, "%.199s", text);
+        } else if (!strcmp(word, "options")) {
+            strcpy(options, text);
+        } else if (!strcmp(word, "numbers")) {
+            sprintf(numbers, "%.15s", text);
+        } else if (!strcmp(word, "global")) {
             global_size = strtoul(text, NULL, 10);
-        } else if (!strcmp(line, "local")) {
+        } else if (!strcmp(word, "local")) {
             local_size = strtoul(text, NULL, 10);
         } else {
             check(argument_count < most_arguments, "too many arguments");
-            strncpy(arguments[argument_count].what, line, 7);
-            if (!strcmp(line, "scratch")) {
+            strcpy(arguments[argument_count].what, word);
+            if (!strcmp(word, "scratch")) {
                 arguments[argument_count].size = strtoul(text, NULL, 10);
                 arguments[argument_count].bytes = calloc(arguments[argument_count].size, 1);
             } else {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/blame.h"
-
 #include <fmt/format.h>
 
 #include "host/base/console.h"
@@ -9,6 +7,7 @@
 #include "host/cli/verb.h"
 #include "host/measure/device_list.h"
 #include "host/process/worker.h"
+#include "host/selftest/selftest.h"
 
 namespace rt {
 

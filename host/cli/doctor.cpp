@@ -102,7 +102,7 @@ Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
                        const std::string& name, const std::vector<std::string>& changes) {
     const Stopwatch watch;
     std::vector<std::string> command{"mirrorball", "doctor", "--device", spec};
-    const auto& [cl_options, folder, group] = build_extras();
+    const auto& [cl_options, folder] = build_extras();
     if (!cl_options.empty()) command.push_back("--cl-options=" + cl_options);
     if (!folder.empty()) command.push_back("--save-kernels=" + folder);
     const WorkerEnd end =

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -24,11 +23,10 @@ struct ClOptions {
     OpenDevices* open_devices = nullptr;  ///< keeps context and program; null: not kept
 };
 
-/// What is asked for on top of what is best, for every build and launch of this process.
+/// What is asked for with every build of this process.
 struct BuildExtras {
-    std::string options;    ///< for the driver's compiler
-    std::string folder;     ///< for each program's source, options, log and binary; empty: nowhere
-    std::size_t group = 0;  ///< work items of a group that renders; 0: as is best
+    std::string options;  ///< further ones for the driver's compiler
+    std::string folder;   ///< for each program's source, options, log and binary; empty: nowhere
 };
 
 BuildExtras& build_extras();

@@ -31,6 +31,7 @@ class ClRayTracer {
         program.lanes = packet_lanes<T>(options.kernels.lanes, device);
         program.math = options.math;
         program.warnings_are_errors = options.warnings_are_errors;
+        program.more = options.kernels.cl_options;
         program.entries = {false, false, false, true};
         lanes_ = static_cast<std::size_t>(program.lanes);
         kernel_ = cl::Kernel(programs_.program(device, render_kernels, program), "trace_rays");

@@ -58,12 +58,11 @@ class ClRenderer : public Renderer<T> {
                  device.is_cpu ? cpu_most_samples : gpu_most_samples) {
         launch_samples_ = launches_samples(options.kernels.launch, device);
         lanes_ = packet_lanes<T>(options.kernels.lanes, device);
-        group_ = lanes_ == 1 ? single_group : packet_group;
-        if (build_extras().group != 0) group_ = build_extras().group;
+        group_ = picture_group(options.kernels, lanes_);
         try {
             open();
             upload(scene);
-            build(scene, options);
+            build(picture_program(scene, device, options));
         } catch (const cl::Error& error) {
             throw_device_error(device_, error);
         }
@@ -195,22 +194,9 @@ class ClRenderer : public Renderer<T> {
 
     /// Builds the program and launches each kernel once over an empty tile, since some drivers
     /// finish compiling only then.
-    void build(const FlatScene<T>& scene, const ClOptions& options) {
-        ProgramOptions program_options;
-        program_options.precision = precision_of<T>;
-        program_options.lanes = lanes_;
-        program_options.math = options.math;
-        program_options.warnings_are_errors = options.warnings_are_errors;
-        program_options.entries = {!launch_samples_, launch_samples_, options.will_refine, false};
-        const KernelChoice& kernels = options.kernels;
-        program_options.features = either_of(scene.features, kernels.features);
-        const int held = shape(samples()).samples;
-        const bool is_one_packet = !launch_samples_ && held == params_.samples;
-        if (is_one_packet && !kernels.any_samples && !kernels.has_all()) {
-            program_options.samples = held;
-        }
+    void build(const ProgramOptions& options) {
         const Stopwatch watch;
-        const cl::Program program = programs_.program(device_, render_kernels, program_options);
+        const cl::Program program = programs_.program(device_, render_kernels, options);
         render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
         set_scene_arguments(render_, params_);
         if (launch_samples_) {
@@ -221,7 +207,7 @@ class ClRenderer : public Renderer<T> {
         FlatTile nothing{};
         nothing.width = 1;  // kernels divide by the width
         launch(nothing, cl::Buffer());
-        if (options.will_refine) {
+        if (options.entries.list) {
             list_ = cl::Kernel(program, "render_list");
             launch_list({}, params_, cl::Buffer(), cl::Buffer());
         }
@@ -391,6 +377,31 @@ class ClRenderer : public Renderer<T> {
 }  // namespace
 
 template <typename T>
+ProgramOptions picture_program(const FlatScene<T>& scene, const ClDevice& device,
+                               const ClOptions& options) {
+    const KernelChoice& kernels = options.kernels;
+    const bool by_samples = launches_samples(kernels.launch, device);
+    ProgramOptions program;
+    program.precision = precision_of<T>;
+    program.lanes = packet_lanes<T>(kernels.lanes, device);
+    program.math = options.math;
+    program.warnings_are_errors = options.warnings_are_errors;
+    program.entries = {!by_samples, by_samples, options.will_refine, false};
+    program.features = either_of(scene.features, kernels.features);
+    program.more = kernels.cl_options;
+    const auto samples = static_cast<int>(scene.params.samples);
+    const bool is_one_packet =
+        !by_samples && packet_shape(program.lanes, samples).samples == samples;
+    if (is_one_packet && !kernels.any_samples && !kernels.has_all()) program.samples = samples;
+    return program;
+}
+
+std::size_t picture_group(const KernelChoice& kernels, int lanes) {
+    if (kernels.group != 0) return kernels.group;
+    return lanes == 1 ? single_group : packet_group;
+}
+
+template <typename T>
 std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const ClDevice& device,
                                               const ClOptions& options) {
     if (sizeof(T) == sizeof(double) && !device.has_double) {
@@ -402,6 +413,9 @@ std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const C
     return std::make_unique<ClRenderer<T>>(scene, device, options);
 }
 
+template ProgramOptions picture_program(const FlatScene<float>&, const ClDevice&, const ClOptions&);
+template ProgramOptions picture_program(const FlatScene<double>&, const ClDevice&,
+                                        const ClOptions&);
 template std::unique_ptr<Renderer<float>> make_cl_renderer(const FlatScene<float>&, const ClDevice&,
                                                            const ClOptions&);
 template std::unique_ptr<Renderer<double>> make_cl_renderer(const FlatScene<double>&,

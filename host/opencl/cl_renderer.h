@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -10,6 +11,16 @@
 #include "host/render/renderer.h"
 
 namespace rt {
+
+struct ProgramOptions;
+
+/// What a renderer's program is compiled for.
+template <typename T>
+ProgramOptions picture_program(const FlatScene<T>& scene, const ClDevice& device,
+                               const ClOptions& options);
+
+/// Work items of its groups, with packets of `lanes` rays.
+std::size_t picture_group(const KernelChoice& kernels, int lanes);
 
 /// A renderer on an OpenCL device: builds the kernels for the scene's features and uploads it. The
 /// scene need not outlive the call. Throws Error: ExitCode::device if the device cannot do it,

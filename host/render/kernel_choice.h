@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "host/base/text.h"
@@ -22,6 +23,8 @@ struct KernelChoice {
     Launch launch = Launch::automatic;  ///< of OpenCL devices
     Features features = no_features();  ///< compiled in although the scene may not need them
     bool any_samples = false;           ///< a loop over samples, although the count is known
+    std::string cl_options = {};        ///< further ones for the compilers of OpenCL drivers
+    std::size_t group = 0;              ///< work items of an OpenCL work group; 0: as is best
 
     /// Whether everything is compiled in.
     bool has_all() const { return features == Features{}; }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/blame.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -40,14 +38,19 @@ struct WrongFunction {
     std::string why;
 };
 
+/// Probes of the device's own arithmetic and layout, for which the kernels call no function.
+constexpr const char* own_probes[] = {"layout",      "product", "quotient",
+                                      "square_root", "fused",   "shifted"};
+
 /// Functions one by one.
 class FunctionBlame {
    public:
-    explicit FunctionBlame(const ClDevice& device)
-        : device_(device), probes_(device), records_(recorded_probes()), parts_(probe_kernels) {}
+    /// `folder`: for the reproducer.
+    FunctionBlame(const ClDevice& device, const std::string& folder, Blame& blame)
+        : device_(device), folder_(folder), blame_(blame), probes_(device) {}
 
     /// Fills the blame in, if a function is wrong.
-    void find(Blame& blame, const std::string& folder) {
+    void find() {
         const int float_lanes = packet_lanes<float>(0, device_);
         const int double_lanes = packet_lanes<double>(0, device_);
         struct Step {
@@ -60,15 +63,15 @@ class FunctionBlame {
               Step{true, true, double_lanes}}) {
             if (is_double && !device_.has_double) continue;
             const auto wrong = wrong_with(lanes, is_double, of_scenes);
-            if (!wrong.empty()) return tell(wrong, blame, folder);
+            if (!wrong.empty()) return tell(wrong);
         }
         const ProbeRecord many = many_items_record(records_);
         const std::string why =
             why_of([&] { return what_is_wrong(probes_, many, 1, "", many.count); });
         if (why.empty()) return;
-        blame.verdict = "more than 2^20 work items in a launch";
-        blame.text += fmt::format("wrong with {} work items: {}\n", many.count, why);
-        reproduce({&many, 1, why}, blame, folder);
+        blame_.verdict = "more than 2^20 work items in a launch";
+        blame_.text += fmt::format("wrong with {} work items: {}\n", many.count, why);
+        reproduce({&many, 1, why});
     }
 
    private:
@@ -88,95 +91,83 @@ class FunctionBlame {
         return wrong;
     }
 
-    /// The device's own arithmetic and layout, which no function is called for; else the first
-    /// function that calls none of the others.
+    /// The one that calls none of the others: what is called is defined before.
     const WrongFunction& innermost(const std::vector<WrongFunction>& wrong) const {
-        const auto find = [&](const auto& fits) {
-            return std::find_if(wrong.begin(), wrong.end(), fits);
-        };
-        auto found = find([](const WrongFunction& one) {
-            constexpr const char* own[] = {"layout",      "product", "quotient",
-                                           "square_root", "fused",   "shifted"};
-            return std::ranges::find(own, one.record->function) != std::end(own);
-        });
-        if (found != wrong.end()) return *found;
-        found = find([&](const WrongFunction& one) {
+        return *std::ranges::min_element(wrong, {}, [&](const WrongFunction& one) {
             const std::string& function = one.record->function;
-            const auto called = parts_.reached_from("probe_" + function);
-            return std::none_of(wrong.begin(), wrong.end(), [&](const WrongFunction& other) {
-                return other.record->function != function &&
-                       called.count(other.record->function) != 0;
-            });
+            const bool is_own = std::ranges::find(own_probes, function) != std::end(own_probes);
+            return is_own ? 0 : 1 + parts_.place_of(function);
         });
-        return found == wrong.end() ? wrong.front() : *found;
     }
 
-    void tell(const std::vector<WrongFunction>& wrong, Blame& blame, const std::string& folder) {
+    void tell(const std::vector<WrongFunction>& wrong) {
         const WrongFunction& culprit = innermost(wrong);
         const std::string& function = culprit.record->function;
-        blame.verdict = "the function " + function;
-        blame.text += fmt::format("{} in {}, packets of {}: {}\n", function,
-                                  precision_name(*culprit.record), culprit.lanes, culprit.why);
+        blame_.verdict = "the function " + function;
+        blame_.text += fmt::format("{} in {}, packets of {}: {}\n", function,
+                                   precision_name(*culprit.record), culprit.lanes, culprit.why);
         std::vector<std::string> others;
         for (const WrongFunction& one : wrong) {
             if (one.record != culprit.record) others.push_back(one.record->function);
         }
         if (!others.empty()) {
-            blame.text += fmt::format("also wrong, perhaps since they call it: {}\n",
-                                      fmt::join(others, ", "));
+            blame_.text += fmt::format("also wrong, perhaps since they call it: {}\n",
+                                       fmt::join(others, ", "));
         }
         for (const int lanes : {1, 2, 4, 8, 16}) {
             const bool is_right = why_wrong(*culprit.record, lanes).empty();
-            blame.text +=
+            blame_.text +=
                 fmt::format("packets of {:<17} {}\n", lanes, is_right ? "right" : "WRONG");
         }
         const bool helps = why_wrong(*culprit.record, culprit.lanes, without_optimizer).empty();
-        blame.text += fmt::format("{:<28} {}\n", without_optimizer, helps ? "right" : "WRONG");
-        if (helps) blame.verdict += ", if optimized";
-        reproduce(culprit, blame, folder);
+        blame_.text += fmt::format("{:<28} {}\n", without_optimizer, helps ? "right" : "WRONG");
+        if (helps) blame_.verdict += ", if optimized";
+        reproduce(culprit);
     }
 
-    void reproduce(const WrongFunction& wrong, Blame& blame, const std::string& folder) const {
+    void reproduce(const WrongFunction& wrong) const {
         const ProbeRecord& record = *wrong.record;
         ProgramOptions options;
         options.lanes = wrong.lanes;
         options.precision = record.is_double ? Precision::float64 : Precision::float32;
-        options.entries = {false, false, false, false};
         KernelLaunch launch;
         launch.kernel = "probe_" + record.function;
-        launch.options = build_options(device_, options);
+        launch.options = build_options(device_, probe_program(options, record.inputs.size()));
         launch.numbers = record.outputs[0].holds_numbers ? precision_name(record) : "int";
         const auto lanes = static_cast<std::size_t>(wrong.lanes);
-        launch.items = ((record.count + lanes - 1) / lanes + 63) / 64 * 64;
+        launch.items = (record.count + lanes - 1) / lanes;
         launch.add_value(std::uint32_t{0});
         launch.add_value(record.count);
         for (const ProbeArray& input : record.inputs) launch.add("in", input.bytes);
         for (const ProbeArray& output : record.outputs) launch.add("out", output.bytes);
-        blame.reproducer = folder;
-        write_reproducer(folder, launch, probe_kernels, blame.text);
+        blame_.reproducer = folder_;
+        write_reproducer(folder_, launch, probe_kernels, blame_.text);
     }
 
     const ClDevice& device_;
+    const std::string& folder_;
+    Blame& blame_;
     ProbeDevice probes_;
-    const std::vector<ProbeRecord> records_;
-    const SourceParts parts_;
+    const std::vector<ProbeRecord> records_ = recorded_probes();
+    const SourceParts parts_{probe_kernels};
 };
 
 /// A way to render.
 struct Variant {
     std::string what;
     KernelChoice kernels;
-    const char* options = "";
-    std::size_t group = 0;  ///< work items; 0: as is best
 };
 
 /// Whole kernels in one precision.
 template <typename T>
 class PictureBlame {
    public:
-    explicit PictureBlame(const ClDevice& device) : device_(device) {}
+    /// `folder`: for the reproducer.
+    PictureBlame(const ClDevice& device, const std::string& folder, Blame& blame)
+        : device_(device), folder_(folder), blame_(blame) {}
 
-    void find(Blame& blame, const std::string& folder) {
+    /// Fills the blame in, if a picture is wrong.
+    void find() {
         KernelChoice all, samples, own;
         all.features = samples.features = Features{};
         all.any_samples = samples.any_samples = true;
@@ -186,103 +177,105 @@ class PictureBlame {
              {Variant{"all features", all}, Variant{"a sample per work item", samples},
               Variant{"the scene's features", own}}) {
             RenderCache cache;
+            base_ = base;
             for (const GoldenPicture& picture : golden_pictures()) {
                 const bool is_plain = picture.mode == "none" || picture.mode == "grid:2";
                 if (!is_plain || picture.precision != precision_of<T>) continue;
                 golden_ = picture;
-                scene_ = golden_scene(picture);
-                if (is_right(base, &cache)) continue;
-                flat_ = flatten<T>(scene_);
-                blame.text += fmt::format("no function is wrong alone, but {} is, with {}\n",
-                                          picture.name(), base.what);
-                vary(base, blame);
-                try {
-                    explain(base, blame);
-                    reproduce(base, blame, folder);
-                } catch (const Error& error) {
-                    blame.text += fmt::format("no more is known: {}\n", error.what());
-                }
-                return;
+                if (!is_right(base.kernels, &cache)) return tell();
             }
         }
     }
 
    private:
-    RenderedPicture rendered(const DeviceChoice& device, const Variant& variant,
-                             RenderCache* cache) const {
-        const BuildExtras before = build_extras();
-        build_extras().options += std::string(" ") + variant.options;
-        build_extras().group = variant.group;
+    void tell() {
+        scene_ = golden_scene(golden_);
+        flat_ = flatten<T>(scene_);
+        blame_.text += fmt::format("no function is wrong alone, but {} is, with {}\n",
+                                   golden_.name(), base_.what);
+        vary();
         try {
-            RenderedPicture picture = render_golden(golden_, device, variant.kernels, cache);
-            build_extras() = before;
-            return picture;
-        } catch (...) {
-            build_extras() = before;
-            throw;
+            const Film<T> right = rendered(*make_threads_renderer<T>(flat_, {}));
+            explain(right);
+            reproduce(right);
+        } catch (const Error& error) {
+            blame_.text += fmt::format("no more is known: {}\n", error.what());
         }
     }
 
-    bool is_right(const Variant& variant, RenderCache* cache = nullptr) const {
+    bool is_right(const KernelChoice& kernels, RenderCache* cache = nullptr) const {
         return why_of([&]() -> std::string {
-                   const auto picture = rendered({.device = device_}, variant, cache);
+                   const auto picture = render_golden(golden_, {.device = device_}, kernels, cache);
                    return hash_text(picture.stats.image_hash) == golden_.hash ? "" : "wrong";
                })
             .empty();
     }
 
-    std::vector<Variant> variants_of(const Variant& base) const {
-        std::vector<Variant> variants;
+    Rect whole() const { return {0, 0, scene_.width, scene_.height}; }
+
+    ClOptions options() const {
+        ClOptions options;
+        options.kernels = base_.kernels;
+        return options;
+    }
+
+    Film<T> rendered(Renderer<T>& renderer) const {
+        Film<T> film(scene_.width, scene_.height);
+        static const StopFlag never_stopped{0};
+        TileQueue queue({whole()}, never_stopped);
+        renderer.render(queue, whole(), film);
+        return film;
+    }
+
+    std::vector<Variant> variants() const {
+        std::vector<Variant> all;
         const auto add = [&](const std::string& what, const auto& change) {
-            Variant& variant = variants.emplace_back(base);
+            Variant& variant = all.emplace_back(base_);
             variant.what = what;
             change(variant);
         };
         for (const int lanes : {16, 8, 4, 2, 1}) {
             add(fmt::format("packets of {}", lanes), [&](auto& v) { v.kernels.lanes = lanes; });
         }
-        const bool is_sampled = base.kernels.launch == Launch::sample;
+        const bool is_sampled = base_.kernels.launch == Launch::sample;
         add(is_sampled ? "a pixel per work item" : "a sample per work item",
             [&](auto& v) { v.kernels.launch = is_sampled ? Launch::pixel : Launch::sample; });
         for (const FeatureName& feature : feature_names) {
             if (flat_.features.*feature.flag) continue;
-            const bool is_on = base.kernels.features.*feature.flag;
+            const bool is_on = base_.kernels.features.*feature.flag;
             add(fmt::format("{} {}", is_on ? "without" : "with", feature.name),
                 [&](auto& v) { v.kernels.features.*feature.flag = !is_on; });
         }
-        add("groups of 1 work item", [](auto& v) { v.group = 1; });
-        add("groups of 32 work items", [](auto& v) { v.group = 32; });
-        add(without_optimizer, [](auto& v) { v.options = without_optimizer; });
-        return variants;
+        add("groups of 1 work item", [](auto& v) { v.kernels.group = 1; });
+        add("groups of 32 work items", [](auto& v) { v.kernels.group = 32; });
+        add(without_optimizer, [](auto& v) { v.kernels.cl_options = without_optimizer; });
+        return all;
     }
 
     /// Renders with one thing changed at a time, and names what makes the picture right.
-    void vary(const Variant& base, Blame& blame) const {
+    void vary() {
         std::vector<std::string> helps;
-        for (const Variant& variant : variants_of(base)) {
-            const bool right = is_right(variant);
-            blame.text += fmt::format("{:<28} {}\n", variant.what, right ? "right" : "WRONG");
+        for (const Variant& variant : variants()) {
+            const bool right = is_right(variant.kernels);
+            blame_.text += fmt::format("{:<28} {}\n", variant.what, right ? "right" : "WRONG");
             if (right) helps.push_back(variant.what);
         }
-        blame.verdict = "whole kernels with " + base.what +
-                        (helps.empty() ? ", whatever is changed"
-                                       : fmt::format("; right with: {}", fmt::join(helps, "; ")));
+        blame_.verdict = "whole kernels with " + base_.what +
+                         (helps.empty() ? ", whatever is changed"
+                                        : fmt::format("; right with: {}", fmt::join(helps, "; ")));
     }
 
     /// The first pixel that differs from threads', and the first ray of its tree that does.
-    void explain(const Variant& base, Blame& blame) const {
-        const Picture right = rendered(threads_choice(), {}, nullptr).picture;
-        const Picture got = rendered({.device = device_}, base, nullptr).picture;
-        const auto [a, b] =
-            std::mismatch(got.pixels.begin(), got.pixels.end(), right.pixels.begin());
-        if (a == got.pixels.end()) return;
-        const int pixel = static_cast<int>((a - got.pixels.begin()) / 3);
+    void explain(const Film<T>& right) {
+        const Film<T> got = rendered(*make_cl_renderer<T>(flat_, device_, options()));
+        const auto [a, b] = std::ranges::mismatch(got.rgb, right.rgb);
+        if (a == got.rgb.end()) return;
+        const int pixel = static_cast<int>((a - got.rgb.begin()) / 3);
         const int x = pixel % got.width, y = pixel / got.width;
-        blame.text += fmt::format(
-            "the first pixel that differs: {},{} of {}x{}: {:a} instead of "
-            "{:a}\n",
-            x, y, got.width, got.height, *a, *b);
-        blame.text += first_wrong_ray(explain_pixel(flatten<double>(scene_), x, y).events);
+        blame_.text +=
+            fmt::format("the first pixel that differs: {},{} of {}x{}: {:a} instead of {:a}\n", x,
+                        y, got.width, got.height, *a, *b);
+        blame_.text += first_wrong_ray(explain_pixel(flatten<double>(scene_), x, y).events);
     }
 
     /// Traces the rays of a pixel one by one on both sides.
@@ -312,7 +305,7 @@ class PictureBlame {
                                                             : "refracted ray from " + from);
         }
         std::vector<typename Flat<T>::RayAnswer> got(queries.size()), right(queries.size());
-        make_cl_ray_tracer<T>(flat_, device_, {})(queries, got);
+        make_cl_ray_tracer<T>(flat_, device_, options())(queries, got);
         make_threads_ray_tracer<T>(flat_, {})(queries, right);
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const auto &a = got[i], &b = right[i];
@@ -341,39 +334,34 @@ class PictureBlame {
     }
 
     /// The whole picture in one launch. Samples are compared where a pixel has but one.
-    void reproduce(const Variant& base, Blame& blame, const std::string& folder) const {
-        const bool is_sampled = base.kernels.launch == Launch::sample;
-        const int samples = static_cast<int>(flat_.params.samples);
+    void reproduce(const Film<T>& right) const {
+        const bool is_sampled = base_.kernels.launch == Launch::sample;
+        const std::int64_t samples = flat_.params.samples;
         if (is_sampled && samples != 1) return;
-        const Rect whole{0, 0, scene_.width, scene_.height};
-        Film<T> right(whole.width, whole.height);
-        static const StopFlag never_stopped{0};
-        TileQueue queue({whole}, never_stopped);
-        make_threads_renderer<T>(flat_, {})->render(queue, whole, right);
-        ProgramOptions options;
-        options.precision = precision_of<T>;
-        options.lanes = is_sampled ? 1 : packet_lanes<T>(base.kernels.lanes, device_);
-        options.features = either_of(flat_.features, base.kernels.features);
-        options.entries = {!is_sampled, is_sampled, false, false};
+        const ProgramOptions program = picture_program(flat_, device_, options());
         KernelLaunch launch;
         launch.kernel = is_sampled ? "render_samples" : "render_pixels";
-        launch.options = build_options(device_, options);
+        launch.options = build_options(device_, program);
         launch.numbers = to_string(precision_of<T>);
+        launch.group = picture_group(base_.kernels, program.lanes);
         // At most a packet for each pixel.
-        launch.items = static_cast<std::size_t>((whole.pixels() * samples + 63) / 64 * 64);
+        launch.items = static_cast<std::size_t>(whole().pixels() * samples);
         launch.add("out", std::as_bytes(std::span(right.rgb)));
-        launch.add("scratch",
-                   std::vector<std::byte>(launch.items * sizeof(typename Flat<T>::RayCounts)));
+        const std::size_t counts = launch.whole_groups() * sizeof(typename Flat<T>::RayCounts);
+        launch.add("scratch", std::vector<std::byte>(counts));
 #define RT_LAUNCH_ARRAY(type, name, what) launch.add("in", std::as_bytes(std::span(flat_.name)));
         RT_SCENE_ARRAYS(RT_LAUNCH_ARRAY)
 #undef RT_LAUNCH_ARRAY
         launch.add_value(flat_.params);
-        launch.add_value(flat_tile<T>(whole, whole));
-        blame.reproducer = folder;
-        write_reproducer(folder, launch, render_kernels, blame.text);
+        launch.add_value(flat_tile<T>(whole(), whole()));
+        blame_.reproducer = folder_;
+        write_reproducer(folder_, launch, render_kernels, blame_.text);
     }
 
     const ClDevice& device_;
+    const std::string& folder_;
+    Blame& blame_;
+    Variant base_;
     GoldenPicture golden_;
     Scene scene_;
     FlatScene<T> flat_;
@@ -385,10 +373,10 @@ Blame blame_device(const ClDevice& device, const std::string& folder) {
     Blame blame;
     blame.text = fmt::format("{} ({}, driver {}), mirrorball {} ({})\n", device.name,
                              device.platform, device.driver, version, git_revision);
-    FunctionBlame(device).find(blame, folder);
-    if (blame.verdict.empty()) PictureBlame<float>(device).find(blame, folder);
+    FunctionBlame(device, folder, blame).find();
+    if (blame.verdict.empty()) PictureBlame<float>(device, folder, blame).find();
     if (blame.verdict.empty() && device.has_double) {
-        PictureBlame<double>(device).find(blame, folder);
+        PictureBlame<double>(device, folder, blame).find();
     }
     return blame;
 }

@@ -99,12 +99,17 @@ std::string encoded(const std::vector<ProbeRecord>& records) {
 ProbeDevice::ProbeDevice(const ClDevice& device)
     : device_(device), queue_(programs_.context(device_), handle_of(device_)) {}
 
-void ProbeDevice::launch(ProgramOptions build, const std::string& function, std::size_t count,
-                         std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs,
-                         std::size_t most_items) {
+ProgramOptions probe_program(ProgramOptions build, std::size_t inputs) {
     build.entries = {false, false, false, false};
-    if (inputs.size() < scene_inputs) build.more += " -DRT_SCENE_PROBES=0";
-    cl::Kernel kernel(programs_.program(device_, probe_kernels, build),
+    if (inputs < scene_inputs) build.more += " -DRT_SCENE_PROBES=0";
+    return build;
+}
+
+void ProbeDevice::launch(const ProgramOptions& build, const std::string& function,
+                         std::size_t count, std::span<const ProbeInput> inputs,
+                         std::span<const ProbeOutput> outputs, std::size_t most_items) {
+    const ProgramOptions program = probe_program(build, inputs.size());
+    cl::Kernel kernel(programs_.program(device_, probe_kernels, program),
                       ("probe_" + function).c_str());
     const std::size_t given = 2 + inputs.size() + outputs.size();
     if (const auto wanted = kernel.getInfo<CL_KERNEL_NUM_ARGS>(); wanted != given) {

@@ -63,6 +63,9 @@ struct ProbeOutput {
     std::size_t bytes() const { return count * item_bytes; }
 };
 
+/// The options of a launch with so many inputs.
+ProgramOptions probe_program(ProgramOptions build, std::size_t inputs);
+
 /// A device with the probes, each build of them made on first use.
 class ProbeDevice {
    public:
@@ -73,7 +76,7 @@ class ProbeDevice {
     /// Runs probe_FUNCTION over `count` items in packets of build.lanes; its arguments are first,
     /// count, the inputs and the outputs, which are uploaded before. `most_items`: work items of a
     /// launch. Throws cl::Error, and Error as build_program does.
-    void launch(ProgramOptions build, const std::string& function, std::size_t count,
+    void launch(const ProgramOptions& build, const std::string& function, std::size_t count,
                 std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs,
                 std::size_t most_items = 65536 - 64);
 

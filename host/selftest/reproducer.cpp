@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
-#include <fstream>
+#include <set>
 #include <string_view>
 
-#include "host/base/error.h"
+#include "host/image/atomic_file.h"
+#include "host/image/output_path.h"
 
 namespace rt {
 
@@ -58,13 +58,6 @@ std::string next_line(const std::string& text, std::size_t& at) {
     return text.substr(start, at - start);
 }
 
-void write_file(const std::filesystem::path& file, std::string_view bytes) {
-    std::ofstream out(file, std::ios::binary);
-    if (!out.write(bytes.data(), std::ssize(bytes)).flush()) {
-        throw Error(ExitCode::output, file.string() + ": cannot be written");
-    }
-}
-
 }  // namespace
 
 SourceParts::SourceParts(const std::string& source) {
@@ -91,7 +84,16 @@ SourceParts::SourceParts(const std::string& source) {
     }
 }
 
-std::set<std::string> SourceParts::reached(std::vector<std::string> pending) const {
+std::size_t SourceParts::place_of(const std::string& function) const {
+    const auto part = std::ranges::find(parts_, function, &Part::name);
+    return static_cast<std::size_t>(part - parts_.begin());
+}
+
+std::string SourceParts::reduced_to(const std::string& kernel) const {
+    std::vector<std::string> pending{kernel};
+    for (const Part& part : parts_) {
+        if (part.name.empty()) pending.insert(pending.end(), part.words.begin(), part.words.end());
+    }
     std::set<std::string> found;
     while (!pending.empty()) {
         const std::string word = pending.back();
@@ -102,19 +104,6 @@ std::set<std::string> SourceParts::reached(std::vector<std::string> pending) con
             pending.insert(pending.end(), part.words.begin(), part.words.end());
         }
     }
-    return found;
-}
-
-std::set<std::string> SourceParts::reached_from(const std::string& function) const {
-    return reached({function});
-}
-
-std::string SourceParts::reduced_to(const std::string& kernel) const {
-    std::vector<std::string> pending{kernel};
-    for (const Part& part : parts_) {
-        if (part.name.empty()) pending.insert(pending.end(), part.words.begin(), part.words.end());
-    }
-    const std::set<std::string> found = reached(pending);
     std::string text;
     for (const Part& part : parts_) {
         if (part.name.empty() || found.count(part.name) != 0) text += part.text;
@@ -124,12 +113,13 @@ std::string SourceParts::reduced_to(const std::string& kernel) const {
 
 void write_reproducer(const std::string& folder, const KernelLaunch& launch,
                       const std::string& source, const std::string& readme) {
-    const std::filesystem::path place = folder;
-    std::error_code error;
-    std::filesystem::create_directories(place, error);
+    create_output_folder(folder);
+    const auto write = [&](const std::string& file, std::string_view text) {
+        write_file_atomically(folder + "/" + file, std::as_bytes(std::span(text)));
+    };
     std::string text =
         fmt::format("kernel {}\noptions {}\nnumbers {}\nglobal {}\nlocal {}\n", launch.kernel,
-                    launch.options, launch.numbers, launch.items, launch.group);
+                    launch.options, launch.numbers, launch.whole_groups(), launch.group);
     for (std::size_t i = 0; i < launch.arguments.size(); ++i) {
         const auto& [kind, bytes] = launch.arguments[i];
         if (kind == "scratch") {
@@ -138,12 +128,12 @@ void write_reproducer(const std::string& folder, const KernelLaunch& launch,
         }
         const std::string file = fmt::format("argument{}.bin", i);
         text += kind + " " + file + "\n";
-        write_file(place / file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        write_file_atomically(folder + "/" + file, bytes);
     }
-    write_file(place / "launch.txt", text);
-    write_file(place / "kernel.cl", SourceParts(source).reduced_to(launch.kernel));
-    write_file(place / "reproduce.c", reproduce_program);
-    write_file(place / "README", readme);
+    write("launch.txt", text);
+    write("kernel.cl", SourceParts(source).reduced_to(launch.kernel));
+    write("reproduce.c", reproduce_program);
+    write("README", readme);
 }
 
 }  // namespace rt

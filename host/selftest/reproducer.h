@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,8 +14,8 @@ class SourceParts {
    public:
     explicit SourceParts(const std::string& source);
 
-    /// Every word of the function, and of the functions that it reaches.
-    std::set<std::string> reached_from(const std::string& function) const;
+    /// Where in the text the function is defined: the number of parts before it.
+    std::size_t place_of(const std::string& function) const;
 
     /// The text without comments and without the functions that the kernel does not reach.
     std::string reduced_to(const std::string& kernel) const;
@@ -27,8 +26,6 @@ class SourceParts {
         std::string text;
         std::vector<std::string> words;
     };
-
-    std::set<std::string> reached(std::vector<std::string> pending) const;
 
     std::vector<Part> parts_;
 };
@@ -42,6 +39,8 @@ struct KernelLaunch {
     std::string kernel, options, numbers = "float";
     std::size_t items = 1, group = 64;
     std::vector<Argument> arguments;
+
+    std::size_t whole_groups() const { return (items + group - 1) / group * group; }
 
     void add(const char* kind, std::span<const std::byte> bytes) {
         arguments.push_back({kind, {bytes.begin(), bytes.end()}});

@@ -105,4 +105,14 @@ void check_pictures(Checks& checks, const DeviceChoice& device, const std::strin
                     bool quick);
 void check_stress(Checks& checks, const std::string& spec, const std::string& prefix);
 
+struct Blame {
+    std::string verdict;     ///< what is to blame; empty: nothing is wrong
+    std::string text;        ///< what was tried, and what came out
+    std::string reproducer;  ///< folder with a program that shows it; empty: none
+};
+
+/// Finds out what a device computes wrongly: a function, else what whole kernels have in common
+/// that render a wrong picture. Writes a reproducer to the folder. Throws Error.
+Blame blame_device(const ClDevice& device, const std::string& folder);
+
 }  // namespace rt

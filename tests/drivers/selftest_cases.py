@@ -107,8 +107,11 @@ class Selftest(WrongDriver):
 
     def reproduced(self, name):
         """What blame says, and what its C program prints with the fault and without."""
-        folder = self.folder / name.replace(" ", "-").replace("^", "")
-        said = self.run_with(self.fault(name), "blame", "--device", "pocl", "-o", str(folder), code=1).stdout
+        folder, log = self.folder / name.replace(" ", "-").replace("^", ""), self.folder / "builds"
+        said = self.run_with(self.fault(name) | {"CL_SHIM_LOG": str(log)}, "blame", "--device", "pocl", "-o",
+                             str(folder), code=1).stdout
+        options = next(line[8:] for line in (folder / "launch.txt").read_text().splitlines() if line[:8] == "options ")
+        self.assertIn(options, [build.split(" -D_OPENCL_H_")[0] for build in log.read_text().splitlines()])
         subprocess.run(["cc", "-std=c99", "reproduce.c", "-lOpenCL"], cwd=folder, check=True)
         run = [subprocess.run([folder / "a.out", "pthread"], cwd=folder, text=True, check=False,
                               capture_output=True, env=dict(os.environ, **shim))
@@ -124,6 +127,14 @@ class Selftest(WrongDriver):
                 self.assertEqual(wrong.returncode, 1, wrong.stdout + wrong.stderr)
                 self.assertIn(": WRONG, ", wrong.stdout)
                 self.assertEqual((right.returncode, right.stdout[-8:]), (0, ": right\n"), right.stderr)
+
+    def test_blame_of_a_bit_in_double(self):
+        if not ALL:
+            self.skipTest("takes minutes; set MIRRORBALL_ALL_FAULTS")
+        old, new, _ = FAULTS["only per sample"]
+        shim = {"CL_SHIM_OLD": old, "CL_SHIM_NEW": new.replace("0.25f", "(sizeof(Real) == 8 ? 1e-12f : 0)")}
+        said = self.run_with(shim, "blame", "--device", "pocl", "-o", str(self.folder / "double"), code=1).stdout
+        self.assertRegex(said, r"(?m)^the first pixel that differs: \d+,\d+ of \d+x\d+: 0x[^ ]+ instead of 0x")
 
     def test_all_faults(self):
         if not ALL:
