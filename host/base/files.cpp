@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 
 #include <chrono>
-#include <filesystem>
 #include <system_error>
 
 namespace rt {
@@ -45,6 +44,20 @@ void remove_abandoned(const fs::path& place) {
 }
 
 }  // namespace
+
+fs::path program_file() {
+    std::error_code error;
+    return fs::read_symlink("/proc/self/exe", error);
+}
+
+fs::path beside_program(std::initializer_list<const char*> folders, const char* file) {
+    std::error_code error;
+    for (const char* folder : folders) {
+        const fs::path place = (program_file().parent_path() / folder).lexically_normal();
+        if (fs::exists(place / file, error)) return place;
+    }
+    return {};
+}
 
 TemporaryFolder::TemporaryFolder() {
     std::error_code error;

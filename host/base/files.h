@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -32,6 +34,12 @@ class FileDescriptor {
    private:
     int number_;
 };
+
+/// The running program's file; empty if it is unknown.
+std::filesystem::path program_file();
+
+/// The first of these folders, relative to the program's, that holds the file; empty if none does.
+std::filesystem::path beside_program(std::initializer_list<const char*> folders, const char* file);
 
 /// An empty folder, deleted with its files on destruction; has no name if it could not be created.
 /// It is locked as long as its process lives. Folders that killed processes of this user left are

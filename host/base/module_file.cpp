@@ -9,6 +9,8 @@
 #include <system_error>
 #include <vector>
 
+#include "host/base/files.h"
+
 #ifndef MIRRORBALL_MODULE_DIR
 #define MIRRORBALL_MODULE_DIR ""
 #endif
@@ -20,8 +22,7 @@ namespace fs = std::filesystem;
 
 /// Paths to try for a module, in order.
 std::vector<fs::path> candidates(const char* name) {
-    std::error_code error;
-    const fs::path home = fs::read_symlink("/proc/self/exe", error).parent_path();
+    const fs::path home = program_file().parent_path();
     std::vector<fs::path> directories;
     if (!home.empty()) directories.push_back(home);
     std::string_view rest = MIRRORBALL_MODULE_DIR;

@@ -30,6 +30,9 @@ inline std::string lower(std::string text) {
     return text;
 }
 
+/// The text before its first line break.
+inline std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
 /// ".nff" of "a/b.NFF".
 inline std::string lower_extension(const std::string& path) {
     return lower(std::filesystem::path(path).extension().string());

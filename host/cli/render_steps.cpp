@@ -200,8 +200,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
 
 std::function<void(const std::string& line)> message_printer(const RenderOptions& options) {
     return [&options](const std::string& text) {
-        const std::string line = options.verbose ? text : text.substr(0, text.find('\n'));
-        if (!options.quiet) print_note(line);
+        if (!options.quiet) print_note(options.verbose ? text : first_line(text));
     };
 }
 

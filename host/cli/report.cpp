@@ -4,11 +4,11 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <initializer_list>
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/files.h"
 #include "host/cli/options.h"
 #include "host/cli/result_file.h"
 #include "host/cli/verb.h"
@@ -29,8 +29,6 @@ struct ReportOptions {
     bool stress = false;  ///< include the stress suite
     bool quiet = false;
 };
-
-namespace fs = std::filesystem;
 
 constexpr const char* page_start = "<!DOCTYPE html>";
 constexpr const char* debian_python = "/usr/bin/python3";
@@ -67,13 +65,12 @@ std::string choose_python() {
 }
 
 /// The folder of the Python package: installed, else that of the sources around the build folder.
-std::string package_folder(const fs::path& program) {
-    for (const char* place : {"../share/mirrorball/python", "../python", "../../python"}) {
-        const fs::path folder = program.parent_path() / place;
-        if (fs::exists(folder / "mirrorball/report.py")) return folder.lexically_normal();
-    }
+std::string package_folder() {
+    const std::string folder = beside_program(
+        {"../share/mirrorball/python", "../python", "../../python"}, "mirrorball/report.py");
+    if (!folder.empty()) return folder;
     throw Error(ExitCode::device, "report: its Python package is not installed next to " +
-                                      program.string() + "; install mirrorball again");
+                                      program_file().string() + "; install mirrorball again");
 }
 
 std::vector<std::string> command(const std::string& python, const ReportOptions& options) {
@@ -97,14 +94,13 @@ std::vector<std::string> command(const std::string& python, const ReportOptions&
 
 int run_report(const ReportOptions& options) {
     check_result_path(options.output, page_start);
-    const fs::path program = fs::read_symlink("/proc/self/exe");
-    std::string path = package_folder(program);
+    std::string path = package_folder();
     ::setenv("PYTHONSAFEPATH", "1", 1);  // no modules from the working folder
     const std::string python = choose_python();
     if (const char* const own = std::getenv("PYTHONPATH")) path += ":" + std::string(own);
     ::setenv("PYTHONPATH", path.c_str(), 1);
     ::setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
-    ::setenv("MIRRORBALL", program.c_str(), 1);
+    ::setenv("MIRRORBALL", program_file().c_str(), 1);
     std::vector<std::string> words = command(python, options);
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());

@@ -108,10 +108,8 @@ PixelHits pixel_hits(const Scene& scene, const Rect& region, const StopFlag& sto
     for_each_pixel(region, stop, [&](std::size_t i, int x, int y) {
         for (const PathEvent& event : explain_pixel(flat, x, y).events) {
             if (event.what != RT_EVENT_HIT) continue;
-            const auto number = static_cast<std::size_t>(event.index);
-            const auto listed = flat.order.empty() ? event.index : flat.order[number];
             hits.depth[i] = static_cast<float>(event.distance / scale);
-            hits.id[i] = static_cast<std::int32_t>(listed) + 1;
+            hits.id[i] = static_cast<std::int32_t>(number_in_scene(flat, event.index)) + 1;
             for (std::size_t k = 0; k < 3; ++k) {
                 hits.normal[3 * i + k] = static_cast<float>(event.normal[k]);
             }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "host/base/error.h"
-#include "host/flatten/triangle_list.h"
 #include "host/flatten/view_frame.h"
 #include "host/render/native_kernels.h"
 
@@ -36,11 +35,8 @@ class TreeBuilder {
         : scene_(scene),
           flat_(flat),
           triangles_(scene),
-          frame_(make_view_frame(scene, triangles_, 1)) {
-        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-            if (scene.lights[i].intensity != glm::dvec3(0)) lights_.push_back(i);
-        }
-    }
+          frame_(make_view_frame(scene, triangles_, 1)),
+          lights_(shining_lights(scene)) {}
 
     std::vector<SampleTree> build(const std::vector<PathEvent>& events) {
         std::vector<SampleTree> trees;
@@ -113,7 +109,9 @@ class TreeBuilder {
         hit.distance = event.distance / frame_.scale;
         hit.point = in_scene(event.point);
         hit.normal = triple(event.normal);
-        const Scene::Material& material = name_object(event.index, hit);
+        const std::size_t number = number_in_scene(flat_, event.index);
+        hit.object = object_of(scene_, triangles_, number);
+        const Scene::Material& material = material_of(number);
         hit.material = material.name;
         hit.ambient = material.ambient * scene_.ambient_light;
         hit.lights = all_lights();
@@ -130,40 +128,41 @@ class TreeBuilder {
         return lights;
     }
 
-    const Scene::Material& material(int index) const {
-        return scene_.materials[static_cast<std::size_t>(index)];
-    }
-
-    /// Sets the hit's object to the author's name for primitive number `prim` of the flat scene.
-    const Scene::Material& name_object(long prim, RayHit& hit) const {
-        auto number = static_cast<std::size_t>(prim);
-        if (!flat_.order.empty()) number = static_cast<std::size_t>(flat_.order[number]);
-        if (number < scene_.spheres.size()) {
-            hit.object = fmt::format("sphere {}", number + 1);
-            return material(scene_.spheres[number].material);
-        }
-        number -= scene_.spheres.size();
-        if (number < scene_.cones.size()) {
-            hit.object = fmt::format("cone {}", number + 1);
-            return material(scene_.cones[number].material);
-        }
-        number -= scene_.cones.size();
-        const auto [mesh, index] = triangles_.place(number);
-        hit.object = mesh == nullptr ? fmt::format("triangle {}", index + 1)
-                                     : fmt::format("mesh {}, face {}",
-                                                   mesh - scene_.meshes.data() + 1, index + 1);
-        return material(triangles_.material(number));
+    const Scene::Material& material_of(std::size_t number) const {
+        const std::size_t spheres = scene_.spheres.size(), cones = scene_.cones.size();
+        const int material = number < spheres ? scene_.spheres[number].material
+                             : number < spheres + cones
+                                 ? scene_.cones[number - spheres].material
+                                 : triangles_.material(number - spheres - cones);
+        return scene_.materials[static_cast<std::size_t>(material)];
     }
 
     const Scene& scene_;
     const FlatScene<double>& flat_;
     const TriangleList triangles_;
     const ViewFrame frame_;
-    std::vector<std::size_t> lights_;  ///< scene index of each light of nonzero intensity
-    std::vector<LightAtHit> seen_;     ///< lights of the upcoming hit
+    const std::vector<std::size_t> lights_;
+    std::vector<LightAtHit> seen_;  ///< lights of the upcoming hit
 };
 
 }  // namespace
+
+std::string object_of(const Scene& scene, const TriangleList& triangles, std::size_t number) {
+    if (number < scene.spheres.size()) return fmt::format("sphere {}", number + 1);
+    number -= scene.spheres.size();
+    if (number < scene.cones.size()) return fmt::format("cone {}", number + 1);
+    const auto [mesh, index] = triangles.place(number - scene.cones.size());
+    if (mesh == nullptr) return fmt::format("triangle {}", index + 1);
+    return fmt::format("mesh {}, face {}", mesh - scene.meshes.data() + 1, index + 1);
+}
+
+std::vector<std::size_t> shining_lights(const Scene& scene) {
+    std::vector<std::size_t> lights;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        if (scene.lights[i].intensity != glm::dvec3(0)) lights.push_back(i);
+    }
+    return lights;
+}
 
 #ifdef MIRRORBALL_WITHOUT_NATIVE
 ExplainedPixel explain_pixel(const FlatScene<double>&, int, int) {

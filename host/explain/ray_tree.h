@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "host/base/text.h"
 #include "host/flatten/flat_scene.h"
+#include "host/flatten/triangle_list.h"
 #include "host/record/describe.h"
 #include "host/scene/scene.h"
 #include "kernels/native/path_event.h"
@@ -24,6 +26,19 @@ struct ExplainedPixel {
 /// Renders one pixel in double, one ray at a time; x and y count from the top left. The same bits
 /// as in a picture.
 ExplainedPixel explain_pixel(const FlatScene<double>& scene, int x, int y);
+
+/// The scene's number of a primitive of its flat scene: spheres, then cones, then triangles.
+template <typename T>
+std::size_t number_in_scene(const FlatScene<T>& flat, std::int64_t prim) {
+    const auto number = static_cast<std::size_t>(prim);
+    return flat.order.empty() ? number : static_cast<std::size_t>(flat.order[number]);
+}
+
+/// What its author calls it: "sphere 2"; "triangle 7"; "mesh 1, face 23": counted from 1.
+std::string object_of(const Scene& scene, const TriangleList& triangles, std::size_t number);
+
+/// The lights that the flat scene has: those of nonzero intensity.
+std::vector<std::size_t> shining_lights(const Scene& scene);
 
 /// One light as seen from a hit.
 struct LightAtHit {
@@ -42,7 +57,7 @@ constexpr auto& enum_names(LightAtHit::State) { return light_states; }
 
 /// Where a ray met a surface, in scene units.
 struct RayHit {
-    std::string object;    ///< "sphere 2"; "triangle 7"; "mesh 1, face 23": counted from 1
+    std::string object;    ///< as object_of says
     std::string material;  ///< its name
     double distance = 0;
     glm::dvec3 point{0}, normal{0};

@@ -170,24 +170,26 @@ Picture read_pfm(const std::string& path, InputFile file, bool with_pixels) {
 
 namespace {
 
-/// What the callbacks of libpng see. It reports an error by longjmp, so functions that call
-/// setjmp hold nothing that needs a destructor: all of that is here.
+/// libpng reports an error by longjmp, so functions that call setjmp hold nothing that needs a
+/// destructor: all of that is in PngWriter and PngReader.
+using PngMessage = std::array<char, 200>;
+
+[[noreturn]] void stop_png(png_structp png, png_const_charp reason) {
+    auto& message = *static_cast<PngMessage*>(png_get_error_ptr(png));
+    std::snprintf(message.data(), message.size(), "%s", reason);
+    png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {}
+
 struct PngWriter {
     const Picture& picture;
     Encoding encoding;
     std::vector<png_text> texts;
     std::vector<std::uint8_t> row;
     std::vector<std::byte> file;
-    char error[200] = "";
+    PngMessage error{};
 };
-
-[[noreturn]] void stop_writing(png_structp png, png_const_charp reason) {
-    auto& writer = *static_cast<PngWriter*>(png_get_error_ptr(png));
-    std::snprintf(writer.error, sizeof writer.error, "%s", reason);
-    png_longjmp(png, 1);
-}
-
-void ignore_warning(png_structp, png_const_charp) {}
 
 void flush_nothing(png_structp) {}
 
@@ -259,12 +261,10 @@ png_text text_chunk(const std::string& name, const std::string& text) {
     return chunk;
 }
 
-/// As in the writer: libpng reports errors by longjmp, so functions that call setjmp hold nothing
-/// that needs a destructor.
 class PngReader {
    public:
     PngReader(const std::string& path, std::istream& stream) : path_(path), stream_(stream) {
-        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, stop, ignore);
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error_, stop_png, ignore_warning);
         info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
         if (info_ == nullptr) {
             png_destroy_read_struct(&png_, nullptr, nullptr);
@@ -300,14 +300,6 @@ class PngReader {
     }
 
    private:
-    [[noreturn]] static void stop(png_structp png, png_const_charp reason) {
-        auto& reader = *static_cast<PngReader*>(png_get_error_ptr(png));
-        std::snprintf(reader.error_, sizeof reader.error_, "%s", reason);
-        png_longjmp(png, 1);
-    }
-
-    static void ignore(png_structp, png_const_charp) {}
-
     static void read_bytes(png_structp png, png_bytep bytes, std::size_t count) {
         std::istream& stream = static_cast<PngReader*>(png_get_io_ptr(png))->stream_;
         stream.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(count));
@@ -317,7 +309,7 @@ class PngReader {
     [[noreturn]] void fail(const char* reason) const { refuse_damaged(path_, reason); }
 
     void check(bool done) const {
-        if (!done) fail(error_);
+        if (!done) fail(error_.data());
     }
 
     bool read_header() {
@@ -400,7 +392,7 @@ class PngReader {
     std::istream& stream_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
-    char error_[200] = "";
+    PngMessage error_{};
 };
 
 }  // namespace
@@ -414,12 +406,12 @@ std::vector<std::byte> encode_png_file(
     }
     writer.row.resize(static_cast<std::size_t>(picture.width) * picture.channels);
     png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, stop_writing, ignore_warning);
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer.error, stop_png, ignore_warning);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
     const bool written = info != nullptr && write_png(png, info, writer);
     png_destroy_write_struct(&png, &info);
     if (written) return std::move(writer.file);
-    fail_to_encode(path, writer.error[0] == '\0' ? "out of memory" : writer.error);
+    fail_to_encode(path, writer.error[0] == '\0' ? "out of memory" : writer.error.data());
 }
 
 PictureFile read_png(const std::string& path, std::istream& stream, std::uintmax_t size,

@@ -19,6 +19,7 @@
 
 #include "host/base/error.h"
 #include "host/base/text.h"
+#include "host/image/built_in_formats.h"
 
 namespace rt {
 
@@ -28,10 +29,8 @@ namespace {
 JournalWriterInfo last_writer(const std::string& path) {
     JournalWriterInfo last;
     try {
-        std::ifstream stream(path, std::ios::binary | std::ios::ate);
-        const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(stream.tellg(), 0));
-        stream.seekg(0);
-        JournalReader reader(stream, size);
+        InputFile file = open_input_file(path);
+        JournalReader reader(file.stream, file.size);
         while (const auto record = reader.next()) {
             if (record->kind == RecordKind::writer) last = record->writer;
         }

@@ -60,8 +60,7 @@ void try_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
         render_once(timed, warm_up, watch);
     } catch (const Error& error) {
         timed.verdict = Verdict::failed;
-        const std::string what = error.what();
-        timed.why = what.substr(0, what.find('\n'));
+        timed.why = first_line(error.what());
     }
 }
 

@@ -325,11 +325,7 @@ class ClRenderer : public Renderer<T> {
             progress.film.finish();
             count_rays(progress.queue);
         } catch (const cl::Error&) {
-            const RayCounts& before = progress.counted_before;
-            progress.queue.take_back(
-                progress.finished,
-                {counted_.primary - before.primary, counted_.shadow - before.shadow,
-                 counted_.mirror - before.mirror, counted_.transmitted - before.transmitted});
+            progress.queue.take_back(progress.finished, counted_ - progress.counted_before);
             for (const TileRun& run : progress.finished) times_.pixels -= run.whole.pixels();
         }
         for (const InFlight& launch : progress.in_flight) progress.queue.give_back(launch.run);
@@ -347,8 +343,7 @@ class ClRenderer : public Renderer<T> {
             total.transmitted += slot.transmitted;
         }
         queue_.enqueueUnmapMemObject(counts_, mapped);
-        queue.add_rays({total.primary - counted_.primary, total.shadow - counted_.shadow,
-                        total.mirror - counted_.mirror, total.transmitted - counted_.transmitted});
+        queue.add_rays(total - counted_);
         counted_ = total;
     }
 

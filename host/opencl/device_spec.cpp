@@ -190,11 +190,14 @@ class DeviceFinder {
     std::string failure_;  ///< of the first driver that could not list its devices
 };
 
-bool has_entry(const std::filesystem::path& folder, const char* prefix) {
+/// Whether a name in the folder begins with one of these.
+bool has_entry(const std::filesystem::path& folder, const std::vector<const char*>& prefixes) {
     std::error_code error;
     std::filesystem::directory_iterator entry(folder, error);
     return !error && std::any_of(begin(entry), end(entry), [&](const auto& file) {
-        return file.path().filename().string().starts_with(prefix);
+        const std::string name = file.path().filename();
+        return std::any_of(prefixes.begin(), prefixes.end(),
+                           [&](const char* prefix) { return name.starts_with(prefix); });
     });
 }
 
@@ -246,10 +249,8 @@ bool needs_opencl(const std::string& list) {
 
 bool gpu_may_be_here(const std::string& folder) {
     const std::filesystem::path dev(folder);
-    const auto is_here = [&](const char* prefix) { return has_entry(dev, prefix); };
-    constexpr const char* prefixes[] = {"nvidia", "kfd", "dxg", "mali", "pvr"};
-    return std::any_of(std::begin(prefixes), std::end(prefixes), is_here) ||
-           has_entry(dev / "dri", "renderD") || has_entry(dev / "accel", "accel");
+    return has_entry(dev, {"nvidia", "kfd", "dxg", "mali", "pvr"}) ||
+           has_entry(dev / "dri", {"renderD"}) || has_entry(dev / "accel", {"accel"});
 }
 
 DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,

@@ -38,6 +38,9 @@ struct DeviceChoice {
         failure{};  ///< why its driver could not list it; then only device.name has a meaning
     bool is_helper = false;  ///< threads added next to an automatically chosen device
     std::string note{};      ///< why it may be unexpected, for stderr; often empty
+
+    /// Whether strict arithmetic gives the same bits as elsewhere, as far as its driver promises.
+    bool is_exact() const { return use_threads || device.rounds_correctly || !failure.empty(); }
 };
 
 DeviceChoice threads_choice(int threads = 0);

@@ -26,9 +26,7 @@ std::string joined_names(const std::vector<DeviceChoice>& devices) {
 std::string inexact_names(const std::vector<DeviceChoice>& devices) {
     std::string names;
     for (const DeviceChoice& choice : devices) {
-        const bool is_exact =
-            choice.use_threads || choice.device.rounds_correctly || !choice.failure.empty();
-        if (!is_exact) names += choice.device.name + "\n";
+        if (!choice.is_exact()) names += choice.device.name + "\n";
     }
     return names;
 }
@@ -56,7 +54,7 @@ void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& 
     if (settings.threads > 0 && choice.device.platform != pocl_platform) {
         warn("--threads has no effect on " + choice.device.name);
     }
-    if (settings.math == Math::strict && !choice.device.rounds_correctly && events.detail) {
+    if (settings.math == Math::strict && !choice.is_exact() && events.detail) {
         events.detail(choice.device.name +
                       " does not guarantee correctly rounded division and square roots, so its "
                       "pictures may differ in a few bits");

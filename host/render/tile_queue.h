@@ -26,6 +26,10 @@ struct RayCounts {
         transmitted += other.transmitted;
         return *this;
     }
+    RayCounts operator-(const RayCounts& other) const {
+        return {primary - other.primary, shadow - other.shadow, mirror - other.mirror,
+                transmitted - other.transmitted};
+    }
 };
 
 template <typename A, Of<RayCounts> X>

@@ -275,18 +275,21 @@ class PictureBlame {
         blame_.text +=
             fmt::format("the first pixel that differs: {},{} of {}x{}: {:a} instead of {:a}\n", x,
                         y, got.width, got.height, *a, *b);
-        blame_.text += first_wrong_ray(explain_pixel(flatten<double>(scene_), x, y).events);
+        const FlatScene<double> in_double = flatten<double>(scene_);
+        blame_.text += first_wrong_ray(in_double, explain_pixel(in_double, x, y).events);
     }
 
-    /// Traces the rays of a pixel one by one on both sides.
-    std::string first_wrong_ray(const std::vector<PathEvent>& events) const {
+    /// Traces the rays of a pixel, explained in double, one by one on both sides.
+    std::string first_wrong_ray(const FlatScene<double>& explained,
+                                const std::vector<PathEvent>& events) const {
         std::vector<typename Flat<T>::RayQuery> queries;
         std::vector<std::string> names;
+        const std::vector<std::size_t> lights = shining_lights(scene_);
         std::string from = "the eye";
         std::size_t named = 0;  // a hit comes after the shadow rays that start there
         for (const PathEvent& event : events) {
             if (event.what == RT_EVENT_HIT) {
-                from = primitive_name(event.index);
+                from = name_of(explained, event.index);
                 for (; named < names.size(); ++named) {
                     if (names[named].starts_with("shadow")) names[named] += " from " + from;
                 }
@@ -299,7 +302,8 @@ class PictureBlame {
             query.dir = {T(event.normal[0]), T(event.normal[1]), T(event.normal[2])};
             query.t_max = is_shadow ? T(event.distance) : std::numeric_limits<T>::infinity();
             query.from = Flat<T>::none;
-            names.push_back(is_shadow ? fmt::format("shadow ray to light {}", event.index + 1)
+            const auto at_light = static_cast<std::size_t>(is_shadow ? event.index : 0);
+            names.push_back(is_shadow ? fmt::format("shadow ray to light {}", lights[at_light] + 1)
                             : event.what == RT_EVENT_SAMPLE ? "eye ray"
                             : event.what == RT_EVENT_MIRROR ? "mirror ray from " + from
                                                             : "refracted ray from " + from);
@@ -315,22 +319,15 @@ class PictureBlame {
             }
             if (a.prim == b.prim && (b.prim < 0 || a.t == b.t)) continue;
             return fmt::format("{}: hits {} at {:a}, should hit {} at {:a}\n", names[i],
-                               primitive_name(static_cast<long>(a.prim)), a.t,
-                               primitive_name(static_cast<long>(b.prim)), b.t);
+                               name_of(flat_, a.prim), a.t, name_of(flat_, b.prim), b.t);
         }
         return "each ray of its tree is right alone: the fault is in what is made of them\n";
     }
 
-    std::string primitive_name(long prim) const {
+    template <typename F>
+    std::string name_of(const FlatScene<F>& flat, std::int64_t prim) const {
         if (prim < 0) return "nothing";
-        if (!flat_.order.empty()) {
-            prim = static_cast<long>(flat_.order[static_cast<std::size_t>(prim)]);
-        }
-        const auto spheres = static_cast<long>(flat_.params.sphere_count);
-        const auto cones = static_cast<long>(flat_.params.cone_count);
-        if (prim < spheres) return fmt::format("sphere {}", prim + 1);
-        if (prim < spheres + cones) return fmt::format("cone {}", prim - spheres + 1);
-        return fmt::format("triangle {}", prim - spheres - cones + 1);
+        return object_of(scene_, TriangleList(scene_), number_in_scene(flat, prim));
     }
 
     /// The whole picture in one launch. Samples are compared where a pixel has but one.

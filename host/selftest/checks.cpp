@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/base/version.h"
 #include "host/picture/crew_members.h"
 #include "host/process/stop_signal.h"
@@ -95,9 +96,8 @@ std::string Checks::text(double seconds) const {
         known += check.is_known;
         surprises += !check.is_expected();
         if (check.why.empty() && !check.is_known) continue;
-        const std::string why = reason(check);
-        text += fmt::format("{:<6} {}: {}\n", verdict(check), check.name,
-                            why.substr(0, why.find('\n')));
+        text +=
+            fmt::format("{:<6} {}: {}\n", verdict(check), check.name, first_line(reason(check)));
     }
     text += fmt::format("{} checks, {} wrong", list_.size(), wrong);
     if (known != 0) text += fmt::format(", {} known to be, {} unexpected", known, surprises);

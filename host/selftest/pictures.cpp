@@ -8,6 +8,7 @@
 #include <span>
 
 #include "host/base/error.h"
+#include "host/base/files.h"
 #include "host/base/hash.h"
 #include "host/image/atomic_file.h"
 #include "host/picture/crew_members.h"
@@ -27,15 +28,11 @@ constexpr int width = 64;
 
 /// The shipped scenes: next to the installed program, or to the build folder.
 fs::path scenes_folder() {
-    std::error_code error;
-    const fs::path home = fs::read_symlink("/proc/self/exe", error).parent_path();
-    for (const char* place : {"../share/mirrorball/scenes", "../../scenes"}) {
-        const fs::path folder = (home / place).lexically_normal();
-        if (fs::exists(folder / "cornell-box.json", error)) return folder;
-    }
-    throw Error(ExitCode::input,
-                "the shipped scenes are not installed next to the program, in " +
-                    (home / "../share/mirrorball/scenes").lexically_normal().string());
+    const fs::path folder =
+        beside_program({"../share/mirrorball/scenes", "../../scenes"}, "cornell-box.json");
+    if (!folder.empty()) return folder;
+    throw Error(ExitCode::input, "the shipped scenes are not installed next to " +
+                                     program_file().string() + "; install mirrorball again");
 }
 
 /// "cornell-box", "gallery/chain".

@@ -34,9 +34,6 @@ class ReferencePicture {
     /// Traces every pixel, on all cores.
     ReferencePicture(const Scene& scene, ReferenceKind kind);
 
-    int width() const { return width_; }
-    int height() const { return height_; }
-
     /// Color of a pixel, counted row by row from the top left; linear, not clamped.
     const std::array<double, 3>& color(std::size_t pixel) const { return colors_[pixel]; }
 

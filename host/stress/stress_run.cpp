@@ -27,11 +27,6 @@ namespace rt {
 
 namespace {
 
-std::string first_line(const Error& error) {
-    const std::string text = error.what();
-    return text.substr(0, text.find('\n'));
-}
-
 RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
     RenderSettings settings = timed_settings();
     settings.precision = row.precision;
@@ -53,15 +48,12 @@ RayCaster ray_caster(const DeviceChoice& choice, OpenDevices& open) {
     return {make, make};
 }
 
-/// The first image hash of each group of pictures that must agree in every bit.
-using FirstHashes = std::map<std::string, std::uint64_t>;
-
 /// The text as part of a file name: '/', '^' and blanks become '-'.
-std::string file_stem(const std::string& text) {
-    std::string name = text;
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == '/' || c == '^' || c == ' '; }, '-');
-    return name;
+std::string file_stem(std::string text) {
+    for (char& c : text) {
+        if (c == '/' || c == '^' || c == ' ') c = '-';
+    }
+    return text;
 }
 
 /// The worst picture of one case, written to a folder with its reference and its errors:
@@ -76,11 +68,11 @@ class StressPictures {
         badness_ = badness;
     }
 
-    /// `reference` may be null. Throws Error (ExitCode::output).
-    void write(const std::string& stem, const ReferencePicture* reference) const {
+    /// If there is one. Throws Error (ExitCode::output).
+    void write(const std::string& stem, const std::optional<ReferencePicture>& reference) const {
         if (badness_ < 0) return;
         write_picture(stem + ".worst.png", worst_, Encoding::display);
-        if (reference == nullptr) return;
+        if (!reference) return;
         const Picture right = reference->as_picture();
         write_picture(stem + ".reference.png", right, Encoding::display);
         write_picture(stem + ".error.png", heat_map(clamped(worst_), clamped(right), 1.0 / 255),
@@ -137,17 +129,6 @@ class Runner {
             ->choice;
     }
 
-    RenderedPicture rendered_row(const Scene& scene, const StressRow& row) const {
-        return render_quietly(scene, row_settings(row, options_), device_of(row), &cache_);
-    }
-
-    void judge(const Picture& picture, ReferencePicture* reference,
-               const StressTolerance& tolerance, StressRow& row) const {
-        row.figures =
-            reference ? judge_stress_picture(picture, *reference) : count_non_numbers(picture);
-        row.why = exceeded_tolerance(row.figures, tolerance);
-    }
-
     void run_trial(const StressFamily& family, const StressCase& one, const PictureTrial& trial,
                    StressCaseResult& result) {
         const Scene scene = trial.scene();
@@ -158,27 +139,26 @@ class Runner {
                               trial.reference);
         }
         result.reference_seconds = watch.seconds();
-        ReferencePicture* const against = reference ? &*reference : nullptr;
         StressPictures pictures;
         for (StressRow& row : planned_rows(one.tolerance)) {
             if (stop_flag() != 0) return;
             try {
-                const RenderedPicture rendered = rendered_row(scene, row);
+                const RenderedPicture rendered =
+                    render_quietly(scene, row_settings(row, options_), device_of(row), &cache_);
                 if (!rendered.stats.complete()) return;
                 row.hash = rendered.stats.image_hash;
                 row.seconds = rendered.stats.phases.renderer.trace;
-                judge(rendered.picture, against, one.tolerance, row);
-                pictures.keep_worst(rendered.picture, row.figures);
+                row.figures = reference ? judge_stress_picture(rendered.picture, *reference)
+                                        : count_non_numbers(rendered.picture);
+                row.why = exceeded_tolerance(row.figures, one.tolerance);
+                if (!options_.output.empty()) pictures.keep_worst(rendered.picture, row.figures);
             } catch (const Error& error) {
-                row.why = first_line(error);
+                row.why = first_line(error.what());
             }
             check_same_bits(trial, row);
             result.rows.push_back(std::move(row));
         }
-        if (!options_.output.empty()) {
-            pictures.write(options_.output + "/" + file_stem(family.name + "-" + one.label),
-                           against);
-        }
+        pictures.write(options_.output + "/" + file_stem(family.name + "-" + one.label), reference);
     }
 
     /// Checks that a row has the same bits as the first of its group on this renderer.
@@ -206,7 +186,7 @@ class Runner {
                                                                : trial.in_float(rays, caster);
                 row.why = exceeded_tolerance(*row.rays, one.tolerance);
             } catch (const Error& error) {
-                row.why = first_line(error);
+                row.why = first_line(error.what());
             }
             row.seconds = watch.seconds();
             result.rows.push_back(std::move(row));
@@ -230,7 +210,8 @@ class Runner {
     const StressOptions& options_;
     RenderCache& cache_;
     const std::vector<ListedDevice> devices_;
-    FirstHashes first_hashes_;
+    /// The first of each group of pictures that must agree in every bit.
+    std::map<std::string, std::uint64_t> first_hashes_;
 };
 
 }  // namespace

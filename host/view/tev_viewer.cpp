@@ -25,6 +25,8 @@ constexpr char create_image = 4, update_image_v3 = 6;
 constexpr std::chrono::milliseconds reading_patience(2000), last_patience(10000), turn(100);
 constexpr int most_pixels = 1 << 20;  ///< of a packet
 
+/// A packet of tev's protocol (its Ipc.cpp): total length, a byte for the kind, then values in
+/// little-endian order; strings end with a NUL.
 class Packet {
    public:
     explicit Packet(char kind) {
@@ -93,9 +95,7 @@ FileDescriptor connect_to(const TevAddress& address, std::string& why) {
     return FileDescriptor();
 }
 
-}  // namespace
-
-std::vector<std::byte> tev_create_image(const std::string& name, int width, int height) {
+std::vector<std::byte> create_packet(const std::string& name, int width, int height) {
     Packet packet(create_image);
     packet.add(char{1});  // bring it to the front
     packet.add(name);
@@ -106,8 +106,8 @@ std::vector<std::byte> tev_create_image(const std::string& name, int width, int 
     return packet.take();
 }
 
-std::vector<std::byte> tev_update_image(const std::string& name, const Picture& picture,
-                                        const Rect& part) {
+std::vector<std::byte> update_packet(const std::string& name, const Picture& picture,
+                                     const Rect& part) {
     Packet packet(update_image_v3);
     packet.add(char{0});
     packet.add(name);
@@ -121,6 +121,8 @@ std::vector<std::byte> tev_update_image(const std::string& name, const Picture& 
     packet.add(std::span<const float>(cut(picture, part).pixels));
     return packet.take();
 }
+
+}  // namespace
 
 TevViewer::TevViewer(TevAddress address, std::string name, Say say)
     : address_(std::move(address)), name_(std::move(name)), say_(std::move(say)) {}
@@ -137,7 +139,7 @@ void TevViewer::begin(int width, int height) {
     last_sent_ = Clock::now();
     deadline_ = Clock::time_point::max();
     parts_.clear();
-    const auto packet = tev_create_image(name_, width, height);
+    const auto packet = create_packet(name_, width, height);
     packets_.insert(packets_.end(), packet.begin(), packet.end());
 }
 
@@ -176,7 +178,7 @@ void TevViewer::send(const Picture& picture) {
     const auto end = Clock::now() + turn;
     while (is_open() && Clock::now() < end) {
         if (packets_.empty()) {
-            packets_ = tev_update_image(name_, picture, parts_.front());
+            packets_ = update_packet(name_, picture, parts_.front());
             parts_.pop_front();
         }
         const ssize_t count = ::send(socket_.number(), packets_.data() + sent_,

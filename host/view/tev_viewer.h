@@ -14,12 +14,6 @@
 
 namespace rt {
 
-/// The packets of tev's protocol (its Ipc.cpp): total length, a byte for the kind, then values in
-/// little-endian order; strings end with a NUL.
-std::vector<std::byte> tev_create_image(const std::string& name, int width, int height);
-std::vector<std::byte> tev_update_image(const std::string& name, const Picture& picture,
-                                        const Rect& part);
-
 /// Sends the picture to the viewer tev: in each tick, what tev reads in a tenth of a second. If tev
 /// cannot be reached, reads nothing for two seconds, or lacks some of the picture ten seconds after
 /// `finish`, reports that once and sends no more of that picture.
