@@ -6,24 +6,16 @@ namespace rt {
 
 namespace {
 
-StressCase seen_from(glm::dvec3 from, glm::dvec3 at) {
-    return picture_case([=] {
-        Scene scene = still_life();
+StressCase seen_from(glm::dvec3 from, glm::dvec3 at, bool has_tube = false) {
+    return picture_case(still_life_with([=](Scene& scene) {
         for (auto& material : scene.materials) material.two_sided = true;
+        if (has_tube) add_cone(scene, {3, 0, 2}, 0.5, {3, 2, 2}, 0.5, 1);
         set_view(scene, from, at, 60);
-        return scene;
-    });
+    }));
 }
 
 /// The same with a tube of radius 0.5 about (3, y, 2), from the floor to y = 2.
-StressCase with_tube(glm::dvec3 from, glm::dvec3 at) {
-    const StressCase without = seen_from(from, at);
-    return picture_case([before = std::get<PictureTrial>(without.trial).scene] {
-        Scene scene = before();
-        add_cone(scene, {3, 0, 2}, 0.5, {3, 2, 2}, 0.5, 1);
-        return scene;
-    });
-}
+StressCase with_tube(glm::dvec3 from, glm::dvec3 at) { return seen_from(from, at, true); }
 
 /// The red ball is about (-1.5, 1, 0) with radius 1, the floor at y = 0.
 StressFamily eyes_in_and_between() {
@@ -80,12 +72,10 @@ StressFamily fields_of_view() {
 
 StressFamily parallel_views() {
     const auto view = [](glm::dvec3 from, glm::dvec3 up) {
-        return picture_case([=] {
-            Scene scene = still_life();
+        return picture_case(still_life_with([=](Scene& scene) {
             scene.camera.up = up;
             set_orthographic(scene, from, {0, 0.75, 0}, 6);
-            return scene;
-        });
+        }));
     };
     return listed({"parallel-view", "direction", "0 times infinity where rays run along the axes"},
                   {{"slanted", InQuick::no, view({3, 4, 8}, {0, 1, 0})},
@@ -97,11 +87,7 @@ StressFamily parallel_views() {
 /// Up vectors of any length, and nearly parallel to the view.
 StressFamily ups() {
     const auto with_up = [](glm::dvec3 up) {
-        return picture_case([=] {
-            Scene scene = still_life();
-            scene.camera.up = up;
-            return scene;
-        });
+        return picture_case(still_life_with([=](Scene& scene) { scene.camera.up = up; }));
     };
     return listed({"up", "the camera's up", "axes lose precision, or their length"},
                   {{"1e-30", InQuick::yes, with_up({0, 1e-30, 0})},
@@ -118,20 +104,17 @@ StressFamily picture_shapes() {
                  sizes, {{1, 1}, {1, 1024}}, [](const Size& size) {
                      const auto [width, height] = size;
                      return labeled(fmt::format("{}x{}", width, height), width * height,
-                                    picture_case([size] {
-                                        Scene scene = still_life();
+                                    picture_case(still_life_with([size](Scene& scene) {
                                         set_image_size(scene, size.first, size.second);
-                                        return scene;
-                                    }));
+                                    })));
                  });
 }
 
 }  // namespace
 
-StressFamilies eye_families() { return {eyes_in_and_between(), eyes_on_surfaces()}; }
-
-StressFamilies view_families() {
-    return {fields_of_view(), parallel_views(), ups(), picture_shapes()};
+StressFamilies eye_families() {
+    return {eyes_in_and_between(), eyes_on_surfaces(), fields_of_view(), parallel_views(), ups(),
+            picture_shapes()};
 }
 
 }  // namespace rt

@@ -97,17 +97,12 @@ using StressFamilies = std::vector<StressFamily>;
 
 // One file of families each.
 StressFamilies ordinary_families();
-StressFamilies scale_families();
-StressFamilies sphere_families();
-StressFamilies cone_families();
-StressFamilies mirror_families();
+StressFamilies shape_families();
 StressFamilies glass_families();
 StressFamilies light_families();
 StressFamilies eye_families();
-StressFamilies view_families();
 StressFamilies triangle_families();
-StressFamilies normal_families();
-StressFamilies leak_families();
+StressFamilies mesh_families();
 StressFamilies ray_families();
 
 // The scene scaled or moved. The first and last of these must not change a bit of its picture.
@@ -121,27 +116,7 @@ StressCase scaled_by_ten(const MakeScene& scene, int k);
 /// By whole numbers: `by` and up to twice that.
 StressCase moved(const MakeScene& scene, std::string label, double by);
 
-using SceneOfRadius = std::function<Scene(double radius)>;
 using TrialOfRadius = std::function<RayTrial(double radius)>;
-
-/// Rounding coordinates to float alone moves a small object by 2^-24 of its distance, which is 1.
-/// Float is not judged where that is too much; double must be right there.
-inline StressTolerance small_tolerance(double size) {
-    StressTolerance tolerance;
-    tolerance.in_float = size >= 1e-4;
-    if (tolerance.in_float && size < 1) tolerance.max_error = 1e-4 + 16 * 0x1p-24 / size;
-    return tolerance;
-}
-
-/// Pictures of a shape at distance 1: radii from 1e-6 to 1e6, with `middle` in place of 1.
-inline StressFamily size_family(const char* name, const char* why, double middle,
-                                const SceneOfRadius& scene) {
-    return sweep({name, "radius over distance", why},
-                 {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, middle, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6},
-                 {1e-4, middle, 1e4}, [=](double radius) {
-                     return picture_case([=] { return scene(radius); }, small_tolerance(radius));
-                 });
-}
 
 /// Rays that leave a shape: radii from 1e-6 to 1e6.
 inline StressFamily leaving_family(const char* name, const char* why, double max_error,

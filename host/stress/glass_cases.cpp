@@ -260,11 +260,9 @@ StressFamily glass_energy() {
 
 }  // namespace
 
-StressFamilies mirror_families() { return {mirror_walls(), mirror_balls(), bright_mirrors()}; }
-
 StressFamilies glass_families() {
-    return {indices(),     inside_of_glass(), critical_angles(), glass_depths(),
-            glass_trees(), light_pipes(),     glass_energy()};
+    return {mirror_walls(),    mirror_balls(), bright_mirrors(), indices(),     inside_of_glass(),
+            critical_angles(), glass_depths(), glass_trees(),    light_pipes(), glass_energy()};
 }
 
 }  // namespace rt

@@ -35,11 +35,7 @@ StressFamily light_places() {
         return picture_case([=] { return lit_tube(light); });
     };
     const auto lit_by = [](std::vector<Scene::Light> lights) {
-        return picture_case([=] {
-            Scene scene = still_life();
-            scene.lights = lights;
-            return scene;
-        });
+        return picture_case(still_life_with([=](Scene& scene) { scene.lights = lights; }));
     };
     const auto at = [=](glm::dvec3 position) { return lit_by({{position, glm::dvec3(0.625)}}); };
     return listed({"light-place", "where the light is",

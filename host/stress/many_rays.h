@@ -14,7 +14,6 @@
 #include "host/base/parallel.h"
 #include "host/render/ray_tracer.h"
 #include "host/stress/stress_case.h"
-#include "host/stress/wide_real.h"
 
 // Helpers for trials with many random rays.
 namespace rt {
@@ -119,12 +118,6 @@ RayFigures many_rays(const RayTracer<T>& trace, std::uint64_t rays, const Make& 
     return sum;
 }
 
-template <typename V>
-stress::Wide3<stress::Quad> in_quad(const V& v) {
-    using stress::Quad;
-    return {Quad(v.x), Quad(v.y), Quad(v.z)};
-}
-
 /// A random direction at this angle above a surface with this normal.
 inline glm::dvec3 at_angle(RandomNumbers& random, const glm::dvec3& normal, double angle) {
     const glm::dvec3 other = std::fabs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
@@ -135,49 +128,9 @@ inline glm::dvec3 at_angle(RandomNumbers& random, const glm::dvec3& normal, doub
     return std::cos(angle) * tangent + std::sin(angle) * normal;
 }
 
-inline double relative_error(double found, stress::Quad exact) {
-    return static_cast<double>(stress::magnitude((stress::Quad(found) - exact) / exact));
-}
-
-/// Counts a ray that hit (`found`) at t, or missed; `exact` is the correct distance, not positive
-/// for a miss. A failure is a false hit, a missed hit, or a relative error above the tolerance.
-inline void note_hit(RayFigures& figures, bool found, double t, stress::Quad exact,
-                     double tolerance = std::numeric_limits<double>::infinity()) {
-    const bool expected = exact > 0;
-    const double error = found && expected ? relative_error(t, exact) : 0;
-    ++figures.rays;
-    figures.failures += found == expected && error <= tolerance ? 0 : 1;
-    figures.max_error = std::max(figures.max_error, error);
-}
-
-/// Radians above the surface, negative inwards. Outwards, two in three are below 0.1, down to 1e-6;
-/// inwards, they go down to `shallowest`.
-inline double leaving_angle(RandomNumbers& random, bool outwards, double shallowest) {
-    constexpr double steepest = std::numbers::pi / 2;
-    if (!outwards) return -random.log_uniform(shallowest, steepest);
-    return random.index(3) == 0 ? random.uniform(0.1, steepest) : random.log_uniform(1e-6, 0.1);
-}
-
-/// Continues an eye ray from its hit on primitive prim, three times in four outwards.
-template <typename T>
-void leave_primitive(RandomNumbers& random, typename Flat<T>::RayQuery& query,
-                     const typename Flat<T>::RayAnswer& answer, typename Flat<T>::Index prim,
-                     double shallowest) {
-    if (answer.prim != prim) return;
-    const glm::dvec3 normal = glm::normalize(in_double(answer.normal));
-    const double angle = leaving_angle(random, random.index(4) != 0, shallowest);
-    query.next = rounded_unit<T>(at_angle(random, normal, angle));
-}
-
-/// Whether the ray was continued, and whether to the normal's side.
+/// Whether the ray was continued.
 template <typename T>
 bool has_left(const typename Flat<T>::RayQuery& query) {
     return glm::length(in_double(query.next)) > 0;
 }
-template <typename T>
-bool is_outwards(const typename Flat<T>::RayQuery& query,
-                 const typename Flat<T>::RayAnswer& answer) {
-    return glm::dot(in_double(query.next), in_double(answer.normal)) > 0;
-}
-
 }  // namespace rt

@@ -231,8 +231,8 @@ StressFamily axis_parallel() {
 
 }  // namespace
 
-StressFamilies normal_families() { return {vertex_normals(), smooth_meshes()}; }
-
-StressFamilies leak_families() { return {inside_meshes(), lattices(), axis_parallel()}; }
+StressFamilies mesh_families() {
+    return {vertex_normals(), smooth_meshes(), inside_meshes(), lattices(), axis_parallel()};
+}
 
 }  // namespace rt

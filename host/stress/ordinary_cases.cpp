@@ -143,7 +143,10 @@ StressFamily outliers() {
 
 }  // namespace
 
-StressFamilies ordinary_families() { return {ordinary(), random_scenes()}; }
+StressFamilies ordinary_families() {
+    return {ordinary(),       random_scenes(), powers_of_two(), powers_of_ten(),
+            integer_shifts(), odd_shifts(),    outliers()};
+}
 
 StressCase scaled_by_two(const MakeScene& scene, int k) {
     const double factor = std::ldexp(1.0, k);
@@ -161,10 +164,6 @@ StressCase moved(const MakeScene& scene, std::string label, double by) {
     return labeled(std::move(label), by, same_bits([=] {
                        return shifted(scene(), {by, -by, by < 5e8 ? 2 * by : by});
                    }));
-}
-
-StressFamilies scale_families() {
-    return {powers_of_two(), powers_of_ten(), integer_shifts(), odd_shifts(), outliers()};
 }
 
 }  // namespace rt

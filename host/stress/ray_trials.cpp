@@ -16,6 +16,45 @@ namespace {
 using stress::Quad;
 using stress::Wide3;
 
+template <typename V>
+Wide3<Quad> in_quad(const V& v) {
+    return {Quad(v.x), Quad(v.y), Quad(v.z)};
+}
+
+/// Counts a ray that hit (`found`) at t, or missed; `exact` is the correct distance, not positive
+/// for a miss. A failure is a false hit, a missed hit, or a relative error above the tolerance.
+void note_hit(RayFigures& figures, bool found, double t, Quad exact,
+              double tolerance = std::numeric_limits<double>::infinity()) {
+    const bool expected = exact > 0;
+    const double error =
+        found && expected ? static_cast<double>(stress::magnitude((Quad(t) - exact) / exact)) : 0;
+    ++figures.rays;
+    figures.failures += found == expected && error <= tolerance ? 0 : 1;
+    figures.max_error = std::max(figures.max_error, error);
+}
+
+/// Continues an eye ray from its hit on primitive prim, three times in four outwards: two in three
+/// at less than 0.1 rad above the surface, down to 1e-6. Inwards, down to `shallowest`.
+template <typename T>
+void leave_primitive(RandomNumbers& random, typename Flat<T>::RayQuery& query,
+                     const typename Flat<T>::RayAnswer& answer, typename Flat<T>::Index prim,
+                     double shallowest) {
+    if (answer.prim != prim) return;
+    const glm::dvec3 normal = glm::normalize(in_double(answer.normal));
+    constexpr double steepest = std::numbers::pi / 2;
+    const double angle = random.index(4) == 0   ? -random.log_uniform(shallowest, steepest)
+                         : random.index(3) == 0 ? random.uniform(0.1, steepest)
+                                                : random.log_uniform(1e-6, 0.1);
+    query.next = rounded_unit<T>(at_angle(random, normal, angle));
+}
+
+/// Whether to the normal's side.
+template <typename T>
+bool is_outwards(const typename Flat<T>::RayQuery& query,
+                 const typename Flat<T>::RayAnswer& answer) {
+    return glm::dot(in_double(query.next), in_double(answer.normal)) > 0;
+}
+
 /// Center and smallest half extent of the flat triangles.
 struct Bounds {
     glm::dvec3 middle;

@@ -10,6 +10,25 @@ namespace rt {
 
 namespace {
 
+/// Rounding coordinates to float alone moves a small object by 2^-24 of its distance, which is 1.
+/// Float is not judged where that is too much; double must be right there.
+StressTolerance small_tolerance(double size) {
+    StressTolerance tolerance;
+    tolerance.in_float = size >= 1e-4;
+    if (tolerance.in_float && size < 1) tolerance.max_error = 1e-4 + 16 * 0x1p-24 / size;
+    return tolerance;
+}
+
+/// Pictures of a shape at distance 1: radii from 1e-6 to 1e6, with `middle` in place of 1.
+StressFamily size_family(const char* name, const char* why, double middle,
+                         Scene (*scene)(double radius)) {
+    return sweep({name, "radius over distance", why},
+                 {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, middle, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6},
+                 {1e-4, middle, 1e4}, [=](double radius) {
+                     return picture_case([=] { return scene(radius); }, small_tolerance(radius));
+                 });
+}
+
 /// A ball of this radius, 1 away, filling half of the picture; or the eye inside it.
 Scene sized_ball(double radius) {
     const double half_angle = radius < 1 ? 2 * std::asin(radius) : 0.5;
@@ -198,12 +217,12 @@ StressFamily cone_rays() {
 
 }  // namespace
 
-StressFamilies sphere_families() {
-    return {sphere_sizes(), floors(), huge_floors(), ground_lights()};
-}
-
-StressFamilies cone_families() {
+StressFamilies shape_families() {
     return {
+        sphere_sizes(),
+        floors(),
+        huge_floors(),
+        ground_lights(),
         size_family("cone-size", "the quadratic's terms cancel for small and for large cones", 0.5,
                     sized_cone),
         long_cone_family(),

@@ -59,10 +59,8 @@ std::vector<StressFamily> chosen_families(std::vector<StressFamily> families,
 
 std::vector<StressFamily> all_stress_families() {
     std::vector<StressFamily> all;
-    for (const auto families :
-         {ordinary_families, scale_families, sphere_families, cone_families, mirror_families,
-          glass_families, light_families, eye_families, view_families, triangle_families,
-          normal_families, leak_families, ray_families}) {
+    for (const auto families : {ordinary_families, shape_families, glass_families, light_families,
+                                eye_families, triangle_families, mesh_families, ray_families}) {
         for (StressFamily& family : families()) all.push_back(std::move(family));
     }
     return all;

@@ -106,8 +106,10 @@ class Runner {
     }
 
    private:
-    std::vector<StressRow> planned_rows(const StressTolerance& tolerance) const {
-        std::vector<StressRow> rows;
+    /// Adds a row for each device and precision that measure(device, row) fills in; it returns
+    /// false if a signal stopped it.
+    template <typename Measure>
+    void add_rows(const StressCase& one, std::vector<StressRow>& rows, const Measure& measure) {
         for (const ListedDevice& device : devices_) {
             for (const Precision precision : {Precision::float32, Precision::float64}) {
                 const bool is_double = precision == Precision::float64;
@@ -116,17 +118,11 @@ class Runner {
                 row.renderer = device.name;
                 row.device = device.spec;
                 row.precision = precision;
-                row.judged = is_double || tolerance.in_float;
+                row.judged = is_double || one.tolerance.in_float;
+                if (stop_flag() != 0 || !measure(device.choice, row)) return;
                 rows.push_back(std::move(row));
             }
         }
-        return rows;
-    }
-
-    const DeviceChoice& device_of(const StressRow& row) const {
-        return std::find_if(devices_.begin(), devices_.end(),
-                            [&](const ListedDevice& device) { return device.spec == row.device; })
-            ->choice;
     }
 
     void run_trial(const StressFamily& family, const StressCase& one, const PictureTrial& trial,
@@ -140,12 +136,11 @@ class Runner {
         }
         result.reference_seconds = watch.seconds();
         StressPictures pictures;
-        for (StressRow& row : planned_rows(one.tolerance)) {
-            if (stop_flag() != 0) return;
+        add_rows(one, result.rows, [&](const DeviceChoice& device, StressRow& row) {
             try {
                 const RenderedPicture rendered =
-                    render_quietly(scene, row_settings(row, options_), device_of(row), &cache_);
-                if (!rendered.stats.complete()) return;
+                    render_quietly(scene, row_settings(row, options_), device, &cache_);
+                if (!rendered.stats.complete()) return false;
                 row.hash = rendered.stats.image_hash;
                 row.seconds = rendered.stats.phases.renderer.trace;
                 row.figures = reference ? judge_stress_picture(rendered.picture, *reference)
@@ -156,8 +151,8 @@ class Runner {
                 row.why = first_line(error.what());
             }
             check_same_bits(trial, row);
-            result.rows.push_back(std::move(row));
-        }
+            return true;
+        });
         pictures.write(options_.output + "/" + file_stem(family.name + "-" + one.label), reference);
     }
 
@@ -175,11 +170,9 @@ class Runner {
     void run_trial(const StressFamily&, const StressCase& one, const RayTrial& trial,
                    StressCaseResult& result) {
         const std::uint64_t rays = options_.quick ? trial.quick_rays : trial.rays;
-        for (StressRow& row : planned_rows(one.tolerance)) {
-            if (stop_flag() != 0) return;
+        add_rows(one, result.rows, [&](const DeviceChoice& device, StressRow& row) {
             const Stopwatch watch;
             try {
-                const DeviceChoice& device = device_of(row);
                 const DriverTask task(device.use_threads ? "" : row.renderer);
                 const RayCaster caster = ray_caster(device, *cache_.devices);
                 row.rays = row.precision == Precision::float64 ? trial.in_double(rays, caster)
@@ -189,8 +182,8 @@ class Runner {
                 row.why = first_line(error.what());
             }
             row.seconds = watch.seconds();
-            result.rows.push_back(std::move(row));
-        }
+            return true;
+        });
     }
 
     /// In strict arithmetic all devices that give a picture give the same bits.

@@ -85,6 +85,11 @@ StressMesh hubs_and_rim(const std::vector<double>& angles) {
     return mesh;
 }
 
+int add_material(Scene& scene, const Scene::Material& material) {
+    scene.materials.push_back(material);
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
 }  // namespace
 
 void set_view(Scene& scene, glm::dvec3 from, glm::dvec3 at, double fov_degrees) {
@@ -109,16 +114,14 @@ int add_matt(Scene& scene, glm::dvec3 color, double specular, double shininess) 
     material.diffuse = color;
     material.specular = glm::dvec3(specular);
     material.shininess = shininess;
-    scene.materials.push_back(material);
-    return static_cast<int>(scene.materials.size()) - 1;
+    return add_material(scene, material);
 }
 
 int add_mirror(Scene& scene, double mirror, double ambient) {
     Scene::Material material;
     material.ambient = glm::dvec3(ambient);
     material.mirror = glm::dvec3(mirror);
-    scene.materials.push_back(material);
-    return static_cast<int>(scene.materials.size()) - 1;
+    return add_material(scene, material);
 }
 
 int add_glass(Scene& scene, double ior, double transmission, double mirror, double ambient) {
@@ -153,17 +156,9 @@ void add_floor(Scene& scene, glm::dvec3 center, double half_side, int material) 
 }
 
 void add_box(Scene& scene, glm::dvec3 low, glm::dvec3 high, int material) {
-    const auto corner = [&](int i) {
-        return glm::dvec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-    };
-    for (const auto& [a, b, c, d] : std::array<std::array<int, 4>, 6>{{{0, 2, 3, 1},
-                                                                       {4, 5, 7, 6},
-                                                                       {0, 1, 5, 4},
-                                                                       {2, 6, 7, 3},
-                                                                       {0, 4, 6, 2},
-                                                                       {1, 3, 7, 5}}}) {
-        add_quad(scene, corner(a), corner(b), corner(c), corner(d), material);
-    }
+    StressMesh box = box_mesh();
+    for (auto& p : box.vertices) p = glm::mix(low, high, glm::greaterThan(p, glm::dvec3(0)));
+    add_mesh(scene, box, material);
 }
 
 Scene bare_scene() {
@@ -221,6 +216,14 @@ Scene still_life() {
         add_triangle(scene, base[i], base[(i + 1) % 4], tip, i % 2 == 0 ? green : glossy);
     }
     return scene;
+}
+
+std::function<Scene()> still_life_with(const std::function<void(Scene&)>& change) {
+    return [=] {
+        Scene scene = still_life();
+        change(scene);
+        return scene;
+    };
 }
 
 Scene glass_still_life() {

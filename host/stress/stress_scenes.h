@@ -17,7 +17,10 @@ namespace rt {
 /// Four balls (one a mirror), a pyramid, a slightly reflective floor, two lights, five bounces.
 Scene still_life();
 
-/// The same with glass balls, a slightly reflective glass box, a cone, a tube and a frustum.
+/// Makes it, changed.
+std::function<Scene()> still_life_with(const std::function<void(Scene&)>& change);
+
+/// It with glass balls, a slightly reflective glass box, a cone, a tube and a frustum.
 Scene glass_still_life();
 
 /// A camera, two lights, a small picture; no materials or objects.
