@@ -15,7 +15,7 @@ class OpenDevices;
 std::shared_ptr<OpenDevices> make_open_devices();
 
 struct ClOptions {
-    KernelChoice kernels;
+    KernelChoice kernels{};
     Math math = Math::strict;
     bool will_refine = false;             ///< also build the kernel that `refine` needs
     bool shares_film = false;             ///< others render into the film at the same time

@@ -213,11 +213,7 @@ class PictureBlame {
 
     Rect whole() const { return {0, 0, scene_.width, scene_.height}; }
 
-    ClOptions options() const {
-        ClOptions options;
-        options.kernels = base_.kernels;
-        return options;
-    }
+    ClOptions options() const { return {.kernels = base_.kernels}; }
 
     Film<T> rendered(Renderer<T>& renderer) const {
         Film<T> film(scene_.width, scene_.height);

@@ -22,8 +22,6 @@ namespace rt {
 
 namespace {
 
-constexpr std::size_t most_known_bytes = 1 << 20;
-
 std::string xml(const std::string& text) {
     std::string safe;
     for (const char c : text) {
@@ -47,7 +45,7 @@ std::string reason(const Check& check) {
 std::set<std::string> known_failures(const std::string& file) {
     std::set<std::string> names;
     if (file.empty()) return names;
-    const FileText text = read_text_file(file, most_known_bytes);
+    const FileText text = read_text_file(file, 1 << 20);
     Mistakes mistakes(text.view(), file);
     for (LineScanner scanner(text.view()); scanner.find_word(); scanner.next_line()) {
         names.emplace(scanner.word());

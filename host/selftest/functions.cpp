@@ -59,11 +59,8 @@ std::string error_text(const ProbeRecord& record, const ProbeArray& got, const P
     bool is_exact = false;
     for (std::size_t at = 0; at < right.bytes.size(); at += sizeof(T)) {
         const T x = number_at<T>(got, at), y = number_at<T>(right, at);
-        if (!std::isfinite(x) || !std::isfinite(y)) {
-            const bool is_same = x == y || (std::isnan(x) && std::isnan(y));
-            if (!is_same) return ", by far";
-            continue;
-        }
+        if (x == y || (std::isnan(x) && std::isnan(y))) continue;
+        if (!std::isfinite(x) || !std::isfinite(y)) return ", by far";
         const auto exact = unrounded<T>(record, at / right.item_bytes);
         is_exact = exact.has_value();
         worst = std::max(worst, ulps_between(x, exact.value_or(y)));

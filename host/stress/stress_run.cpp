@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 
@@ -37,8 +36,7 @@ RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
 /// Traces a trial's rays on the device that renders its pictures.
 RayCaster ray_caster(const DeviceChoice& choice, OpenDevices& open) {
     if (choice.use_threads) return threads_ray_caster();
-    ClOptions options;
-    options.open_devices = &open;
+    const ClOptions options{.open_devices = &open};
     const auto make = [device = choice.device, options](const auto& scene) {
         return [tracer = make_cl_ray_tracer(scene, device, options)](auto queries, auto answers) {
             tracer(queries, answers);
