@@ -93,6 +93,12 @@ class Selftest(WrongDriver):
         known.write_text("dot3/float/1\nmul3/float/1 fails\n")
         self.assertIn(f"{known}:2:14: ", self.selftest(3, *options).stderr)
 
+    def test_shipped_expectations_name_checks(self):
+        known = ROOT / "contrib" / "deqp-runner" / "rusticl-22.3.txt"
+        names = [line for line in known.read_text().splitlines() if line and line[0] != "#"]
+        result = self.selftest(1, "--filter", ",".join(names), "--expect", str(known))
+        self.assertEqual([line.split()[1].rstrip(":") for line in result.stdout.splitlines()[:-1]], names)
+
     def test_of_a_driver_that_crashes(self):
         shim = {"CL_SHIM_DIE_IN": "clBuildProgram", "CL_SHIM_DIE_BY": "abort"}
         result = self.selftest(1, "--filter", "dot3/float/1,mul3/float/1", shim=shim)
