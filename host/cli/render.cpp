@@ -18,7 +18,6 @@
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
-#include "host/picture/target.h"
 #include "host/picture/tile_check.h"
 #include "host/process/drivers.h"
 #include "host/process/stop_signal.h"
@@ -74,13 +73,17 @@ std::string save(const Picture& picture, const RenderOptions& options, const cha
 /// on the device again, whatever it gives, and on threads. Saves both next to the output, as
 /// NAME.wrong.png and NAME.right.png. Returns, for a message, the first pixel that differs and
 /// where they are.
-std::string keep_wrong_picture(const Scene& scene, const RenderOptions& options) try {
-    RenderSettings settings = options;
-    settings.self_test = false;
-    settings.check = 0;
-    settings.journal.clear();
+std::string keep_wrong_picture(const Scene& scene, RenderOptions options) try {
+    options.self_test = false;
+    options.check = 0;
+    options.journal.clear();
+    options.estimate = false;
+    options.target_rmse = 0;
+    options.quiet = true;
+    options.progress = ProgressMode::none;
+    const RenderConsole console(options, nullptr);
     const auto render = [&](const std::vector<DeviceChoice>& devices) {
-        return render_picture(scene, settings, devices, {}, stop_flag());
+        return render_picture(scene, options, devices, console.events(), stop_flag());
     };
     const RenderedPicture wrong = render(start_finding_devices(options).get());
     const RenderedPicture right = render({threads_choice()});
@@ -121,13 +124,10 @@ int render_scene(RenderOptions options, double seconds_before_main, LivePicture*
     RenderedPicture rendered;
     try {
         rendered =
-            options.target_rmse > 0
-                ? render_to_target(scene, options, devices.get(), console.events(), stop_flag())
-                : render_picture(scene, options, std::move(devices), console.events(), stop_flag());
+            render_picture(scene, options, std::move(devices), console.events(), stop_flag());
     } catch (const WrongPicture& wrong) {
         throw Error(wrong.exit_code(), wrong.what() + keep_wrong_picture(scene, options));
     }
-    watch_worker("");
     RenderStats& stats = rendered.stats;
     note_failed_device(stats, options);
     stats.scene.path = options.scene;

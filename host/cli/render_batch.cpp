@@ -18,10 +18,8 @@
 #include "host/image/picture_io.h"
 #include "host/opencl/device_spec.h"
 #include "host/picture/crew_members.h"
-#include "host/picture/target.h"
 #include "host/print/print_stats.h"
 #include "host/process/stop_signal.h"
-#include "host/process/worker.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_hash.h"
@@ -94,7 +92,6 @@ class Batch {
         inputs_.add(options.batch);
         for (const std::string& scene : options.scenes) inputs_.add(scene);
         for (const std::string& scene : scenes_of_list(options.batch)) inputs_.add(scene);
-        watch_worker("");
     }
 
     int run() {
@@ -108,7 +105,6 @@ class Batch {
                 count(item, *status);
                 continue;
             }
-            const DriverTask task(rendering);
             attempt(item, [&] { start(item); });
         }
         settle();
@@ -152,12 +148,9 @@ class Batch {
         const double load_seconds = watch.lap();
         const auto live = make_live_picture(options);
         RenderConsole console(options, live.get());
-        using Render = decltype(render_to_target);
-        Render* const render =
-            options.target_rmse > 0 ? &render_to_target : static_cast<Render*>(&render_picture);
         RenderedPicture rendered =
-            render(scene, options, devices_, console.events(), stop_flag(), &cache_);
-        prepare_for_next(devices_, rendered.stats);
+            render_picture(scene, options, devices_, console.events(), stop_flag(), &cache_);
+        leave_out_failed(devices_, rendered.stats);
         if (live) live->finish(rendered.picture);
         note_failed_device(rendered.stats, options);
         rendered.stats.scene.path = options.scene;

@@ -112,7 +112,7 @@ std::future<std::vector<DeviceChoice>> start_finding_devices(const RenderOptions
     watch_worker(listing_devices);
     return find_devices(options.device, options.threads, [] {
         restore_stop_signals();
-        watch_worker(rendering);
+        watch_worker("");
     });
 }
 
@@ -167,11 +167,8 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     }
     if (!stats.device.fallback_from.empty()) {
         metadata.push_back({"mirrorball:FallbackFrom", stats.device.fallback_from});
-        for (const DeviceShare& share : stats.shares) {
-            if (share.failure.empty()) continue;
-            metadata.push_back({"mirrorball:FallbackReason", share.failure});
-            break;
-        }
+        const std::string failure = stats.failure();
+        if (!failure.empty()) metadata.push_back({"mirrorball:FallbackReason", failure});
     }
     std::string path = options.output;
     if (!stats.complete()) {
@@ -228,6 +225,7 @@ RenderConsole::RenderConsole(const RenderOptions& options, LivePicture* live) {
         };
     }
     const bool has_bar = !options.view.preview || options.progress != ProgressMode::automatic;
+    events_.opening = [] { watch_worker("rendering"); };
     events_.started = [this, progress, has_bar](const TileQueue& queue) {
         install_stop_signals();
         if (has_bar) progress_.emplace(queue, progress);
@@ -240,16 +238,11 @@ RenderConsole::RenderConsole(const RenderOptions& options, LivePicture* live) {
     events_.driver_loaded = restore_stop_signals;
 }
 
-void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats) {
-    if (!stats.device.fallback_from.empty()) devices = {threads_choice()};
-    for (DeviceChoice& device : devices) device.note.clear();
-}
+RenderConsole::~RenderConsole() { watch_worker(""); }
 
 void note_failed_device(RenderStats& stats, const RenderOptions& options) {
     if (options.failed_device.empty()) return;
-    stats.device.fallback_from = options.failed_device;
-    stats.shares.insert(stats.shares.begin(),
-                        {options.failed_device, 0, 0, options.device_failure});
+    stats.note_failed(options.failed_device, options.device_failure);
 }
 
 void print_results(const RenderStats& stats, const RenderOptions& options) {

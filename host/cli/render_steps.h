@@ -38,10 +38,7 @@ bool report_non_finite(const Picture& picture, const Rect& region, std::size_t c
 /// Starts the clock of --timeout.
 void start_timeout(const RenderOptions& options);
 
-/// A worker's task while its devices render.
-inline constexpr const char* rendering = "rendering";
-
-/// Finds the devices on another thread, as find_devices; a worker's parent watches what they do.
+/// Finds the devices on another thread, as find_devices; a worker's parent watches their drivers.
 std::future<std::vector<DeviceChoice>> start_finding_devices(const RenderOptions& options);
 
 /// Rejects, before anything is computed, an output that could not be written.
@@ -69,12 +66,14 @@ std::unique_ptr<LivePicture> make_live_picture(const RenderOptions& options);
 /// a stop signal, which is not reported, since everything is done.
 void wait_for_viewers(LivePicture& live);
 
-/// Shows a render's events on stderr and in viewers, if there are any. All must outlive it.
+/// Shows a render's events on stderr and in viewers, if there are any, and has a worker's parent
+/// watch the drivers meanwhile. All must outlive it.
 class RenderConsole {
    public:
     RenderConsole(const RenderOptions& options, LivePicture* live);
     RenderConsole(const RenderConsole&) = delete;
     RenderConsole& operator=(const RenderConsole&) = delete;
+    ~RenderConsole();
 
     const RenderEvents& events() const { return events_; }
 
@@ -82,10 +81,6 @@ class RenderConsole {
     std::optional<ProgressReporter> progress_;
     RenderEvents events_;
 };
-
-/// Prepares the devices for the next picture of several: a device that failed is replaced by
-/// threads, and notes are printed only once.
-void prepare_for_next(std::vector<DeviceChoice>& devices, const RenderStats& stats);
 
 /// Writes the picture to options.output, an unfinished one next to it: the existing file may be
 /// finished. One without any tile is not written. Removes a finished picture's journal and what was

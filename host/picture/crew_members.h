@@ -39,6 +39,7 @@ struct RenderCache {
 
     std::shared_ptr<OpenDevices> devices;
     std::tuple<Flattened<float>, Flattened<double>> scenes;
+    bool has_warned = false;  ///< of what users should know of devices and settings
 };
 
 /// "threads + NVIDIA H100".

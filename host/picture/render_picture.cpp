@@ -10,7 +10,6 @@
 #include <optional>
 #include <stop_token>
 #include <thread>
-#include <type_traits>
 #include <utility>
 
 #include "host/base/error.h"
@@ -87,15 +86,23 @@ SharedScene<T> flattened_scene(const Scene& scene, std::uint64_t hash, PictureSp
     return kept.scene;
 }
 
+/// What is known of a picture's error before it is rendered again with more samples.
+struct ErrorControl {
+    std::optional<ControlPixels> pixels;  ///< empty: to be chosen
+    std::optional<AaMode> finer;  ///< what should reach settings.target_rmse, if it does not
+};
+
 /// One flattened scene being rendered in the precision of T, and the figures gathered so far.
 template <typename T>
 class Job {
    public:
     Job(const Scene& scene, const RenderSettings& settings, const RenderEvents& events,
-        const StopFlag& stop, RenderCache* cache)
+        const StopFlag& stop, RenderCache* cache, ErrorControl& control)
         : settings_(settings),
           events_(events),
           stop_(stop),
+          control_(control),
+          is_first_(cache == nullptr || !std::exchange(cache->has_warned, true)),
           picture_(picture_spec(scene, settings)),
           rendered_(
               region_to_render(picture_.aa, picture_.region, picture_.width, picture_.height)) {
@@ -129,13 +136,7 @@ class Job {
     RenderedPicture run(Devices devices, double wait_seconds) {
         is_exact_ = settings_.math == Math::strict && inexact_names(devices).empty();
         if (!is_exact_) std::erase_if(devices, [](const auto& choice) { return choice.is_helper; });
-        for (const DeviceChoice& choice : devices) {
-            warn_of_ignored_settings(choice, settings_, events_);
-            if (!choice.note.empty()) warn_(choice.note);
-        }
-        if (!is_exact_ && devices.size() > 1) {
-            warn_(joined_names(devices) + " may round differently, and share this picture");
-        }
+        if (is_first_) warn_of(devices);
         journal_.emplace(settings_, stats_, *scene_, rendered_, inexact_names(devices), warn_);
         stats_.resumed = journal_->share_known();
         if (journal_->is_finished()) {
@@ -153,6 +154,16 @@ class Job {
     }
 
    private:
+    void warn_of(const Devices& devices) const {
+        for (const DeviceChoice& choice : devices) {
+            warn_of_ignored_settings(choice, settings_, events_);
+            if (!choice.note.empty()) warn_(choice.note);
+        }
+        if (!is_exact_ && devices.size() > 1) {
+            warn_(joined_names(devices) + " may round differently, and share this picture");
+        }
+    }
+
     void render_by(const Devices& devices) {
         std::optional<CrewMember<T>> spare;
         if (is_exact_ && !settings_.no_fallback && has_opencl(devices)) spare = maker_->spare();
@@ -189,6 +200,7 @@ class Job {
 
     void open(Crew<T>& crew, const Devices& devices) const {
         std::optional<LateMessage> late;
+        if (events_.opening && has_opencl(devices)) events_.opening();
         if (events_.compiling && has_opencl(devices)) {
             late.emplace(compile_patience,
                          [&] { events_.compiling(joined_names(devices) + ": compiling kernels"); });
@@ -315,15 +327,14 @@ class Job {
         const double target = settings_.target_rmse;
         ThreadsOptions threads{settings_.threads};
         threads.kernels.isa = settings_.kernels.isa;
-        controls_ = settings_.controls;
-        if (!controls_) {
-            controls_ = std::make_shared<ControlPixels>(
-                trace_controls(*scene_, picture_.aa, region_, film_, threads));
+        const bool is_finer = control_.pixels.has_value();
+        if (!is_finer) {
+            control_.pixels = trace_controls(*scene_, picture_.aa, region_, film_, threads);
         }
-        stats_.estimate = controls_->estimate_of(film_);
-        if (target > 0 && !settings_.controls && !stats_.estimate->reaches(target)) {
-            finer_ =
-                mode_to_reach(target, *scene_, picture_.aa, region_, *controls_, threads, stop_);
+        stats_.estimate = control_.pixels->estimate_of(film_);
+        if (target > 0 && !is_finer && !stats_.estimate->reaches(target)) {
+            control_.finer = mode_to_reach(target, *scene_, picture_.aa, region_, *control_.pixels,
+                                           threads, stop_);
         }
         stats_.estimate->target = target;
         stats_.estimate->seconds = watch.seconds();
@@ -339,14 +350,14 @@ class Job {
         stats_.non_finite = count_non_finite(rendered.picture);
         rendered.stats = stats_;
         rendered.journal = journal_->file();
-        rendered.controls = controls_;
-        rendered.finer = finer_;
         return rendered;
     }
 
     const RenderSettings& settings_;
     const RenderEvents& events_;
     const StopFlag& stop_;
+    ErrorControl& control_;
+    const bool is_first_;        ///< of the cache's pictures
     const PictureSpec picture_;  ///< requested
     const Rect& region_ = picture_.region;
     const Rect rendered_;   ///< its region and what refining that needs
@@ -360,28 +371,58 @@ class Job {
     Film<T> film_{0, 0};
     PictureSize tile_{};
     RenderStats stats_;
-    std::shared_ptr<ControlPixels> controls_;
-    std::optional<AaMode> finer_;
 };
 
 /// `devices` is called once the scene is flattened.
 template <typename T>
-RenderedPicture render_on(const Scene& scene, const RenderSettings& settings,
+RenderedPicture render_in(const Scene& scene, const RenderSettings& settings,
                           const std::function<Devices()>& devices, const RenderEvents& events,
-                          const StopFlag& stop, RenderCache* cache) {
-    Job<T> job(scene, settings, events, stop, cache);
+                          const StopFlag& stop, RenderCache* cache, ErrorControl& control) {
+    Job<T> job(scene, settings, events, stop, cache, control);
     const Stopwatch watch;
     const Devices chosen = devices();
     return job.run(chosen, watch.seconds());
 }
 
-RenderedPicture render_on(const Scene& scene, const RenderSettings& settings,
+RenderedPicture render_once(const Scene& scene, const RenderSettings& settings,
+                            const std::function<Devices()>& devices, const RenderEvents& events,
+                            const StopFlag& stop, RenderCache* cache, ErrorControl& control) {
+    const auto render =
+        settings.precision == Precision::float64 ? render_in<double> : render_in<float>;
+    return render(scene, settings, devices, events, stop, cache, control);
+}
+
+RenderedPicture render_on(const Scene& scene, RenderSettings settings,
                           const std::function<Devices()>& devices, const RenderEvents& events,
                           const StopFlag& stop, RenderCache* cache) {
-    if (settings.precision == Precision::float64) {
-        return render_on<double>(scene, settings, devices, events, stop, cache);
+    ErrorControl control;
+    if (settings.target_rmse <= 0) {
+        return render_once(scene, settings, devices, events, stop, cache, control);
     }
-    return render_on<float>(scene, settings, devices, events, stop, cache);
+    settings.estimate = true;
+    settings.kernels.any_samples = true;  // the same programs for both pictures
+    RenderCache own;
+    if (cache == nullptr) cache = &own;
+    Devices chosen;
+    const auto choose = [&] { return chosen = devices(); };
+    RenderedPicture first = render_once(scene, settings, choose, events, stop, cache, control);
+    if (!control.finer || stop != 0) return first;
+    if (events.message) {
+        events.message(fmt::format("RMSE {:.1e} with {}; rendering again with {}",
+                                   first.stats.estimate->rmse, to_string(scene.aa),
+                                   to_string(*control.finer)));
+    }
+    leave_out_failed(chosen, first.stats);
+    Scene finer = scene;
+    finer.aa = *control.finer;
+    const auto same = [&] { return chosen; };
+    RenderedPicture second = render_once(finer, settings, same, events, stop, cache, control);
+    if (!second.stats.complete()) return first;
+    second.stats.estimate->seconds += first.stats.estimate->seconds;
+    if (const std::string& failed = first.stats.device.fallback_from; !failed.empty()) {
+        second.stats.note_failed(failed, first.stats.failure());
+    }
+    return second;
 }
 
 }  // namespace
@@ -389,15 +430,19 @@ RenderedPicture render_on(const Scene& scene, const RenderSettings& settings,
 RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
                                std::future<Devices> devices, const RenderEvents& events,
                                const StopFlag& stop) {
-    return render_on(
-        scene, settings, [&] { return devices.get(); }, events, stop, nullptr);
+    const auto found = [&] { return devices.get(); };
+    return render_on(scene, settings, found, events, stop, nullptr);
 }
 
 RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
                                const Devices& devices, const RenderEvents& events,
                                const StopFlag& stop, RenderCache* cache) {
-    return render_on(
-        scene, settings, [&] { return devices; }, events, stop, cache);
+    const auto known = [&] { return devices; };
+    return render_on(scene, settings, known, events, stop, cache);
+}
+
+void leave_out_failed(std::vector<DeviceChoice>& devices, const RenderStats& stats) {
+    if (!stats.device.fallback_from.empty()) devices = {threads_choice()};
 }
 
 }  // namespace rt

@@ -25,14 +25,13 @@ struct RenderedPicture {
     RenderStats stats;
     std::shared_ptr<JournalFile>
         journal;  ///< locked, to be removed with the picture saved; or null
-    std::shared_ptr<ControlPixels> controls;  ///< that its error was estimated from; or null
-    std::optional<AaMode> finer;  ///< what should reach settings.target_rmse, if it does not
 };
 
 /// Events for the caller of render_picture, on its own thread unless noted. Each may be empty.
 struct RenderEvents {
     std::function<void(const std::string& line)> message;  ///< what users should know
     std::function<void(const std::string& line)> detail;   ///< what they may want to know
+    std::function<void()> opening;  ///< OpenCL devices begin to work, until `ended`
     /// A device is still compiling after a second; on a separate thread.
     std::function<void(const std::string& line)> compiling;
     /// Tracing begins. Until `ended`, any thread may ask the queue for progress.
@@ -50,14 +49,20 @@ struct RenderEvents {
 /// Flattens the scene and renders it on the devices, which share its tiles. If a device fails, the
 /// tiles it has finished stay, and the others or threads (unless settings.no_fallback) do the rest;
 /// an event says so. The stop flag ends it early, with the tiles finished so far. With
-/// settings.journal it resumes. Throws Error.
+/// settings.journal it resumes. With settings.target_rmse, it renders first with the scene's AA
+/// mode, which must not refine, and if the estimated error is larger, once more with as many
+/// samples as it takes; the first picture is the result if the second is stopped. Throws Error.
 RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
                                std::future<std::vector<DeviceChoice>> devices,
                                const RenderEvents& events, const StopFlag& stop);
 
-/// The same on devices already chosen. The cache serves one picture at a time; null: no cache.
+/// The same on devices already chosen. The cache serves one picture at a time, and devices are
+/// warned of in the first only; null: no cache.
 RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
                                const std::vector<DeviceChoice>& devices, const RenderEvents& events,
                                const StopFlag& stop, RenderCache* cache = nullptr);
+
+/// The devices for the next picture of several: threads, if one of these failed.
+void leave_out_failed(std::vector<DeviceChoice>& devices, const RenderStats& stats);
 
 }  // namespace rt

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,8 +12,6 @@
 #include "host/scene/scene_file.h"
 
 namespace rt {
-
-struct ControlPixels;
 
 struct PictureSize {
     int width, height;
@@ -46,9 +43,8 @@ struct RenderSettings {
     double journal_delay = 2;      ///< seconds of tracing not worth saving
     bool fresh = false;            ///< ignore an existing journal
     std::optional<Shares> shares;  ///< render only these, into the journal, which is the result
-    bool estimate = false;         ///< also estimate the picture's error,
-    double target_rmse = 0;        ///< which is to be at most this (render_to_target); 0: any,
-    std::shared_ptr<ControlPixels> controls;  ///< from these; null: choose them
+    bool estimate = false;         ///< also estimate the picture's error
+    double target_rmse = 0;        ///< at most this is the estimate to be; 0: anything
     double check = 0;  ///< share of the tiles to trace again on threads and compare, 0 to 1
 };
 

@@ -17,6 +17,18 @@ bool RenderStats::driver_took_its_time() const {
            !picture.aa.refines();
 }
 
+std::string RenderStats::failure() const {
+    for (const DeviceShare& share : shares) {
+        if (!share.failure.empty()) return share.failure;
+    }
+    return "";
+}
+
+void RenderStats::note_failed(const std::string& name, const std::string& how) {
+    device.fallback_from = name;
+    shares.insert(shares.begin(), {name, 0, 0, how});
+}
+
 std::vector<HierarchyStats> hierarchies_of(const FlattenStats& stats) {
     std::vector<HierarchyStats> list{
         {"spheres", stats.spheres}, {"cones", stats.cones}, {"triangles", stats.triangles}};

@@ -188,6 +188,12 @@ struct RenderStats {
     bool driver_took_its_time() const;
 
     bool complete() const { return refined && tiles_finished == tiles; }
+
+    /// How the first device that failed did; empty if none did.
+    std::string failure() const;
+
+    /// Notes a device that failed before others began the picture.
+    void note_failed(const std::string& name, const std::string& how);
 };
 
 /// What the runs of a benchmark repeat of RenderStats.

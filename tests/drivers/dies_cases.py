@@ -115,6 +115,15 @@ class Dies(WrongDriver):
                                 "--device", "threads"], text=True, capture_output=True, check=True)
         self.assertEqual(result.stderr.split()[-1], right.stderr.split()[-1])
 
+    def test_hangs_in_the_second_picture_of_a_target(self):
+        arguments = ["--target-rmse", "1e-3"]
+        result = self.die("clEnqueueNDRangeKernel", "hang", *arguments, CL_SHIM_DIE_AT="11", code=0)
+        first, hung = [result.stderr.find(text) for text in ["rendering again", "made no progress"]]
+        self.assertTrue(0 < first < hung, result.stderr)
+        right = subprocess.run([str(BUILD / "mirrorball"), *self.ARGUMENTS[:4], *arguments, "--device",
+                                "threads"], text=True, capture_output=True, check=True)
+        self.assertEqual(result.stderr.split()[-1], right.stderr.split()[-1])
+
     def test_is_an_error_without_fallback(self):
         result = self.die("clBuildProgram", "abort", "--no-fallback", code=5)
         self.assertIn("was killed by SIGABRT", result.stderr.splitlines()[-1])

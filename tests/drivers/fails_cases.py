@@ -64,5 +64,16 @@ class Fails(WrongDriver):
         self.assertIn("fallback_from", first["device"])
         self.assertNotIn("fallback_from", second["device"])
 
+    def test_in_the_first_picture_of_a_target_it_is_not_asked_again(self):
+        target = ["--target-rmse", "2e-3"]
+        result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "7"}, "render", SCENE, "--stats=json", "--size",
+                               "300", "--device", "pocl", "--schedule", "buffers", *target, code=0)
+        for text in ["CL_OUT_OF_RESOURCES", "rendering again", "--schedule has no effect"]:
+            self.assertEqual(result.stderr.count(text), 1, result.stderr)
+        got, right = json.loads(result.stdout), self.figures({}, "threads", *target)
+        self.assertEqual(got["image"]["hash"], right["image"]["hash"])
+        self.assertEqual(got["device"]["fallback_from"], got["devices"][0]["name"])
+        self.assertIn("CL_OUT_OF_RESOURCES", got["devices"][0]["failure"])
+
     def test_is_an_error_without_fallback(self):
         self.run_with({"CL_SHIM_FAIL_LAUNCH": "7"}, *self.ARGUMENTS, "pocl", "--no-fallback", code=5)
