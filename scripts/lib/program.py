@@ -28,7 +28,7 @@ def render(program, scene, *options, **more):
 def error_of(program, picture, reference):
     """How far the picture is from the reference, both clamped to 0..1."""
     result = subprocess.run([program, "compare", picture, reference, "--clamp", "--json"],
-                            capture_output=True, text=True, check=False)
+                            capture_output=True, text=True, cwd=ROOT, check=False)
     return json.loads(result.stdout)["error"]
 
 
