@@ -35,7 +35,8 @@ void settle_estimate(RenderOptions& render) {
         if (render.shares || render.resume) {
             usage_error("--target-rmse cannot be combined with --shard or --resume");
         }
-        if (!render.aa) render.aa = parse_aa("sobol:4");
+        const int samples = std::max(fewest_samples(render.filter), 4);
+        if (!render.aa) render.aa = {AaMode::Pattern::sobol, samples, 0};
         if (render.aa->refines()) usage_error("--target-rmse requires --aa sobol:N or grid:N");
     }
     if (render.estimate && render.shares) {

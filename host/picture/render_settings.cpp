@@ -7,13 +7,11 @@ namespace rt {
 
 namespace {
 
-/// The cubic has negative weights: a handful of scattered samples may add up to nothing.
 void check_filter(const Scene& scene) {
-    constexpr int fewest = 16;
-    if (scene.filter == Filter::mitchell && scene.aa.pattern == AaMode::Pattern::sobol &&
-        scene.aa.count < fewest) {
-        usage_error("--filter mitchell requires at least sobol:{}; {} is too few", fewest,
-                    to_string(scene.aa));
+    const int fewest = fewest_samples(scene.filter);
+    if (scene.aa.pattern == AaMode::Pattern::sobol && scene.aa.count < fewest) {
+        usage_error("--filter {} requires at least sobol:{}; {} is too few",
+                    to_string(scene.filter), fewest, to_string(scene.aa));
     }
 }
 

@@ -48,6 +48,10 @@ struct RenderSettings {
     double check = 0;  ///< share of the tiles to trace again on threads and compare, 0 to 1
 };
 
+/// Sobol samples that the filter needs at least. A cubic has negative weights: a handful of
+/// scattered samples may add up to nothing.
+constexpr int fewest_samples(Filter filter) { return filter == Filter::mitchell ? 16 : 1; }
+
 /// Applies the settings' overrides to the scene: size, AA, filter, seed, bounces. Throws Error
 /// (ExitCode::usage) for a filter that needs more samples.
 void apply_overrides(Scene& scene, const RenderSettings& settings);

@@ -88,6 +88,10 @@ class Target(CliTest):
         self.assertRegex(stats["settings"]["aa"], "^grid:[3-8]$")
         self.assertLess(stats["estimate"]["rmse"], 5e-3)
 
+    def test_starts_with_the_samples_that_the_filter_needs(self):
+        for filter_, samples in [("box", 4), ("gaussian", 4), ("mitchell", 16)]:
+            self.assertEqual(self.reach("0.3", "--filter", filter_)["settings"]["samples"], samples)
+
     def test_of_a_batch(self):
         result = self.succeed("render", scene_path("cornell-box"), scene_path("many-lights"),
                               "--size", "40", "--target-rmse", "1e-2", "--stats=json")
