@@ -5,19 +5,27 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "host/flatten/flat_scene.h"
+#include "host/picture/render_picture.h"
 #include "host/render/picture_loop.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
 
 namespace {
+
+const StopFlag go = 0;
 
 Scene small_scene(const char* stem, const char* aa, int size = 120) {
     Scene scene = load_named_scene(stem);
@@ -31,7 +39,7 @@ ErrorEstimate estimate(const Scene& scene, const Film<T>& film, const ThreadsOpt
                        Rect region = {}) {
     const FlatScene<T> flat = flatten<T>(scene);
     if (region.width == 0) region = {0, 0, scene.width, scene.height};
-    return trace_controls(flat, scene.aa, region, film, options).estimate_of(film);
+    return trace_controls(flat, scene.aa, region, film, options, go)->estimate_of(film);
 }
 
 /// Far more samples than any picture here, and another seed.
@@ -146,6 +154,44 @@ TEST(ErrorEstimate, OfAnExactPictureIsZero) {
     EXPECT_EQ(about.rmse, 0);
     EXPECT_EQ(about.low, 0);
     EXPECT_EQ(about.high, 0);
+}
+
+TEST(ErrorEstimate, EndsAtAStopSignal) {
+    const Scene scene = small_scene("cornell-box", "none", 20);
+    StopFlag stop = 0;
+    RenderEvents events;
+    events.ended = [&] { stop = 1; };
+    RenderSettings settings;
+    settings.estimate = true;
+    const RenderStats stats =
+        render_picture(scene, settings, {threads_choice()}, events, stop).stats;
+    EXPECT_TRUE(stats.complete());
+    EXPECT_FALSE(stats.estimate);
+}
+
+/// Threads of this process.
+int threads_now() {
+    const std::filesystem::directory_iterator begin("/proc/self/task"), end;
+    return static_cast<int>(std::distance(begin, end));
+}
+
+TEST(ErrorEstimate, UsesNoMoreThreadsThanTheRenderer) {
+    const Scene scene = small_scene("single-sphere", "sobol:1024", 60);
+    const int expected = threads_now() + 1;  // the watcher
+    int most = 0;
+    std::jthread watcher;
+    RenderEvents events;
+    events.ended = [&] {
+        watcher = std::jthread([&](const std::stop_token& stop) {
+            while (threads_now() > expected) continue;  // the renderer's thread ends
+            while (!stop.stop_requested()) most = std::max(most, threads_now());
+        });
+    };
+    RenderSettings settings;
+    settings.estimate = true;
+    render_picture(scene, settings, {threads_choice(1)}, events, go);
+    watcher = {};
+    EXPECT_LE(most, expected);
 }
 
 TEST(ControlPixels, WeighWhatTheyStandFor) {

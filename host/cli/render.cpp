@@ -145,7 +145,7 @@ int render_scene(RenderOptions options, double seconds_before_main, LivePicture*
     }
     print_results(stats, options);
     const bool has_aovs = write_aovs(scene, stats, options);
-    int status = has_aovs ? verdict(rendered, path) : exit_code_of_stop(stop_flag());
+    int status = has_aovs ? verdict(rendered, options, path) : exit_code_of_stop(stop_flag());
     if (status == 0 && options.expected_hash.value_or(stats.image_hash) != stats.image_hash) {
         print_note(fmt::format("the picture's hash is {}, expected {}", hash_text(stats.image_hash),
                                hash_text(*options.expected_hash)));

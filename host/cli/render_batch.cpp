@@ -73,7 +73,7 @@ int finish_picture(RenderedPicture rendered, const RenderOptions& options, const
     const std::string path = save_picture(rendered, options);
     rendered.stats.phases.write = writing.seconds();
     rendered.stats.phases.total = total.seconds();
-    const int status = verdict(rendered, path);
+    const int status = verdict(rendered, options, path);
     print_batch_results(rendered.stats, options, [&] { note(status); });
     return status;
 }

@@ -255,7 +255,8 @@ void print_results(const RenderStats& stats, const RenderOptions& options) {
     if (stats.error) print_result(error_line(*stats.error) + "\n");
 }
 
-int verdict(const RenderedPicture& rendered, const std::string& output) {
+int verdict(const RenderedPicture& rendered, const RenderOptions& options,
+            const std::string& output) {
     const RenderStats& stats = rendered.stats;
     const bool non_finite =
         report_non_finite(rendered.picture, stats.picture.region, stats.non_finite);
@@ -265,6 +266,10 @@ int verdict(const RenderedPicture& rendered, const std::string& output) {
         print_note(fmt::format("{} after {}{}{}", stop_reason(), share_done(stats),
                                output.empty() ? "" : "; the finished part is in " + output,
                                can_go_on ? "; the same command resumes from there" : ""));
+        return exit_code_of_stop(stop_flag());
+    }
+    if (!stats.estimate && (options.estimate || options.target_rmse > 0)) {
+        print_note(stop_reason() + " before the picture's error was estimated");
         return exit_code_of_stop(stop_flag());
     }
     if (stats.estimate && stats.estimate->target > 0 &&

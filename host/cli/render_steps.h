@@ -95,7 +95,7 @@ void note_failed_device(RenderStats& stats, const RenderOptions& options);
 void print_results(const RenderStats& stats, const RenderOptions& options);
 
 /// Reports on stderr what is wrong with a picture saved as `path`. Returns the exit status.
-int verdict(const RenderedPicture& rendered, const std::string& path);
+int verdict(const RenderedPicture& rendered, const RenderOptions& options, const std::string& path);
 
 /// Rejects, before anything is computed, AOV files that could not be written, or are inputs.
 void check_aov_files(const RenderOptions& options, const std::vector<std::string>& inputs);

@@ -147,7 +147,7 @@ class Job {
             render_by(devices);
         }
         if (stats_.complete()) check_again(devices);
-        if (stats_.complete() && settings_.estimate) estimate();
+        if (stats_.complete() && settings_.estimate) estimate(devices);
         journal_->end(stats_.complete());
         stats_.phases.renderer.open += wait_seconds;
         return finished_picture();
@@ -321,16 +321,21 @@ class Job {
         render_again(stats_.device.name, std::move(shares));
     }
 
-    /// Estimates the picture's error, and looks for a mode that reaches the target.
-    void estimate() {
+    /// Estimates the picture's error, and looks for a mode that reaches the target, on as many
+    /// threads as are to render; no estimate if stopped.
+    void estimate(const Devices& devices) {
         const Stopwatch watch;
         const double target = settings_.target_rmse;
         ThreadsOptions threads{settings_.threads};
+        for (const DeviceChoice& choice : devices) {
+            threads.threads = std::max(threads.threads, choice.threads);
+        }
         threads.kernels.isa = settings_.kernels.isa;
         const bool is_finer = control_.pixels.has_value();
         if (!is_finer) {
-            control_.pixels = trace_controls(*scene_, picture_.aa, region_, film_, threads);
+            control_.pixels = trace_controls(*scene_, picture_.aa, region_, film_, threads, stop_);
         }
+        if (!control_.pixels) return;
         stats_.estimate = control_.pixels->estimate_of(film_);
         if (target > 0 && !is_finer && !stats_.estimate->reaches(target)) {
             control_.finer = mode_to_reach(target, *scene_, picture_.aa, region_, *control_.pixels,

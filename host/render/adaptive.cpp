@@ -109,11 +109,11 @@ std::vector<Refinement> plan_refinement(const Film<T>& film, double threshold,
 }
 
 template <typename T>
-std::vector<double> contrasts_of(const Film<T>& film) {
+std::vector<double> contrasts_of(const Film<T>& film, int threads) {
     const auto width = static_cast<std::size_t>(film.width);
     std::vector<double> contrasts(film.rgb.size() / 3);
     const auto rows = static_cast<std::size_t>(film.height);
-    for_each_run(rows, 64, available_cores(), [&](std::size_t first, std::size_t last) {
+    for_each_run(rows, 64, threads, [&](std::size_t first, std::size_t last) {
         for (std::size_t y = first; y < last; ++y) {
             const ColumnExtremes<T> around(film, static_cast<int>(y));
             for (std::size_t x = 0; x < width; ++x) {
@@ -125,8 +125,8 @@ std::vector<double> contrasts_of(const Film<T>& film) {
     return contrasts;
 }
 
-template std::vector<double> contrasts_of(const Film<float>&);
-template std::vector<double> contrasts_of(const Film<double>&);
+template std::vector<double> contrasts_of(const Film<float>&, int);
+template std::vector<double> contrasts_of(const Film<double>&, int);
 template std::vector<Refinement> plan_refinement(const Film<float>&, double,
                                                  std::vector<std::uint8_t>&);
 template std::vector<Refinement> plan_refinement(const Film<double>&, double,

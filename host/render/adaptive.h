@@ -26,6 +26,6 @@ std::vector<Refinement> plan_refinement(const Film<T>& film, double threshold,
 
 /// Each pixel's largest channel difference from its eight neighbors, clamped to 0..1; 1 near a NaN.
 template <typename T>
-std::vector<double> contrasts_of(const Film<T>& film);
+std::vector<double> contrasts_of(const Film<T>& film, int threads);
 
 }  // namespace rt

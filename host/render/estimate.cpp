@@ -119,7 +119,7 @@ std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
 template <typename T>
 ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, const Film<T>& film,
                               const ThreadsOptions& options) {
-    const std::vector<double> contrasts = contrasts_of(film);
+    const std::vector<double> contrasts = contrasts_of(film, thread_count(options, 1));
     const std::vector<double> even(contrasts.size(), 1.0);
     ControlPixels candidates, controls;
     draw(chances_of(even, contrasts), candidate_count, [&](std::size_t i, double weight) {
@@ -192,16 +192,18 @@ std::vector<double> colors_of(const std::vector<std::int32_t>& pixels, const Fil
 }
 
 template <typename T>
-ControlPixels trace_controls(const FlatScene<T>& scene, const AaMode& aa, const Rect& region,
-                             const Film<T>& film, const ThreadsOptions& options) {
+std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaMode& aa,
+                                            const Rect& region, const Film<T>& film,
+                                            const ThreadsOptions& options, const StopFlag& stop) {
     ControlPixels controls = choose_controls(scene, region, film, options);
     const int most = aa.fixed_samples().value_or(adaptive_samples);
-    for (int depth = control_samples;; depth *= 4) {
+    for (int depth = control_samples; stop == 0; depth *= 4) {
         trace_means(scene, region, depth, options, controls);
         const ErrorEstimate estimate = controls.estimate_of(film);
         const bool is_clear = estimate.rmse > large_rmse || estimate.high < 2 * estimate.low;
         if (is_clear || depth >= most) return controls;
     }
+    return std::nullopt;
 }
 
 template <typename T>
@@ -225,13 +227,15 @@ std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMo
 
 template std::vector<double> colors_of(const std::vector<std::int32_t>&, const Film<float>&);
 template std::vector<double> colors_of(const std::vector<std::int32_t>&, const Film<double>&);
-template ControlPixels trace_controls(const FlatScene<float>&, const AaMode&, const Rect&,
-                                      const Film<float>&, const ThreadsOptions&);
+template std::optional<ControlPixels> trace_controls(const FlatScene<float>&, const AaMode&,
+                                                     const Rect&, const Film<float>&,
+                                                     const ThreadsOptions&, const StopFlag&);
 template std::optional<AaMode> mode_to_reach(double, const FlatScene<float>&, AaMode, const Rect&,
                                              ControlPixels&, const ThreadsOptions&,
                                              const StopFlag&);
-template ControlPixels trace_controls(const FlatScene<double>&, const AaMode&, const Rect&,
-                                      const Film<double>&, const ThreadsOptions&);
+template std::optional<ControlPixels> trace_controls(const FlatScene<double>&, const AaMode&,
+                                                     const Rect&, const Film<double>&,
+                                                     const ThreadsOptions&, const StopFlag&);
 template std::optional<AaMode> mode_to_reach(double, const FlatScene<double>&, AaMode, const Rect&,
                                              ControlPixels&, const ThreadsOptions&,
                                              const StopFlag&);

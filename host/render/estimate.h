@@ -74,9 +74,11 @@ struct ControlPixels {
 /// neighbors differ; then control pixels among these, half of them where a few more samples differ
 /// from the film. If the error is below 1e-3 and lost in the noise of the control pixels, these get
 /// up to as many samples as the picture's. Everything depends on the scene and the film alone.
+/// Empty if stopped.
 template <typename T>
-ControlPixels trace_controls(const FlatScene<T>& scene, const AaMode& aa, const Rect& region,
-                             const Film<T>& film, const ThreadsOptions& options);
+std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaMode& aa,
+                                            const Rect& region, const Film<T>& film,
+                                            const ThreadsOptions& options, const StopFlag& stop);
 
 /// The first AA mode after `aa`, a grid or Sobol, that reaches the RMSE in the control pixels, with
 /// 2, 3, 4, 6, 8, 12, ... samples or rows of them; the finest of all if none does. Only the control
