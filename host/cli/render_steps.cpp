@@ -163,7 +163,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         picture_metadata(stats.scene.name, hash_text(stats.scene.hash), to_string(stats.picture),
                          hash_text(stats.image_hash));
     if (stats.estimate) {
-        metadata.push_back({"mirrorball:EstimatedError", estimate_text(*stats.estimate)});
+        metadata.push_back({"mirrorball:EstimatedError", to_string(*stats.estimate)});
     }
     if (!stats.device.fallback_from.empty()) {
         metadata.push_back({"mirrorball:FallbackFrom", stats.device.fallback_from});
@@ -275,7 +275,7 @@ int verdict(const RenderedPicture& rendered, const RenderOptions& options,
     if (stats.estimate && stats.estimate->target > 0 &&
         !stats.estimate->reaches(stats.estimate->target)) {
         print_note(fmt::format("{} with {}, not the target of {:g}: {}",
-                               estimate_text(*stats.estimate), to_string(stats.picture.aa),
+                               to_string(*stats.estimate), to_string(stats.picture.aa),
                                stats.estimate->target,
                                stop_flag() != 0 ? stop_reason() : "no mode has more samples"));
         return stop_flag() != 0 ? exit_code_of_stop(stop_flag())

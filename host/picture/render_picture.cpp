@@ -413,8 +413,8 @@ RenderedPicture render_on(const Scene& scene, RenderSettings settings,
     RenderedPicture first = render_once(scene, settings, choose, events, stop, cache, control);
     if (!control.finer || stop != 0) return first;
     if (events.message) {
-        events.message(fmt::format("RMSE {:.1e} with {}; rendering again with {}",
-                                   first.stats.estimate->rmse, to_string(scene.aa),
+        events.message(fmt::format("{} with {}; rendering again with {}",
+                                   to_string(*first.stats.estimate), to_string(scene.aa),
                                    to_string(*control.finer)));
     }
     leave_out_failed(chosen, first.stats);

@@ -28,7 +28,7 @@ std::string estimate_line(const BenchResult& result, const BenchCase& asked) {
     for (const ReferenceRun& run : result.references) {
         if (run.scene.hash == asked.scene.hash && run.picture.aa == asked.picture.aa &&
             run.picture.region == asked.picture.region && run.estimate) {
-            return fmt::format("  sampling error: {}\n", estimate_text(*run.estimate));
+            return fmt::format("  sampling error: {}\n", to_string(*run.estimate));
         }
     }
     return "";

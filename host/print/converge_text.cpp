@@ -34,7 +34,10 @@ std::string point_text(const ConvergePoint& point, bool on_front) {
     const std::string head = fmt::format("  {:<16}", to_string(point.asked.picture.aa));
     const auto& figures = point.figures;
     if (!figures) return fmt::format("{} {} {}\n", head, to_string(point.verdict), point.why);
-    const std::string promised = point.estimate ? fmt::format("{:.2e}", point.estimate->rmse) : "";
+    const auto& about = point.estimate;
+    const std::string promised = !about                ? ""
+                                 : about->known_rmse() ? fmt::format("{:.2e}", about->rmse)
+                                                       : fmt::format("<{:.2e}", about->high);
     return fmt::format("{} {:>9.5f} {:>4.1f} {:>9.5f} {:>9.2e} {:>9} {}{}\n", head,
                        figures->seconds.median, figures->seconds.noise_percent(),
                        figures->seconds.max, figures->rmse, promised, on_front ? "*" : " ",

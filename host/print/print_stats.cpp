@@ -75,14 +75,6 @@ std::string rays_text(const RenderStats& stats) {
         stats.rays_per_second() * 1e-6);
 }
 
-/// "8.1e-4", or "0".
-std::string short_text(double value) {
-    if (value == 0) return "0";
-    std::string text = fmt::format("{:.1e}", value);
-    if (const auto sign = text.find("e-0"); sign != std::string::npos) text.erase(sign + 2, 1);
-    return text;
-}
-
 std::string count_line(const char* name, std::size_t count, std::size_t pixels) {
     return fmt::format("  {:<12}{} ({:.2f} %)\n", name, counted(count, "pixel"),
                        100.0 * static_cast<double>(count) / static_cast<double>(pixels));
@@ -114,14 +106,8 @@ std::string flatten_text(const FlattenStats& stats) {
                        stats.casters, stats.lit_triangles);
 }
 
-std::string estimate_text(const ErrorEstimate& estimate) {
-    if (estimate.rmse <= 0) return "RMSE below " + short_text(estimate.high);
-    return fmt::format("RMSE about {} ({} to {})", short_text(estimate.rmse),
-                       short_text(estimate.low), short_text(estimate.high));
-}
-
 std::string summary_line(const RenderStats& stats) {
-    const std::string estimate = stats.estimate ? ", " + estimate_text(*stats.estimate) : "";
+    const std::string estimate = stats.estimate ? ", " + to_string(*stats.estimate) : "";
     return fmt::format(
         "{}: {}x{} {} {} on {}: {:.2f} Mrays in {:.3f} s ({:.1f} Mrays/s), total "
         "{:.3f} s{}, image {}",
@@ -194,10 +180,9 @@ std::string stats_text(const RenderStats& stats) {
     text += phases_text(stats.phases) + rays_text(stats);
     if (stats.driver_took_its_time()) text += "note    " + driver_time_text(stats) + "\n";
     if (stats.estimate) {
-        text +=
-            fmt::format("error   {}, estimated from {} of {} pixels in {:.3f} s\n",
-                        estimate_text(*stats.estimate), counted(stats.estimate->samples, "sample"),
-                        stats.estimate->pixels, stats.estimate->seconds);
+        text += fmt::format("error   {}, estimated from {} of {} pixels in {:.3f} s\n",
+                            to_string(*stats.estimate), counted(stats.estimate->samples, "sample"),
+                            stats.estimate->pixels, stats.estimate->seconds);
     }
     if (stats.error) text += "error   " + error_line(*stats.error) + "\n";
     return text;

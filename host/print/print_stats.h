@@ -22,9 +22,6 @@ std::string flatten_text(const FlattenStats& stats);
 /// One line: what was rendered where, how fast, and the picture's hash.
 std::string summary_line(const RenderStats& stats);
 
-/// "RMSE about 8.1e-4 (6.0e-4 to 1.1e-3)", or "RMSE below 1.1e-3".
-std::string estimate_text(const ErrorEstimate& estimate);
-
 /// One line: every figure of an image error.
 std::string error_line(const ImageError& error);
 

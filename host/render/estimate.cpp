@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/estimate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -34,6 +36,14 @@ double random_number(std::size_t n) {
     v = (v ^ (v >> 11)) * 0xac4c1b51u;
     v = (v ^ (v >> 15)) * 0x31848babu;
     return (v ^ (v >> 14)) * 0x1p-32;
+}
+
+/// "8.1e-4", or "0".
+std::string short_text(double value) {
+    if (value == 0) return "0";
+    std::string text = fmt::format("{:.1e}", value);
+    if (const auto sign = text.find("e-0"); sign != std::string::npos) text.erase(sign + 2, 1);
+    return text;
 }
 
 AaMode sobol_aa(int samples) { return {AaMode::Pattern::sobol, samples, 0}; }
@@ -179,6 +189,12 @@ ErrorEstimate ControlPixels::estimate(std::span<const double> colors) const {
     estimate.pixels = pixels.size();
     estimate.samples = samples;
     return estimate;
+}
+
+std::string to_string(const ErrorEstimate& estimate) {
+    if (!estimate.known_rmse()) return "RMSE below " + short_text(estimate.high);
+    return fmt::format("RMSE about {} ({} to {})", short_text(estimate.rmse),
+                       short_text(estimate.low), short_text(estimate.high));
 }
 
 template <typename T>

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/record/describe.h"
@@ -30,12 +31,18 @@ struct ErrorEstimate {
     double seconds = 0;
     double target = 0;  ///< the RMSE wanted; 0: none
 
-    bool reaches(double target_rmse) const { return (rmse > 0 ? rmse : high) <= target_rmse; }
+    std::optional<double> known_rmse() const {
+        return rmse > 0 ? std::optional(rmse) : std::nullopt;
+    }
+    bool reaches(double target_rmse) const { return known_rmse().value_or(high) <= target_rmse; }
 };
+
+/// "RMSE about 8.1e-4 (6.0e-4 to 1.1e-3)", or "RMSE below 1.1e-3".
+std::string to_string(const ErrorEstimate& estimate);
 
 template <typename A, Of<ErrorEstimate> X>
 void describe(A& a, X& x) {
-    a("rmse", or_null(x.rmse > 0 ? std::optional(x.rmse) : std::nullopt),
+    a("rmse", or_null(x.known_rmse()),
       "over channels, clamped to 0..1; null: too small to tell, below high");
     a("low", x.low, "in about 6 of 7 pictures the true RMSE is between low and high");
     a("high", x.high, "");

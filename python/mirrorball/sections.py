@@ -14,8 +14,8 @@ import numpy
 from .page import Cell, Row, attribute, image, paragraph, png_uri, table, text
 from .picture import png_of
 from .study import Json, Study, settings_text, spread_of, trace_seconds
-from .texts import (NBSP, counted, duration, noise_percent, renderer_name, sampling_text, scientific, short_name,
-                    significant, size_text)
+from .texts import (NBSP, counted, duration, estimate_text, noise_percent, renderer_name, sampling_text, scientific,
+                    short_name, significant, size_text)
 
 _ERROR_SCALE = .25  # the difference at the top of the error maps' colors
 
@@ -147,7 +147,7 @@ def pictures(study: Study) -> str:
         out += image(pixels[kind], f"{study.name}, {name}", f"{name}: {sampling_text(settings['aa'])}, {made}, "
                      f"{settings['precision']}.", source, window)
         about = stats.get("estimate")
-        guess = f" (estimated without the reference: {scientific(about['rmse'] or 0)})" if about else ""
+        guess = f" (estimated without the reference: {estimate_text(about)})" if about else ""
         wrong = (f"RMSE {scientific(error['rmse'])}{guess}, PSNR {significant(error['psnr_db'] or math.inf)}{NBSP}dB, "
                  f"{error['pixels_over_1_255']} of {settings['width'] * settings['height']} pixels off by more than "
                  f"1/255, {error['pixels_over_8_255']} by more than 8/255")

@@ -19,6 +19,13 @@ def scientific(value: float, digits: int = 2) -> str:
     return f"{mantissa}·{power_of_ten(int(exponent))}"
 
 
+def estimate_text(estimate: dict[str, Any]) -> str:
+    """The estimated RMSE, or what it is below."""
+    if estimate["rmse"] is None:
+        return f"below {scientific(estimate['high'])}"
+    return scientific(estimate["rmse"])
+
+
 def power_of_ten(exponent: int) -> str:
     return "10" + str(exponent).translate(_SUPERSCRIPTS)
 

@@ -20,6 +20,8 @@ def test_numbers_keep_their_digits():
     assert [texts.duration(value) for value in (.01234, .9996, 0)] == ["12.3\xa0ms", "1.00\xa0s", "0\xa0s"]
     assert texts.duration(42e-6, 2) == "42\xa0µs"
     assert [texts.scientific(value) for value in (3.44e-5, 0)] == ["3.4·10⁻⁵", "0"]
+    assert texts.estimate_text({"rmse": 3e-5, "high": 4e-5}) == "3.0·10⁻⁵"
+    assert texts.estimate_text({"rmse": None, "high": 4e-5}) == "below 4.0·10⁻⁵"
 
 
 @pytest.mark.parametrize("name, short", [
