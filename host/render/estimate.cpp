@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "host/base/parallel.h"
 #include "host/render/adaptive.h"
@@ -57,34 +56,29 @@ AaMode finer(AaMode aa) {
     return aa;
 }
 
-double sum_of(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-/// The chances of items to be drawn, summing to 1: half in proportion to `even`, half to `sizes`.
-std::vector<double> chances_of(const std::vector<double>& even, const std::vector<double>& sizes) {
-    const double all = sum_of(even), size = sum_of(sizes);
-    std::vector<double> chances;
+/// Draws items, one from each of `count` equal parts of the sum of their chances, so that they are
+/// spread over all. An item's chance is half in proportion to its weight, half to its size. Calls
+/// take(item, times drawn over times expected).
+template <typename Weight, typename Take>
+void draw(const std::vector<double>& sizes, const Weight& weight, std::size_t count,
+          const Take& take) {
+    double size = 0, all = 0;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-        chances.push_back(size > 0 ? (even[i] / all + sizes[i] / size) / 2 : even[i] / all);
+        size += sizes[i];
+        all += weight(i);
     }
-    return chances;
-}
-
-/// Draws items, one from each of `count` equal parts of the sum of chances, so that they are spread
-/// over all. Calls take(item, times drawn over times expected).
-template <typename Take>
-void draw(const std::vector<double>& chances, std::size_t count, const Take& take) {
     const auto draws = static_cast<double>(count);
     double reached = 0;
     std::size_t drawn = 0;
-    for (std::size_t i = 0; i < chances.size(); ++i) {
-        reached += chances[i] * draws;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const double even = weight(i) / all;
+        const double expected = (size > 0 ? (even + sizes[i] / size) / 2 : even) * draws;
+        reached += expected;
         const std::size_t before = drawn;
         while (drawn < count && static_cast<double>(drawn) + random_number(drawn) < reached) {
             ++drawn;
         }
-        if (drawn > before) take(i, static_cast<double>(drawn - before) / (chances[i] * draws));
+        if (drawn > before) take(i, static_cast<double>(drawn - before) / expected);
     }
 }
 
@@ -130,9 +124,9 @@ template <typename T>
 ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, const Film<T>& film,
                               const ThreadsOptions& options) {
     const std::vector<double> contrasts = contrasts_of(film, thread_count(options, 1));
-    const std::vector<double> even(contrasts.size(), 1.0);
+    const auto even = [](std::size_t) { return 1.0; };
     ControlPixels candidates, controls;
-    draw(chances_of(even, contrasts), candidate_count, [&](std::size_t i, double weight) {
+    draw(contrasts, even, candidate_count, [&](std::size_t i, double weight) {
         candidates.pixels.push_back(static_cast<std::int32_t>(i));
         candidates.weights.push_back(weight / static_cast<double>(contrasts.size()));
     });
@@ -144,7 +138,8 @@ ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, con
         squares.push_back(candidates.weights[i] *
                           product(&own[3 * i], &others[3 * i], &others[3 * i]));
     }
-    draw(chances_of(candidates.weights, squares), control_count, [&](std::size_t i, double weight) {
+    const auto weight_of = [&](std::size_t i) { return candidates.weights[i]; };
+    draw(squares, weight_of, control_count, [&](std::size_t i, double weight) {
         controls.pixels.push_back(candidates.pixels[i]);
         controls.candidate_weights.push_back(candidates.weights[i]);
         controls.weights.push_back(candidates.weights[i] * weight);
