@@ -69,6 +69,11 @@ const OptionText* option_with_value(const VerbText& verb, const std::string& nam
     return found == verb.options.end() ? nullptr : &*found;
 }
 
+/// Whether the word is the option's value; a value in brackets may be left out. Not of null.
+bool may_take(const OptionText* option, const std::string& word) {
+    return option != nullptr && !(option->type.starts_with('[') && word.starts_with('-'));
+}
+
 }  // namespace
 
 std::string completions_of(const VerbText& program, std::vector<std::string> words) {
@@ -77,7 +82,7 @@ std::string completions_of(const VerbText& program, std::vector<std::string> wor
     const VerbText* verb = &program;
     const OptionText* option = nullptr;  // whose value comes next
     for (const std::string& word : words) {
-        option = option == nullptr ? option_with_value(*verb, word) : nullptr;
+        option = may_take(option, word) ? nullptr : option_with_value(*verb, word);
         const auto inner = std::ranges::find(verb->verbs, word, &VerbText::name);
         if (inner != verb->verbs.end()) verb = &*inner;
     }
@@ -87,7 +92,7 @@ std::string completions_of(const VerbText& program, std::vector<std::string> wor
     };
     const std::string before = last.substr(0, last.find('=') + 1);
     if (!before.empty()) option = option_with_value(*verb, last.substr(0, last.find('=')));
-    if (option != nullptr) {
+    if (may_take(option, last.substr(before.size()))) {
         for (const std::string& value : values_of(option->type)) offer(before + value, "");
     } else if (!last.empty() || !verb->verbs.empty()) {
         for (const VerbText& one : verb->verbs) offer(one.name, one.help);

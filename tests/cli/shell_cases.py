@@ -63,6 +63,10 @@ class Shell(CliTest):
         self.assertEqual(self.complete("render", "a.json", "--no-f"), ["--no-fallback"])
 
         self.assertEqual(self.complete("render", "--math=s"), ["--math=strict"])
+        self.assertEqual(self.complete("render", "--stats", "j"), ["json"])
+        self.assertEqual(self.complete("render", "--stats", "--ma"), ["--max-bounces", "--math"])
+        self.assertEqual(self.complete("render", "--stats", "--math", "s"), ["strict"])
+        self.assertEqual(self.complete("bench", "--json", "--precision", "f"), ["float"])
         self.assertEqual(self.complete("render", "--format", ""), ["png", "exr", "pfm"])
         for words in [["render", ""], ["render", "scene"], ["render", "-o", ""], ["render", "--output=p"], []]:
             self.assertEqual(self.complete(*words), self.complete("") if not words else [], words)
