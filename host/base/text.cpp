@@ -118,22 +118,23 @@ std::string csv_quoted(const std::string& text) {
 }
 
 std::string short_device_name(const std::string& name) {
-    const bool is_pocl = name.starts_with("pthread") || name.starts_with("cpu-");
-    if (!is_pocl) return name;
-    std::string processor = name.substr(
-        std::min(name.size(), name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-")));
+    const std::string head = name.substr(0, name.find('-'));
+    if (head != "pthread" && head != "cpu") return name;
+    const std::size_t at = name.find_first_of(" ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    if (at == name.npos) return "PoCL";
+    std::string processor = name.substr(name.rfind('-', at) + 1);
     for (const std::string_view mark : {"(R)", "(TM)"}) {
-        for (std::size_t at; (at = processor.find(mark)) != processor.npos;) {
-            processor.erase(at, mark.size());
+        for (std::size_t found; (found = processor.find(mark)) != processor.npos;) {
+            processor.erase(found, mark.size());
         }
     }
-    for (const std::string_view rest : {" CPU @", " @", "-Core Processor"}) {
+    for (const std::string_view rest : {" CPU @", " @"}) {
         processor.erase(std::min(processor.size(), processor.find(rest)));
     }
-    if (name.ends_with("-Core Processor")) {
-        processor.erase(std::min(processor.size(), processor.rfind(' ')));  // " 96"
+    if (const auto cores = processor.find("-Core Processor"); cores != processor.npos) {
+        processor.erase(std::min(cores, processor.rfind(' ', cores)));  // " 96"
     }
-    return processor.empty() ? "PoCL" : "PoCL (" + processor + ")";
+    return "PoCL (" + processor + ")";
 }
 
 }  // namespace rt

@@ -96,7 +96,7 @@ std::size_t printable_length(std::string_view text);
 std::string printable(std::string_view text);
 
 /// The short name of an OpenCL device, for tables: PoCL calls its own "pthread-haswell-AMD EPYC",
-/// which is "PoCL (AMD EPYC)" here. Other names stay.
+/// which is "PoCL (AMD EPYC)" here. Other names stay. As short_name in python/mirrorball/texts.py.
 std::string short_device_name(const std::string& name);
 
 }  // namespace rt

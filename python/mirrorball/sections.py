@@ -199,7 +199,7 @@ def _trial(study: Study) -> str:
     noise = ratio * math.hypot(noise_percent(lean), noise_percent(full)) / 100
     same = first["image"]["hash"] == trial["all"][0]["image"]["hash"]
     settings = first["settings"]
-    return (table(f"On {short_name(first['device']['name'], first['device'].get('platform', ''))}, "
+    return (table(f"On {short_name(first['device']['name'])}, "
                   f"{size_text(settings['width'], settings['height'])} pixels, {settings['aa']}: medians of "
                   f"{len(trial['auto'])} interleaved repeats",
                   ["kernels compiled with", "build, from cache", "build, cold"], rows)
@@ -242,7 +242,7 @@ def environment(machine: Json, load_after: Optional[float], studies: Iterable[St
     rows.append(["load afterwards", "unknown" if load_after is None else significant(load_after, 2)])
     devices = [run["repeats"][0]["device"] for study in studies for run in study.bench["rows"]
                if run["repeats"] and not run["threads"]]
-    lines = [f"{short_name(device['name'], device['platform'])}: {device['name']}, {device['platform']}, driver "
+    lines = [f"{short_name(device['name'])}: {device['name']}, {device['platform']}, driver "
              f"{device['driver']}, per {device['launch']}, {counted(device['lanes'], 'lane')}" for device in devices]
     rows += [["OpenCL device", line] for line in dict.fromkeys(lines)]
     rows.append(["created", date])

@@ -8,7 +8,6 @@ from typing import Any
 
 NBSP = "\u00a0"
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_POCL = "Portable Computing Language"
 
 
 def scientific(value: float, digits: int = 2) -> str:
@@ -80,14 +79,14 @@ def noise_percent(spread: dict[str, Any]) -> float:
     return 100 * float(spread["mad"]) / float(spread["median"]) if spread["median"] > 0 else 0.0
 
 
-def short_name(name: str, platform: str = "") -> str:
+def short_name(name: str) -> str:
     """The one short name of an OpenCL device: PoCL calls its own `pthread-haswell-AMD EPYC`, which is
-    PoCL (AMD EPYC) here. Other names are short enough."""
-    pocl = re.match(r"(?:pthread|cpu)(?:-[a-z0-9]+)*(?:-(?=[A-Z]))?", name)
-    if platform not in ("", _POCL) or pocl is None:
-        return "PoCL" if platform == _POCL else name
-    processor = re.sub(r"\((?:R|TM)\)|\s+(?:CPU|Processor)?\s*@.*| \d+-Core Processor", "", name[pocl.end():])
-    return f"PoCL ({processor.strip()})" if processor.strip() else "PoCL"
+    PoCL (AMD EPYC) here. Other names are short enough. As short_device_name in host/base/text.cpp."""
+    pocl = re.fullmatch(r"(?:pthread|cpu)(?:-[^- A-Z]*)*(?:-(.*))?", name)
+    if pocl is None:
+        return name
+    processor = re.sub(r"\((?:R|TM)\)|(?: CPU)? @.*|(?: [^ ]*)?-Core Processor.*", "", pocl[1] or "")
+    return f"PoCL ({processor})" if processor else "PoCL"
 
 
 def renderer_name(row: dict[str, Any]) -> str:
@@ -96,7 +95,7 @@ def renderer_name(row: dict[str, Any]) -> str:
     device = runs[0]["device"] if runs else {}
     threads = row.get("threads") or device.get("threads", 0)
     if row["device_name"] != "threads":
-        return short_name(row["device_name"], device.get("platform", ""))
+        return short_name(row["device_name"])
     schedule = {"buffers": ", sample buffers", "scalar": ", one ray at a time"}
     name = counted(threads, "thread") if threads else "threads"
     return name + schedule.get(row.get("schedule", ""), "")
