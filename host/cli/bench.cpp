@@ -19,7 +19,7 @@ namespace {
 /// `mirrorball bench`
 struct BenchCall : BenchOptions {
     ResultFiles results;
-    std::string smaller;        ///< file for smaller_is_better_json; empty: none
+    std::string smaller;        ///< where smaller_is_better_json goes, as in ResultFiles
     std::string baseline;       ///< an earlier --json file; empty: none
     double max_regress = 0.05;  ///< allowed loss of a row, as a share of the old median
 };
@@ -46,20 +46,23 @@ bool has_regressed(const BenchResult& result, const Baseline& baseline, double m
 }
 
 int run_bench(const BenchCall& options) {
-    check_result_path(options.results.json, json_start("bench"));
-    check_output_is_no_input(options.results.json, {options.baseline});
-    check_result_path(options.results.csv, run_csv_header());
+    const auto& [json, csv] = options.results;
+    check_result_path(json, json_start("bench"));
+    check_result_path(csv, run_csv_header());
     check_result_path(options.smaller, "[\n  {\n    \"name\"");
-    check_outputs_differ({options.results.json, options.results.csv, options.smaller});
+    check_outputs_differ({json, csv, options.smaller});
+    for (const auto& file : {json, csv, options.smaller}) {
+        check_output_is_no_input(file, {options.baseline});
+    }
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
     const FreshKernelCache kernels;
     const BenchResult result =
         measure_bench(options, options.baseline.empty() ? nullptr : &baseline);
-    if (!options.results.take_stdout()) print_result(bench_text(result));
-    write_result(options.results.json, result_json("bench", result));
-    write_result(options.results.csv, bench_csv(result));
-    write_result(options.smaller, smaller_is_better_json(result));
+    if (!options.results.take_stdout() && options.smaller != "-") print_result(bench_text(result));
+    write_result(json, [&] { return result_json("bench", result); });
+    write_result(csv, [&] { return bench_csv(result); });
+    write_result(options.smaller, [&] { return smaller_is_better_json(result); });
     say_bad_rows(result.rows);
     say_bad_rows(result.ablation);
     if (result.interrupted) return 128 + stop_flag();
@@ -85,7 +88,9 @@ void parse_schedules(const std::string& text, BenchOptions& bench) {
 
 /// Defaults of an ablation: one picture on every device.
 void settle_ablation(const CommandLine& verb, BenchCall& bench) {
-    if (!bench.baseline.empty()) usage_error("--ablate cannot be combined with --baseline");
+    if (!bench.baseline.empty() || !bench.smaller.empty()) {
+        usage_error("--ablate cannot be combined with --baseline or --smaller-is-better");
+    }
     if (!verb.given("--sizes")) bench.sizes = {{500, 500}};
     if (!verb.given("--aa")) bench.aa = parse_aa_list("grid:2");
     if (!verb.given("--precision")) bench.precisions = {Precision::float32};
@@ -125,7 +130,9 @@ void add_bench(const CommandLine& program, Invocation& call) {
     add_build_extras(verb);
     verb.flag("-q,--quiet", bench.quiet, quiet_help);
     verb.when_chosen([asked, verb, &call] {
-        check_result_files(asked->results);
+        check_stdout_has_one_use({{"--json", asked->results.json},
+                                  {"--csv", asked->results.csv},
+                                  {"--smaller-is-better", asked->smaller}});
         if (asked->ablate) settle_ablation(verb, *asked);
         call.in_worker([asked] { return run_bench(*asked); }, asked->quiet);
     });

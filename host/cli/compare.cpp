@@ -139,10 +139,8 @@ Json comparison_json(const Comparison& result, const CompareOptions& options) {
 }
 
 void print_comparison(const Comparison& result, const CompareOptions& options) {
-    const std::string json = json_text(comparison_json(result, options));
-    if (options.json == "-") return print_result(json);
-    write_result(options.json, json);
-    print_result(comparison_text(result, options));
+    write_result(options.json, [&] { return json_text(comparison_json(result, options)); });
+    if (options.json != "-") print_result(comparison_text(result, options));
 }
 
 int run_compare(const CompareOptions& options) {

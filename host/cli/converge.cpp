@@ -46,8 +46,8 @@ int run_converge(const ConvergeCall& options) {
     const ConvergeResult result = measure_converge(options);
     if (!options.quiet) print_notes(result.notes);
     if (!options.results.take_stdout()) print_result(converge_text(result));
-    write_result(options.results.json, result_json("converge", result));
-    write_result(options.results.csv, converge_csv(result));
+    write_result(options.results.json, [&] { return result_json("converge", result); });
+    write_result(options.results.csv, [&] { return converge_csv(result); });
     return verdict(result);
 }
 
@@ -93,7 +93,7 @@ void add_converge(const CommandLine& program, Invocation& call) {
     add_build_extras(verb);
     verb.flag("-q,--quiet", converge.quiet, quiet_help);
     verb.when_chosen([asked, &call] {
-        check_result_files(asked->results);
+        check_stdout_has_one_use({{"--json", asked->results.json}, {"--csv", asked->results.csv}});
         call.in_worker([asked] { return run_converge(*asked); }, asked->quiet);
     });
 }

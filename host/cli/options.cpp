@@ -217,12 +217,6 @@ void add_build_extras(const CommandLine& verb) {
                "save source, options, log and binary of every program that a driver builds");
 }
 
-void check_result_files(const ResultFiles& files) {
-    if (files.json == "-" && files.csv == "-") {
-        usage_error("--json and --csv cannot both write to stdout; send one to a file");
-    }
-}
-
 void add_light_options(const CommandLine& verb, LightOverrides& light) {
     verb.value("--light-scale", "X", light.light_scale, parse_light_scale,
                "intensity of lights that have none (default: NFF sqrt(n)/2n, JSON 1, models "

@@ -160,9 +160,6 @@ void add_result_files(const CommandLine& verb, ResultFiles& files);
 /// --cl-options and --save-kernels, for every verb that builds kernels.
 void add_build_extras(const CommandLine& verb);
 
-/// Throws Error (ExitCode::usage) when both would go to stdout.
-void check_result_files(const ResultFiles& files);
-
 inline constexpr const char* bounces_help =
     "maximum number of mirror and refracted rays after the eye ray (default: the scene's)";
 inline constexpr const char* quiet_help = "print no progress to stderr";

@@ -25,10 +25,22 @@ void check_result_path(const std::string& path, const std::string& first_bytes) 
                 path + ": already exists and is not such a result file; choose another name");
 }
 
-void write_result(const std::string& path, const std::string& text) {
-    if (path.empty()) return;
-    if (path == "-") return print_result(text);
-    write_file_atomically(path, std::as_bytes(std::span(text)));
+void write_result(const std::string& path, const std::function<std::string()>& text) {
+    const std::string result = path.empty() ? "" : text();
+    if (result.empty()) return;
+    if (path == "-") return print_result(result);
+    write_file_atomically(path, std::as_bytes(std::span(result)));
+}
+
+void check_stdout_has_one_use(const std::vector<std::array<std::string, 2>>& results) {
+    std::string user;
+    for (const auto& [option, path] : results) {
+        if (path != "-") continue;
+        if (!user.empty()) {
+            usage_error("{} and {} cannot both write to stdout; send one to a file", user, option);
+        }
+        user = option;
+    }
 }
 
 }  // namespace rt

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace rt {
 
@@ -18,7 +21,11 @@ struct ResultFiles {
 /// Accepts "" and "-".
 void check_result_path(const std::string& path, const std::string& first_bytes);
 
-/// Writes results to stdout ("-"), atomically to a file, or nowhere (""). Throws Error (output).
-void write_result(const std::string& path, const std::string& text);
+/// Writes the text, unless it is empty, to stdout ("-") or atomically to a file; for "" it does not
+/// ask for it. Throws Error (output).
+void write_result(const std::string& path, const std::function<std::string()>& text);
+
+/// Rejects several results that go to stdout. `results`: pairs of an option and its path.
+void check_stdout_has_one_use(const std::vector<std::array<std::string, 2>>& results);
 
 }  // namespace rt

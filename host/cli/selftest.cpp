@@ -68,8 +68,8 @@ int run_selftest(const SelftestOptions& options) {
     if (checks.list().empty()) usage_error("--filter fits no check");
     const double seconds = watch.seconds();
     if (options.json != "-" && options.junit != "-") print_result(checks.text(seconds));
-    write_result(options.json, options.json.empty() ? "" : checks.json(seconds));
-    write_result(options.junit, options.junit.empty() ? "" : checks.junit(seconds));
+    write_result(options.json, [&] { return checks.json(seconds); });
+    write_result(options.junit, [&] { return checks.junit(seconds); });
     return static_cast<int>(checks.is_all_expected() ? ExitCode::done : ExitCode::different);
 }
 
@@ -95,9 +95,7 @@ void add_selftest(const CommandLine& program, Invocation& call) {
     add_build_extras(verb);
     verb.flag("-q,--quiet", selftest.quiet, quiet_help);
     verb.when_chosen([asked, &call] {
-        if (asked->json == "-" && asked->junit == "-") {
-            usage_error("--json and --junit cannot both write to stdout; send one to a file");
-        }
+        check_stdout_has_one_use({{"--json", asked->json}, {"--junit", asked->junit}});
         const std::string device = device_from_environment();
         if (asked->devices.empty() && !device.empty()) asked->devices = split_list(device);
         call.in_worker([asked] { return run_selftest(*asked); }, asked->quiet);

@@ -38,7 +38,7 @@ int run_stress(const StressCall& options) {
     RenderCache cache;
     const StressResult result = run_stress_cases(families, options, cache);
     if (options.json != "-") print_result(stress_text(result, options.verbose));
-    write_result(options.json, options.json.empty() ? "" : result_json("stress", result));
+    write_result(options.json, [&] { return result_json("stress", result); });
     if (result.interrupted) return 128 + stop_flag();
     return static_cast<int>(result.passed() ? ExitCode::done : ExitCode::different);
 }

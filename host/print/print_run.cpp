@@ -114,7 +114,7 @@ std::string smaller_is_better_json(const BenchResult& result) {
         list.push_back(
             {{"name", where + ", total"}, {"unit", "s"}, {"value", row.figures->total.median}});
     }
-    return json_text(list);
+    return list.empty() ? "" : json_text(list);
 }
 
 std::string run_csv_header() {

@@ -47,7 +47,7 @@ std::string bench_text(const BenchResult& result);
 std::string converge_text(const ConvergeResult& result);
 
 /// [{"name", "unit", "value"}, ...], the form of github-action-benchmark's "customSmallerIsBetter":
-/// the median seconds of each right row.
+/// the median seconds of each right row; "" if there is none.
 std::string smaller_is_better_json(const BenchResult& result);
 
 /// The first line of the CSV of bench and converge, without its newline.
