@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
@@ -134,27 +134,27 @@ std::string environment(const char* name) {
 }
 
 std::string device_from_environment() {
-    std::string variable = "MIRRORBALL_DEVICE", spec = environment("MIRRORBALL_DEVICE");
     const std::string platform = environment("CL_PLATFORM_INDEX"),
-                      device = environment("CL_DEVICE_INDEX");
-    if (spec.empty() && !(platform + device).empty()) {
-        variable = "CL_PLATFORM_INDEX and CL_DEVICE_INDEX";
-        spec = (platform.empty() ? "0" : platform) + ":" + (device.empty() ? "0" : device);
-    } else if (const std::string name = environment("CL_PLATFORM_NAME");
-               spec.empty() && !name.empty()) {
-        variable = "CL_PLATFORM_NAME";
-        spec = "name:" + name;
-    } else if (std::string type = environment("CL_DEVICE_TYPE"); spec.empty() && !type.empty()) {
-        variable = "CL_DEVICE_TYPE";
-        std::ranges::transform(type, type.begin(), [](unsigned char c) { return std::tolower(c); });
-        spec = type == "default" ? "" : type;
+                      device = environment("CL_DEVICE_INDEX"),
+                      name = environment("CL_PLATFORM_NAME"),
+                      type = lower(environment("CL_DEVICE_TYPE"));
+    const std::string place =
+        (platform.empty() ? "0" : platform) + ":" + (device.empty() ? "0" : device);
+    const std::array<std::string, 2> variables[] = {
+        {"MIRRORBALL_DEVICE", environment("MIRRORBALL_DEVICE")},
+        {"CL_PLATFORM_INDEX and CL_DEVICE_INDEX", (platform + device).empty() ? "" : place},
+        {"CL_PLATFORM_NAME", name.empty() ? "" : "name:" + name},
+        {"CL_DEVICE_TYPE", type == "default" ? "" : type}};
+    for (const auto& [variable, spec] : variables) {
+        if (spec.empty()) continue;
+        try {
+            parse_device_specs(spec);
+            return spec;
+        } catch (const Error& error) {
+            throw Error(error.exit_code(), "in $" + variable + ": " + error.what());
+        }
     }
-    try {
-        parse_device_specs(spec);
-        return spec;
-    } catch (const Error& error) {
-        throw Error(error.exit_code(), "in $" + variable + ": " + error.what());
-    }
+    return "";
 }
 
 std::vector<AaMode> parse_aa_list(const std::string& text) {

@@ -93,7 +93,7 @@ std::optional<std::vector<int>> parse_integers(std::string_view text, char separ
 /// The value of an environment variable, or "".
 std::string environment(const char* name);
 
-/// The device for want of --device: MIRRORBALL_DEVICE, or what test suites of drivers set:
+/// The device where --device is not given: MIRRORBALL_DEVICE, or what test suites of drivers set:
 /// CL_PLATFORM_INDEX with CL_DEVICE_INDEX, CL_PLATFORM_NAME, CL_DEVICE_TYPE; "" without any. Throws
 /// Error (ExitCode::usage) for what --device would refuse.
 std::string device_from_environment();

@@ -219,7 +219,8 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
     verb.value(
         "--device", "SPEC", render.device, parse_device,
         "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N] or all; several, separated "
-        "by commas, share the picture (default: $MIRRORBALL_DEVICE, else the best available)");
+        "by commas, share the picture (default: $MIRRORBALL_DEVICE, $CL_PLATFORM_INDEX and "
+        "$CL_DEVICE_INDEX, $CL_PLATFORM_NAME or $CL_DEVICE_TYPE, else the best available)");
     add_choice(verb, "--precision", render.precision, precision_names,
                "arithmetic precision (default: float)");
     add_choice(verb, "--math", render.math, math_names,

@@ -274,9 +274,8 @@ int verdict(const RenderedPicture& rendered, const RenderOptions& options,
     }
     if (stats.estimate && stats.estimate->target > 0 &&
         !stats.estimate->reaches(stats.estimate->target)) {
-        print_note(fmt::format("{} with {}, not the target of {:g}: {}",
-                               to_string(*stats.estimate), to_string(stats.picture.aa),
-                               stats.estimate->target,
+        print_note(fmt::format("{} with {}, not the target of {:g}: {}", to_string(*stats.estimate),
+                               to_string(stats.picture.aa), stats.estimate->target,
                                stop_flag() != 0 ? stop_reason() : "no mode has more samples"));
         return stop_flag() != 0 ? exit_code_of_stop(stop_flag())
                                 : static_cast<int>(ExitCode::incomplete);

@@ -96,8 +96,10 @@ void add_selftest(const CommandLine& program, Invocation& call) {
     verb.flag("-q,--quiet", selftest.quiet, quiet_help);
     verb.when_chosen([asked, &call] {
         check_stdout_has_one_use({{"--json", asked->json}, {"--junit", asked->junit}});
-        const std::string device = device_from_environment();
-        if (asked->devices.empty() && !device.empty()) asked->devices = split_list(device);
+        if (asked->devices.empty()) {
+            const std::string device = device_from_environment();
+            if (!device.empty()) asked->devices = split_list(device);
+        }
         call.in_worker([asked] { return run_selftest(*asked); }, asked->quiet);
         call.crash = ExitCode::different;
     });

@@ -199,6 +199,7 @@ class EnvironmentDefault(CliTest):
 
     def test_mistake_in_it_concerns_render_alone(self):
         for verb in [["devices"], ["scene", "check", scene_path("empty")],
+                     ["selftest", "--device", "threads", "--filter", "picture/empty/none/float"],
                      ["render", scene_path("empty"), "--size", "4", "--device", "threads"]]:
             self.succeed(*verb, env={"MIRRORBALL_DEVICE": "rubbish"})
 
