@@ -9,8 +9,8 @@
 
 #include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
+#include "host/opencl/cl_options.h"
 #include "host/opencl/cl_program.h"
-#include "host/opencl/render_kernels.h"
 #include "tests/feature_scenes.h"
 #include "tests/render_helpers.h"
 

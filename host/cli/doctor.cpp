@@ -16,13 +16,13 @@
 #include "host/image/picture_io.h"
 #include "host/opencl/cl_options.h"
 #include "host/opencl/pocl.h"
-#include "host/picture/default_scene.h"
 #include "host/picture/render_picture.h"
 #include "host/print/print_stats.h"
 #include "host/process/drivers.h"
 #include "host/record/record.h"
 #include "host/render/native_kernels.h"
 #include "host/render/stopwatch.h"
+#include "host/scene/scene_file.h"
 #include "host/view/viewer.h"
 
 namespace rt {

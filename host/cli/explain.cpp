@@ -10,8 +10,8 @@
 #include "host/cli/verb.h"
 #include "host/explain/ray_tree.h"
 #include "host/record/record.h"
+#include "host/scene/scene.h"
 #include "host/scene/scene_file.h"
-#include "host/scene/scene_hash.h"
 
 namespace rt {
 

@@ -22,7 +22,6 @@
 #include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene.h"
-#include "host/scene/scene_hash.h"
 
 namespace rt {
 

@@ -15,12 +15,11 @@
 #include "host/measure/machine_load.h"
 #include "host/measure/timing.h"
 #include "host/opencl/cl_tiles.h"
-#include "host/picture/default_scene.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
 #include "host/render/threads_renderer.h"
+#include "host/scene/scene.h"
 #include "host/scene/scene_file.h"
-#include "host/scene/scene_hash.h"
 
 namespace rt {
 

@@ -20,8 +20,8 @@
 #include "host/measure/picture_judge.h"
 #include "host/measure/timing.h"
 #include "host/render/stopwatch.h"
+#include "host/scene/scene.h"
 #include "host/scene/scene_file.h"
-#include "host/scene/scene_hash.h"
 
 namespace rt {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "host/opencl/cl_buffer.h"
+#include "host/opencl/opencl.h"
 
 namespace rt {
 

@@ -9,6 +9,9 @@
 
 namespace rt {
 
+/// kernels/render.cl with its includes, embedded at build time (host/embed_kernels.cpp).
+extern const char* const render_kernels;
+
 class OpenDevices;
 
 /// Contexts and programs kept from picture to picture (cl_program.h).

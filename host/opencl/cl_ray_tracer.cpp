@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opencl/cl_ray_tracer.h"
-
 #include <algorithm>
 #include <memory>
 
-#include "host/opencl/cl_buffer.h"
+#include "host/opencl/cl_options.h"
 #include "host/opencl/cl_program.h"
+#include "host/opencl/cl_renderer.h"
 #include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
-#include "host/opencl/render_kernels.h"
+#include "host/opencl/opencl.h"
 
 namespace rt {
 

@@ -9,13 +9,13 @@
 #include <span>
 
 #include "host/base/error.h"
-#include "host/opencl/cl_buffer.h"
 #include "host/opencl/cl_film.h"
+#include "host/opencl/cl_options.h"
 #include "host/opencl/cl_program.h"
 #include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
+#include "host/opencl/opencl.h"
 #include "host/opencl/pocl.h"
-#include "host/opencl/render_kernels.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"

@@ -8,6 +8,7 @@
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_device.h"
 #include "host/opencl/cl_options.h"
+#include "host/render/ray_tracer.h"
 #include "host/render/renderer.h"
 
 namespace rt {
@@ -28,5 +29,12 @@ std::size_t picture_group(const KernelChoice& kernels, int lanes);
 template <typename T>
 std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const ClDevice& device,
                                               const ClOptions& options);
+
+/// Single rays on an OpenCL device, in packets as wide as for its pictures. Of the options, only
+/// lanes, math and warnings_are_errors count. Throws like make_cl_renderer; the scene need not
+/// outlive the call.
+template <typename T>
+RayTracer<T> make_cl_ray_tracer(const FlatScene<T>& scene, const ClDevice& device,
+                                const ClOptions& options);
 
 }  // namespace rt

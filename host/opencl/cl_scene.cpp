@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "host/opencl/cl_buffer.h"
+#include "host/opencl/opencl.h"
 
 namespace rt {
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "host/base/error.h"
+
 namespace rt {
 
 namespace {
@@ -54,6 +56,18 @@ std::string cl_status_text(int status) {
                      [&](const StatusName& entry) { return entry.status == status; });
     return fmt::format("{} ({})", found == status_names.end() ? "OpenCL error" : found->name,
                        status);
+}
+
+cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, std::size_t bytes,
+                          const char* what, cl_mem_flags flags, void* host) {
+    if (bytes == 0) return {};
+    if (bytes > device.max_buffer_bytes) {
+        throw Error(ExitCode::limit,
+                    fmt::format("{} needs a buffer of {} bytes, but {} allows at most {}; use "
+                                "--crop to render it in parts, or --device threads",
+                                what, bytes, device.name, device.max_buffer_bytes));
+    }
+    return cl::Buffer(context, flags, bytes, host);
 }
 
 }  // namespace rt

@@ -11,11 +11,21 @@
 #include <CL/opencl.hpp>
 #pragma GCC diagnostic pop
 
+#include <cstddef>
 #include <string>
+
+#include "host/opencl/cl_device.h"
 
 namespace rt {
 
 /// The name of an OpenCL status, such as "CL_OUT_OF_RESOURCES (-5)".
 std::string cl_status_text(int status);
+
+/// A buffer of that many bytes, or a null one (a null argument) for 0. `host`: the pointer for
+/// flags such as CL_MEM_USE_HOST_PTR. Throws Error (ExitCode::limit) naming `what` if it exceeds
+/// the device's largest allocation.
+cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, std::size_t bytes,
+                          const char* what, cl_mem_flags flags = CL_MEM_READ_WRITE,
+                          void* host = nullptr);
 
 }  // namespace rt

@@ -11,7 +11,7 @@
 #include "host/base/hash.h"
 #include "host/base/text.h"
 #include "host/base/version.h"
-#include "host/opencl/render_kernels.h"
+#include "host/opencl/cl_options.h"
 
 namespace rt {
 

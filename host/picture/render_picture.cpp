@@ -20,7 +20,7 @@
 #include "host/picture/tile_check.h"
 #include "host/render/picture_loop.h"
 #include "host/render/stopwatch.h"
-#include "host/scene/scene_hash.h"
+#include "host/scene/scene.h"
 
 namespace rt {
 

@@ -103,7 +103,12 @@ void describe(A& a, X& x) {
 }
 
 /// Of the kinds that have one.
-std::vector<HierarchyStats> hierarchies_of(const FlattenStats& stats);
+inline std::vector<HierarchyStats> hierarchies_of(const FlattenStats& stats) {
+    std::vector<HierarchyStats> list{
+        {"spheres", stats.spheres}, {"cones", stats.cones}, {"triangles", stats.triangles}};
+    std::erase_if(list, [](const HierarchyStats& one) { return one.shape.nodes == 0; });
+    return list;
+}
 
 template <typename A, Of<SceneStats> X>
 void describe(A& a, X& x) {
@@ -180,20 +185,36 @@ struct RenderStats {
     std::optional<ImageError> error;
 
     /// Rays per second while tracing; 0 when nothing was traced.
-    double rays_per_second() const;
+    double rays_per_second() const {
+        const double seconds = phases.renderer.trace;
+        return seconds > 0 ? static_cast<double>(rays.total()) / seconds : 0;
+    }
 
     /// Whether kernels took less than half of the tracing time, by the device's clock: the driver
     /// spent the rest, usually compiling. Unknown, so false, for adaptive modes, which plan between
     /// kernels, and for short pictures.
-    bool driver_took_its_time() const;
+    bool driver_took_its_time() const {
+        constexpr double short_picture = 0.2;
+        const RendererTimes& times = phases.renderer;
+        return times.kernel > 0 && times.trace > short_picture && times.kernel < times.trace / 2 &&
+               !picture.aa.refines();
+    }
 
     bool complete() const { return refined && tiles_finished == tiles; }
 
     /// How the first device that failed did; empty if none did.
-    std::string failure() const;
+    std::string failure() const {
+        for (const DeviceShare& share : shares) {
+            if (!share.failure.empty()) return share.failure;
+        }
+        return "";
+    }
 
     /// Notes a device that failed before others began the picture.
-    void note_failed(const std::string& name, const std::string& how);
+    void note_failed(const std::string& name, const std::string& how) {
+        device.fallback_from = name;
+        shares.insert(shares.begin(), {name, 0, 0, how});
+    }
 };
 
 /// What the runs of a benchmark repeat of RenderStats.

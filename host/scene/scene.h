@@ -164,4 +164,11 @@ std::string name_of_file(const std::string& path);
 /// vector is degenerate.
 Scene::Camera camera_at(const Scene& scene, double frame);
 
+/// A hash of what the scene shows: camera, light, materials and shapes; not its name or its
+/// sampling (size, AA, bounces).
+std::uint64_t scene_hash(const Scene& scene);
+
+/// A hash of its spheres, cones, triangles and meshes alone.
+std::uint64_t shapes_hash(const Scene& scene);
+
 }  // namespace rt

@@ -11,6 +11,9 @@
 #include "host/scene/text_file.h"
 
 namespace rt {
+
+extern const char* const cornell_box_scene;  // embedded by CMake
+
 namespace {
 
 constexpr std::size_t max_nff_bytes = std::size_t{1} << 30;
@@ -42,6 +45,12 @@ Scene load(const std::string& path) {
 Scene load_scene(const std::string& path, const LightOverrides& light) {
     Scene scene = load(path);
     limit_notes(scene.notes);
+    override_light(scene, light);
+    return scene;
+}
+
+Scene load_default_scene(const LightOverrides& light) {
+    Scene scene = parse_json_scene(cornell_box_scene, default_scene_path);
     override_light(scene, light);
     return scene;
 }

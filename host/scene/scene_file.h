@@ -28,6 +28,12 @@ Scene load_scene(const std::string& path, const LightOverrides& light = {});
 /// Applies the overrides to a scene.
 void override_light(Scene& scene, const LightOverrides& light);
 
+/// The built-in scene's name in results: its path in the repository.
+inline constexpr const char* default_scene_path = "scenes/cornell-box.json";
+
+/// The paper's scene as it was when the program was built; needs no file.
+Scene load_default_scene(const LightOverrides& light = {});
+
 // Texts in memory; `file_name` appears in messages and gives the default name. Throw Error:
 // ExitCode::input with up to 20 mistakes, one line each; ExitCode::limit for too many values.
 

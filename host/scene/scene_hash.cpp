@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/scene_hash.h"
-
 #include <array>
 #include <type_traits>
 #include <vector>
 
 #include "host/base/hash.h"
+#include "host/scene/scene.h"
 
 namespace rt {
 namespace {

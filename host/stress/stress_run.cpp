@@ -15,7 +15,7 @@
 #include "host/measure/machine_load.h"
 #include "host/measure/picture_judge.h"
 #include "host/measure/timing.h"
-#include "host/opencl/cl_ray_tracer.h"
+#include "host/opencl/cl_renderer.h"
 #include "host/opencl/device_spec.h"
 #include "host/picture/crew_members.h"
 #include "host/process/stop_signal.h"
