@@ -97,7 +97,8 @@ int run_report(const ReportOptions& options) {
     std::string path = package_folder();
     ::setenv("PYTHONSAFEPATH", "1", 1);  // no modules from the working folder
     const std::string python = choose_python();
-    if (const char* const own = std::getenv("PYTHONPATH")) path += ":" + std::string(own);
+    const std::string own = environment("PYTHONPATH");
+    if (!own.empty()) path += ":" + own;
     ::setenv("PYTHONPATH", path.c_str(), 1);
     ::setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
     ::setenv("MIRRORBALL", program_file().c_str(), 1);
