@@ -147,7 +147,7 @@ TEST(Crew, DoesNotWaitForAMemberThatIsStillBeingMade) {
         EXPECT_EQ(painting.count(2), picture.pixels());
         EXPECT_EQ(painting.crew.shares()[0].ready, 0);
     }
-    *gate = true;  // its thread ends by itself
+    *gate = true;  // its thread ends on its own
 }
 
 TEST(Crew, GoesOnWithoutAMemberThatFails) {

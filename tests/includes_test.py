@@ -3,7 +3,7 @@
 """Sources include what they name, themselves or by our own headers.
 
 Several of them are compiled at a time, so that a missing #include would only show where each is compiled
-by itself. Usage: includes_test.py BUILD_DIR REPO_ROOT
+on its own. Usage: includes_test.py BUILD_DIR REPO_ROOT
 """
 import functools
 import pathlib

@@ -69,7 +69,7 @@ std::string save(const Picture& picture, const RenderOptions& options, const cha
     return path.string();
 }
 
-/// After a device's picture was found to be wrong, for whoever mends the driver: renders the scene
+/// After a device's picture was found to be wrong, for whoever fixes the driver: renders the scene
 /// on the device again, whatever it gives, and on threads. Saves both next to the output, as
 /// NAME.wrong.png and NAME.right.png. Returns, for a message, the first pixel that differs and
 /// where they are.

@@ -25,8 +25,8 @@ Judgement judge_estimate(const Picture& picture, const Picture& converged);
 /// Judges a picture against the double reference of the same samples, both clamped to [0,1]. The
 /// same scene in other arithmetic differs by rounding everywhere, and by more only where rounding
 /// decides what a sample hits. So a picture is wrong for: a different size; a non-finite pixel; all
-/// black where the reference is not; a shift by one pixel; more pixels off by over 1/255 than 0.1
-/// %, a tenth of width plus height, and two; an RMSE of the rest above 2e-4.
+/// black where the reference is not; a shift by one pixel; more pixels off by over 1/255 than
+/// 0.1 %, a tenth of width plus height, and two; an RMSE of the rest above 2e-4.
 Judgement judge_picture(const Picture& picture, const Picture& reference);
 
 }  // namespace rt

@@ -24,7 +24,7 @@ namespace rt {
 
 namespace {
 
-/// Work items per group: for single rays, and for packets, which are wide enough by themselves
+/// Work items per group: for single rays, and for packets, which are wide enough on their own
 /// (Intel's compiler would vectorize them again and slow them down).
 constexpr std::size_t single_group = 64;
 constexpr std::size_t packet_group = 1;

@@ -44,7 +44,7 @@ struct RenderSettings {
     bool fresh = false;            ///< ignore an existing journal
     std::optional<Shares> shares;  ///< render only these, into the journal, which is the result
     bool estimate = false;         ///< also estimate the picture's error
-    double target_rmse = 0;        ///< at most this is the estimate to be; 0: anything
+    double target_rmse = 0;        ///< the most that the estimate may be; 0: anything
     double check = 0;  ///< share of the tiles to trace again on threads and compare, 0 to 1
 };
 

@@ -82,7 +82,7 @@ void draw(const std::vector<double>& sizes, const Weight& weight, std::size_t co
     }
 }
 
-/// The mean over channels of (value - a)(value - b), all clamped to 0..1; 0 if not finite.
+/// The mean over channels of (value - a)(value - b), all clamped to 0..1; 0 with a NaN.
 double product(const double* value, const double* a, const double* b) {
     const auto clamped = [](double v) { return std::clamp(v, 0.0, 1.0); };
     double sum = 0;

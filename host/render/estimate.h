@@ -66,8 +66,7 @@ struct ControlPixels {
     int depth = 0;                             ///< samples of each mean
     std::uint64_t samples = 0;                 ///< traced for all this
 
-    /// Of a picture with these colors, RGB, in the control pixels. Those that are not finite count
-    /// as right.
+    /// Of a picture with these colors, RGB, in the control pixels. Those with a NaN count as right.
     ErrorEstimate estimate(std::span<const double> colors) const;
 
     template <typename T>
@@ -80,8 +79,8 @@ struct ControlPixels {
 /// traces them on threads. First candidates are chosen, half of them evenly and half where
 /// neighbors differ; then control pixels among these, half of them where a few more samples differ
 /// from the film. If the error is below 1e-3 and lost in the noise of the control pixels, these get
-/// up to as many samples as the picture's. Everything depends on the scene and the film alone.
-/// Empty if stopped.
+/// four times as many samples, and again, until it is clear or they have as many as the picture's.
+/// Everything depends on the scene and the film alone. Empty if stopped.
 template <typename T>
 std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaMode& aa,
                                             const Rect& region, const Film<T>& film,
@@ -89,7 +88,8 @@ std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaM
 
 /// The first AA mode after `aa`, a grid or Sobol, that reaches the RMSE in the control pixels, with
 /// 2, 3, 4, 6, 8, 12, ... samples or rows of them; the finest of all if none does. Only the control
-/// pixels are traced, so it takes little time; their means get as many samples. Empty if stopped.
+/// pixels are traced, so it takes little time; their means get at least as many samples. Empty if
+/// stopped.
 template <typename T>
 std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMode aa,
                                     const Rect& region, ControlPixels& controls,

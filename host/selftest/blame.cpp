@@ -31,7 +31,7 @@ std::string why_of(const std::function<std::string()>& check) {
     return checks.list().empty() ? "stopped" : checks.list().front().why;
 }
 
-/// A function that is wrong by itself.
+/// A function that is wrong on its own.
 struct WrongFunction {
     const ProbeRecord* record;
     int lanes;
