@@ -26,7 +26,7 @@ if(MIRRORBALL_WERROR)
 endif()
 
 # Under sanitizers the kernels of all features stand for all: they take long to compile.
-set(NATIVE_SETS plain_4 plain mesh_4 mesh all)
+set(NATIVE_SETS plain_4 plain mesh_4 mesh plain_edges mesh_edges all)
 if(MIRRORBALL_SANITIZE)
     set(NATIVE_SETS all)
     set(NATIVE_FEWER_ISAS x86-64-v3)
@@ -75,16 +75,17 @@ endif()
 
 # What a set of features leaves out, the leanest set first: a scene takes the first that holds all it
 # needs. `plain` is the paper's scene, `mesh` a model among mirror balls; with _4 where a pixel has 4
-# samples. Single rays are traced by `all` alone.
-set(NATIVE_PLAIN -DRT_TRACES_RAYS=0 -DRT_HAS_HUGE_SPHERES=0 -DRT_HAS_EYE_ON_SURFACE=0 -DRT_HAS_CONES=0
-    -DRT_HAS_VERTEX_NORMALS=0 -DRT_HAS_HIERARCHY=0 -DRT_HAS_GLASS=0 -DRT_HAS_SOBOL=0
-    -DRT_HAS_FILTERS=0)
+# samples, with _edges for Sobol samples and edges. Single rays are traced by `all` alone.
 set(NATIVE_MESH -DRT_TRACES_RAYS=0 -DRT_HAS_HUGE_SPHERES=0 -DRT_HAS_EYE_ON_SURFACE=0 -DRT_HAS_CONES=0
-    -DRT_HAS_GLASS=0 -DRT_HAS_SOBOL=0 -DRT_HAS_FILTERS=0)
-set(plain_4_FLAGS ${NATIVE_PLAIN} -DRT_SAMPLES=4)
-set(plain_FLAGS ${NATIVE_PLAIN})
-set(mesh_4_FLAGS ${NATIVE_MESH} -DRT_SAMPLES=4)
-set(mesh_FLAGS ${NATIVE_MESH})
+    -DRT_HAS_GLASS=0 -DRT_HAS_FILTERS=0)
+set(NATIVE_PLAIN ${NATIVE_MESH} -DRT_HAS_VERTEX_NORMALS=0 -DRT_HAS_HIERARCHY=0)
+set(NATIVE_GRID -DRT_HAS_SOBOL=0 -DRT_HAS_EDGES=0)
+set(plain_4_FLAGS ${NATIVE_PLAIN} ${NATIVE_GRID} -DRT_SAMPLES=4)
+set(plain_FLAGS ${NATIVE_PLAIN} ${NATIVE_GRID})
+set(plain_edges_FLAGS ${NATIVE_PLAIN})
+set(mesh_4_FLAGS ${NATIVE_MESH} ${NATIVE_GRID} -DRT_SAMPLES=4)
+set(mesh_FLAGS ${NATIVE_MESH} ${NATIVE_GRID})
+set(mesh_edges_FLAGS ${NATIVE_MESH})
 set(all_FLAGS "")
 
 # compile_native_kernel(OBJECT SOURCE NAME FLAGS...)
@@ -128,7 +129,7 @@ function(native_kernels TABLE OBJECTS)
                     set(widths ${NATIVE_FEWER_WIDTHS} ${width})
                 elseif(set STREQUAL all)
                     set(widths 1 2 4 8 16)
-                elseif(set MATCHES _4)
+                elseif(set MATCHES "_4|_edges")
                     set(widths ${width})  # only packets hold four samples
                 endif()
                 foreach(lanes IN LISTS widths)

@@ -44,6 +44,9 @@
 #ifndef RT_HAS_FILTERS
 #define RT_HAS_FILTERS 1
 #endif
+#ifndef RT_HAS_EDGES
+#define RT_HAS_EDGES 1
+#endif
 
 // The switches as bits, in the order of host/flatten/features.h.
 #ifndef RT_FEATURE_BITS
@@ -51,7 +54,7 @@
     (RT_HAS_SPHERES | RT_HAS_HUGE_SPHERES << 1 | RT_HAS_EYE_ON_SURFACE << 2 | RT_HAS_CONES << 3 | \
      RT_HAS_TRIANGLES << 4 | RT_HAS_VERTEX_NORMALS << 5 | RT_HAS_HIERARCHY << 6 |                 \
      RT_HAS_LIGHTS << 7 | RT_HAS_MIRRORS << 8 | RT_HAS_GLASS << 9 | RT_HAS_SOBOL << 10 |          \
-     RT_HAS_FILTERS << 11)
+     RT_HAS_FILTERS << 11 | RT_HAS_EDGES << 12)
 #endif
 
 // Samples per pixel, if compiled in (then a packet holds them all); else 0.
@@ -67,6 +70,9 @@
 #endif
 #ifndef RT_RENDERS_LIST
 #define RT_RENDERS_LIST 1
+#endif
+#ifndef RT_RENDERS_EDGES
+#define RT_RENDERS_EDGES RT_HAS_EDGES
 #endif
 #ifndef RT_TRACES_RAYS
 #define RT_TRACES_RAYS 1

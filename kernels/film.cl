@@ -13,6 +13,7 @@ void store3(__global Real* to, Index at, Real x, Real y, Real z) {
 }
 
 void add_counts(__global RayCounts* counts, size_t slot, RayCounts add) {
+    counts[slot].primary += add.primary;
     counts[slot].shadow += add.shadow;
     counts[slot].mirror += add.mirror;
     counts[slot].transmitted += add.transmitted;

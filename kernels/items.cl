@@ -20,12 +20,15 @@
 #endif
 
 #include "kernels/film.cl"
+#if RT_RENDERS_EDGES
+#include "kernels/edges.cl"
+#endif
 #if RT_TRACES_RAYS
 #include "kernels/rays.cl"
 #endif
 
 RayCounts pixels_item(__global Real* film, SceneView* scene, const Tile* tile, Index item) {
-    RayCounts used = {0, 0, 0};
+    RayCounts used = {0, 0, 0, 0};
     if (RT_SAMPLES != 0) scene->params.samples = RT_SAMPLES;
     Packet packet = make_packet(scene->params.samples, RT_SAMPLES_TOGETHER);
     TileLanes lanes = tile_lanes(tile, &packet, item);
@@ -41,7 +44,7 @@ RayCounts pixels_item(__global Real* film, SceneView* scene, const Tile* tile, I
 // most_samples of each of its pixels.
 RayCounts samples_item(__global Real* samples, const SceneView* scene, const Tile* tile, Index item,
                        Index most_samples) {
-    RayCounts sums = {0, 0, 0};
+    RayCounts sums = {0, 0, 0, 0};
     Packet packet = make_packet(scene->params.samples, most_samples);
     Index packets =
         packets_across(tile, &packet) * ((tile->height + packet.height - 1) / packet.height);
@@ -50,7 +53,7 @@ RayCounts samples_item(__global Real* samples, const SceneView* scene, const Til
     Indices k = item / packets * packet.samples + packet.sample;
     lanes.live &= (Mask)(k < scene->params.samples);
     if (!any_lane(lanes.live)) return sums;
-    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
+    PacketCounts used = no_counts();
     real3 color = trace_sample(scene, tile->x + lanes.column,
                                picture_y(&scene->params, tile, lanes.row), k, lanes.live, &used);
     Indices places = (k * tile->height + lanes.row) * tile->width + lanes.column;
@@ -84,7 +87,7 @@ void resolve_item(__global Real* film, __global const Real* samples, const Launc
 // whose upper left corner is pixel (tile->x, tile->y) of the picture. Pixel i goes to colors[i].
 RayCounts list_item(__global Real* colors, __global const int* pixels, const SceneView* scene,
                     const Tile* tile, Index item) {
-    RayCounts used = {0, 0, 0};
+    RayCounts used = {0, 0, 0, 0};
     Packet packet = make_packet(scene->params.samples, RT_LANES);
     Index first = item * packet.pixels;
     if (first >= tile->width) return used;

@@ -133,20 +133,32 @@ void begin_sample(Sum* whole, Sum* sum, Index k) {
     *sum = empty_sum();
 }
 
+PacketCounts no_counts(void) {
+    PacketCounts counts = {(Indices)0, (Indices)0, (Indices)0, (Reals)0};
+    return counts;
+}
+
+// Adds a packet's samples from `first` on to the sums of its pixels (x, y). Returns their colors.
+real3 add_packet(const SceneView* scene, const Packet* packet, Indices x, Indices y, Index first,
+                 Mask live, Sum* whole, Sum* sum, PacketCounts* used) {
+    begin_sample(whole, sum, first);
+    Indices k = first + packet->sample;
+    real3 color = trace_sample(scene, x, y, k, live, used);
+    Reals weight = sample_weight(&scene->params, x, y, k);
+    sum->color.x = add_samples(sum->color.x, weight, color.x, packet->samples);
+    sum->color.y = add_samples(sum->color.y, weight, color.y, packet->samples);
+    sum->color.z = add_samples(sum->color.z, weight, color.z, packet->samples);
+    sum->weight = add_samples(sum->weight, weight, (Reals)1, packet->samples);
+    return color;
+}
+
 // The colors of a packet's pixels (x, y), in its first lanes: weighted means of their samples.
 real3 trace_pixels(const SceneView* scene, const Packet* packet, Indices x, Indices y, Mask live,
                    RayCounts* counts) {
     Sum sum = empty_sum(), whole = sum;
     for (Index first = 0; first < scene->params.samples; first += packet->samples) {
-        begin_sample(&whole, &sum, first);
-        Indices k = first + packet->sample;
-        PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
-        real3 color = trace_sample(scene, x, y, k, live, &used);
-        Reals weight = sample_weight(&scene->params, x, y, k);
-        sum.color.x = add_samples(sum.color.x, weight, color.x, packet->samples);
-        sum.color.y = add_samples(sum.color.y, weight, color.y, packet->samples);
-        sum.color.z = add_samples(sum.color.z, weight, color.z, packet->samples);
-        sum.weight = add_samples(sum.weight, weight, (Reals)1, packet->samples);
+        PacketCounts used = no_counts();
+        add_packet(scene, packet, x, y, first, live, &whole, &sum, &used);
         count_lanes(counts, &used);
     }
     whole = add_sums(whole, sum);

@@ -68,6 +68,32 @@ __kernel void render_list(__global Real* restrict colors, __global RayCounts* re
 }
 #endif
 
+#if RT_RENDERS_EDGES
+static RT_ITEM void one_of_centers(__global Real* planes, __global RayCounts* counts,
+                                   RT_SCENE_PARAMETERS, Tile tile, size_t item) {
+    SceneView scene = RT_SCENE_VIEW;
+    add_counts(counts, item, centers_item(planes, &scene, &tile, (Index)item));
+}
+
+__kernel void render_centers(__global Real* restrict planes, __global RayCounts* restrict counts,
+                             RT_SCENE_ARGUMENTS, Tile tile) {
+    one_of_centers(planes, counts, RT_SCENE_NAMES, tile, get_global_id(0));
+}
+
+static RT_ITEM void one_of_edges(__global Real* film, __global RayCounts* counts,
+                                 RT_SCENE_PARAMETERS, Tile tile, __global Real* planes, Index round,
+                                 size_t item) {
+    SceneView scene = RT_SCENE_VIEW;
+    add_counts(counts, item, edges_item(film, planes, &scene, &tile, round, (Index)item));
+}
+
+__kernel void render_edges(__global Real* restrict film, __global RayCounts* restrict counts,
+                           RT_SCENE_ARGUMENTS, Tile tile, __global Real* restrict planes,
+                           Index round) {
+    one_of_edges(film, counts, RT_SCENE_NAMES, tile, planes, round, get_global_id(0));
+}
+#endif
+
 #if RT_TRACES_RAYS
 static RT_ITEM void one_of_rays(__global RayAnswer* answers, __global const RayQuery* queries,
                                 RT_SCENE_PARAMETERS, Index count, size_t item) {

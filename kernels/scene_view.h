@@ -46,6 +46,7 @@ typedef struct {
 // Rays traced by each lane.
 typedef struct {
     Indices shadow, mirror, transmitted;
+    Reals signature;  // of what they met (kernels/signature.cl), 24 bits
 } PacketCounts;
 
 #endif

@@ -11,6 +11,7 @@
 #include "kernels/hit_surface.cl"
 #include "kernels/material.cl"
 #include "kernels/power.cl"
+#include "kernels/signature.cl"
 
 #ifndef RT_EXPLAIN  // kernels/native/explain.cl reports path events with it
 #define RT_EXPLAIN(live, what, index, bounce, distance, weight, point, normal, color)
@@ -47,6 +48,7 @@ real3 light_contribution(const SceneView* scene, const Surface* surface, const M
     Index place = RT_TOUCHES_FIRST_LIGHT + 2 * (number < last ? number : last);
     lit &= !any_hit(scene, &shadow, place, light->first_caster, light->caster_count);
     if (!any_lane(lit)) return none;
+    sign_lanes(scene, counts, lit, (Indices)(number + 1));
     real3 reflected = scale3(cosine, material->diffuse);
     if (any_lane(lit & !is_black(material->specular))) {  // elsewhere it adds 0
         Reals lobe = specular_lobe(surface->normal, shadow.dir, to_eye, material->shininess);

@@ -121,7 +121,7 @@ typedef struct {
     Packed3 direction_low;  // parts of direction and its steps lost to rounding
     Index sampling;         // RT_SAMPLES_...
     Packed3 direction_dx_low;
-    Index pad0;
+    Real tolerance;  // of an edges mode; else 0
     Packed3 direction_dy_low;
     Index pad1;
 } LaunchParams;
@@ -135,6 +135,7 @@ typedef struct {
 } Tile;
 
 typedef struct {
+    RT_COUNT primary;  // beyond LaunchParams::samples of a pixel
     RT_COUNT shadow, mirror, transmitted;
 } RayCounts;
 
@@ -191,6 +192,9 @@ enum { RT_TREE_STACK = 16 };
 
 // Most samples per pixel in a packet of neighboring pixels (kernels/packet.cl).
 enum { RT_SAMPLES_TOGETHER = 4 };
+
+// Pixels around a tile that an edges mode looks at, and rounds in which it does (kernels/edges.cl).
+enum { RT_EDGE_MARGIN = 3 };
 
 // Sample positions in a pixel (kernels/sampling.cl).
 enum { RT_SAMPLES_GRID = 0, RT_SAMPLES_SOBOL = 1 };

@@ -152,6 +152,7 @@ void scatter(const SceneView* scene, const Surface* surface, const Materials* ma
     path->ray = select_ray(reflects, mirror_ray(surface, path->ray.dir, from), refracted);
     path->throughput = select3(reflects, reflected, transmitted);
     path->live = reflects | transmits;
+    sign_lanes(scene, counts, glassy, (reflects & 1) + (transmits & 2));
     counts->mirror += reflects & 1;
     counts->transmitted += transmits & 1;
     RT_EXPLAIN(path->live, reflects ? RT_EVENT_MIRROR : RT_EVENT_REFRACTED, 0, path->bounce,
@@ -168,6 +169,7 @@ real3 meet_surface(const SceneView* scene, const Hit* hit, real3 color, Path* pa
     surface.normal = select3(turned, negate3(surface.normal), surface.normal);
     surface.geometric = select3(turned, negate3(surface.geometric), surface.geometric);
     surface.signed_diameter = turned ? -surface.signed_diameter : surface.signed_diameter;
+    sign_surfaces(scene, counts, path->live, hit->prim, inside);
     real3 to_eye = negate3(path->ray.dir);
     Surface lit = surface;
     Mask beyond = inside & !turned & (surface.back > (Reals)0);  // lit from the far side
@@ -212,6 +214,7 @@ RT_OUT_OF_LINE real3 trace_path(const SceneView* scene, Ray ray, Mask live, Pack
             RT_EXPLAIN(missed, RT_EVENT_MISS, 0, path.bounce, (Reals)0, path.throughput,
                        path.ray.origin, path.ray.dir, load3(scene->params.background));
             color = select3(missed, add3(color, background), color);
+            sign_lanes(scene, counts, missed, (Indices)RT_NONE);
             path.live &= !missed;
         }
         if (any_lane(path.live)) color = meet_surface(scene, &hit, color, &path, &pending, counts);

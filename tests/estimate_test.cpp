@@ -70,7 +70,7 @@ TEST_P(EveryMode, EstimateIsNearTheError) {
 
 INSTANTIATE_TEST_SUITE_P(ErrorEstimate, EveryMode,
                          testing::Values("none", "grid:2", "grid:8", "sobol:4", "sobol:64",
-                                         "adaptive:0.1", "adaptive:0.02"));
+                                         "adaptive:0.1", "adaptive:0.02", "edges:0.01"));
 
 TEST(ErrorEstimate, IsRelativeToTheFilterOfThePicture) {
     for (const Filter filter : {Filter::tent, Filter::gaussian, Filter::mitchell}) {

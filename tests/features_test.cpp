@@ -87,6 +87,9 @@ TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
     EXPECT_EQ(entry_points_of(options), "render_samples;resolve_samples");
     options.entries = {true, false, true, false};
     EXPECT_EQ(entry_points_of(options), "render_pixels;render_list");
+    options.entries = {false, false, false, false, true};
+    options.features.edges = true;
+    EXPECT_EQ(entry_points_of(options), "render_centers;render_edges");
 }
 
 TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {

@@ -68,7 +68,7 @@ std::vector<std::size_t> record_ends(const std::string& bytes) {
 }
 
 TEST_F(Journals, OfSharesMergeToTheWhole) {
-    for (const char* aa : {"none", "grid:3", "sobol:4", "adaptive:0.02"}) {
+    for (const char* aa : {"none", "grid:3", "sobol:4", "adaptive:0.02", "edges:0.01"}) {
         for (const Precision precision : {Precision::float32, Precision::float64}) {
             const RenderSettings settings = small(aa, precision);
             const std::uint64_t whole = render(settings).image_hash;

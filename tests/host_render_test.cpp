@@ -263,14 +263,14 @@ TEST(ParseDeviceSpecs, ReadsTheCountOfThreads) {
 
 TEST(ParseAaMode, RoundTripsAndRefuses) {
     for (const char* text :
-         {"none", "grid:2", "grid:64", "sobol:1", "sobol:4096", "adaptive:0.01"}) {
+         {"none", "grid:2", "grid:64", "sobol:1", "sobol:4096", "adaptive:0.01", "edges:0.0001"}) {
         ASSERT_TRUE(parse_aa_mode(text).has_value()) << text;
         EXPECT_EQ(to_string(*parse_aa_mode(text)), text);
     }
     EXPECT_EQ(parse_aa_mode("grid:1"), grid_aa(1));
-    for (const char* bad :
-         {"", "grid", "grid:", "grid:0", "grid:65", "grid:2x", "Grid:2", "sobol:0", "sobol:4097",
-          "sobol", "adaptive:0", "adaptive:nan", "adaptive:2", "adaptive:"}) {
+    for (const char* bad : {"", "grid", "grid:", "grid:0", "grid:65", "grid:2x", "Grid:2",
+                            "sobol:0", "sobol:4097", "sobol", "adaptive:0", "adaptive:nan",
+                            "adaptive:2", "adaptive:", "edges", "edges:0.000009", "edges:1.1"}) {
         EXPECT_FALSE(parse_aa_mode(bad).has_value()) << bad;
     }
 }

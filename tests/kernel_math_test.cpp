@@ -79,10 +79,11 @@ TYPED_TEST(Load3, AndStore3CopyBits) {
 KERNEL_SUITE(AddCounts);
 TYPED_TEST(AddCounts, AddsEachKindIn64Bits) {
     using Counts = typename Flat<TypeParam>::RayCounts;
-    const std::vector<Counts> a{{1, 2, 3}, {0xffffffff, 0, 0}, {5, 0xffffffffff, 7}},
-        b{{10, 20, 30}, {1, 1, 0xffffffff}, {0, 1, 2}};
+    const std::vector<Counts> a{{4, 1, 2, 3}, {0, 0xffffffff, 0, 0}, {9, 5, 0xffffffffff, 7}},
+        b{{0xffffffff, 10, 20, 30}, {1, 1, 1, 0xffffffff}, {0, 0, 1, 2}};
     const auto sum = run<TypeParam, Counts>("add_counts", a.size(), a, b);
     for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(sum[i].primary, a[i].primary + b[i].primary);
         EXPECT_EQ(sum[i].shadow, a[i].shadow + b[i].shadow);
         EXPECT_EQ(sum[i].mirror, a[i].mirror + b[i].mirror);
         EXPECT_EQ(sum[i].transmitted, a[i].transmitted + b[i].transmitted);

@@ -63,6 +63,9 @@ class Oclgrind(unittest.TestCase):
     def test_refined_pixels(self):
         self.check("cornell-box.json", "--aa", "adaptive:0.4")
 
+    def test_edges(self):
+        self.check("cornell-box.json", "--aa", "edges:0.1")
+
     def test_sobol_samples_under_a_filter(self):
         self.check("cornell-box.json", "--aa", "sobol:4", "--filter", "gaussian", "--launch",
                    "sample")

@@ -95,6 +95,7 @@ INSTANTIATE_TEST_SUITE_P(AaModes, EveryAaMode,
                                          std::make_tuple("sobol:7", Filter::box),
                                          std::make_tuple("sobol:258", Filter::box),
                                          std::make_tuple("adaptive:0.05", Filter::box),
+                                         std::make_tuple("edges:0.003", Filter::box),
                                          std::make_tuple("grid:3", Filter::tent),
                                          std::make_tuple("sobol:16", Filter::gaussian),
                                          std::make_tuple("grid:4", Filter::mitchell)));

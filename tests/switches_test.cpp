@@ -8,18 +8,23 @@
 #include <bit>
 
 #include "host/flatten/flat_scene.h"
-#include "host/render/packet_shape.h"
+#include "host/render/edge_tile.h"
 #include "host/render/threads_renderer.h"
 #include "tests/feature_scenes.h"
 #include "tests/render_helpers.h"
 
 extern "C" {
 /// What tests/switchable_features.h reads.
-int rt_switches[12];
+int rt_switches[13];
 
-#define DECLARE_SWITCHABLE(name)                                                  \
-    void name##_pixels(float*, rt::f32::RayCounts*, const rt::NativeView<float>*, \
-                       const rt::f32::Tile*, rt::f32::Index, rt::f32::Index)
+#define DECLARE_SWITCHABLE(name)                                                    \
+    void name##_pixels(float*, rt::f32::RayCounts*, const rt::NativeView<float>*,   \
+                       const rt::f32::Tile*, rt::f32::Index, rt::f32::Index);       \
+    void name##_centers(float*, rt::f32::RayCounts*, const rt::NativeView<float>*,  \
+                        const rt::f32::Tile*, rt::f32::Index, rt::f32::Index);      \
+    void name##_edges(float*, rt::f32::RayCounts*, const rt::NativeView<float>*,    \
+                      const rt::f32::Tile*, float*, rt::f32::Index, rt::f32::Index, \
+                      rt::f32::Index)
 DECLARE_SWITCHABLE(rt_switchable_1);
 DECLARE_SWITCHABLE(rt_switchable_8);
 }
@@ -27,7 +32,13 @@ DECLARE_SWITCHABLE(rt_switchable_8);
 namespace rt::test {
 namespace {
 
-using RenderPixels = decltype(&rt_switchable_1_pixels);
+/// With the entry points that are called here.
+#define SWITCHABLE(lanes)                                                      \
+    {                                                                          \
+        "", lanes, {}, lanes, 0, rt_switchable_##lanes##_pixels, {}, {}, {},   \
+            rt_switchable_##lanes##_centers, rt_switchable_##lanes##_edges, {} \
+    }
+const NativeKernels<float> single SWITCHABLE(1), packets SWITCHABLE(8);
 
 void set_switches(const Features& features) {
     for (std::size_t i = 0; i < feature_names.size(); ++i) {
@@ -35,16 +46,22 @@ void set_switches(const Features& features) {
     }
 }
 
-std::uint64_t hash_by(RenderPixels render, int lanes, const FlatScene<float>& flat) {
+std::uint64_t hash_by(const NativeKernels<float>& kernels, const FlatScene<float>& flat) {
     const Rect whole{0, 0, flat.params.width, flat.params.height};
     const auto tile = flat_tile<float>(whole, whole);
-    const PacketShape shape = packet_shape(lanes, flat.params.samples);
+    const PacketShape shape = packet_shape(kernels.lanes, flat.params.samples);
     const int across = (whole.width + shape.width - 1) / shape.width;
     const int down = (whole.height + shape.height - 1) / shape.height;
     Film<float> film(whole.width, whole.height);
     f32::RayCounts counts{};
     const NativeView<float> view = native_view(flat);
-    render(film.rgb.data(), &counts, &view, &tile, 0, across * down);
+    if (flat.params.tolerance > 0) {
+        std::vector<float> planes;
+        render_edge_tile(kernels, view, tile, planes, film.rgb.data(), counts,
+                         [] { return false; });
+    } else {
+        kernels.render_pixels(film.rgb.data(), &counts, &view, &tile, 0, across * down);
+    }
     return hash_of(film);
 }
 
@@ -62,8 +79,8 @@ TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
         ASSERT_EQ(flat.features, features) << bits;
         const std::uint64_t expected = hash_of(render_on_threads<float>(scene, everything));
         set_switches(features);
-        EXPECT_EQ(hash_by(rt_switchable_1_pixels, 1, flat), expected) << bits;
-        EXPECT_EQ(hash_by(rt_switchable_8_pixels, 8, flat), expected) << bits;
+        EXPECT_EQ(hash_by(single, flat), expected) << bits;
+        EXPECT_EQ(hash_by(packets, flat), expected) << bits;
     }
     EXPECT_GT(sets, 2000);
 }
@@ -72,10 +89,10 @@ TEST(Switches, EveryPossibleSetGivesTheBitsOfAllFeatures) {
 TEST(Switches, DoSomething) {
     const FlatScene<float> flat = flatten<float>(scene_needing(features_of(0xfff)));
     set_switches(features_of(0xfff));
-    const std::uint64_t all = hash_by(rt_switchable_8_pixels, 8, flat);
+    const std::uint64_t all = hash_by(packets, flat);
     for (const int bit : {0, 3, 4, 5, 7, 8, 9, 10, 11}) {
         set_switches(features_of(0xfff & ~(1 << bit)));
-        EXPECT_NE(hash_by(rt_switchable_8_pixels, 8, flat), all) << feature_names[bit].name;
+        EXPECT_NE(hash_by(packets, flat), all) << feature_names[bit].name;
     }
 }
 

@@ -53,7 +53,7 @@ int run_converge(const ConvergeCall& options) {
 
 constexpr const char* default_sweep =
     "none,grid:2,grid:3,grid:4,grid:6,grid:8,sobol:1,sobol:4,sobol:16,sobol:64,sobol:256,"
-    "adaptive:0.1,adaptive:0.03,adaptive:0.01";
+    "adaptive:0.1,adaptive:0.03,adaptive:0.01,edges:0.01,edges:0.001,edges:0.0001";
 
 const Named<std::vector<Math>> math_choices[] = {
     {"strict", {Math::strict}}, {"fast", {Math::fast}}, {"both", {Math::strict, Math::fast}}};

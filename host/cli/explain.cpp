@@ -83,7 +83,7 @@ constexpr int most_samples = 64;  // beyond, nobody reads the trees
 
 AaMode parse_explained_aa(const std::string& text) {
     const auto mode = parse_aa_mode(text);
-    if (!mode || mode->refines() || mode->samples() > most_samples) {
+    if (!mode || !mode->fixed_samples() || mode->samples() > most_samples) {
         refuse(text, "expected none, grid:N (N up to 8) or sobol:S (S up to 64)");
     }
     return *mode;

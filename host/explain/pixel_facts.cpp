@@ -7,6 +7,7 @@
 #include "host/base/parallel.h"
 #include "host/explain/ray_tree.h"
 #include "host/flatten/view_frame.h"
+#include "host/render/edge_tile.h"
 #include "host/render/native_kernels.h"
 #include "host/render/packet_shape.h"
 #include "host/render/picture_loop.h"
@@ -65,12 +66,17 @@ class PixelCounter {
 
     std::uint64_t samples() const { return static_cast<std::uint64_t>(view_.params.samples); }
 
-    /// Rays other than eye rays: for the pixel's samples, or for a grid of them.
-    std::uint64_t rays(int x, int y, int grid = 0) const {
+    /// Rays beyond an eye ray for each sample: for the pixel's samples, or for a grid of them. In
+    /// an edges mode `primary` counts the samples at an edge.
+    typename Flat<T>::RayCounts rays(int x, int y, int grid = 0) const {
         std::array<T, 3> color;
         const auto tile = flat_tile<T>({x, y, 1, 1}, {x, y, 1, 1});
         typename Flat<T>::RayCounts counts{};
-        if (grid == 0) {
+        if (view_.params.tolerance > 0) {
+            std::vector<T> planes;
+            render_edge_tile(kernels_, view_, tile, planes, color.data(), counts,
+                             [] { return false; });
+        } else if (grid == 0) {
             kernels_.render_pixels(color.data(), &counts, &view_, &tile, 0, 1);
         } else {
             NativeView<T> view = view_;
@@ -79,7 +85,7 @@ class PixelCounter {
             const std::int32_t pixel = 0;
             kernels_.render_list(color.data(), &counts, &view, &tile, &pixel, 0, 1);
         }
-        return counts.shadow + counts.mirror + counts.transmitted;
+        return counts;
     }
 
    private:
@@ -127,10 +133,14 @@ PixelWork pixel_work(const Scene& scene, const Rect& region, const StopFlag& sto
                    std::vector<std::uint64_t>(grids.size())};
     for_each_pixel(region, stop, [&](std::size_t i, int x, int y) {
         const auto refined = static_cast<std::uint64_t>(grids[i] * grids[i]);
-        const std::uint64_t samples = counter.samples() + refined;
+        auto counts = counter.rays(x, y);
+        work.rays[i] = counts.shadow + counts.mirror + counts.transmitted;
+        const std::uint64_t samples = counter.samples() + refined + counts.primary;
         work.samples[i] = static_cast<std::uint32_t>(samples);
-        work.rays[i] = samples + counter.rays(x, y);
-        if (refined > 0) work.rays[i] += counter.rays(x, y, grids[i]);
+        work.rays[i] += samples;
+        if (refined == 0) return;
+        counts = counter.rays(x, y, grids[i]);
+        work.rays[i] += counts.shadow + counts.mirror + counts.transmitted;
     });
     return work;
 }

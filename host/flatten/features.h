@@ -22,6 +22,7 @@ struct Features {
     bool glass = true;           ///< refracted rays, and with mirrors the stack of a ray tree
     bool sobol = true;           ///< scattered samples; else a regular grid's
     bool filters = true;         ///< samples with unequal weights
+    bool edges = true;           ///< signatures of ray trees; implies sobol
 
     bool operator==(const Features&) const = default;
 };
@@ -33,7 +34,7 @@ struct FeatureName {
     const char* macro;
 };
 
-inline constexpr std::array<FeatureName, 12> feature_names{{
+inline constexpr std::array<FeatureName, 13> feature_names{{
     {&Features::spheres, "spheres", "RT_HAS_SPHERES"},
     {&Features::huge_spheres, "huge spheres", "RT_HAS_HUGE_SPHERES"},
     {&Features::eye_on_surface, "eye on a surface", "RT_HAS_EYE_ON_SURFACE"},
@@ -46,6 +47,7 @@ inline constexpr std::array<FeatureName, 12> feature_names{{
     {&Features::glass, "glass", "RT_HAS_GLASS"},
     {&Features::sobol, "Sobol samples", "RT_HAS_SOBOL"},
     {&Features::filters, "wide filters", "RT_HAS_FILTERS"},
+    {&Features::edges, "edges", "RT_HAS_EDGES"},
 }};
 
 /// No features.

@@ -109,7 +109,7 @@ glm::dvec2 half_pixel(const Scene& scene, const Scene::Window& window) {
     return {x, y};
 }
 
-/// An adaptive mode begins with one sample a pixel.
+/// Adaptive and edges modes begin with one sample a pixel.
 template <typename LaunchParams>
 void set_sampling(const Scene& scene, LaunchParams& params) {
     const bool is_sobol = scene.aa.pattern == AaMode::Pattern::sobol;
@@ -117,6 +117,8 @@ void set_sampling(const Scene& scene, LaunchParams& params) {
     params.grid = is_sobol ? 0 : scene.aa.count;
     params.samples = scene.aa.samples();
     params.seed = scene.sampling_seed;
+    using Real = decltype(params.tolerance);
+    params.tolerance = scene.aa.finds_edges() ? static_cast<Real>(scene.aa.threshold) : Real(0);
     switch (scene.filter) {
         case Filter::box:
             params.filter = f32::RT_FILTER_BOX;

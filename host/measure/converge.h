@@ -93,7 +93,7 @@ void describe(A& a, X& x) {
 /// Points that differ only in sampling, in sweep order.
 struct Curve {
     ConvergeCase of;     ///< its device, precision, math and bounces
-    std::string family;  ///< "grid" (with none), "sobol", "adaptive"
+    std::string family;  ///< "grid" (with none), "sobol", "adaptive", "edges"
     std::vector<std::size_t> points;
     std::optional<double> slope;  ///< of log RMSE over log seconds; none for a single point
 };
@@ -102,7 +102,7 @@ template <typename A, Of<Curve> X>
 void describe(A& a, X& x) {
     describe_build(a, x.of);
     a("max_bounces", x.of.picture.max_bounces, "mirror and refracted rays after the eye ray");
-    a("family", x.family, "of AA modes: grid (with none), sobol, adaptive");
+    a("family", x.family, "of AA modes: grid (with none), sobol, adaptive, edges");
     a("points", x.points, "indices into points");
     a("slope", or_null(x.slope), "of log RMSE over log seconds");
 }

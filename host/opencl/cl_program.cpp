@@ -92,6 +92,7 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     if (!options.entries.pixels) text += " -DRT_RENDERS_PIXELS=0";
     if (!options.entries.samples) text += " -DRT_RENDERS_SAMPLES=0";
     if (!options.entries.list) text += " -DRT_RENDERS_LIST=0";
+    if (!options.entries.edges && options.features.edges) text += " -DRT_RENDERS_EDGES=0";
     if (!options.entries.rays) text += " -DRT_TRACES_RAYS=0";
     for (const std::string& more : {build_extras().options, options.more}) {
         if (!more.empty()) text += " " + more;

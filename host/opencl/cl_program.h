@@ -22,6 +22,7 @@ struct EntryPoints {
     bool samples = true;  ///< render_samples and resolve_samples
     bool list = true;     ///< render_list
     bool rays = true;     ///< trace_rays
+    bool edges = false;   ///< render_centers and render_edges
 };
 
 /// What a program is compiled for. `features` says what may be left out.

@@ -16,6 +16,7 @@
 #include "host/opencl/cl_tiles.h"
 #include "host/opencl/opencl.h"
 #include "host/opencl/pocl.h"
+#include "host/render/edge_tile.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
@@ -56,7 +57,7 @@ class ClRenderer : public Renderer<T> {
           params_(scene.params),
           pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
                  device.is_cpu ? cpu_most_samples : gpu_most_samples) {
-        launch_samples_ = launches_samples(options.kernels.launch, device);
+        launch_samples_ = launches_samples(options.kernels.launch, device, finds_edges());
         lanes_ = packet_lanes<T>(options.kernels.lanes, device);
         group_ = picture_group(options.kernels, lanes_);
         try {
@@ -135,6 +136,7 @@ class ClRenderer : public Renderer<T> {
         return cl_tiles<T>(params_, device_, options_, film_width);
     }
 
+    bool finds_edges() const { return params_.tolerance > 0; }
     std::size_t samples() const { return static_cast<std::size_t>(params_.samples); }
 
     PacketShape shape(std::size_t samples) const {
@@ -146,7 +148,9 @@ class ClRenderer : public Renderer<T> {
         const std::int64_t traced = rect.pixels() * static_cast<std::int64_t>(samples());
         if (traced > pacer_.samples()) return false;
         if (launch_samples_) return traced <= static_cast<std::int64_t>(most_items(device_));
-        return packets(flat_tile<T>(rect, rect), shape(samples())) <= most_items(device_);
+        const FlatTile tile = flat_tile<T>(rect, rect);
+        return packets(finds_edges() ? with_margin(tile) : tile, shape(samples())) <=
+               most_items(device_);
     }
 
     /// Packets that cover a tile.
@@ -197,8 +201,14 @@ class ClRenderer : public Renderer<T> {
     void build(const ProgramOptions& options) {
         const Stopwatch watch;
         const cl::Program program = programs_.program(device_, render_kernels, options);
-        render_ = cl::Kernel(program, launch_samples_ ? "render_samples" : "render_pixels");
+        render_ = cl::Kernel(program, finds_edges()     ? "render_centers"
+                                      : launch_samples_ ? "render_samples"
+                                                        : "render_pixels");
         set_scene_arguments(render_, params_);
+        if (finds_edges()) {
+            edges_ = cl::Kernel(program, "render_edges");
+            set_scene_arguments(edges_, params_);
+        }
         if (launch_samples_) {
             resolve_ = cl::Kernel(program, "resolve_samples");
             resolve_.setArg(1, samples_);
@@ -225,6 +235,7 @@ class ClRenderer : public Renderer<T> {
 
     /// Enqueues the kernels of one tile.
     std::vector<cl::Event> launch(const FlatTile& tile, const cl::Buffer& film) {
+        if (finds_edges()) return launch_edges(tile, film);
         std::vector<cl::Event> events(launch_samples_ ? 2 : 1);
         render_.setArg(0, launch_samples_ ? samples_ : film);
         render_.setArg(tile_argument_, tile);
@@ -239,6 +250,31 @@ class ClRenderer : public Renderer<T> {
             enqueue(resolve_, packets(tile, shape(1)), events[1]);
             is_half_launched_ = false;
         }
+        queue_.flush();
+        return events;
+    }
+
+    std::vector<cl::Event> launch_edges(const FlatTile& tile, const cl::Buffer& film) {
+        constexpr int margin = f32::RT_EDGE_MARGIN;
+        const std::size_t bytes = edge_plane_values(tile, lanes_) * sizeof(T);
+        if (bytes > plane_bytes_) {
+            samples_ = make_buffer(bytes, "the pixels' centers");
+            plane_bytes_ = bytes;
+        }
+        std::vector<cl::Event> events(1 + margin);
+        render_.setArg(0, samples_);
+        render_.setArg(tile_argument_, tile);
+        enqueue(render_, packets(with_margin(tile), shape(1)), events[0]);
+        is_half_launched_ = true;
+        edges_.setArg(0, film);
+        edges_.setArg(tile_argument_, tile);
+        edges_.setArg(tile_argument_ + 1, samples_);
+        for (int round = 0; round < margin; ++round) {
+            edges_.setArg(tile_argument_ + 2, static_cast<typename Flat<T>::Index>(round));
+            const FlatTile wide = with_margin(tile, margin - 1 - round);
+            enqueue(edges_, packets(wide, {1, lanes_, 1}), events[1 + round]);
+        }
+        is_half_launched_ = false;
         queue_.flush();
         return events;
     }
@@ -297,7 +333,10 @@ class ClRenderer : public Renderer<T> {
     void finish_oldest(Progress& progress, const Rect& region) {
         const InFlight& oldest = progress.in_flight.front();
         oldest.events.back().wait();
-        const double kernel = device_seconds(oldest.events.front());
+        double kernel = device_seconds(oldest.events.front());
+        for (std::size_t i = 1; i < oldest.events.size() && finds_edges(); ++i) {
+            kernel += device_seconds(oldest.events[i]);
+        }
         times_.kernel += kernel;
         if (launch_samples_) times_.resolve += device_seconds(oldest.events.back());
         const Rect& whole = oldest.run.whole;
@@ -336,8 +375,9 @@ class ClRenderer : public Renderer<T> {
         auto* const mapped = static_cast<FlatCounts*>(queue_.enqueueMapBuffer(
             counts_, CL_TRUE, CL_MAP_READ, 0, used_slots_ * sizeof(FlatCounts)));
         RayCounts total;
-        total.primary = primary_;
+        total.primary = primary_;  // and those that kernels add
         for (const FlatCounts& slot : std::span(mapped, used_slots_)) {
+            total.primary += slot.primary;
             total.shadow += slot.shadow;
             total.mirror += slot.mirror;
             total.transmitted += slot.transmitted;
@@ -353,15 +393,16 @@ class ClRenderer : public Renderer<T> {
     OpenDevices& programs_;
     typename Flat<T>::LaunchParams params_;
     bool launch_samples_ = false;
-    bool is_half_launched_ = false;  ///< samples are launched, but not their average
+    bool is_half_launched_ = false;  ///< the first of a tile's kernels is launched, but not all
     int lanes_ = 1;
     std::size_t group_ = 1;  ///< work items per group
     LaunchPacer pacer_;
     cl::Context context_;
     cl::CommandQueue queue_, reads_;
-    cl::Kernel render_, resolve_, list_;
+    cl::Kernel render_, resolve_, edges_, list_;
     std::unique_ptr<ClScene<T>> scene_;
-    cl::Buffer counts_, samples_;
+    cl::Buffer counts_, samples_;  ///< samples_: in an edges mode planes (kernels/edges.cl)
+    std::size_t plane_bytes_ = 0;
     cl_uint tile_argument_ = 0;
     std::size_t used_slots_ = 0;  ///< of counts_, so far
     std::uint64_t primary_ = 0;
@@ -375,18 +416,19 @@ template <typename T>
 ProgramOptions picture_program(const FlatScene<T>& scene, const ClDevice& device,
                                const ClOptions& options) {
     const KernelChoice& kernels = options.kernels;
-    const bool by_samples = launches_samples(kernels.launch, device);
+    const bool finds_edges = scene.params.tolerance > 0;
+    const bool by_samples = launches_samples(kernels.launch, device, finds_edges);
+    const bool by_pixels = !by_samples && !finds_edges;
     ProgramOptions program;
     program.precision = precision_of<T>;
     program.lanes = packet_lanes<T>(kernels.lanes, device);
     program.math = options.math;
     program.warnings_are_errors = options.warnings_are_errors;
-    program.entries = {!by_samples, by_samples, options.will_refine, false};
+    program.entries = {by_pixels, by_samples, options.will_refine, false, finds_edges};
     program.features = either_of(scene.features, kernels.features);
     program.more = kernels.cl_options;
     const auto samples = static_cast<int>(scene.params.samples);
-    const bool is_one_packet =
-        !by_samples && packet_shape(program.lanes, samples).samples == samples;
+    const bool is_one_packet = by_pixels && packet_shape(program.lanes, samples).samples == samples;
     if (is_one_packet && !kernels.any_samples && !kernels.has_all()) program.samples = samples;
     return program;
 }

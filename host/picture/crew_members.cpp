@@ -166,7 +166,8 @@ DeviceStats CrewMaker<T>::stats(const std::vector<DeviceChoice>& devices) const 
     const ClDevice& device = devices.front().device;
     stats.platform = device.platform;
     stats.driver = device.driver;
-    stats.launch = launches_samples(settings_.kernels.launch, device) ? "sample" : "pixel";
+    stats.launch =
+        launches_samples(settings_.kernels.launch, device, aa_.finds_edges()) ? "sample" : "pixel";
     stats.lanes = packet_lanes<T>(settings_.kernels.lanes, device);
     stats.kernels = either_of(scene_->features, settings_.kernels.features);
     return stats;

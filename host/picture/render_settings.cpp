@@ -7,11 +7,16 @@ namespace rt {
 
 namespace {
 
+/// An edges mode takes the mean of a pixel's own area.
 void check_filter(const Scene& scene) {
     const int fewest = fewest_samples(scene.filter);
     if (scene.aa.pattern == AaMode::Pattern::sobol && scene.aa.count < fewest) {
         usage_error("--filter {} requires at least sobol:{}; {} is too few",
                     to_string(scene.filter), fewest, to_string(scene.aa));
+    }
+    if (scene.aa.finds_edges() && scene.filter != Filter::box) {
+        usage_error("--filter {} cannot be combined with {}; use the box filter or another --aa",
+                    to_string(scene.filter), to_string(scene.aa));
     }
 }
 

@@ -23,9 +23,15 @@
     void name##_list(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                       \
                      const rt::Flat<T>::Tile*, const std::int32_t*, rt::Flat<T>::Index,           \
                      rt::Flat<T>::Index);                                                         \
+    void name##_centers(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                    \
+                        const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index)         \
+        __attribute__((weak)); /* these and the next are not in lean ones */                      \
+    void name##_edges(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                      \
+                      const rt::Flat<T>::Tile*, T*, rt::Flat<T>::Index, rt::Flat<T>::Index,       \
+                      rt::Flat<T>::Index) __attribute__((weak));                                  \
     void name##_rays(rt::Flat<T>::RayAnswer*, const rt::Flat<T>::RayQuery*,                       \
                      const rt::NativeView<T>*, rt::Flat<T>::Index, rt::Flat<T>::Index,            \
-                     rt::Flat<T>::Index) __attribute__((weak)); /* not in the lean ones */        \
+                     rt::Flat<T>::Index) __attribute__((weak));                                   \
     }
 #define RT_DECLARE_FLOAT(name, isa, lanes) RT_DECLARE_NATIVE(float, name)
 #define RT_DECLARE_DOUBLE(name, isa, lanes) RT_DECLARE_NATIVE(double, name)
@@ -46,6 +52,8 @@ namespace {
      name##_samples,                        \
      name##_resolve,                        \
      name##_list,                           \
+     name##_centers,                        \
+     name##_edges,                          \
      name##_rays},
 
 template <typename T>

@@ -47,6 +47,10 @@ struct NativeKernels {
                             const Tile*, Index first, Index end);
     void (*render_list)(T* colors, Counts*, const View*, const Tile*, const std::int32_t* pixels,
                         Index first, Index end);
+    /// Null unless edges are compiled in.
+    void (*render_centers)(T* planes, Counts*, const View*, const Tile*, Index first, Index end);
+    void (*render_edges)(T* film, Counts*, const View*, const Tile*, T* planes, Index round,
+                         Index first, Index end);
     /// Null unless all features are compiled in.
     void (*trace_rays)(typename Flat<T>::RayAnswer*, const typename Flat<T>::RayQuery*, const View*,
                        Index count, Index first, Index end);

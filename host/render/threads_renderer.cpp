@@ -8,6 +8,7 @@
 
 #include "host/base/memory.h"
 #include "host/base/parallel.h"
+#include "host/render/edge_tile.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
 
@@ -21,7 +22,7 @@ constexpr std::size_t refine_run = 64;
 /// The rays that kernels count, plus the primary rays.
 template <typename Counts>
 RayCounts rays_of(const Counts& counts, std::uint64_t primary) {
-    return {primary, counts.shadow, counts.mirror, counts.transmitted};
+    return {primary + counts.primary, counts.shadow, counts.mirror, counts.transmitted};
 }
 
 template <typename T>
@@ -32,7 +33,10 @@ class ThreadsRenderer : public Renderer<T> {
           kernels_(native_kernels_for(scene, options)),
           view_(native_view(scene)) {}
 
-    Rect tile_size(int) const override { return {0, 0, 32, 32}; }
+    /// The margin of a larger tile is a smaller part of it.
+    Rect tile_size(int) const override {
+        return finds_edges() ? Rect{0, 0, 128, 64} : Rect{0, 0, 32, 32};
+    }
 
     /// Kernels count the numbers in a tile's sample buffers in an Index.
     std::int64_t most_tile_pixels() const override {
@@ -41,7 +45,7 @@ class ThreadsRenderer : public Renderer<T> {
     }
 
     void render(TileQueue& queue, const Rect& region, Film<T>& film) override {
-        if (options_.schedule == Schedule::buffers) {
+        if (options_.schedule == Schedule::buffers && !finds_edges()) {
             render_buffers(queue, region, film);
         } else {
             render_tiles(queue, region, film);
@@ -86,6 +90,7 @@ class ThreadsRenderer : public Renderer<T> {
     };
 
     int samples() const { return static_cast<int>(view_.params.samples); }
+    bool finds_edges() const { return view_.params.tolerance > 0; }
 
     /// Calls work(first, end) for each row of packets until the queue is stopped. Returns the
     /// number of pixels in those rows.
@@ -101,16 +106,16 @@ class ThreadsRenderer : public Renderer<T> {
 
     void render_tiles(TileQueue& queue, const Rect& region, Film<T>& film) {
         const Stopwatch watch;
-        const PacketShape shape = packet_shape(kernels_.lanes, samples());
         std::atomic<std::int64_t> finished = 0;
         run_on_threads(thread_count(options_, samples()), [&](int) {
+            std::vector<T> planes;
             while (const auto rect = queue.next()) {
                 const FlatTile tile = flat_tile<T>(*rect, region);
                 FlatCounts counts{};
-                const std::uint64_t pixels =
-                    for_each_row(PacketGrid(tile, shape), tile, queue, [&](Index first, Index end) {
-                        kernels_.render_pixels(film.rgb.data(), &counts, &view_, &tile, first, end);
-                    });
+                T* const to = film.rgb.data();
+                const std::uint64_t pixels = finds_edges()
+                                                 ? render_edges(tile, queue, planes, counts, to)
+                                                 : render_pixels(tile, queue, counts, to);
                 queue.add_rays(rays_of(counts, pixels * static_cast<std::uint64_t>(samples())));
                 if (pixels != static_cast<std::uint64_t>(rect->pixels())) continue;
                 queue.finish(*rect);
@@ -119,6 +124,22 @@ class ThreadsRenderer : public Renderer<T> {
         });
         times_.pixels += finished;
         times_.trace += watch.seconds();
+    }
+
+    /// Returns the number of pixels done, like for_each_row.
+    std::uint64_t render_pixels(const FlatTile& tile, const TileQueue& queue, FlatCounts& counts,
+                                T* film) const {
+        const PacketGrid grid(tile, packet_shape(kernels_.lanes, samples()));
+        return for_each_row(grid, tile, queue, [&](Index first, Index end) {
+            kernels_.render_pixels(film, &counts, &view_, &tile, first, end);
+        });
+    }
+
+    std::uint64_t render_edges(const FlatTile& tile, const TileQueue& queue, std::vector<T>& planes,
+                               FlatCounts& counts, T* film) const {
+        const bool is_done = render_edge_tile(kernels_, view_, tile, planes, film, counts,
+                                              [&queue] { return queue.stopped(); });
+        return is_done ? static_cast<std::uint64_t>(tile.width * tile.height) : 0;
     }
 
     /// Renders the pixels with the view's grid of samples.

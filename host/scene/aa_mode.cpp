@@ -13,12 +13,12 @@ std::optional<AaMode> with_count(AaMode::Pattern pattern, std::string_view text,
     return AaMode{pattern, *count, 0};
 }
 
-std::optional<AaMode> adaptive(std::string_view text) {
+std::optional<AaMode> with_threshold(AaMode::Pattern pattern, std::string_view text) {
     const auto threshold = parse_number<double>(text);
-    if (!threshold || !(*threshold >= AaMode::min_threshold && *threshold <= 1)) {
-        return std::nullopt;
-    }
-    return AaMode{AaMode::Pattern::adaptive, 1, *threshold};
+    const AaMode mode{pattern, 1, threshold.value_or(0)};
+    const double least = mode.finds_edges() ? AaMode::min_tolerance : AaMode::min_threshold;
+    if (!(mode.threshold >= least && mode.threshold <= 1)) return std::nullopt;
+    return mode;
 }
 
 }  // namespace
@@ -34,7 +34,8 @@ std::optional<AaMode> parse_aa_mode(std::string_view text) {
     const std::string_view name = text.substr(0, colon), value = text.substr(colon + 1);
     if (name == "grid") return with_count(AaMode::Pattern::grid, value, AaMode::max_grid);
     if (name == "sobol") return with_count(AaMode::Pattern::sobol, value, AaMode::max_sobol);
-    if (name == "adaptive") return adaptive(value);
+    if (name == "adaptive") return with_threshold(AaMode::Pattern::adaptive, value);
+    if (name == "edges") return with_threshold(AaMode::Pattern::edges, value);
     return std::nullopt;
 }
 
@@ -46,6 +47,8 @@ std::string to_string(const AaMode& mode) {
             return fmt::format("sobol:{}", mode.count);
         case AaMode::Pattern::adaptive:
             return fmt::format("adaptive:{}", mode.threshold);
+        case AaMode::Pattern::edges:
+            return fmt::format("edges:{}", mode.threshold);
     }
     return "";
 }

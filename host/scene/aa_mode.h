@@ -15,39 +15,43 @@ struct AaMode {
         grid,      ///< count x count regular positions, (i + 0.5) / count from the pixel's corner
         sobol,     ///< count Owen-scrambled Sobol samples
         adaptive,  ///< one sample, then finer grids where neighbors differ by more than threshold
+        edges,     ///< one sample, then Sobol samples where it finds edges (kernels/edges.cl)
     };
 
     static constexpr int max_grid = 64;
     static constexpr int max_sobol = 4096;
-    static constexpr double min_threshold = 1e-4;
+    static constexpr double min_threshold = 1e-4, min_tolerance = 1e-5;
 
     Pattern pattern = Pattern::grid;
     int count = 2;         ///< grid 2 is the paper's four buffers at .25 and .75
-    double threshold = 0;  ///< adaptive: channel difference, clamped to 0..1
+    double threshold = 0;  ///< adaptive: channel difference, clamped to 0..1; edges: tolerance
 
-    /// Samples per pixel; in adaptive modes, in the first pass.
+    /// Samples per pixel; in adaptive and edges modes, in the first pass.
     int samples() const;
 
     /// Samples per pixel where every pixel has as many.
     std::optional<int> fixed_samples() const {
-        return refines() ? std::nullopt : std::optional(samples());
+        return threshold > 0 ? std::nullopt : std::optional(samples());
     }
 
-    /// Whether a first pass is followed by refinement.
+    /// Whether a first pass over the picture is followed by refinement.
     bool refines() const { return pattern == Pattern::adaptive; }
+
+    bool finds_edges() const { return pattern == Pattern::edges; }
 
     bool operator==(const AaMode&) const = default;
 };
 
 AaMode grid_aa(int n);
 
-/// "none" (the pixel center), "grid:N" with N in 1..64, "sobol:S" with S in 1..4096, or
-/// "adaptive:T" with T in 0.0001..1; empty when the text is none of these.
+/// "none" (the pixel center), "grid:N" with N in 1..64, "sobol:S" with S in 1..4096, "adaptive:T"
+/// with T in 0.0001..1, or "edges:T" with T in 0.00001..1; empty when the text is none of these.
 std::optional<AaMode> parse_aa_mode(std::string_view text);
 
 /// The modes that parse_aa_mode accepts, for messages.
 inline constexpr const char* aa_mode_help =
-    "none, grid:N (N from 1 to 64), sobol:S (S from 1 to 4096) or adaptive:T (T from 0.0001 to 1)";
+    "none, grid:N (N from 1 to 64), sobol:S (S from 1 to 4096), adaptive:T (T from 0.0001 to 1) or "
+    "edges:T (T from 0.00001 to 1)";
 
 /// The text that parse_aa_mode reads back.
 std::string to_string(const AaMode& mode);

@@ -41,6 +41,25 @@ void RT_NATIVE(_list)(__global Real* colors, __global RayCounts* counts, const S
     }
 }
 
+#if RT_RENDERS_EDGES
+void RT_NATIVE(_centers)(__global Real* planes, __global RayCounts* counts, const SceneView* view,
+                         const Tile* tile, Index first, Index end) {
+    SceneView scene = *view;
+    for (Index item = first; item < end; ++item) {
+        add_counts(counts, 0, centers_item(planes, &scene, tile, item));
+    }
+}
+
+void RT_NATIVE(_edges)(__global Real* film, __global RayCounts* counts, const SceneView* view,
+                       const Tile* tile, __global Real* planes, Index round, Index first,
+                       Index end) {
+    SceneView scene = *view;
+    for (Index item = first; item < end; ++item) {
+        add_counts(counts, 0, edges_item(film, planes, &scene, tile, round, item));
+    }
+}
+#endif
+
 #if RT_TRACES_RAYS
 void RT_NATIVE(_rays)(__global RayAnswer* answers, __global const RayQuery* queries,
                       const SceneView* scene, Index count, Index first, Index end) {

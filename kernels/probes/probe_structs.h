@@ -67,6 +67,7 @@ void put_counts(__global RayCounts* counts, PacketCounts used, uint at, uint cou
     mirror.all = used.mirror;
     transmitted.all = used.transmitted;
     PROBE_EACH_ITEM {
+        counts[i].primary = 0;
         counts[i].shadow = (ulong)shadow.lane[i - at];
         counts[i].mirror = (ulong)mirror.lane[i - at];
         counts[i].transmitted = (ulong)transmitted.lane[i - at];

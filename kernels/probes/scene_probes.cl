@@ -91,7 +91,7 @@ __kernel void probe_light_contribution(PROBE_ITEMS, PROBE_SCENE,
     PROBE_SCENE_PACKET;
     Surface surface = SURFACES(surfaces);
     Materials material = probe_materials(&scene, &surface);
-    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
+    PacketCounts used = no_counts();
     PUT_REAL3(out, light_contribution(&scene, &surface, &material, 0, REAL3(origins), REAL3(to_eye),
                                       INDICES(prims), RT_ALL_LANES, &used));
     PUT_COUNTS(counts, used);
@@ -103,7 +103,7 @@ __kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface*
     PROBE_SCENE_PACKET;
     Surface surface = SURFACES(surfaces);
     Materials material = probe_materials(&scene, &surface);
-    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
+    PacketCounts used = no_counts();
     PUT_REAL3(out, shade(&scene, &surface, &material, REAL3(to_eye), INDICES(prims), RT_ALL_LANES,
                          &used));
     PUT_COUNTS(counts, used);
@@ -112,7 +112,7 @@ __kernel void probe_shade(PROBE_ITEMS, PROBE_SCENE, __global const ProbeSurface*
 __kernel void probe_trace_path(PROBE_ITEMS, PROBE_SCENE, __global const ProbeRay* rays,
                                __global Packed3* out, __global RayCounts* counts) {
     PROBE_SCENE_PACKET;
-    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
+    PacketCounts used = no_counts();
     PUT_REAL3(out, trace_path(&scene, RAYS(rays), RT_ALL_LANES, &used));
     PUT_COUNTS(counts, used);
 }
@@ -121,7 +121,7 @@ __kernel void probe_trace_sample(PROBE_ITEMS, PROBE_SCENE, __global const Index*
                                  __global const Index* y, __global const Index* k,
                                  __global Packed3* out, __global RayCounts* counts) {
     PROBE_SCENE_PACKET;
-    PacketCounts used = {(Indices)0, (Indices)0, (Indices)0};
+    PacketCounts used = no_counts();
     PUT_REAL3(out, trace_sample(&scene, INDICES(x), INDICES(y), INDICES(k), RT_ALL_LANES, &used));
     PUT_COUNTS(counts, used);
 }
@@ -139,7 +139,7 @@ __kernel void probe_trace_pixel(PROBE_ITEMS, PROBE_SCENE, __global const Index* 
             column.lane[lane] = x[i];
             row.lane[lane] = y[i];
         }
-        RayCounts counts = {0, 0, 0};
+        RayCounts counts = {0, 0, 0, 0};
         real3 colors = trace_pixels(&scene, &packet, column.all, row.all, RT_ALL_LANES, &counts);
         Indices places = packet.pixel + (done + (Index)at);
         places = places < (Indices)(Index)count ? places : (Indices)-1;

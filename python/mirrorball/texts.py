@@ -70,6 +70,8 @@ def sampling_text(aa: str) -> str:
         return "one sample per pixel"
     if kind == "adaptive":
         return f"more samples where neighbors differ ({aa})"
+    if kind == "edges":
+        return f"more samples at edges ({aa})"
     samples = size_text(int(number), int(number)) if kind == "grid" else number
     return f"{samples} samples per pixel ({aa})"
 

@@ -16,7 +16,36 @@ def driver(test):
     return [("wrong_driver_test.py", test)]
 
 
+def edges(test):
+    return [("picture_test", "Edges." + test)]
+
+
 MUTANTS = [
+    # Edges
+    Mutant("an edges mode does not see shadows", [
+        (K + "shade.cl", "sign_lanes(scene, counts, lit, (Indices)(number + 1));", ""),
+    ], edges("OpensPixelsAtTheEdgeOfAShadow")),
+    Mutant("an edges mode takes parallel planes for one", [
+        (K + "signature.cl", " + cell(triangle->plane, (Real)1021)", ""),
+    ], edges("OpensPixelsWhereOnePlaneEndsBeforeAnother")),
+    Mutant("an edges mode takes each triangle for a surface", [
+        (K + "signature.cl", "return (Index)(number * 0x9e3779b1u", "return prim; (void)(number"),
+    ], edges("OpensNoPixelsInsideASurface")),
+    Mutant("signatures depend on other lanes", [
+        (K + "whitted.cl", "sign_lanes(scene, counts, glassy,", "sign_lanes(scene, counts, path->live,"),
+    ], edges("HaveTheSameBitsAndRays*")),
+    Mutant("an edges mode counts the rays of margins", [
+        (K + "edges.cl", "used.shadow *= inside;", ""),
+    ], edges("HaveTheSameBitsAndRays*")),
+    Mutant("an edges mode opens edges that do not pay", [
+        (K + "edges.cl", "same | (contrast <=", "same & (contrast <="),
+    ], edges("LeavesEdgesAlone*")),
+    Mutant("an edges mode does not follow thin shapes", [
+        (K + "edges.cl", "if (!any_lane(foreign)) return 0;", "return 0;"),
+    ], edges("FollowsThinShapes*")),
+    Mutant("a settled pixel is its center", [
+        (K + "edges.cl", "(Reals)((Real)5 / (Real)6)", "(Reals)1"),
+    ], edges("OpenPixelsHaveTheBits*")),
     # Rays and shading
     Mutant("paths go on when they are black", [
         (K + "whitted.cl", "path->live &= !is_black(reflected);", "path->live &= path->live;"),

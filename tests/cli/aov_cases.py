@@ -55,6 +55,7 @@ class Aov(CliTest):
 
     def test_rays_and_samples_add_up_to_the_pictures(self):
         for more in [["--aa", "grid:3"], ["--aa", "adaptive:0.05", "--precision", "double"],
+                     ["--aa", "edges:0.01"], ["--aa", "edges:0.01", "--crop", "7,9,83,61"],
                      ["--aa", "adaptive:0.05", "--crop", "7,9,83,61"]]:
             with self.subTest(more=more):
                 stats, _, _, channels = self.channels(scene_path("glass"), "--size", "96x72", *more)
@@ -64,7 +65,10 @@ class Aov(CliTest):
                     self.assertEqual((samples, rays),
                                      (stats["rays"]["primary"], stats["rays"]["total"]))
                 kinds = {value for row in channels["samples"] for value in row}
-                self.assertLessEqual(kinds, {9} if "grid:3" in more else {1, 5, 17, 65, 257})
+                expected = {9} if "grid:3" in more else {1, 5, 17, 65, 257}
+                if "edges:0.01" in more:
+                    expected = {1, *(1 + 2**k for k in range(4, 13))}
+                self.assertLessEqual(kinds, expected)
                 self.assertEqual(len(kinds) > 1, "grid:3" not in more)
 
     def test_a_window_has_the_pixels_of_the_whole(self):

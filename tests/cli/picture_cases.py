@@ -101,9 +101,10 @@ class Crop(CliTest):
         self.check_parts([(0, 0, 31, 23), (5, 3, 17, 20), (30, 22, 31, 23), (0, 10, 31, 11)],
                          "--size", "31x23")
 
-    def test_of_an_adaptive_picture_has_the_pixels_of_the_whole(self):
-        self.check_parts([(5, 3, 37, 20), (60, 22, 61, 23), (0, 30, 61, 33), (20, 20, 41, 47)],
-                         "--size", "61x47", "--aa", "adaptive:0.01")
+    def test_has_the_pixels_of_the_whole_where_neighbors_decide(self):
+        for aa in ["adaptive:0.01", "edges:0.01"]:
+            self.check_parts([(5, 3, 37, 20), (60, 22, 61, 23), (0, 30, 61, 33), (20, 20, 41, 47)],
+                             "--size", "61x47", "--aa", aa)
 
     def test_of_the_buffers_schedule_and_odd_tiles(self):
         options = ["--size", "31x23", "--crop", "5,3,17,20"]

@@ -116,7 +116,7 @@ class TextStats(CliTest):
     def test_features_all_is_said(self):
         result = self.render("empty", "--size", "4", "--features", "all", "--stats")
         self.assertRegex(result.stdout, "leaves out: nothing\n"
-                                        "compiled in but not needed: .*spheres.*glass.*wide filters\n")
+                                        "compiled in but not needed: .*spheres.*glass.*wide filters, edges\n")
 
     def test_features_that_the_kernels_have_are_not_left_out(self):
         for device in ["threads", "pocl"]:

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// An edges mode: one sample at each pixel's center, with its signature (centers_item). Where a
+// pixel and its eight neighbors have the same signature, and no contrast beyond the tolerance, its
+// mean is that of the parabola through five of them. Any other pixel is open: it gets Owen-Sobol
+// samples, doubled as long as that pays (edges_item). A thin shape can pass between centers, so
+// where an open pixel's samples meet something new next to a side, the pixel behind that side is
+// opened, too, in two further rounds.
+//
+// A tile brings along the pixels that its own depend on: centers three pixels around it, and the
+// first samples of open pixels two pixels around it. So a pixel depends on nothing but the scene.
+#ifndef RT_EDGES_CL
+#define RT_EDGES_CL
+
+#include "kernels/film.cl"
+
+// An open pixel's first samples, and its last.
+#define RT_EDGE_SAMPLES 16
+#define RT_MOST_EDGE_SAMPLES 4096
+
+// The error of n samples at an edge is about 0.7 sigma n^-0.75.
+#define RT_EDGE_ERROR 0.49f  // 0.7^2
+
+// The variance of what an open pixel's samples may have missed, as a share of the squared contrast
+// to its neighbors: at an edge, and elsewhere. It counts as much as one sample.
+#define RT_UNSEEN_EDGE 0.15f
+#define RT_UNSEEN_DETAIL 0.05f
+
+// An edge of less contrast than this share of the squared tolerance is not worth the first samples.
+#define RT_LEAST_CONTRAST 32
+
+// An open pixel's state, and the sides next to which its samples meet something new.
+enum { RT_LEFT = 1, RT_RIGHT = 2, RT_BELOW = 4, RT_ABOVE = 8, RT_OPEN = 16 };
+
+// The tile with `margin` pixels around it.
+Tile with_margin(const Tile* tile, Index margin) {
+    Tile wide = *tile;
+    wide.x -= margin;
+    wide.y -= margin;
+    wide.width += 2 * margin;
+    wide.height += 2 * margin;
+    return wide;
+}
+
+// What is known of a tile and its margin lies in planes: the centers' three channels, their
+// signatures, and the states that each round but the last leaves. Behind each is room for a packet.
+enum { RT_SIGNATURES = 3, RT_STATES = 4 };
+
+Index plane_size(const Tile* wide) { return wide->width * wide->height + RT_LANES; }
+
+RayCounts centers_item(__global Real* planes, SceneView* scene, const Tile* tile, Index item) {
+    RayCounts sums = {0, 0, 0, 0};
+    Tile wide = with_margin(tile, RT_EDGE_MARGIN);
+    Packet packet = make_packet(1, 1);
+    TileLanes lanes = tile_lanes(&wide, &packet, item);
+    if (!any_lane(lanes.live)) return sums;
+    PacketCounts used = no_counts();
+    real3 color =
+        trace_sample(scene, wide.x + lanes.column, picture_y(&scene->params, &wide, lanes.row),
+                     (Indices)0, lanes.live, &used);
+    IndexLanes place;
+    RealLanes channels[RT_STATES];
+    place.all = lanes.live ? lanes.row * wide.width + lanes.column : (Indices)-1;
+    channels[0].all = color.x;
+    channels[1].all = color.y;
+    channels[2].all = color.z;
+    channels[RT_SIGNATURES].all = used.signature;
+    for (Index c = 0; c < RT_STATES; ++c) {
+        for (Index i = 0; i < RT_LANES; ++i) {
+            if (place.lane[i] < 0) continue;
+            planes[c * plane_size(&wide) + place.lane[i]] = channels[c].lane[i];
+        }
+    }
+    // The margin is counted by other tiles, or lies outside the picture.
+    Indices column = lanes.column - RT_EDGE_MARGIN, row = lanes.row - RT_EDGE_MARGIN;
+    Indices inside =
+        (column >= 0) & (column < tile->width) & (row >= 0) & (row < tile->height) & lanes.live & 1;
+    used.shadow *= inside;
+    used.mirror *= inside;
+    used.transmitted *= inside;
+    count_lanes(&sums, &used);
+    return sums;
+}
+
+Reals load_row(__global const Real* from) {
+    RealLanes row;
+    for (Index i = 0; i < RT_LANES; ++i) row.lane[i] = from[i];
+    return row.all;
+}
+
+real3 load_centers(__global const Real* planes, Index size, Index at) {
+    return make3(load_row(planes + at), load_row(planes + size + at),
+                 load_row(planes + 2 * size + at));
+}
+
+Reals clamped(Reals v) { return min_of(max_of(v, (Reals)0), (Reals)1); }
+real3 clamped3(real3 v) { return make3(clamped(v.x), clamped(v.y), clamped(v.z)); }
+
+// The mean over channels of the squared difference.
+Reals squared_difference(real3 a, real3 b) {
+    real3 difference = sub3(clamped3(a), clamped3(b));
+    return dot3(difference, difference) * (Reals)((Real)1 / (Real)3);
+}
+
+Real first_lane(Reals v) {
+    RealLanes lanes;
+    lanes.all = v;
+    return lanes.lane[0];
+}
+
+// A row of pixels that are looked at in one round: open lanes, their signatures, and the variances
+// that their samples may not show.
+typedef struct {
+    Mask open;
+    Reals signature, unseen;
+    real3 mean;  // of pixels that are not open
+} EdgeRow;
+
+// The first round.
+EdgeRow find_edges(__global const Real* planes, Index size, Index across, Index at,
+                   Real tolerance) {
+    real3 own = load_centers(planes, size, at);
+    EdgeRow row;
+    row.signature = load_row(planes + RT_SIGNATURES * size + at);
+    Mask same = RT_ALL_LANES;
+    Reals contrast = (Reals)0;
+    real3 sides = make3((Reals)0, (Reals)0, (Reals)0);
+    for (Index dy = -1; dy <= 1; ++dy) {
+        for (Index dx = -1; dx <= 1; ++dx) {
+            if (dx == 0 && dy == 0) continue;
+            Index there = at + dy * across + dx;
+            real3 color = load_centers(planes, size, there);
+            same &= load_row(planes + RT_SIGNATURES * size + there) == row.signature;
+            contrast = max_of(contrast, squared_difference(color, own));
+            if (dx == 0 || dy == 0) sides = add3(sides, color);
+        }
+    }
+    // The value and its Laplacian / 24.
+    row.mean =
+        add_scaled(scale3((Reals)((Real)5 / (Real)6), own), (Reals)((Real)1 / (Real)24), sides);
+    Reals squared = (Reals)(tolerance * tolerance);
+    Mask settled = same | (contrast <= (Reals)RT_LEAST_CONTRAST * squared);
+    row.open = !(settled & (squared_difference(row.mean, own) <= (Reals)4 * squared));
+    row.unseen = contrast * (same ? (Reals)RT_UNSEEN_DETAIL : (Reals)RT_UNSEEN_EDGE);
+    return row;
+}
+
+Mask asks(__global const Real* states, Index at, Index side) {
+    return (Mask)((RT_TO_INDICES(load_row(states + at)) & side) != 0);
+}
+
+// A further round: pixels that are not open yet and lie behind sides noted in the last one.
+EdgeRow follow_edges(__global const Real* planes, Index size, Index across, Index at, Index round) {
+    EdgeRow row;
+    row.signature = load_row(planes + RT_SIGNATURES * size + at);
+    row.unseen = (Reals)0;
+    __global const Real* states = planes + (RT_STATES + round - 1) * size;
+    row.open = asks(states, at - 1, RT_RIGHT) | asks(states, at + 1, RT_LEFT) |
+               asks(states, at - across, RT_BELOW) | asks(states, at + across, RT_ABOVE);
+    for (Index before = 0; before < round; ++before) {
+        row.open &= !asks(planes + (RT_STATES + before) * size, at, RT_OPEN);
+    }
+    return row;
+}
+
+// The sides next to which one of these samples has another signature.
+Index noted_sides(const LaunchParams* params, Indices x, Indices y, Indices k, Mask foreign) {
+    if (!any_lane(foreign)) return 0;
+    Position position = sample_position(params, x, y, k);
+    Mask left = position.x < (Reals)0.5f, below = position.y < (Reals)0.5f;
+    return (any_lane(foreign & left) ? RT_LEFT : 0) | (any_lane(foreign & !left) ? RT_RIGHT : 0) |
+           (any_lane(foreign & below) ? RT_BELOW : 0) | (any_lane(foreign & !below) ? RT_ABOVE : 0);
+}
+
+// An open pixel in the making.
+typedef struct {
+    real3 color;  // in the first lane
+    Index state;
+    Index samples;
+} EdgePixel;
+
+// Pixel (x, y) with as many samples as pay: twice as many would reduce the picture's error by less
+// than the tolerance asks for. With its first samples alone if it lies in the margin.
+EdgePixel trace_edge_pixel(const SceneView* scene, Index x, Index y, Real signature, Real unseen,
+                           bool is_margin, RayCounts* counts) {
+    Packet packet = make_packet(RT_EDGE_SAMPLES, RT_LANES);
+    Sum sum = empty_sum(), whole = sum;
+    real3 moment = make3((Reals)0, (Reals)0, (Reals)0);  // of clamped colors
+    Reals square = (Reals)0;
+    Real tolerance = scene->params.tolerance;
+    Real limit = tolerance * tolerance * (Real)256;  // T^2 n^2.5 / 4
+    EdgePixel pixel = {moment, RT_OPEN, 0};
+    for (Index n = RT_EDGE_SAMPLES;; n *= 2) {
+        for (; pixel.samples < n; pixel.samples += packet.samples) {
+            PacketCounts used = no_counts();
+            real3 color = add_packet(scene, &packet, (Indices)x, (Indices)y, pixel.samples,
+                                     RT_ALL_LANES, &whole, &sum, &used);
+            if (pixel.samples < RT_EDGE_SAMPLES) {
+                pixel.state |=
+                    noted_sides(&scene->params, (Indices)x, (Indices)y,
+                                pixel.samples + packet.sample, used.signature != (Reals)signature);
+            }
+            real3 seen = clamped3(color);
+            moment.x = add_samples(moment.x, (Reals)1, seen.x, packet.samples);
+            moment.y = add_samples(moment.y, (Reals)1, seen.y, packet.samples);
+            moment.z = add_samples(moment.z, (Reals)1, seen.z, packet.samples);
+            square = add_samples(square, (Reals)1, dot3(seen, seen), packet.samples);
+            if (!is_margin) count_lanes(counts, &used);
+        }
+        Reals share = (Reals)((Real)1 / (Real)n);
+        real3 mean = scale3(share, moment);
+        Real variance = first_lane(square * share - dot3(mean, mean)) * ((Real)1 / (Real)3);
+        variance = (variance > (Real)0 ? variance : (Real)0) + unseen / (Real)n;
+        if (is_margin || !((Real)RT_EDGE_ERROR * variance > limit)) break;
+        if (n == RT_MOST_EDGE_SAMPLES) break;
+        limit *= (Real)5.656854f;  // 2^2.5
+    }
+    whole = add_sums(whole, sum);
+    pixel.color = divide3(whole.color, whole.weight);
+    return pixel;
+}
+
+// One round over a packet of pixels side by side.
+RayCounts edges_item(__global Real* film, __global Real* planes, SceneView* scene, const Tile* tile,
+                     Index round, Index item) {
+    RayCounts sums = {0, 0, 0, 0};
+    Index margin = RT_EDGE_MARGIN - 1 - round;
+    Index across = (tile->width + 2 * margin + RT_LANES - 1) / RT_LANES;
+    Index row = item / across - margin, column = item % across * RT_LANES - margin;
+    if (row >= tile->height + margin) return sums;
+    Tile wide = with_margin(tile, RT_EDGE_MARGIN);
+    Index size = plane_size(&wide);
+    Index at = (row + RT_EDGE_MARGIN) * wide.width + column + RT_EDGE_MARGIN;
+    EdgeRow found = round == 0 ? find_edges(planes, size, wide.width, at, scene->params.tolerance)
+                               : follow_edges(planes, size, wide.width, at, round);
+    Indices columns = column + RT_LANE_NUMBERS;
+    bool is_outside = row < 0 || row >= tile->height;
+    Mask margins =
+        (columns < 0) | (columns >= tile->width) | (is_outside ? RT_ALL_LANES : RT_NO_LANES);
+    Indices places = tile->first + row * tile->film_width + columns;
+    if (round == 0) {
+        store_lanes(film, found.mean, (margins | found.open) ? (Indices)-1 : places, RT_LANES);
+    }
+    if (round > 0 && !any_lane(found.open) && round == RT_EDGE_MARGIN - 1) return sums;
+    RealLanes signature, unseen;
+    IndexLanes open, place;
+    signature.all = found.signature;
+    unseen.all = found.unseen;
+    open.all = (found.open & (columns < tile->width + margin)) & 1;
+    place.all = margins ? (Indices)-1 : places;
+    scene->params.sampling = RT_SAMPLES_SOBOL;
+    for (Index i = 0; i < RT_LANES; ++i) {
+        Index state = 0;
+        if (open.lane[i] != 0) {
+            bool is_margin = place.lane[i] < 0;
+            EdgePixel pixel = trace_edge_pixel(scene, tile->x + column + i,
+                                               scene->params.height - 1 - tile->y - row,
+                                               signature.lane[i], unseen.lane[i], is_margin, &sums);
+            state = pixel.state;
+            if (!is_margin) {
+                sums.primary += (RT_COUNT)pixel.samples;
+                store3(film, place.lane[i], first_lane(pixel.color.x), first_lane(pixel.color.y),
+                       first_lane(pixel.color.z));
+            }
+        }
+        if (round < RT_EDGE_MARGIN - 1 && column + i < tile->width + margin) {
+            planes[(RT_STATES + round) * size + at + i] = (Real)state;
+        }
+    }
+    scene->params.sampling = RT_SAMPLES_GRID;
+    return sums;
+}
+
+#endif
