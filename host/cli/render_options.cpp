@@ -187,7 +187,8 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
         "also estimate the picture's RMSE, without a reference, from some pixels traced again");
     verb.value("--target-rmse", "E", render.target_rmse, parse_target,
                "as many samples as it takes for an estimated RMSE of at most E, starting with --aa "
-               "(default: sobol:4, or sobol:16 with --filter mitchell); implies --estimate");
+               "(default: edges:E; with another --filter than box sobol:4, or sobol:16 with "
+               "mitchell); implies --estimate");
     verb.value("--expect", "HASH", render.expected_hash, parse_hash,
                "exit 1 if the picture has another hash");
 }

@@ -29,15 +29,25 @@ void settle_journal(RenderOptions& render) {
     if (!render.output.ends_with(".mbj")) usage_error("--shard requires -o FILE.mbj");
 }
 
+/// What a target starts with. The error of edges:T is about T.
+AaMode first_aa(double target_rmse, Filter filter) {
+    if (filter == Filter::box) {
+        const double tolerance = std::clamp(target_rmse, AaMode::min_tolerance, 1.0);
+        return {AaMode::Pattern::edges, 1, tolerance};
+    }
+    return {AaMode::Pattern::sobol, std::max(fewest_samples(filter), 4), 0};
+}
+
 /// A target starts with a few samples; its journal would be of another picture each time.
 void settle_estimate(RenderOptions& render) {
     if (render.target_rmse > 0) {
         if (render.shares || render.resume) {
             usage_error("--target-rmse cannot be combined with --shard or --resume");
         }
-        const int samples = std::max(fewest_samples(render.filter), 4);
-        if (!render.aa) render.aa = {AaMode::Pattern::sobol, samples, 0};
-        if (render.aa->refines()) usage_error("--target-rmse requires --aa sobol:N or grid:N");
+        if (!render.aa) render.aa = first_aa(render.target_rmse, render.filter);
+        if (render.aa->refines()) {
+            usage_error("--target-rmse requires --aa edges:T, sobol:N or grid:N");
+        }
     }
     if (render.estimate && render.shares) {
         usage_error("--estimate works only for a whole picture, without --shard");

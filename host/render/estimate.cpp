@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "host/base/parallel.h"
 #include "host/render/adaptive.h"
+#include "host/render/edge_tile.h"
 #include "host/render/packet_shape.h"
 
 namespace rt {
@@ -47,8 +49,13 @@ std::string short_text(double value) {
 
 AaMode sobol_aa(int samples) { return {AaMode::Pattern::sobol, samples, 0}; }
 
-/// The next of 2, 3, 4, 6, 8, 12, ... samples or rows.
+/// The next of 2, 3, 4, 6, 8, 12, ... samples or rows, or two thirds of the tolerance.
 AaMode finer(AaMode aa) {
+    if (aa.finds_edges()) {
+        const auto rounded = parse_number<double>(fmt::format("{:.2g}", aa.threshold / 1.5));
+        aa.threshold = std::max(*rounded, AaMode::min_tolerance);
+        return aa;
+    }
     const bool is_power_of_two = (aa.count & (aa.count - 1)) == 0;
     const int more = is_power_of_two ? aa.count / 2 : aa.count / 3;
     const int most = aa.pattern == AaMode::Pattern::grid ? AaMode::max_grid : AaMode::max_sobol;
@@ -92,11 +99,12 @@ double product(const double* value, const double* a, const double* b) {
     return std::isfinite(sum) ? sum / 3 : 0;
 }
 
-/// The colors, RGB, of pixels sampled so. `seed`: to be combined with the picture's.
+/// The colors, RGB, of pixels sampled so; adds their samples. `seed`: to be combined with the
+/// picture's.
 template <typename T>
 std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
                           const std::vector<std::int32_t>& pixels, const AaMode& aa, int seed,
-                          ThreadsOptions options) {
+                          ThreadsOptions options, std::uint64_t& samples) {
     options.kernels.any_samples = true;
     options.kernels.features.sobol = true;
     const NativeKernels<T>& kernels = native_kernels_for(scene, options);
@@ -105,8 +113,10 @@ std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
     view.params.sampling = is_sobol ? f32::RT_SAMPLES_SOBOL : f32::RT_SAMPLES_GRID;
     view.params.grid = is_sobol ? 0 : aa.count;
     view.params.samples = aa.samples();
+    view.params.tolerance = aa.finds_edges() ? static_cast<T>(aa.threshold) : T(0);
     view.params.seed ^= seed;
     std::vector<T> colors(3 * pixels.size());
+    std::atomic<std::uint64_t> at_edges = 0;
     constexpr std::size_t run = 16;
     const int held = packet_shape(kernels.lanes, aa.samples(), kernels.lanes).pixels();
     for_each_run(pixels.size(), run, thread_count(options, 1),
@@ -114,9 +124,21 @@ std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
                      auto tile = flat_tile<T>(region, region);
                      tile.width = static_cast<typename Flat<T>::Index>(last - first);
                      typename Flat<T>::RayCounts counts{};
-                     kernels.render_list(&colors[3 * first], &counts, &view, &tile, &pixels[first],
-                                         0, (tile.width + held - 1) / held);
+                     if (!aa.finds_edges()) {
+                         kernels.render_list(&colors[3 * first], &counts, &view, &tile,
+                                             &pixels[first], 0, (tile.width + held - 1) / held);
+                         return;
+                     }
+                     std::vector<T> planes;
+                     for (std::size_t i = first; i < last; ++i) {
+                         const Rect pixel{region.x + pixels[i] % region.width,
+                                          region.y + pixels[i] / region.width, 1, 1};
+                         render_edge_tile(kernels, view, flat_tile<T>(pixel, pixel), planes,
+                                          &colors[3 * i], counts, [] { return false; });
+                     }
+                     at_edges += counts.primary;
                  });
+    samples += pixels.size() * static_cast<std::uint64_t>(aa.samples()) + at_edges;
     return {colors.begin(), colors.end()};
 }
 
@@ -131,8 +153,9 @@ ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, con
         candidates.weights.push_back(weight / static_cast<double>(contrasts.size()));
     });
     const std::vector<double> own = colors_of(candidates.pixels, film);
-    const std::vector<double> others = trace(scene, region, candidates.pixels,
-                                             sobol_aa(candidate_samples), candidates_seed, options);
+    const std::vector<double> others =
+        trace(scene, region, candidates.pixels, sobol_aa(candidate_samples), candidates_seed,
+              options, controls.samples);
     std::vector<double> squares;
     for (std::size_t i = 0; i < candidates.pixels.size(); ++i) {
         squares.push_back(candidates.weights[i] *
@@ -145,7 +168,6 @@ ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, con
         controls.weights.push_back(candidates.weights[i] * weight);
     });
     controls.candidates = candidates.pixels.size();
-    controls.samples = candidates.pixels.size() * candidate_samples;
     return controls;
 }
 
@@ -154,9 +176,8 @@ template <typename T>
 void trace_means(const FlatScene<T>& scene, const Rect& region, int depth,
                  const ThreadsOptions& options, ControlPixels& controls) {
     for (std::size_t k = 0; k < 2; ++k) {
-        controls.means[k] =
-            trace(scene, region, controls.pixels, sobol_aa(depth), control_seeds[k], options);
-        controls.samples += controls.pixels.size() * static_cast<std::uint64_t>(depth);
+        controls.means[k] = trace(scene, region, controls.pixels, sobol_aa(depth), control_seeds[k],
+                                  options, controls.samples);
     }
     controls.depth = depth;
 }
@@ -207,7 +228,8 @@ std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaM
                                             const Rect& region, const Film<T>& film,
                                             const ThreadsOptions& options, const StopFlag& stop) {
     ControlPixels controls = choose_controls(scene, region, film, options);
-    const int most = aa.fixed_samples().value_or(adaptive_samples);
+    const int most =
+        aa.finds_edges() ? AaMode::max_sobol : aa.fixed_samples().value_or(adaptive_samples);
     for (int depth = control_samples; stop == 0; depth *= 4) {
         trace_means(scene, region, depth, options, controls);
         const ErrorEstimate estimate = controls.estimate_of(film);
@@ -229,8 +251,7 @@ std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMo
             trace_means(scene, region, std::max(aa.samples(), 2 * controls.depth), options,
                         controls);
         }
-        const auto colors = trace(scene, region, controls.pixels, aa, 0, options);
-        controls.samples += controls.pixels.size() * static_cast<std::uint64_t>(aa.samples());
+        const auto colors = trace(scene, region, controls.pixels, aa, 0, options, controls.samples);
         if (controls.estimate(colors).reaches(rmse)) return aa;
     }
     return std::nullopt;

@@ -70,10 +70,11 @@ class Target(CliTest):
             self.assertGreater(error, 0.5e-3, scene)
 
     def test_takes_no_more_samples_than_it_needs(self):
-        samples = [self.reach(rmse)["settings"]["samples"] for rmse in ["0.3", "1e-2", "3e-3"]]
+        samples = [self.reach(rmse, "--aa", "sobol:4")["settings"]["samples"]
+                   for rmse in ["0.3", "1e-2", "3e-3"]]
         self.assertEqual(samples[0], 4)
         self.assertEqual(sorted(set(samples)), samples)
-        estimate = self.reach("3e-3")["estimate"]
+        estimate = self.reach("3e-3", "--aa", "sobol:4")["estimate"]
         self.assertLess(estimate["rmse"], estimate["target"])
         self.assertEqual(estimate["target"], 3e-3)
 
@@ -89,8 +90,13 @@ class Target(CliTest):
         self.assertLess(stats["estimate"]["rmse"], 5e-3)
 
     def test_starts_with_the_samples_that_the_filter_needs(self):
-        for filter_, samples in [("box", 4), ("gaussian", 4), ("mitchell", 16)]:
-            self.assertEqual(self.reach("0.3", "--filter", filter_)["settings"]["samples"], samples)
+        for filter_, aa in [("box", "edges:0.3"), ("gaussian", "sobol:4"), ("mitchell", "sobol:16")]:
+            self.assertEqual(self.reach("0.3", "--filter", filter_)["settings"]["aa"], aa)
+
+    def test_goes_on_at_edges(self):
+        stats = self.reach("1e-3", "--aa", "edges:0.1")
+        self.assertLess(float(stats["settings"]["aa"].removeprefix("edges:")), 0.01)
+        self.assertLess(stats["estimate"]["rmse"], 1e-3)
 
     def test_of_a_batch(self):
         result = self.succeed("render", scene_path("cornell-box"), scene_path("many-lights"),
@@ -106,8 +112,8 @@ class Target(CliTest):
         self.assertEqual(self.files(), ["out.png"])
 
     def test_out_of_time_keeps_the_first_picture(self):
-        result = self.run_cli("render", scene_path("glass"), "--size", "400", "--target-rmse",
-                              "5e-5", "--timeout", "3", "-o", "out.png")
+        result = self.run_cli("render", scene_path("glass"), "--size", "400", "--aa", "sobol:4",
+                              "--target-rmse", "5e-5", "--timeout", "3", "-o", "out.png")
         self.assertEqual(result.returncode, 8)
         self.assertRegex(result.stderr, RMSE + " with sobol:4, not the target of 5e-05: out of")
         self.assertEqual(self.files(), ["out.png"])

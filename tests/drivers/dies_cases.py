@@ -116,7 +116,7 @@ class Dies(WrongDriver):
         self.assertEqual(result.stderr.split()[-1], right.stderr.split()[-1])
 
     def test_hangs_in_the_second_picture_of_a_target(self):
-        arguments = ["--target-rmse", "1e-3"]
+        arguments = ["--aa", "sobol:4", "--target-rmse", "1e-3"]
         result = self.die("clEnqueueNDRangeKernel", "hang", *arguments, CL_SHIM_DIE_AT="11", code=0)
         first, hung = [result.stderr.find(text) for text in ["rendering again", "made no progress"]]
         self.assertTrue(0 < first < hung, result.stderr)

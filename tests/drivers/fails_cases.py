@@ -65,7 +65,7 @@ class Fails(WrongDriver):
         self.assertNotIn("fallback_from", second["device"])
 
     def test_in_the_first_picture_of_a_target_it_is_not_asked_again(self):
-        target = ["--target-rmse", "2e-3"]
+        target = ["--aa", "sobol:4", "--target-rmse", "2e-3"]
         result = self.run_with({"CL_SHIM_FAIL_LAUNCH": "7"}, "render", SCENE, "--stats=json", "--size",
                                "300", "--device", "pocl", "--schedule", "buffers", *target, code=0)
         for text in ["CL_OUT_OF_RESOURCES", "rendering again", "--schedule has no effect"]:
