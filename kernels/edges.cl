@@ -26,7 +26,7 @@
 #define RT_UNSEEN_EDGE 0.15f
 #define RT_UNSEEN_DETAIL 0.05f
 
-// An edge of less contrast than this share of the squared tolerance is not worth the first samples.
+// An edge is worth the first samples if its squared contrast exceeds this many squared tolerances.
 #define RT_LEAST_CONTRAST 32
 
 // An open pixel's state, and the sides next to which its samples meet something new.
@@ -53,7 +53,7 @@ RayCounts centers_item(__global Real* planes, SceneView* scene, const Tile* tile
     Tile wide = with_margin(tile, RT_EDGE_MARGIN);
     Packet packet = make_packet(1, 1);
     TileLanes lanes = tile_lanes(&wide, &packet, item);
-    if (!any_lane(lanes.live)) return sums;
+    if (!any_lane(lanes.live) || tile->height == 0) return sums;
     PacketCounts used = no_counts();
     real3 color =
         trace_sample(scene, wide.x + lanes.column, picture_y(&scene->params, &wide, lanes.row),
@@ -108,20 +108,20 @@ Real first_lane(Reals v) {
     return lanes.lane[0];
 }
 
-// A row of pixels that are looked at in one round: open lanes, their signatures, and the variances
-// that their samples may not show.
+// Pixels that are looked at in one round: the open ones, all signatures, and the variances that
+// samples may not show.
 typedef struct {
     Mask open;
     Reals signature, unseen;
     real3 mean;  // of pixels that are not open
-} EdgeRow;
+} EdgePacket;
 
 // The first round.
-EdgeRow find_edges(__global const Real* planes, Index size, Index across, Index at,
-                   Real tolerance) {
+EdgePacket find_edges(__global const Real* planes, Index size, Index across, Index at,
+                      Real tolerance) {
     real3 own = load_centers(planes, size, at);
-    EdgeRow row;
-    row.signature = load_row(planes + RT_SIGNATURES * size + at);
+    EdgePacket found;
+    found.signature = load_row(planes + RT_SIGNATURES * size + at);
     Mask same = RT_ALL_LANES;
     Reals contrast = (Reals)0;
     real3 sides = make3((Reals)0, (Reals)0, (Reals)0);
@@ -130,19 +130,21 @@ EdgeRow find_edges(__global const Real* planes, Index size, Index across, Index 
             if (dx == 0 && dy == 0) continue;
             Index there = at + dy * across + dx;
             real3 color = load_centers(planes, size, there);
-            same &= load_row(planes + RT_SIGNATURES * size + there) == row.signature;
+            same &= load_row(planes + RT_SIGNATURES * size + there) == found.signature;
             contrast = max_of(contrast, squared_difference(color, own));
             if (dx == 0 || dy == 0) sides = add3(sides, color);
         }
     }
     // The value and its Laplacian / 24.
-    row.mean =
+    found.mean =
         add_scaled(scale3((Reals)((Real)5 / (Real)6), own), (Reals)((Real)1 / (Real)24), sides);
+    // Not clamped: the mean of an overexposed pixel is stored, too. NaNs open a pixel.
+    real3 change = sub3(found.mean, own);
     Reals squared = (Reals)(tolerance * tolerance);
     Mask settled = same | (contrast <= (Reals)RT_LEAST_CONTRAST * squared);
-    row.open = !(settled & (squared_difference(row.mean, own) <= (Reals)4 * squared));
-    row.unseen = contrast * (same ? (Reals)RT_UNSEEN_DETAIL : (Reals)RT_UNSEEN_EDGE);
-    return row;
+    found.open = !(settled & (dot3(change, change) <= (Reals)12 * squared));
+    found.unseen = contrast * (same ? (Reals)RT_UNSEEN_DETAIL : (Reals)RT_UNSEEN_EDGE);
+    return found;
 }
 
 Mask asks(__global const Real* states, Index at, Index side) {
@@ -150,17 +152,18 @@ Mask asks(__global const Real* states, Index at, Index side) {
 }
 
 // A further round: pixels that are not open yet and lie behind sides noted in the last one.
-EdgeRow follow_edges(__global const Real* planes, Index size, Index across, Index at, Index round) {
-    EdgeRow row;
-    row.signature = load_row(planes + RT_SIGNATURES * size + at);
-    row.unseen = (Reals)0;
+EdgePacket follow_edges(__global const Real* planes, Index size, Index across, Index at,
+                        Index round) {
+    EdgePacket found;
+    found.signature = load_row(planes + RT_SIGNATURES * size + at);
+    found.unseen = (Reals)0;
     __global const Real* states = planes + (RT_STATES + round - 1) * size;
-    row.open = asks(states, at - 1, RT_RIGHT) | asks(states, at + 1, RT_LEFT) |
-               asks(states, at - across, RT_BELOW) | asks(states, at + across, RT_ABOVE);
+    found.open = asks(states, at - 1, RT_RIGHT) | asks(states, at + 1, RT_LEFT) |
+                 asks(states, at - across, RT_BELOW) | asks(states, at + across, RT_ABOVE);
     for (Index before = 0; before < round; ++before) {
-        row.open &= !asks(planes + (RT_STATES + before) * size, at, RT_OPEN);
+        found.open &= !asks(planes + (RT_STATES + before) * size, at, RT_OPEN);
     }
-    return row;
+    return found;
 }
 
 // The sides next to which one of these samples has another signature.
@@ -220,52 +223,55 @@ EdgePixel trace_edge_pixel(const SceneView* scene, Index x, Index y, Real signat
     return pixel;
 }
 
+// Traces an open pixel, column and row from the tile's upper left one, and stores its color if it
+// is the tile's. Returns its state.
+Index trace_open_pixel(__global Real* film, const SceneView* scene, const Tile* tile, Index column,
+                       Index row, Real signature, Real unseen, RayCounts* counts) {
+    bool is_margin = column < 0 || column >= tile->width || row < 0 || row >= tile->height;
+    EdgePixel pixel =
+        trace_edge_pixel(scene, tile->x + column, scene->params.height - 1 - tile->y - row,
+                         signature, unseen, is_margin, counts);
+    if (is_margin) return pixel.state;
+    counts->primary += (RT_COUNT)pixel.samples;
+    store3(film, tile->first + row * tile->film_width + column, first_lane(pixel.color.x),
+           first_lane(pixel.color.y), first_lane(pixel.color.z));
+    return pixel.state;
+}
+
 // One round over a packet of pixels side by side.
 RayCounts edges_item(__global Real* film, __global Real* planes, SceneView* scene, const Tile* tile,
                      Index round, Index item) {
     RayCounts sums = {0, 0, 0, 0};
     Index margin = RT_EDGE_MARGIN - 1 - round;
-    Index across = (tile->width + 2 * margin + RT_LANES - 1) / RT_LANES;
+    Index end = tile->width + margin;
+    Index across = (end + margin + RT_LANES - 1) / RT_LANES;
     Index row = item / across - margin, column = item % across * RT_LANES - margin;
-    if (row >= tile->height + margin) return sums;
+    if (row >= tile->height + margin || tile->height == 0) return sums;
     Tile wide = with_margin(tile, RT_EDGE_MARGIN);
     Index size = plane_size(&wide);
     Index at = (row + RT_EDGE_MARGIN) * wide.width + column + RT_EDGE_MARGIN;
-    EdgeRow found = round == 0 ? find_edges(planes, size, wide.width, at, scene->params.tolerance)
-                               : follow_edges(planes, size, wide.width, at, round);
+    EdgePacket found = round == 0
+                           ? find_edges(planes, size, wide.width, at, scene->params.tolerance)
+                           : follow_edges(planes, size, wide.width, at, round);
     Indices columns = column + RT_LANE_NUMBERS;
-    bool is_outside = row < 0 || row >= tile->height;
-    Mask margins =
-        (columns < 0) | (columns >= tile->width) | (is_outside ? RT_ALL_LANES : RT_NO_LANES);
-    Indices places = tile->first + row * tile->film_width + columns;
-    if (round == 0) {
-        store_lanes(film, found.mean, (margins | found.open) ? (Indices)-1 : places, RT_LANES);
+    if (round == 0 && row >= 0 && row < tile->height) {
+        Mask settled = !found.open & (columns >= 0) & (columns < tile->width);
+        Indices places = tile->first + row * tile->film_width + columns;
+        store_lanes(film, found.mean, settled ? places : (Indices)-1, RT_LANES);
     }
-    if (round > 0 && !any_lane(found.open) && round == RT_EDGE_MARGIN - 1) return sums;
     RealLanes signature, unseen;
-    IndexLanes open, place;
+    IndexLanes open;
     signature.all = found.signature;
     unseen.all = found.unseen;
-    open.all = (found.open & (columns < tile->width + margin)) & 1;
-    place.all = margins ? (Indices)-1 : places;
+    open.all = found.open & (columns < end) & 1;
     scene->params.sampling = RT_SAMPLES_SOBOL;
-    for (Index i = 0; i < RT_LANES; ++i) {
+    for (Index i = 0; i < RT_LANES && column + i < end; ++i) {
         Index state = 0;
         if (open.lane[i] != 0) {
-            bool is_margin = place.lane[i] < 0;
-            EdgePixel pixel = trace_edge_pixel(scene, tile->x + column + i,
-                                               scene->params.height - 1 - tile->y - row,
-                                               signature.lane[i], unseen.lane[i], is_margin, &sums);
-            state = pixel.state;
-            if (!is_margin) {
-                sums.primary += (RT_COUNT)pixel.samples;
-                store3(film, place.lane[i], first_lane(pixel.color.x), first_lane(pixel.color.y),
-                       first_lane(pixel.color.z));
-            }
+            state = trace_open_pixel(film, scene, tile, column + i, row, signature.lane[i],
+                                     unseen.lane[i], &sums);
         }
-        if (round < RT_EDGE_MARGIN - 1 && column + i < tile->width + margin) {
-            planes[(RT_STATES + round) * size + at + i] = (Real)state;
-        }
+        if (margin > 0) planes[(RT_STATES + round) * size + at + i] = (Real)state;
     }
     scene->params.sampling = RT_SAMPLES_GRID;
     return sums;

@@ -37,10 +37,10 @@ Index surface_number(const SceneView* scene, Index prim) {
     __global const Triangle* triangle = &scene->triangles[index];
     if (RT_HAS_VERTEX_NORMALS && triangle->smooth != RT_NONE) return -1 - triangle->material;
     uint number = (uint)triangle->material;
-    number = number * 0x9e3779b1u + cell(triangle->normal.x, (Real)2021);
-    number = number * 0x9e3779b1u + cell(triangle->normal.y, (Real)2021);
-    number = number * 0x9e3779b1u + cell(triangle->normal.z, (Real)2021);
-    return (Index)(number * 0x9e3779b1u + cell(triangle->plane, (Real)1021));
+    number = number * 0x9e3779b1u + cell(triangle->normal.x, (Real)2020.7f);
+    number = number * 0x9e3779b1u + cell(triangle->normal.y, (Real)2020.7f);
+    number = number * 0x9e3779b1u + cell(triangle->normal.z, (Real)2020.7f);
+    return (Index)(number * 0x9e3779b1u + cell(triangle->plane, (Real)1020.7f));
 }
 
 // Adds to the signatures of these lanes which surfaces they meet, `inside` where from behind.
@@ -54,7 +54,8 @@ void sign_surfaces(const SceneView* scene, PacketCounts* counts, Mask lanes, Ind
         left &= !same;
         numbers = same ? (Indices)surface_number(scene, prim) : numbers;
     }
-    sign_lanes(scene, counts, lanes, numbers * 2 + (inside & 1));
+    sign_lanes(scene, counts, lanes, numbers);
+    sign_lanes(scene, counts, lanes, inside & 1);
 }
 
 #endif

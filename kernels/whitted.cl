@@ -152,7 +152,7 @@ void scatter(const SceneView* scene, const Surface* surface, const Materials* ma
     path->ray = select_ray(reflects, mirror_ray(surface, path->ray.dir, from), refracted);
     path->throughput = select3(reflects, reflected, transmitted);
     path->live = reflects | transmits;
-    sign_lanes(scene, counts, glassy, (reflects & 1) + (transmits & 2));
+    sign_lanes(scene, counts, glassy, (reflects & 1) + (transmits & 1) * 2);
     counts->mirror += reflects & 1;
     counts->transmitted += transmits & 1;
     RT_EXPLAIN(path->live, reflects ? RT_EVENT_MIRROR : RT_EVENT_REFRACTED, 0, path->bounce,

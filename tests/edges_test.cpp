@@ -71,15 +71,16 @@ TEST(Edges, OpensThePixelsAtASilhouette) {
 
 TEST(Edges, OpensNoPixelsInsideASurface) {
     Scene scene = flat_world();
+    scene.materials[0].diffuse = {0.5, 0.5, 0.5};
+    scene.lights.push_back({{24, 60, 40}, {1, 1, 1}});  // 0.01 from pixel to pixel, no more edges
     const glm::dvec3 a{-9, -9, -3}, b{60, -9, 1}, c{60, 60, 5.5}, d{-9, 60, 1.5};  // in a plane
     add_triangle(scene, a, b, c);
     add_triangle(scene, a, c, d);
     EXPECT_EQ(all_samples(scene), std::uint64_t{size} * size);
     scene.triangles.clear();
-    add_triangle(scene, a, b, {60, 60, 1});  // folded, and lit differently
-    add_triangle(scene, a, {60, 60, 1}, d);
-    scene.materials[0].diffuse = {0.5, 0.5, 0.5};
-    scene.lights.push_back({{24, 900, 90}, {1, 1, 1}});
+    const glm::dvec3 folded{60, 60, 3};
+    add_triangle(scene, a, b, folded);
+    add_triangle(scene, a, folded, d);
     EXPECT_GT(all_samples(scene), std::uint64_t{size} * size + 16 * size);
 }
 
@@ -111,8 +112,7 @@ TEST(Edges, LeavesEdgesAloneThatAreNotWorthTheirSamples) {
     EXPECT_EQ(all_samples(scene), std::uint64_t{size} * size);
 }
 
-/// A bar a third of a pixel wide, almost upright: most centers beside it are dark, and it crosses
-/// a column of pixels in 24 rows without meeting one.
+/// A bar 0.3 pixel wide, almost upright, meets no center in some 17 rows after another.
 TEST(Edges, FollowsThinShapesBetweenCenters) {
     Scene scene = flat_world("edges:0.003");
     add_triangle(scene, {20.1, -1, 0}, {20.4, -1, 0}, {22.1, 49, 0});
@@ -184,6 +184,14 @@ TEST(Edges, HaveTheSameBitsAndRaysInAnyPacketAndTile) {
     for (const int lanes : {1, 4, 16}) EXPECT_EQ(render(lanes, 60, 44), expected) << lanes;
     EXPECT_EQ(render(0, 17, 5), expected);
     EXPECT_EQ(render(0, 1, 44), expected);
+}
+
+/// More packets in rows than in squares, and more than a launch may have.
+TEST(Edges, HaveTheSameBitsWhereALaunchIsNarrow) {
+    Scene scene = load_named_scene("single-sphere");
+    set_image_size(scene, 1, 65536);
+    scene.aa = *parse_aa_mode("edges:0.01");
+    EXPECT_EQ(hash_of(render_on_device<float>(scene)), hash_of(render_on_threads<float>(scene)));
 }
 
 struct Reached {

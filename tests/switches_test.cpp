@@ -94,6 +94,12 @@ TEST(Switches, DoSomething) {
         set_switches(features_of(0xfff & ~(1 << bit)));
         EXPECT_NE(hash_by(packets, flat), all) << feature_names[bit].name;
     }
+    const Features edges = features_of(0x17ff);
+    const FlatScene<float> with_edges = flatten<float>(scene_needing(edges));
+    set_switches(edges);
+    const std::uint64_t found = hash_by(packets, with_edges);
+    set_switches(features_of(0x7ff));
+    EXPECT_NE(hash_by(packets, with_edges), found);
 }
 
 }  // namespace

@@ -137,6 +137,10 @@ class ClRenderer : public Renderer<T> {
     }
 
     bool finds_edges() const { return params_.tolerance > 0; }
+    /// Of a pixel, for the pacer.
+    std::int64_t paced_samples() const {
+        return finds_edges() ? edge_samples_guess : static_cast<std::int64_t>(params_.samples);
+    }
     std::size_t samples() const { return static_cast<std::size_t>(params_.samples); }
 
     PacketShape shape(std::size_t samples) const {
@@ -145,12 +149,14 @@ class ClRenderer : public Renderer<T> {
 
     /// Whether a rectangle is small enough for one launch.
     bool fits(const Rect& rect) const {
-        const std::int64_t traced = rect.pixels() * static_cast<std::int64_t>(samples());
+        const std::int64_t traced = rect.pixels() * paced_samples();
         if (traced > pacer_.samples()) return false;
         if (launch_samples_) return traced <= static_cast<std::int64_t>(most_items(device_));
         const FlatTile tile = flat_tile<T>(rect, rect);
-        return packets(finds_edges() ? with_margin(tile) : tile, shape(samples())) <=
-               most_items(device_);
+        if (!finds_edges()) return packets(tile, shape(samples())) <= most_items(device_);
+        const FlatTile first_round = size_with_margin(tile, f32::RT_EDGE_MARGIN - 1);
+        return packets(size_with_margin(tile), shape(1)) <= most_items(device_) &&
+               packets(first_round, {1, lanes_, 1}) <= most_items(device_);
     }
 
     /// Packets that cover a tile.
@@ -264,14 +270,14 @@ class ClRenderer : public Renderer<T> {
         std::vector<cl::Event> events(1 + margin);
         render_.setArg(0, samples_);
         render_.setArg(tile_argument_, tile);
-        enqueue(render_, packets(with_margin(tile), shape(1)), events[0]);
+        enqueue(render_, packets(size_with_margin(tile), shape(1)), events[0]);
         is_half_launched_ = true;
         edges_.setArg(0, film);
         edges_.setArg(tile_argument_, tile);
         edges_.setArg(tile_argument_ + 1, samples_);
         for (int round = 0; round < margin; ++round) {
             edges_.setArg(tile_argument_ + 2, static_cast<typename Flat<T>::Index>(round));
-            const FlatTile wide = with_margin(tile, margin - 1 - round);
+            const FlatTile wide = size_with_margin(tile, margin - 1 - round);
             enqueue(edges_, packets(wide, {1, lanes_, 1}), events[1 + round]);
         }
         is_half_launched_ = false;
@@ -347,7 +353,7 @@ class ClRenderer : public Renderer<T> {
         const auto traced = static_cast<std::uint64_t>(whole.pixels()) * samples();
         primary_ += traced;
         times_.pixels += whole.pixels();
-        pacer_.note(static_cast<std::int64_t>(traced), kernel);
+        pacer_.note(whole.pixels() * paced_samples(), kernel);
         progress.queue.finish(oldest.run);
         progress.finished.push_back(oldest.run);
         progress.in_flight.pop_front();

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "host/render/edge_tile.h"
 #include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 
@@ -52,7 +53,8 @@ template <typename T>
 std::vector<Rect> test_strips(const Renderer<T>& device,
                               const typename Flat<T>::LaunchParams& params) {
     const auto width = static_cast<int>(params.width), height = static_cast<int>(params.height);
-    const auto samples = static_cast<double>(params.samples);
+    const double samples =
+        params.tolerance > 0 ? edge_samples_guess : static_cast<double>(params.samples);
     const int down = std::clamp(static_cast<int>(4 / std::sqrt(samples)), 1, height);
     const double pixels =
         std::min(strip_samples / samples, static_cast<double>(device.most_tile_pixels()));

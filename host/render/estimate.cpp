@@ -24,9 +24,6 @@ constexpr int candidate_samples = 8, control_samples = 64;
 /// An error above this is not worth more samples.
 constexpr double large_rmse = 1e-3;
 
-/// Most samples of an adaptive picture's pixel.
-constexpr int adaptive_samples = 256;
-
 /// Sampling seeds, to be combined with the picture's own: all sets of samples are independent.
 constexpr int candidates_seed = 0x2f6e2b10, control_seeds[] = {0x2f6e2b11, 0x2f6e2b12};
 
@@ -37,6 +34,18 @@ double random_number(std::size_t n) {
     v = (v ^ (v >> 11)) * 0xac4c1b51u;
     v = (v ^ (v >> 15)) * 0x31848babu;
     return (v ^ (v >> 14)) * 0x1p-32;
+}
+
+bool is_clear(const ErrorEstimate& estimate) {
+    return estimate.rmse > large_rmse || estimate.high < 2 * estimate.low;
+}
+
+/// Of a pixel; with edges, of one of high contrast (kernels/edges.cl).
+int most_pixel_samples(const AaMode& aa) {
+    if (aa.refines()) return 256;
+    if (!aa.finds_edges()) return aa.samples();
+    const double samples = std::pow(0.49 / (aa.threshold * aa.threshold), 0.4);
+    return static_cast<int>(std::min<double>(samples, AaMode::max_sobol));
 }
 
 /// "8.1e-4", or "0".
@@ -228,13 +237,11 @@ std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaM
                                             const Rect& region, const Film<T>& film,
                                             const ThreadsOptions& options, const StopFlag& stop) {
     ControlPixels controls = choose_controls(scene, region, film, options);
-    const int most =
-        aa.finds_edges() ? AaMode::max_sobol : aa.fixed_samples().value_or(adaptive_samples);
+    const int most = most_pixel_samples(aa);
     for (int depth = control_samples; stop == 0; depth *= 4) {
         trace_means(scene, region, depth, options, controls);
         const ErrorEstimate estimate = controls.estimate_of(film);
-        const bool is_clear = estimate.rmse > large_rmse || estimate.high < 2 * estimate.low;
-        if (is_clear || depth >= most) return controls;
+        if (is_clear(estimate) || depth >= most) return controls;
     }
     return std::nullopt;
 }
@@ -244,12 +251,14 @@ std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMo
                                     const Rect& region, ControlPixels& controls,
                                     const ThreadsOptions& options, const StopFlag& stop) {
     while (stop == 0) {
-        const AaMode next = finer(aa);
+        // What an edges mode misses it misses at any tolerance.
+        const bool gives_up = aa.finds_edges() && aa.threshold < rmse / 8;
+        const AaMode next = gives_up ? sobol_aa(control_samples) : finer(aa);
         if (next == aa) return aa;
         aa = next;
-        if (aa.samples() > controls.depth) {
-            trace_means(scene, region, std::max(aa.samples(), 2 * controls.depth), options,
-                        controls);
+        if (most_pixel_samples(aa) > controls.depth) {
+            trace_means(scene, region, std::max(most_pixel_samples(aa), 2 * controls.depth),
+                        options, controls);
         }
         const auto colors = trace(scene, region, controls.pixels, aa, 0, options, controls.samples);
         if (controls.estimate(colors).reaches(rmse)) return aa;

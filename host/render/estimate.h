@@ -87,9 +87,10 @@ std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaM
                                             const ThreadsOptions& options, const StopFlag& stop);
 
 /// The first AA mode after `aa`, a grid, Sobol or edges, that reaches the RMSE in the control
-/// pixels, with 2, 3, 4, 6, 8, 12, ... samples or rows of them; the finest of all if none does.
-/// Only the control pixels are traced, so it takes little time; their means get at least as many
-/// samples. Empty if stopped.
+/// pixels, with 2, 3, 4, 6, 8, 12, ... samples or rows of them, or two thirds of the
+/// tolerance and again; the finest of all if none does. Edges that do not get there at an eighth of
+/// the RMSE make way for Sobol. Only the control pixels are traced, so it takes little time; their
+/// means get at least as many samples. Empty if stopped.
 template <typename T>
 std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMode aa,
                                     const Rect& region, ControlPixels& controls,

@@ -35,11 +35,13 @@ class ThreadsRenderer : public Renderer<T> {
 
     /// The margin of a larger tile is a smaller part of it.
     Rect tile_size(int) const override {
-        return finds_edges() ? Rect{0, 0, 128, 64} : Rect{0, 0, 32, 32};
+        return finds_edges() ? Rect{0, 0, 64, 64} : Rect{0, 0, 32, 32};
     }
 
-    /// Kernels count the numbers in a tile's sample buffers in an Index.
+    /// Kernels count the numbers in a tile's sample buffers in an Index. An edges mode keeps more
+    /// of a tile than its pixels.
     std::int64_t most_tile_pixels() const override {
+        if (finds_edges()) return 1 << 20;
         if (options_.schedule == Schedule::tiles) return Renderer<T>::most_tile_pixels();
         return std::numeric_limits<Index>::max() / (3 * samples());
     }

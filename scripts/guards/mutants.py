@@ -26,7 +26,7 @@ MUTANTS = [
         (K + "shade.cl", "sign_lanes(scene, counts, lit, (Indices)(number + 1));", ""),
     ], edges("OpensPixelsAtTheEdgeOfAShadow")),
     Mutant("an edges mode takes parallel planes for one", [
-        (K + "signature.cl", " + cell(triangle->plane, (Real)1021)", ""),
+        (K + "signature.cl", " + cell(triangle->plane, (Real)1020.7f)", ""),
     ], edges("OpensPixelsWhereOnePlaneEndsBeforeAnother")),
     Mutant("an edges mode takes each triangle for a surface", [
         (K + "signature.cl", "return (Index)(number * 0x9e3779b1u", "return prim; (void)(number"),
