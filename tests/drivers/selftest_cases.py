@@ -80,7 +80,7 @@ class Selftest(WrongDriver):
         scenes = {str(path.relative_to(folder).with_suffix("")) for path in folder.rglob("*.json")}
         scenes -= {"golden", "scene.schema"}
         self.assertEqual({name.rsplit("/", 2)[0] for name in golden}, scenes)
-        self.assertEqual(len(golden), 10 * len(scenes))
+        self.assertEqual(len(golden), 12 * len(scenes))
 
     def test_known_failures(self):
         known = self.folder / "known"
