@@ -26,7 +26,8 @@ from .study import Figures, Json, Study, was_cold
 from .stress_section import stress_section
 from .texts import counted, size_text
 
-SWEEP = {False: "none,grid:2,grid:4,sobol:4,sobol:16,sobol:64,sobol:256,adaptive:0.1,adaptive:0.03,edges:0.01,edges:0.001",
+SWEEP = {False: "none,grid:2,grid:4,sobol:4,sobol:16,sobol:64,sobol:256,adaptive:0.1,adaptive:0.03,"
+                "edges:0.01,edges:0.001,edges:0.0001",
           True: "none,grid:2,grid:3,sobol:4"}  # by --quick
 _REFERENCE_SAMPLES = {False: 1024, True: 32}
 _SIGNALS = {signal.SIGINT: "interrupted (Ctrl-C)", signal.SIGTERM: "terminated",
