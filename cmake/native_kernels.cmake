@@ -130,7 +130,7 @@ function(native_kernels TABLE OBJECTS)
                 elseif(set STREQUAL all)
                     set(widths 1 2 4 8 16)
                 elseif(set MATCHES "_4|_edges")
-                    set(widths ${width})  # only packets hold four samples
+                    set(widths ${width})  # what most pictures take
                 endif()
                 foreach(lanes IN LISTS widths)
                     string(MAKE_C_IDENTIFIER rt_${isa}_${type}_${lanes}_${set} name)

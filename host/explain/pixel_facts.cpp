@@ -57,6 +57,11 @@ std::vector<int> refined_grids(const FlatScene<T>& scene, const AaMode& aa, cons
     return grids;
 }
 
+template <typename Counts>
+std::uint64_t secondary(const Counts& counts) {
+    return counts.shadow + counts.mirror + counts.transmitted;
+}
+
 /// Renders pixels one at a time.
 template <typename T>
 class PixelCounter {
@@ -133,14 +138,11 @@ PixelWork pixel_work(const Scene& scene, const Rect& region, const StopFlag& sto
                    std::vector<std::uint64_t>(grids.size())};
     for_each_pixel(region, stop, [&](std::size_t i, int x, int y) {
         const auto refined = static_cast<std::uint64_t>(grids[i] * grids[i]);
-        auto counts = counter.rays(x, y);
-        work.rays[i] = counts.shadow + counts.mirror + counts.transmitted;
+        const auto counts = counter.rays(x, y);
         const std::uint64_t samples = counter.samples() + refined + counts.primary;
         work.samples[i] = static_cast<std::uint32_t>(samples);
-        work.rays[i] += samples;
-        if (refined == 0) return;
-        counts = counter.rays(x, y, grids[i]);
-        work.rays[i] += counts.shadow + counts.mirror + counts.transmitted;
+        work.rays[i] = samples + secondary(counts);
+        if (refined > 0) work.rays[i] += secondary(counter.rays(x, y, grids[i]));
     });
     return work;
 }

@@ -264,17 +264,17 @@ class ClRenderer : public Renderer<T> {
         constexpr int margin = f32::RT_EDGE_MARGIN;
         const std::size_t bytes = edge_plane_values(tile, lanes_) * sizeof(T);
         if (bytes > plane_bytes_) {
-            samples_ = make_buffer(bytes, "the pixels' centers");
+            planes_ = make_buffer(bytes, "the pixels' centers");
             plane_bytes_ = bytes;
         }
         std::vector<cl::Event> events(1 + margin);
-        render_.setArg(0, samples_);
+        render_.setArg(0, planes_);
         render_.setArg(tile_argument_, tile);
         enqueue(render_, packets(size_with_margin(tile), shape(1)), events[0]);
         is_half_launched_ = true;
         edges_.setArg(0, film);
         edges_.setArg(tile_argument_, tile);
-        edges_.setArg(tile_argument_ + 1, samples_);
+        edges_.setArg(tile_argument_ + 1, planes_);
         for (int round = 0; round < margin; ++round) {
             edges_.setArg(tile_argument_ + 2, static_cast<typename Flat<T>::Index>(round));
             const FlatTile wide = size_with_margin(tile, margin - 1 - round);
@@ -407,7 +407,8 @@ class ClRenderer : public Renderer<T> {
     cl::CommandQueue queue_, reads_;
     cl::Kernel render_, resolve_, edges_, list_;
     std::unique_ptr<ClScene<T>> scene_;
-    cl::Buffer counts_, samples_;  ///< samples_: in an edges mode planes (kernels/edges.cl)
+    cl::Buffer counts_, samples_;
+    cl::Buffer planes_;  ///< of a tile and its margin, in an edges mode (kernels/edges.cl)
     std::size_t plane_bytes_ = 0;
     cl_uint tile_argument_ = 0;
     std::size_t used_slots_ = 0;  ///< of counts_, so far
