@@ -10,7 +10,7 @@
 #include "kernels/builtins.h"  // first: the attributes below must not apply to declarations
 
 // Many small functions on structs: PoCL runs 1.35 times faster when all are inlined, which it does
-// not do by itself. With internal linkage they then vanish, and PoCL loads the built program in two
+// not do unasked. With internal linkage they then vanish, and PoCL loads the built program in two
 // thirds of the time.
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((always_inline)), apply_to = function)

@@ -139,7 +139,7 @@ typedef struct {
     RT_COUNT shadow, mirror, transmitted;
 } RayCounts;
 
-// A ray to trace by itself, outside a picture (kernels/rays.cl).
+// A single ray to trace, outside a picture (kernels/rays.cl).
 typedef struct {
     Packed3 origin;
     Real t_max;     // where finite, also find out whether anything lies in (0, t_max]
