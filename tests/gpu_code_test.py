@@ -62,6 +62,14 @@ class GpuCode(unittest.TestCase):
                 for entry in "render_pixels", "render_samples", "render_list", "resolve_samples", "trace_rays":
                     self.assertRegex(compiled(gpu, *options), rf"\b{entry}\b")
 
+    def test_old_compilers_get_no_pragma_of_newer_ones(self):
+        """NVIDIA's is a clang 7, which rejects always_inline in one."""
+        for version, there in [("7", False), ("19", True)]:
+            text = subprocess.run([CLANG, "-x", "cl", "-E", "-cl-std=CL1.2", "-U__clang_major__",
+                                   f"-D__clang_major__={version}", "-Wno-builtin-macro-redefined", "-I.",
+                                   "kernels/render.cl"], cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
+            self.assertEqual("#pragma clang attribute" in text, there)
+
     def test_float_needs_no_double(self):
         """Some devices have none; clang warns about each constant."""
         compiled("amdgcn", STRICT, "-Xclang", "-cl-ext=-cl_khr_fp64")
