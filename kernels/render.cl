@@ -110,3 +110,14 @@ __kernel void trace_rays(__global RayAnswer* restrict answers,
     }
 }
 #endif
+
+// Adds the slots of counts from `kept` on to those before, one work item for each of these: all
+// would be too many to read back from a GPU.
+__kernel void sum_counts(__global RayCounts* counts, Index slots, Index kept) {
+    Index item = (Index)get_global_id(0);
+    for (Index slot = item + kept; slot < slots; slot += kept) {
+        RayCounts used = counts[slot], none = {0, 0, 0, 0};
+        add_counts(counts, item, used);
+        counts[slot] = none;
+    }
+}

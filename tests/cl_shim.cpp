@@ -8,9 +8,11 @@
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
 //   CL_SHIM_FAIL_READ          if not empty, reads and maps fail once a launch has failed
 //   CL_SHIM_INEXACT            if not empty, devices do not promise to round correctly
+//   CL_SHIM_GPU                if not empty, devices are GPUs
 //   CL_SHIM_NO_CHILD           if not empty, no child process can be started
 //   CL_SHIM_DIE_IN             the function whose call fails
-//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error, or delay (2 s)
+//   CL_SHIM_DIE_BY             how: abort, segfault, exit, hang, spin, error, or delay (2 s); for
+//                              clGetEventInfo, by error means that an event stays submitted
 //   CL_SHIM_DIE_AT             the first call that may fail, counted from 1
 //   CL_SHIM_DIE_AFTER          seconds since that call before which none fails
 //   CL_SHIM_DIE_WITH           .icd files, separated by blanks, all of which must be in use
@@ -131,6 +133,19 @@ extern "C" cl_int clGetDeviceInfo(cl_device_id device, cl_device_info name, std:
     if (name == CL_DEVICE_SINGLE_FP_CONFIG && value != nullptr &&
         !setting("CL_SHIM_INEXACT").empty()) {
         *static_cast<cl_device_fp_config*>(value) &= ~CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
+    }
+    if (name == CL_DEVICE_TYPE && value != nullptr && !setting("CL_SHIM_GPU").empty()) {
+        *static_cast<cl_device_type*>(value) = CL_DEVICE_TYPE_GPU;
+    }
+    return error;
+}
+
+extern "C" cl_int clGetEventInfo(cl_event event, cl_event_info name, std::size_t size, void* value,
+                                 std::size_t* needed) {
+    const cl_int error =
+        real<decltype(clGetEventInfo)>("clGetEventInfo")(event, name, size, value, needed);
+    if (name == CL_EVENT_COMMAND_EXECUTION_STATUS && die_in("clGetEventInfo")) {
+        *static_cast<cl_int*>(value) = CL_SUBMITTED;
     }
     return error;
 }

@@ -82,14 +82,14 @@ TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
     ProgramOptions options;
     options.features = no_features();
     options.entries = {true, false, false, false};
-    EXPECT_EQ(entry_points_of(options), "render_pixels");
+    EXPECT_EQ(entry_points_of(options), "render_pixels;sum_counts");
     options.entries = {false, true, false, false};
-    EXPECT_EQ(entry_points_of(options), "render_samples;resolve_samples");
+    EXPECT_EQ(entry_points_of(options), "render_samples;resolve_samples;sum_counts");
     options.entries = {true, false, true, false};
-    EXPECT_EQ(entry_points_of(options), "render_pixels;render_list");
+    EXPECT_EQ(entry_points_of(options), "render_pixels;render_list;sum_counts");
     options.entries = {false, false, false, false, true};
     options.features.edges = true;
-    EXPECT_EQ(entry_points_of(options), "render_centers;render_edges");
+    EXPECT_EQ(entry_points_of(options), "render_centers;render_edges;sum_counts");
 }
 
 TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {

@@ -118,6 +118,10 @@ TEST(LaunchPacer, GrowsEightfoldAtMostAndKeepsItsBounds) {
     pacer.note(1, 1e6);
     EXPECT_EQ(pacer.samples(), 1);
     EXPECT_EQ(LaunchPacer(1000, 10).samples(), 10);
+    LaunchPacer wide(1000, 20000, 500);
+    wide.note(1000, 1e6);
+    EXPECT_EQ(wide.samples(), 500);
+    EXPECT_EQ(LaunchPacer(1000, 10, 500).samples(), 10);
 }
 
 TEST(TileQueue, GivesNothingOnceStopped) {

@@ -32,6 +32,12 @@ void ClFilm<T>::read_back(const Rect& rect, const cl::CommandQueue& reads) {
         reads.enqueueUnmapMemObject(buffer_, mapped);
         return;
     }
+    if (rect.width == film_.width) {
+        const std::size_t at = 3 * static_cast<std::size_t>(rect.y * film_.width);
+        reads.enqueueReadBuffer(buffer_, CL_TRUE, at * sizeof(T),
+                                row * static_cast<std::size_t>(rect.height), &film_.rgb[at]);
+        return;
+    }
     const std::array<std::size_t, 3> corner{pixel * static_cast<std::size_t>(rect.x),
                                             static_cast<std::size_t>(rect.y), 0};
     const std::array<std::size_t, 3> size{pixel * static_cast<std::size_t>(rect.width),

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <deque>
 #include <memory>
 #include <span>
+#include <thread>
 
 #include "host/base/error.h"
 #include "host/opencl/cl_film.h"
@@ -30,13 +32,20 @@ namespace {
 constexpr std::size_t single_group = 64;
 constexpr std::size_t packet_group = 1;
 
-/// Samples of the first launch, when nothing is known yet, and of the largest.
+/// Samples of the first launch, when nothing is known yet, of the largest, and of the smallest.
 constexpr std::int64_t cpu_first_samples = 1 << 17, cpu_most_samples = 1 << 22;
 constexpr std::int64_t gpu_first_samples = 1 << 20, gpu_most_samples = 1 << 24;
+constexpr std::int64_t gpu_least_samples = 1 << 18;
 
 /// One runs and one waits; more would only delay an interrupt.
 constexpr std::size_t launches_in_flight = 2;
 constexpr double progress_seconds = 0.2;
+
+/// Of a GPU's ray counts, to which the others are added before they are read back.
+constexpr std::size_t kept_slots = 4096;
+
+/// The longest pause between two looks at a launch.
+constexpr std::chrono::duration<double> longest_pause{2e-3};
 
 std::size_t divided_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
@@ -45,6 +54,16 @@ double device_seconds(const cl::Event& event) {
     const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
     const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
     return static_cast<double>(end - start) * 1e-9;
+}
+
+/// Waits without using the processor, as a driver that waits busily would: threads get it, and a
+/// launch that never ends is not taken for work (host/process/worker.h).
+void wait_idly(const cl::Event& event) {
+    std::chrono::duration<double> pause{20e-6};
+    while (event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() > CL_COMPLETE) {
+        std::this_thread::sleep_for(pause);
+        pause = std::min(pause * 1.125, longest_pause);
+    }
 }
 
 template <typename T>
@@ -56,7 +75,8 @@ class ClRenderer : public Renderer<T> {
           programs_(options.open_devices != nullptr ? *options.open_devices : own_programs_),
           params_(scene.params),
           pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
-                 device.is_cpu ? cpu_most_samples : gpu_most_samples) {
+                 device.is_cpu ? cpu_most_samples : gpu_most_samples,
+                 device.is_cpu ? 1 : gpu_least_samples) {
         launch_samples_ = launches_samples(options.kernels.launch, device, finds_edges());
         lanes_ = packet_lanes<T>(options.kernels.lanes, device);
         group_ = picture_group(options.kernels, lanes_);
@@ -220,6 +240,9 @@ class ClRenderer : public Renderer<T> {
             resolve_.setArg(1, samples_);
             resolve_.setArg(2, params_);
         }
+        sum_counts_ = cl::Kernel(program, "sum_counts");
+        sum_counts_.setArg(0, counts_);
+        sum_counts_.setArg(2, static_cast<typename Flat<T>::Index>(kept_slots));
         FlatTile nothing{};
         nothing.width = 1;  // kernels divide by the width
         launch(nothing, cl::Buffer());
@@ -338,6 +361,7 @@ class ClRenderer : public Renderer<T> {
     /// Reads the oldest launch back while the next one runs.
     void finish_oldest(Progress& progress, const Rect& region) {
         const InFlight& oldest = progress.in_flight.front();
+        if (!device_.is_cpu) wait_idly(oldest.events.back());
         oldest.events.back().wait();
         double kernel = device_seconds(oldest.events.front());
         for (std::size_t i = 1; i < oldest.events.size() && finds_edges(); ++i) {
@@ -378,6 +402,11 @@ class ClRenderer : public Renderer<T> {
 
     /// Adds to the queue the rays traced since the last call.
     void count_rays(TileQueue& queue) {
+        if (!device_.is_cpu && used_slots_ > kept_slots) {
+            sum_counts_.setArg(1, static_cast<typename Flat<T>::Index>(used_slots_));
+            queue_.enqueueNDRangeKernel(sum_counts_, cl::NullRange, kept_slots);
+            used_slots_ = kept_slots;
+        }
         auto* const mapped = static_cast<FlatCounts*>(queue_.enqueueMapBuffer(
             counts_, CL_TRUE, CL_MAP_READ, 0, used_slots_ * sizeof(FlatCounts)));
         RayCounts total;
@@ -405,7 +434,7 @@ class ClRenderer : public Renderer<T> {
     LaunchPacer pacer_;
     cl::Context context_;
     cl::CommandQueue queue_, reads_;
-    cl::Kernel render_, resolve_, edges_, list_;
+    cl::Kernel render_, resolve_, edges_, list_, sum_counts_;
     std::unique_ptr<ClScene<T>> scene_;
     cl::Buffer counts_, samples_;
     cl::Buffer planes_;  ///< of a tile and its margin, in an edges mode (kernels/edges.cl)

@@ -115,6 +115,13 @@ class Dies(WrongDriver):
                                 "--device", "threads"], text=True, capture_output=True, check=True)
         self.assertEqual(result.stderr.split()[-1], right.stderr.split()[-1])
 
+    def test_a_gpu_never_ends_a_launch(self):
+        """Waiting for it is no progress, whatever the driver does meanwhile."""
+        gpu = ["gpu" if word == "pocl" else word for word in self.ARGUMENTS]
+        result = self.die("clGetEventInfo", "error", render=gpu, code=0, CL_SHIM_GPU="1")
+        self.assertIn("made no progress for 1 s", result.stderr)
+        self.assertEqual(result.stderr.split()[-1], self.right)
+
     def test_hangs_in_the_second_picture_of_a_target(self):
         arguments = ["--aa", "sobol:4", "--target-rmse", "1e-3"]
         result = self.die("clEnqueueNDRangeKernel", "hang", *arguments, CL_SHIM_DIE_AT="11", code=0)

@@ -23,6 +23,15 @@ class Wrong(WrongDriver):
     def right_hash(self):
         return json.loads(self.render({}, 0).stdout)["image"]["hash"]
 
+    def test_a_gpu_counts_the_rays_of_all_work_items(self):
+        """It reads back sums of them."""
+        figures = [json.loads(self.run_with(
+            shim, "render", SCENE, "--size", "100", "--stats=json", "--no-fallback", "--device", device, code=0).stdout)
+            for device, shim in [("gpu", {"CL_SHIM_GPU": "1"}), ("threads", {})]]
+        self.assertEqual(figures[0]["device"]["launch"], "sample")
+        self.assertEqual(*(one["rays"] for one in figures))
+        self.assertEqual(*(one["image"]["hash"] for one in figures))
+
     def test_by_the_doctor(self):
         result = self.run_with(brighter("1.000001"), "doctor", code=5)
         self.assertRegex(result.stdout, r"BROKEN +device 0, .*: renders a wrong picture")
