@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// An edges mode: one sample at each pixel's center, with its signature (centers_item). Where a
-// pixel and its eight neighbors have the same signature, and no contrast beyond the tolerance, its
+// An edges mode: one sample at each pixel's center, with its signature. Where a pixel and its eight
+// neighbors have the same signature, and no contrast beyond the tolerance, its
 // mean is that of the parabola through five of them. Any other pixel is open: it gets Owen-Sobol
 // samples, doubled as long as that pays (edges_item). A thin shape can pass between centers, so
 // where an open pixel's samples meet something new next to a side, the pixel behind that side is
 // opened, too, in two further rounds.
 //
-// A tile brings along the pixels that its own depend on: centers three pixels around it, and the
-// first samples of open pixels two pixels around it. So a pixel depends on nothing but the scene.
+// Tiles bring along the first samples of open pixels two pixels around them (kernels/planes.cl).
 #ifndef RT_EDGES_CL
 #define RT_EDGES_CL
 
-#include "kernels/film.cl"
+#include "kernels/planes.cl"
 
 // An open pixel's first samples, and its last.
 #define RT_EDGE_SAMPLES 16
@@ -32,69 +31,8 @@
 // An open pixel's state, and the sides next to which its samples meet something new.
 enum { RT_LEFT = 1, RT_RIGHT = 2, RT_BELOW = 4, RT_ABOVE = 8, RT_OPEN = 16 };
 
-// The tile with `margin` pixels around it.
-Tile with_margin(const Tile* tile, Index margin) {
-    Tile wide = *tile;
-    wide.x -= margin;
-    wide.y -= margin;
-    wide.width += 2 * margin;
-    wide.height += 2 * margin;
-    return wide;
-}
-
-// What is known of a tile and its margin lies in planes: the centers' three channels, their
-// signatures, and the states that each round but the last leaves. Behind each is room for a packet.
-enum { RT_SIGNATURES = 3, RT_STATES = 4 };
-
-Index plane_size(const Tile* wide) { return wide->width * wide->height + RT_LANES; }
-
-RayCounts centers_item(__global Real* planes, SceneView* scene, const Tile* tile, Index item) {
-    RayCounts sums = {0, 0, 0, 0};
-    Tile wide = with_margin(tile, RT_EDGE_MARGIN);
-    Packet packet = make_packet(1, 1);
-    TileLanes lanes = tile_lanes(&wide, &packet, item);
-    if (!any_lane(lanes.live) || tile->height == 0) return sums;
-    PacketCounts used = no_counts();
-    real3 color =
-        trace_sample(scene, wide.x + lanes.column, picture_y(&scene->params, &wide, lanes.row),
-                     (Indices)0, lanes.live, &used);
-    IndexLanes place;
-    RealLanes channels[RT_STATES];
-    place.all = lanes.live ? lanes.row * wide.width + lanes.column : (Indices)-1;
-    channels[0].all = color.x;
-    channels[1].all = color.y;
-    channels[2].all = color.z;
-    channels[RT_SIGNATURES].all = used.signature;
-    for (Index c = 0; c < RT_STATES; ++c) {
-        for (Index i = 0; i < RT_LANES; ++i) {
-            if (place.lane[i] < 0) continue;
-            planes[c * plane_size(&wide) + place.lane[i]] = channels[c].lane[i];
-        }
-    }
-    // The margin is counted by other tiles, or lies outside the picture.
-    Indices column = lanes.column - RT_EDGE_MARGIN, row = lanes.row - RT_EDGE_MARGIN;
-    Indices inside =
-        (column >= 0) & (column < tile->width) & (row >= 0) & (row < tile->height) & lanes.live & 1;
-    used.shadow *= inside;
-    used.mirror *= inside;
-    used.transmitted *= inside;
-    count_lanes(&sums, &used);
-    return sums;
-}
-
-Reals load_row(__global const Real* from) {
-    RealLanes row;
-    for (Index i = 0; i < RT_LANES; ++i) row.lane[i] = from[i];
-    return row.all;
-}
-
-real3 load_centers(__global const Real* planes, Index size, Index at) {
-    return make3(load_row(planes + at), load_row(planes + size + at),
-                 load_row(planes + 2 * size + at));
-}
-
-Reals clamped(Reals v) { return min_of(max_of(v, (Reals)0), (Reals)1); }
-real3 clamped3(real3 v) { return make3(clamped(v.x), clamped(v.y), clamped(v.z)); }
+// Planes beyond those of kernels/planes.cl: the states that each round but the last leaves.
+enum { RT_STATES = RT_SIGNATURES + 1 };
 
 // The mean over channels of the squared difference.
 Reals squared_difference(real3 a, real3 b) {
@@ -119,7 +57,7 @@ typedef struct {
 // The first round.
 EdgePacket find_edges(__global const Real* planes, Index size, Index across, Index at,
                       Real tolerance) {
-    real3 own = load_centers(planes, size, at);
+    real3 own = load_colors(planes, size, at);
     EdgePacket found;
     found.signature = load_row(planes + RT_SIGNATURES * size + at);
     Mask same = RT_ALL_LANES;
@@ -129,7 +67,7 @@ EdgePacket find_edges(__global const Real* planes, Index size, Index across, Ind
         for (Index dx = -1; dx <= 1; ++dx) {
             if (dx == 0 && dy == 0) continue;
             Index there = at + dy * across + dx;
-            real3 color = load_centers(planes, size, there);
+            real3 color = load_colors(planes, size, there);
             same &= load_row(planes + RT_SIGNATURES * size + there) == found.signature;
             contrast = max_of(contrast, squared_difference(color, own));
             if (dx == 0 || dy == 0) sides = add3(sides, color);
@@ -243,18 +181,14 @@ RayCounts edges_item(__global Real* film, __global Real* planes, SceneView* scen
                      Index round, Index item) {
     RayCounts sums = {0, 0, 0, 0};
     Index margin = RT_EDGE_MARGIN - 1 - round;
-    Index end = tile->width + margin;
-    Index across = (end + margin + RT_LANES - 1) / RT_LANES;
-    Index row = item / across - margin, column = item % across * RT_LANES - margin;
+    RowPacket packet = row_packet(&scene->params, tile, margin, item);
+    Index row = packet.row, column = packet.column, end = packet.end;
     if (row >= tile->height + margin || tile->height == 0) return sums;
-    Tile wide = with_margin(tile, RT_EDGE_MARGIN);
-    Index size = plane_size(&wide);
-    Index at = (row + RT_EDGE_MARGIN) * wide.width + column + RT_EDGE_MARGIN;
-    EdgePacket found = round == 0
-                           ? find_edges(planes, size, wide.width, at, scene->params.tolerance)
-                           : follow_edges(planes, size, wide.width, at, round);
+    Index size = packet.size, at = packet.at, across = packet.wide.width;
+    EdgePacket found = round == 0 ? find_edges(planes, size, across, at, scene->params.tolerance)
+                                  : follow_edges(planes, size, across, at, round);
     Indices columns = column + RT_LANE_NUMBERS;
-    if (round == 0 && row >= 0 && row < tile->height) {
+    if (round == 0 && packet.is_in_tile) {
         Mask settled = !found.open & (columns >= 0) & (columns < tile->width);
         Indices places = tile->first + row * tile->film_width + columns;
         store_lanes(film, found.mean, settled ? places : (Indices)-1, RT_LANES);

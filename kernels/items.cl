@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What one work item does: trace a packet of pixels with all their samples (pixels_item), a packet
-// of samples (samples_item, averaged by resolve_item), or a packet of chosen pixels (list_item).
-// All add a pixel's samples in the same order, so they give the same bits. The film holds three
-// Reals per pixel, row 0 at the top. The entry points of render.cl and native.cl call these.
+// What one work item does: trace a packet of pixels with all their samples (pixels_item), or a
+// packet of samples (samples_item, averaged by resolve_item); in some modes more
+// (kernels/planes.cl). All add a pixel's samples in the same order, so they give the same bits. The
+// film holds three Reals per pixel, row 0 at the top. The entry points of render.cl and native.cl
+// call these.
 #ifndef RT_ITEMS_CL
 #define RT_ITEMS_CL
 
@@ -18,6 +19,12 @@
 #endif
 
 #include "kernels/film.cl"
+#if RT_RENDERS_ADAPTIVE || RT_RENDERS_EDGES
+#include "kernels/planes.cl"
+#endif
+#if RT_RENDERS_ADAPTIVE
+#include "kernels/adaptive.cl"
+#endif
 #if RT_RENDERS_EDGES
 #include "kernels/edges.cl"
 #endif
@@ -79,29 +86,6 @@ void resolve_item(__global Real* film, __global const Real* samples, const Launc
     Indices places = tile->first + lanes.row * tile->film_width + lanes.column;
     store_lanes(film, divide3(whole.color, whole.weight), lanes.live ? places : (Indices)-1,
                 RT_LANES);
-}
-
-// Traces tile->width chosen pixels: pixels[i] is an index into a film of tile->film_width columns
-// whose upper left corner is pixel (tile->x, tile->y) of the picture. Pixel i goes to colors[i].
-RayCounts list_item(__global Real* colors, __global const int* pixels, const SceneView* scene,
-                    const Tile* tile, Index item) {
-    RayCounts used = {0, 0, 0, 0};
-    Packet packet = make_packet(scene->params.samples, RT_LANES);
-    Index first = item * packet.pixels;
-    if (first >= tile->width) return used;
-    IndexLanes number, pixel;
-    number.all = first + packet.pixel;
-    for (Index i = 0; i < RT_LANES; ++i) {
-        Index n = number.lane[i];
-        pixel.lane[i] = pixels[n < tile->width ? n : tile->width - 1];
-    }
-    Indices row = pixel.all / tile->film_width;
-    Indices column = pixel.all - row * tile->film_width;
-    Mask live = (Mask)(number.all < tile->width);
-    real3 color = trace_pixels(scene, &packet, tile->x + column,
-                               picture_y(&scene->params, tile, row), live, &used);
-    store_lanes(colors, color, live ? number.all : (Indices)-1, packet.pixels);
-    return used;
 }
 
 #if defined(__clang__) && __clang_major__ >= 12

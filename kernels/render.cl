@@ -54,21 +54,7 @@ __kernel void resolve_samples(__global Real* restrict film, __global const Real*
 }
 #endif
 
-#if RT_RENDERS_LIST
-static RT_ITEM void one_of_list(__global Real* colors, __global RayCounts* counts,
-                                RT_SCENE_PARAMETERS, Tile tile, __global const int* pixels,
-                                size_t item) {
-    SceneView scene = RT_SCENE_VIEW;
-    add_counts(counts, item, list_item(colors, pixels, &scene, &tile, (Index)item));
-}
-
-__kernel void render_list(__global Real* restrict colors, __global RayCounts* restrict counts,
-                          RT_SCENE_ARGUMENTS, Tile tile, __global const int* restrict pixels) {
-    one_of_list(colors, counts, RT_SCENE_NAMES, tile, pixels, get_global_id(0));
-}
-#endif
-
-#if RT_RENDERS_EDGES
+#if RT_RENDERS_ADAPTIVE || RT_RENDERS_EDGES
 static RT_ITEM void one_of_centers(__global Real* planes, __global RayCounts* counts,
                                    RT_SCENE_PARAMETERS, Tile tile, size_t item) {
     SceneView scene = RT_SCENE_VIEW;
@@ -79,7 +65,24 @@ __kernel void render_centers(__global Real* restrict planes, __global RayCounts*
                              RT_SCENE_ARGUMENTS, Tile tile) {
     one_of_centers(planes, counts, RT_SCENE_NAMES, tile, get_global_id(0));
 }
+#endif
 
+#if RT_RENDERS_ADAPTIVE
+static RT_ITEM void one_of_adaptive(__global Real* film, __global RayCounts* counts,
+                                    RT_SCENE_PARAMETERS, Tile tile, __global Real* planes,
+                                    Index round, size_t item) {
+    SceneView scene = RT_SCENE_VIEW;
+    add_counts(counts, item, adaptive_item(film, planes, &scene, &tile, round, (Index)item));
+}
+
+__kernel void render_adaptive(__global Real* restrict film, __global RayCounts* restrict counts,
+                              RT_SCENE_ARGUMENTS, Tile tile, __global Real* restrict planes,
+                              Index round) {
+    one_of_adaptive(film, counts, RT_SCENE_NAMES, tile, planes, round, get_global_id(0));
+}
+#endif
+
+#if RT_RENDERS_EDGES
 static RT_ITEM void one_of_edges(__global Real* film, __global RayCounts* counts,
                                  RT_SCENE_PARAMETERS, Tile tile, __global Real* planes, Index round,
                                  size_t item) {

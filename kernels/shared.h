@@ -123,7 +123,7 @@ typedef struct {
     Packed3 direction_dx_low;
     Real tolerance;  // of an edges mode; else 0
     Packed3 direction_dy_low;
-    Index pad1;
+    Real threshold;  // of an adaptive mode; else 0
 } LaunchParams;
 
 // The pixels of one launch: picture columns from x, rows from y, counted from the top. Its first
@@ -193,8 +193,9 @@ enum { RT_TREE_STACK = 16 };
 // Most samples per pixel in a packet of neighboring pixels (kernels/packet.cl).
 enum { RT_SAMPLES_TOGETHER = 4 };
 
-// Pixels around a tile that an edges mode looks at, and rounds in which it does (kernels/edges.cl).
-enum { RT_EDGE_MARGIN = 3 };
+// Pixels around a tile that adaptive and edges modes look at, and rounds in which they do
+// (kernels/planes.cl).
+enum { RT_ADAPTIVE_MARGIN = 2, RT_EDGE_MARGIN = 3 };
 
 // Sample positions in a pixel (kernels/sampling.cl).
 enum { RT_SAMPLES_GRID = 0, RT_SAMPLES_SOBOL = 1 };

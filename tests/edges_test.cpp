@@ -13,7 +13,6 @@
 
 #include "host/explain/pixel_facts.h"
 #include "host/render/estimate.h"
-#include "host/render/picture_loop.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -163,11 +162,13 @@ TEST(Edges, OpenPixelsHaveTheBitsOfSobolAndTheRestAMean) {
     }
 }
 
+class Rounds : public testing::TestWithParam<const char*> {};
+
 /// Packets hold lanes that meet glass and lanes that do not; margins of tiles overlap.
-TEST(Edges, HaveTheSameBitsAndRaysInAnyPacketAndTile) {
+TEST_P(Rounds, HaveTheSameBitsAndRaysInAnyPacketAndTile) {
     Scene scene = load_named_scene("glass");
     set_image_size(scene, 60, 44);
-    scene.aa = *parse_aa_mode("edges:0.01");
+    scene.aa = *parse_aa_mode(GetParam());
     const FlatScene<float> flat = flatten<float>(scene);
     const Rect whole{0, 0, scene.width, scene.height};
     const auto render = [&](int lanes, int width, int height) {
@@ -176,7 +177,7 @@ TEST(Edges, HaveTheSameBitsAndRaysInAnyPacketAndTile) {
         const StopFlag never = 0;
         TileQueue queue(make_tiles(whole, width, height), never);
         Film<float> film(scene.width, scene.height);
-        render_all(*make_threads_renderer(flat, options), scene.aa, queue, whole, film);
+        make_threads_renderer(flat, options)->render(queue, whole, film);
         const RayCounts rays = queue.rays();
         return std::tuple(hash_of(film), rays.primary, rays.shadow, rays.mirror, rays.transmitted);
     };
@@ -187,12 +188,14 @@ TEST(Edges, HaveTheSameBitsAndRaysInAnyPacketAndTile) {
 }
 
 /// More packets in rows than in squares, and more than a launch may have.
-TEST(Edges, HaveTheSameBitsWhereALaunchIsNarrow) {
+TEST_P(Rounds, HaveTheSameBitsWhereALaunchIsNarrow) {
     Scene scene = load_named_scene("single-sphere");
     set_image_size(scene, 1, 65536);
-    scene.aa = *parse_aa_mode("edges:0.01");
+    scene.aa = *parse_aa_mode(GetParam());
     EXPECT_EQ(hash_of(render_on_device<float>(scene)), hash_of(render_on_threads<float>(scene)));
 }
+
+INSTANTIATE_TEST_SUITE_P(Modes, Rounds, testing::Values("edges:0.01", "adaptive:0.05"));
 
 struct Reached {
     double rmse, samples;

@@ -18,7 +18,6 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/picture/render_picture.h"
-#include "host/render/picture_loop.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {

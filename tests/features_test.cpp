@@ -81,12 +81,12 @@ std::string entry_points_of(const ProgramOptions& options) {
 TEST(BuildProgram, HoldsTheEntryPointsThatAreLaunched) {
     ProgramOptions options;
     options.features = no_features();
-    options.entries = {true, false, false, false};
+    options.entries = {true, false, false};
     EXPECT_EQ(entry_points_of(options), "render_pixels;sum_counts");
-    options.entries = {false, true, false, false};
+    options.entries = {false, true, false};
     EXPECT_EQ(entry_points_of(options), "render_samples;resolve_samples;sum_counts");
-    options.entries = {true, false, true, false};
-    EXPECT_EQ(entry_points_of(options), "render_pixels;render_list;sum_counts");
+    options.entries = {false, false, false, true};
+    EXPECT_EQ(entry_points_of(options), "render_centers;render_adaptive;sum_counts");
     options.entries = {false, false, false, false, true};
     options.features.edges = true;
     EXPECT_EQ(entry_points_of(options), "render_centers;render_edges;sum_counts");
@@ -104,7 +104,7 @@ TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
     options.warnings_are_errors = true;
     options.lanes = 16;
     expect_own_declarations(render_kernels, options);
-    options.entries = {true, false, false, false};
+    options.entries = {true, false, false};
     for (const int lanes : {1, 4}) {
         options.lanes = lanes;
         for (const Precision precision : {Precision::float32, Precision::float64}) {

@@ -30,9 +30,9 @@ void mend(std::string& bytes) {
 template <typename T>
 void read_all(rt::JournalReader& reader) {
     rt::KnownPixels<T> known = rt::read_known_pixels<T>(reader);
-    const auto pixels = static_cast<std::size_t>(reader.header().film.pixels());
+    const auto pixels = static_cast<std::size_t>(reader.header().picture.region.pixels());
     if (known.is_rendered.size() != pixels) __builtin_trap();
-    if (known.take_refined_film().rgb.size() != 3 * pixels) __builtin_trap();
+    if (known.film.rgb.size() != 3 * pixels) __builtin_trap();
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::istringstream stream(bytes);
     try {
         rt::JournalReader reader(stream, size);
-        if (reader.header().film.pixels() > 1 << 14) return 0;
+        if (reader.header().picture.region.pixels() > 1 << 14) return 0;
         if (reader.header().is_double()) {
             read_all<double>(reader);
         } else {

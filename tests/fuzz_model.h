@@ -10,7 +10,6 @@
 #include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/film.h"
-#include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
 #include "host/scene/model.h"
@@ -59,7 +58,7 @@ inline void render(Scene scene) {
     Film<float> film(side, side);
     const StopFlag stop = 0;
     TileQueue queue(make_tiles(whole, side, side), stop);
-    render_all(*renderer, scene.aa, queue, whole, film);
+    renderer->render(queue, whole, film);
 }
 
 /// Runs a reader and renders its model alone and mirrored. Any bytes give either a picture or an

@@ -12,7 +12,6 @@
 #include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/film.h"
-#include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
 #include "host/scene/scene.h"
@@ -58,7 +57,7 @@ void render(rt::Scene scene) {
     rt::Film<float> film(side, side);
     const rt::StopFlag stop = 0;
     rt::TileQueue queue(rt::make_tiles(whole, side, side), stop);
-    rt::render_all(*renderer, scene.aa, queue, whole, film);
+    renderer->render(queue, whole, film);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "host/render/film.h"
-#include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "host/scene/scene_file.h"
 #include "tests/hit_scenes.h"
@@ -24,7 +23,7 @@ std::uint64_t picture_hash(const Scene& scene, const FlattenOptions& options) {
     const Rect tile = renderer->tile_size(scene.width);
     TileQueue queue(make_tiles(region, tile.width, tile.height), never_stop);
     Film<T> film(scene.width, scene.height);
-    render_all(*renderer, scene.aa, queue, region, film);
+    renderer->render(queue, region, film);
     return hash_of(film);
 }
 

@@ -10,7 +10,6 @@
 #include <random>
 
 #include "host/base/error.h"
-#include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "host/scene/scene_file.h"
 
@@ -59,7 +58,7 @@ bool has_nan(const Scene& scene) {
     const Rect region{0, 0, scene.width, scene.height};
     TileQueue queue(make_tiles(region, scene.width, scene.height), never_stop);
     Film<T> film(scene.width, scene.height);
-    render_all(*renderer, scene.aa, queue, region, film);
+    renderer->render(queue, region, film);
     return std::any_of(film.rgb.begin(), film.rgb.end(), [](T x) { return std::isnan(x); });
 }
 

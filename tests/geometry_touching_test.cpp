@@ -10,7 +10,6 @@
 #include <functional>
 #include <numbers>
 
-#include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
 #include "tests/hit_scenes.h"
 #include "tests/test_random.h"
@@ -74,7 +73,7 @@ Film<T> picture(const Scene& scene, int lanes, const FlattenOptions& flattening 
     const Rect region{0, 0, scene.width, scene.height};
     TileQueue queue(make_tiles(region, scene.width, scene.height), never_stop);
     Film<T> film(scene.width, scene.height);
-    render_all(*renderer, scene.aa, queue, region, film);
+    renderer->render(queue, region, film);
     return film;
 }
 

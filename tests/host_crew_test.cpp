@@ -17,10 +17,10 @@ namespace {
 const Rect picture{0, 0, 40, 30};
 const StopFlag never = 0;
 
-/// Fills its tiles and pixels with one color; fails after a number of them.
+/// Fills its tiles with one color; fails after a number of them.
 struct Painter : Renderer<float> {
     float color = 1;
-    int fails_after = -1;  ///< tiles or calls of refine; -1: never
+    int fails_after = -1;  ///< tiles; -1: never
     std::chrono::milliseconds pause{0};
     int done = 0;
     std::int64_t pixels = 0;
@@ -47,12 +47,6 @@ struct Painter : Renderer<float> {
             queue.finish(*run);
             pixels += tile.pixels();
         }
-    }
-    void refine(std::span<const std::int32_t> list, int, TileQueue&, const Rect&,
-                Film<float>& film) override {
-        fail_if_due();
-        std::this_thread::sleep_for(pause);
-        for (const std::int32_t pixel : list) film.rgb[std::size_t(3 * pixel)] += color;
     }
     RendererTimes times() const override {
         RendererTimes times;
@@ -96,11 +90,6 @@ struct Painting {
         crew.open();
     }
     void render() { crew.render(queue, picture, film); }
-    void refine() {
-        std::vector<std::int32_t> all;
-        for (std::int32_t i = 0; i < picture.pixels(); ++i) all.push_back(i);
-        crew.refine(all, 2, queue, picture, film);
-    }
     /// The number of pixels of this color.
     std::int64_t count(float color) const {
         std::int64_t found = 0;
@@ -113,8 +102,7 @@ struct Painting {
 TEST(Crew, OfOneRenders) {
     Painting painting({member("a", 1)});
     painting.render();
-    painting.refine();
-    EXPECT_EQ(painting.count(2), picture.pixels());
+    EXPECT_EQ(painting.count(1), picture.pixels());
     EXPECT_TRUE(painting.is_finished());
     EXPECT_EQ(painting.crew.times().pixels, picture.pixels());
     EXPECT_FALSE(painting.crew.uses_spare());
@@ -129,8 +117,6 @@ TEST(Crew, OfSeveralSharesTheTiles) {
     ASSERT_EQ(shares.size(), 2u);
     EXPECT_EQ(shares[0].pixels, painting.count(1));
     EXPECT_EQ(shares[1].pixels, painting.count(2));
-    painting.refine();
-    EXPECT_EQ(painting.count(2) + painting.count(3) + painting.count(4), picture.pixels());
 }
 
 TEST(Crew, DoesNotWaitForAMemberThatIsStillBeingMade) {
@@ -143,8 +129,7 @@ TEST(Crew, DoesNotWaitForAMemberThatIsStillBeingMade) {
     {
         Painting painting({slow, member("a", 1)});
         painting.render();
-        painting.refine();
-        EXPECT_EQ(painting.count(2), picture.pixels());
+        EXPECT_EQ(painting.count(1), picture.pixels());
         EXPECT_EQ(painting.crew.shares()[0].ready, 0);
     }
     *gate = true;  // its thread ends on its own
@@ -160,8 +145,6 @@ TEST(Crew, GoesOnWithoutAMemberThatFails) {
         EXPECT_EQ(painting.said,
                   std::vector<std::string>{"painter fell off; continuing without it"});
         EXPECT_EQ(painting.crew.shares()[0].failure, "painter fell off");
-        painting.refine();
-        EXPECT_EQ(painting.count(3) + painting.count(4), picture.pixels());
     }
 }
 
@@ -178,13 +161,6 @@ TEST(Crew, TellsOfMembersThatAreKnownToFailHoweverQuickTheOthersAre) {
     EXPECT_EQ(spare.count(2), picture.pixels());
     EXPECT_TRUE(spare.crew.uses_spare());
     EXPECT_THROW(Painting({unlisted, unlisted}), Error);
-}
-
-TEST(Crew, RefinesWhatAMemberLeft) {
-    Painting painting({member("a", 1, 30), member("b", 1, -1, std::chrono::milliseconds(1))});
-    painting.render();
-    for (int i = 0; i < 40; ++i) painting.refine();
-    EXPECT_EQ(painting.count(41), picture.pixels());
 }
 
 TEST(Crew, HasTheSpareTakeOver) {
@@ -205,8 +181,6 @@ TEST(Crew, HasTheSpareTakeOverFromSeveral) {
     painting.render();
     EXPECT_EQ(painting.count(1) + painting.count(2), picture.pixels());
     EXPECT_TRUE(painting.crew.uses_spare());
-    painting.refine();
-    EXPECT_EQ(painting.count(3) + painting.count(4), picture.pixels());
 }
 
 TEST(Crew, HasTheSpareTakeOverFromOneThatDoesNotOpenOrFailsItsTest) {

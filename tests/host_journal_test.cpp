@@ -142,8 +142,8 @@ TEST_F(Journals, OfASharesRenderThatWasCutAreFinishedByIt) {
         put("a.mbj", bytes.substr(0, end));
         if (end < bytes.size()) {
             const MergedPicture merged = merge_journals({path("b.mbj"), path("a.mbj")});
-            EXPECT_EQ(merged.missing, (Shares{{0}, 2}));
-            EXPECT_EQ(merged.notes.size(), 1u);
+            const bool has_all = end == bytes.size() - 12;  // it lacks the record that says so
+            EXPECT_EQ(merged.missing, has_all ? std::nullopt : std::optional(Shares{{0}, 2}));
         }
         render_shares(settings, "0/2", path("a.mbj"));
         EXPECT_EQ(merge_journals({path("a.mbj"), path("b.mbj")}).image_hash, whole);
@@ -301,7 +301,7 @@ TEST_F(Journals, ForgetLostTiles) {
     JournalHeader header;
     header.picture.width = 4;
     header.picture.height = 2;
-    header.picture.region = header.film = {0, 0, 4, 2};
+    header.picture.region = {0, 0, 4, 2};
     JournalFile file(path("f.mbj"));
     file.restart([&] {
         const auto magic = std::as_bytes(std::span(journal_magic));
@@ -310,10 +310,11 @@ TEST_F(Journals, ForgetLostTiles) {
         return start;
     });
     {
-        JournalKeeper<float> keeper(file, {"host", "device", "1", 1}, film, header.film, 0, [] {});
+        JournalKeeper<float> keeper(file, {"host", "device", "1", 1}, film, header.picture.region,
+                                    0, [] {});
         keeper.tile_finished({0, 0, 2, 2});
         keeper.tile_finished({2, 0, 2, 1});
-        keeper.first_pass_ended();
+        keeper.copy_finished();
         keeper.tile_finished({2, 1, 2, 1});
         keeper.tile_lost({2, 1, 2, 1});
         keeper.tile_lost({0, 0, 2, 2});

@@ -18,7 +18,6 @@
 #include "host/flatten/flat_scene.h"
 #include "host/image/image_error.h"
 #include "host/opencl/device_spec.h"
-#include "host/render/adaptive.h"
 #include "host/render/film.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/threads_renderer.h"
@@ -276,67 +275,6 @@ TEST(ParseAaMode, RoundTripsAndRefuses) {
                             "sobol:0", "sobol:4097", "sobol", "adaptive:0", "adaptive:nan",
                             "adaptive:2", "adaptive:", "edges", "edges:0.000009", "edges:1.1"}) {
         EXPECT_FALSE(parse_aa_mode(bad).has_value()) << bad;
-    }
-}
-
-TEST(PlanRefinement, RefinesBothSidesOfAnEdgeByItsContrast) {
-    Film<float> film(6, 3);
-    for (std::size_t i = 0; i < film.rgb.size(); ++i) film.rgb[i] = i / 3 % 6 < 3 ? 0.0f : 0.3f;
-    std::vector<std::uint8_t> levels(18, 1);
-    const auto plan = plan_refinement(film, 0.1, levels);
-    ASSERT_EQ(plan.size(), 1u);
-    EXPECT_EQ(plan[0].grid, 4);  // 0.3 / 2 > 0.1 >= 0.3 / 4
-    EXPECT_EQ(plan[0].pixels, (std::vector<std::int32_t>{2, 3, 8, 9, 14, 15}));
-    EXPECT_EQ(levels[2], 4);
-    EXPECT_TRUE(plan_refinement(film, 0.1, levels).empty());
-}
-
-TEST(PlanRefinement, LeavesAgreeingNeighborsAloneAndFlagsNaN) {
-    Film<double> film(3, 1);
-    std::vector<std::uint8_t> levels(3, 1);
-    EXPECT_TRUE(plan_refinement(film, 0.01, levels).empty());
-    film.rgb[4] = std::nan("");
-    const auto plan = plan_refinement(film, 0.01, levels);
-    ASSERT_EQ(plan.size(), 1u);
-    EXPECT_EQ(plan[0].grid, 16);
-    EXPECT_EQ(plan[0].pixels.size(), 3u);
-}
-
-/// The largest difference between a pixel and its neighbors, one pair at a time.
-double contrast_of(const Film<float>& film, int x, int y) {
-    const auto value = [&](int column, int row, int c) {
-        const double v = film.rgb[static_cast<std::size_t>(3 * (row * film.width + column) + c)];
-        return std::isnan(v) ? v : std::min(std::max(v, 0.0), 1.0);
-    };
-    double largest = 0;
-    for (int i = 0; i < 27; ++i) {
-        const int column = x + i % 3 - 1, row = y + i / 3 % 3 - 1, c = i / 9;
-        if (column < 0 || column >= film.width || row < 0 || row >= film.height) continue;
-        const double d = std::abs(value(column, row, c) - value(x, y, c));
-        largest = std::max(largest, std::isnan(d) ? 1 : d);
-    }
-    return largest;
-}
-
-TEST(PlanRefinement, IsThatOfComparingEachPairOfNeighbors) {
-    Random random(8);
-    for (const auto& [width, height] : {std::pair(1, 1), {1, 90}, {90, 1}, {50, 150}}) {
-        Film<float> film(width, height);
-        for (float& value : film.rgb) {
-            value = static_cast<float>(random.uniform(0.4, 0.5));
-            if (random.index(40) == 0) value = static_cast<float>(random.uniform(-2, 3));
-            if (random.index(400) == 0) value = std::nanf("");
-        }
-        std::vector<std::uint8_t> levels(static_cast<std::size_t>(width * height), 1);
-        plan_refinement(film, 0.07, levels);
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                int grid = 1;
-                const double contrast = contrast_of(film, x, y);
-                while (grid < 16 && contrast > (grid == 1 ? 0.07 : 0.07 * grid)) grid *= 2;
-                ASSERT_EQ(levels[static_cast<std::size_t>(y * width + x)], grid) << x << "," << y;
-            }
-        }
     }
 }
 

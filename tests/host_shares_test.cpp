@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "host/journal/shares.h"
-#include "host/render/picture_loop.h"
 #include "host/render/tile_queue.h"
 #include "tests/test_random.h"
 
@@ -45,27 +44,14 @@ TEST(ShareBlocks, AreAboutAThousand) {
     EXPECT_EQ(share_blocks({5, 6, 20, 10}).size(), 2u);
 }
 
-TEST(ShareNeeds, GrowByOnePixelAPass) {
-    const Rect region{0, 0, 64, 48};
-    const Shares shares{{1}, 3};
-    const auto needs = share_needs(shares, region, region, true);
-    const auto own = share_needs(shares, region, region, false);
-    const auto level_of_nearest = [&](int x, int y) {
-        int nearest = 99;
-        for (int v = 0; v < 48; ++v) {
-            for (int u = 0; u < 64; ++u) {
-                if (own[static_cast<std::size_t>(64 * v + u)] == 0) continue;
-                nearest = std::min(nearest, std::max(std::abs(u - x), std::abs(v - y)));
-            }
-        }
-        return std::max(refine_passes + 1 - nearest, 0);
-    };
-    for (int y = 0; y < 48; ++y) {
-        for (int x = 0; x < 64; ++x) {
-            ASSERT_EQ(needs[static_cast<std::size_t>(64 * y + x)], level_of_nearest(x, y))
-                << x << ' ' << y;
-        }
+TEST(SharedPixels, AreThoseOfTheSharesBlocks) {
+    const Rect region{3, 2, 64, 48};
+    std::size_t pixels = 0;
+    for (const Shares& shares : {Shares{{1}, 3}, Shares{{0, 2}, 3}}) {
+        for (const std::uint8_t is_shared : shared_pixels(shares, region)) pixels += is_shared;
     }
+    EXPECT_EQ(pixels, 64u * 48u);
+    EXPECT_EQ(shared_pixels({{1}, 3}, region)[0] + shared_pixels({{0, 2}, 3}, region)[0], 1);
 }
 
 TEST(WantedTiles, CoverWhatIsWantedOnce) {

@@ -60,7 +60,7 @@ class Oclgrind(unittest.TestCase):
     def test_double(self):
         self.check("cornell-box.json", "--launch", "pixel", "--precision", "double")
 
-    def test_refined_pixels(self):
+    def test_adaptive(self):
         self.check("cornell-box.json", "--aa", "adaptive:0.4")
 
     def test_edges(self):

@@ -8,7 +8,6 @@
 #include <map>
 
 #include "host/flatten/flat_scene.h"
-#include "host/render/picture_loop.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -54,7 +53,7 @@ Counts rays_of(Renderer<float>& renderer, const Scene& scene) {
     const StopFlag never_stop = 0;
     TileQueue queue(make_tiles(region, scene.width, 10), never_stop);
     Film<float> film(scene.width, scene.height);
-    rt::render_all(renderer, scene.aa, queue, region, film);
+    renderer.render(queue, region, film);
     const auto rays = queue.rays();
     return {rays.primary, rays.shadow, rays.mirror, rays.transmitted};
 }

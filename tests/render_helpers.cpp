@@ -8,7 +8,6 @@
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_program.h"
 #include "host/opencl/device_spec.h"
-#include "host/render/picture_loop.h"
 #include "host/scene/scene_file.h"
 
 namespace rt::test {
@@ -23,7 +22,7 @@ Film<T> render_all(Renderer<T>& renderer, const Scene& scene, Rect tile) {
     const Rect region{0, 0, scene.width, scene.height};
     if (tile.width == 0) tile = renderer.tile_size(scene.width);
     TileQueue queue(make_tiles(region, tile.width, tile.height), never_stop);
-    rt::render_all(renderer, scene.aa, queue, region, film);
+    renderer.render(queue, region, film);
     if (queue.tiles_finished() != queue.tiles().size()) throw std::logic_error("unfinished tiles");
     return film;
 }
@@ -92,7 +91,6 @@ template <typename T>
 Film<T> render_on_device(const Scene& scene, const ClOptions& options, Rect tile) {
     const FlatScene<T> flat = flatten<T>(scene);
     ClOptions for_scene = options;
-    for_scene.will_refine = scene.aa.refines();
     for_scene.open_devices = &open_devices();
     return render_all<T>(*make_cl_renderer(flat, test_device(), for_scene), scene, tile);
 }

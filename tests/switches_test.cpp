@@ -8,8 +8,8 @@
 #include <bit>
 
 #include "host/flatten/flat_scene.h"
-#include "host/render/edge_tile.h"
 #include "host/render/threads_renderer.h"
+#include "host/render/tile_rounds.h"
 #include "tests/feature_scenes.h"
 #include "tests/render_helpers.h"
 
@@ -33,10 +33,10 @@ namespace rt::test {
 namespace {
 
 /// With the entry points that are called here.
-#define SWITCHABLE(lanes)                                                      \
-    {                                                                          \
-        "", lanes, {}, lanes, 0, rt_switchable_##lanes##_pixels, {}, {}, {},   \
-            rt_switchable_##lanes##_centers, rt_switchable_##lanes##_edges, {} \
+#define SWITCHABLE(lanes)                                                          \
+    {                                                                              \
+        "", lanes, {}, lanes, 0, rt_switchable_##lanes##_pixels, {}, {}, {},       \
+            rt_switchable_##lanes##_centers, {}, rt_switchable_##lanes##_edges, {} \
     }
 const NativeKernels<float> single SWITCHABLE(1), packets SWITCHABLE(8);
 
@@ -57,8 +57,8 @@ std::uint64_t hash_by(const NativeKernels<float>& kernels, const FlatScene<float
     const NativeView<float> view = native_view(flat);
     if (flat.params.tolerance > 0) {
         std::vector<float> planes;
-        render_edge_tile(kernels, view, tile, planes, film.rgb.data(), counts,
-                         [] { return false; });
+        render_tile_in_rounds(kernels, view, tile, planes, film.rgb.data(), counts,
+                              [] { return false; });
     } else {
         kernels.render_pixels(film.rgb.data(), &counts, &view, &tile, 0, across * down);
     }

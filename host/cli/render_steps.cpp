@@ -58,8 +58,7 @@ void remove_partial(const std::string& output, const PictureMetadata& metadata) 
 
 /// How much of a stopped picture is done.
 std::string share_done(const RenderStats& stats) {
-    return fmt::format("{} of {} tiles{}", stats.tiles_finished, stats.tiles,
-                       stats.tiles_finished == stats.tiles ? ", not all refined" : "");
+    return fmt::format("{} of {} tiles", stats.tiles_finished, stats.tiles);
 }
 
 }  // namespace

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/explain/pixel_facts.h"
 
-#include <array>
 #include <cstddef>
 
 #include "host/base/parallel.h"
 #include "host/explain/ray_tree.h"
 #include "host/flatten/view_frame.h"
-#include "host/render/edge_tile.h"
 #include "host/render/native_kernels.h"
-#include "host/render/packet_shape.h"
-#include "host/render/picture_loop.h"
+#include "host/render/tile_queue.h"
+#include "host/render/tile_rounds.h"
 
 namespace rt {
 
@@ -29,79 +27,71 @@ void for_each_pixel(const Rect& region, const StopFlag& stop, const Work& work) 
                  });
 }
 
-/// Samples per side with which an adaptive picture refines each pixel of the region; 0 if it does
-/// not.
-template <typename T>
-std::vector<int> refined_grids(const FlatScene<T>& scene, const AaMode& aa, const Rect& region,
-                               const StopFlag& stop) {
-    std::vector<int> grids(static_cast<std::size_t>(region.pixels()), 0);
-    if (!aa.refines()) return grids;
-    const Rect film_rect = region_to_render(aa, region, static_cast<int>(scene.params.width),
-                                            static_cast<int>(scene.params.height));
-    RefineEvents<T> events;
-    events.planned = [&](int, std::vector<Refinement>& plan, Film<T>&) {
-        for (const Refinement& step : plan) {
-            for (const std::int32_t pixel : step.pixels) {
-                const int x = film_rect.x + pixel % film_rect.width - region.x;
-                const int y = film_rect.y + pixel / film_rect.width - region.y;
-                if (x < 0 || y < 0 || x >= region.width || y >= region.height) continue;
-                grids[static_cast<std::size_t>(y) * region.width + x] = step.grid;
-            }
-        }
-    };
-    const auto renderer = make_threads_renderer(scene, {});
-    Film<T> film(film_rect.width, film_rect.height);
-    const Rect tile = renderer->tile_size(film_rect.width);
-    TileQueue queue(make_tiles(film_rect, tile.width, tile.height), stop);
-    render_all(*renderer, aa, queue, film_rect, film, events);
-    return grids;
-}
-
-template <typename Counts>
-std::uint64_t secondary(const Counts& counts) {
-    return counts.shadow + counts.mirror + counts.transmitted;
-}
-
-/// Renders pixels one at a time.
+/// What each pixel of a region counts, beyond its eye rays; in adaptive and edges modes also the
+/// samples beyond that at its center. With single rays, so that a work item has one pixel.
 template <typename T>
 class PixelCounter {
    public:
-    explicit PixelCounter(const FlatScene<T>& scene)
-        : kernels_(native_kernels_for(scene, any_samples())), view_(native_view(scene)) {}
+    using Counts = typename Flat<T>::RayCounts;
 
+    PixelCounter(const FlatScene<T>& scene, const Rect& region)
+        : kernels_(native_kernels_for(scene, single_rays())),
+          view_(native_view(scene)),
+          region_(region),
+          counts_(static_cast<std::size_t>(region.pixels())) {}
+
+    const Counts& operator[](std::size_t i) const { return counts_[i]; }
     std::uint64_t samples() const { return static_cast<std::uint64_t>(view_.params.samples); }
 
-    /// Rays beyond an eye ray for each sample: for the pixel's samples, or for a grid of them. In
-    /// an edges mode `primary` counts the samples at an edge.
-    typename Flat<T>::RayCounts rays(int x, int y, int grid = 0) const {
-        std::array<T, 3> color;
-        const auto tile = flat_tile<T>({x, y, 1, 1}, {x, y, 1, 1});
-        typename Flat<T>::RayCounts counts{};
-        if (view_.params.tolerance > 0) {
-            std::vector<T> planes;
-            render_edge_tile(kernels_, view_, tile, planes, color.data(), counts,
-                             [] { return false; });
-        } else if (grid == 0) {
-            kernels_.render_pixels(color.data(), &counts, &view_, &tile, 0, 1);
-        } else {
-            NativeView<T> view = view_;
-            view.params.grid = grid;
-            view.params.samples = grid * grid;
-            const std::int32_t pixel = 0;
-            kernels_.render_list(color.data(), &counts, &view, &tile, &pixel, 0, 1);
+    void count(const Rect& rect) {
+        const auto tile = flat_tile<T>(rect, rect);
+        std::vector<T> film(3 * static_cast<std::size_t>(rect.pixels()));
+        if (!renders_in_rounds(view_.params)) {
+            each_item(rect, 0, [&](Counts& counts, Index item) {
+                kernels_.render_pixels(film.data(), &counts, &view_, &tile, item, item + 1);
+            });
+            return;
         }
-        return counts;
+        std::vector<T> planes(plane_values(view_.params, tile, 1));
+        const int margin = tile_margin(view_.params);
+        each_item(rect, margin, [&](Counts& counts, Index item) {
+            kernels_.render_centers(planes.data(), &counts, &view_, &tile, item, item + 1);
+        });
+        const auto render = round_kernel(kernels_, view_.params);
+        for (int round = 0; round < margin; ++round) {
+            each_item(rect, margin - 1 - round, [&](Counts& counts, Index item) {
+                render(film.data(), &counts, &view_, &tile, planes.data(), round, item, item + 1);
+            });
+        }
     }
 
    private:
-    static ThreadsOptions any_samples() {
+    using Index = typename Flat<T>::Index;
+
+    static ThreadsOptions single_rays() {
         ThreadsOptions options;
         options.kernels.any_samples = true;
+        options.kernels.lanes = 1;
         return options;
+    }
+
+    /// Calls work(counts, item) for each pixel of a rectangle and its margin.
+    template <typename Work>
+    void each_item(const Rect& rect, int margin, const Work& work) {
+        Counts ignored{};
+        Index item = 0;
+        for (int y = rect.y - margin; y < rect.y + rect.height + margin; ++y) {
+            for (int x = rect.x - margin; x < rect.x + rect.width + margin; ++x) {
+                const bool is_inside = is_within({x, y, 1, 1}, rect);
+                work(is_inside ? counts_[index_in(region_, x, y)] : ignored, item++);
+            }
+        }
     }
 
     const NativeKernels<T>& kernels_;
     const NativeView<T> view_;
+    const Rect region_;
+    std::vector<Counts> counts_;
 };
 
 }  // namespace
@@ -132,18 +122,19 @@ PixelHits pixel_hits(const Scene& scene, const Rect& region, const StopFlag& sto
 template <typename T>
 PixelWork pixel_work(const Scene& scene, const Rect& region, const StopFlag& stop) {
     const FlatScene<T> flat = flatten<T>(scene);
-    const std::vector<int> grids = refined_grids(flat, scene.aa, region, stop);
-    const PixelCounter<T> counter(flat);
-    PixelWork work{std::vector<std::uint32_t>(grids.size()),
-                   std::vector<std::uint64_t>(grids.size())};
-    for_each_pixel(region, stop, [&](std::size_t i, int x, int y) {
-        const auto refined = static_cast<std::uint64_t>(grids[i] * grids[i]);
-        const auto counts = counter.rays(x, y);
-        const std::uint64_t samples = counter.samples() + refined + counts.primary;
-        work.samples[i] = static_cast<std::uint32_t>(samples);
-        work.rays[i] = samples + secondary(counts);
-        if (refined > 0) work.rays[i] += secondary(counter.rays(x, y, grids[i]));
+    PixelCounter<T> counter(flat, region);
+    const std::vector<Rect> tiles = make_tiles(region, 64, 64);
+    for_each_run(tiles.size(), 1, available_cores(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last && stop == 0; ++i) counter.count(tiles[i]);
     });
+    const auto pixels = static_cast<std::size_t>(region.pixels());
+    PixelWork work{std::vector<std::uint32_t>(pixels), std::vector<std::uint64_t>(pixels)};
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const auto& counts = counter[i];
+        const std::uint64_t samples = counter.samples() + counts.primary;
+        work.samples[i] = static_cast<std::uint32_t>(samples);
+        work.rays[i] = samples + counts.shadow + counts.mirror + counts.transmitted;
+    }
     return work;
 }
 

@@ -27,8 +27,8 @@ struct PixelWork {
     std::vector<std::uint64_t> rays;  ///< eye, shadow, mirror and refracted rays
 };
 
-/// For the pixels of a region, refined where an adaptive mode refines them in the picture, as
-/// rendered in the precision of T. For some of them if the stop flag is set.
+/// For the pixels of a region, as rendered in the precision of T. For some of them if the stop flag
+/// is set.
 template <typename T>
 PixelWork pixel_work(const Scene& scene, const Rect& region, const StopFlag& stop);
 

@@ -23,7 +23,7 @@ static_assert(offsetof(VertexNormals, n2) == 32);
 static_assert(offsetof(Material, transmission) == 64);
 static_assert(offsetof(Light, caster_count) == 28);
 static_assert(offsetof(BvhNode, count) == 28);
-static_assert(offsetof(LaunchParams, pad1) == 188);
+static_assert(offsetof(LaunchParams, threshold) == 188);
 static_assert(offsetof(Tile, film_width) == 20);
 static_assert(offsetof(RayQuery, self_hit) == 44);
 static_assert(offsetof(RayAnswer, next_t) == 48);

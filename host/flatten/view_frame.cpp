@@ -119,6 +119,7 @@ void set_sampling(const Scene& scene, LaunchParams& params) {
     params.seed = scene.sampling_seed;
     using Real = decltype(params.tolerance);
     params.tolerance = scene.aa.finds_edges() ? static_cast<Real>(scene.aa.threshold) : Real(0);
+    params.threshold = scene.aa.refines() ? static_cast<Real>(scene.aa.threshold) : Real(0);
     switch (scene.filter) {
         case Filter::box:
             params.filter = f32::RT_FILTER_BOX;

@@ -287,28 +287,9 @@ void JournalKeeper<T>::take_tiles() {
 }
 
 template <typename T>
-void JournalKeeper<T>::first_pass_ended() {
+void JournalKeeper<T>::copy_finished() {
     const std::scoped_lock lock(mutex_);
     take_tiles();
-}
-
-template <typename T>
-void JournalKeeper<T>::refined(int pass, std::span<const std::int32_t> pixels) {
-    std::vector<std::byte> body(8 + pixels.size() * (4 + 3 * sizeof(T)));
-    const std::uint32_t numbers[2] = {static_cast<std::uint32_t>(pass),
-                                      static_cast<std::uint32_t>(pixels.size())};
-    std::memcpy(body.data(), numbers, sizeof(numbers));
-    std::memcpy(body.data() + 8, pixels.data(), pixels.size_bytes());
-    std::byte* color = body.data() + 8 + pixels.size_bytes();
-    for (const std::int32_t pixel : pixels) {
-        std::memcpy(color, &film_.rgb[3 * static_cast<std::size_t>(pixel)], 3 * sizeof(T));
-        color += 3 * sizeof(T);
-    }
-    const std::scoped_lock lock(mutex_);
-    check();
-    has_pixels_ = true;
-    append_record(records_, RecordKind::refined, body);
-    have_thread();
 }
 
 /// The thread calls it, and close() after that has ended.

@@ -85,7 +85,7 @@ class JournalKeeper {
    public:
     /// `writer` identifies this process. The film covers `shown` and must outlive this. `failed` is
     /// called once if nothing more can be written, on the thread; if it throws Error, so do
-    /// tile_finished and refined from then on, as when another process has created the file.
+    /// tile_finished from then on, as when another process has created the file.
     JournalKeeper(JournalFile& file, const JournalWriterInfo& writer, const Film<T>& film,
                   const Rect& shown, double delay, std::function<void()> failed);
     JournalKeeper(const JournalKeeper&) = delete;
@@ -101,11 +101,8 @@ class JournalKeeper {
     /// It is no longer; call before it may be rendered again. Callable from any thread.
     void tile_lost(const Rect& tile);
 
-    /// Copies what the first pass finished out of the film, whose pixels may now change.
-    void first_pass_ended();
-
-    /// Pixels of the film were refined in this pass.
-    void refined(int pass, std::span<const std::int32_t> pixels);
+    /// Copies what is finished out of the film, which may now go.
+    void copy_finished();
 
     /// Whether there is anything worth keeping.
     bool has_pixels() const { return has_pixels_; }

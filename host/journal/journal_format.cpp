@@ -68,9 +68,7 @@ JournalHeader parse_header(std::span<const std::byte> body) {
         const PictureSpec& picture = header.picture;
         const int side = std::max(picture.width, picture.height);
         const Rect whole{0, 0, picture.width, picture.height};
-        if (side > largest_side || !is_within(header.film, whole)) {
-            what = "film";
-        } else if (!is_within(picture.region, header.film)) {
+        if (side > largest_side || !is_within(picture.region, whole)) {
             what = "region";
         } else if (picture.max_bounces < 0) {
             what = "max_bounces";

@@ -20,22 +20,20 @@
 // override earlier ones. Nothing after the first bad record is read.
 namespace rt {
 
-inline constexpr std::string_view journal_magic = "MBJRNL02";  ///< the last two: its version
+inline constexpr std::string_view journal_magic = "MBJRNL03";  ///< the last two: its version
 
 enum class RecordKind : std::uint32_t {
     header = 1,   ///< JSON: JournalHeader
     writer = 2,   ///< JSON: JournalWriterInfo
     tile = 3,     ///< i32 x, y, width, height in the picture; its pixels, three numbers each
     lost = 4,     ///< i32 x, y, width, height: no longer valid
-    refined = 5,  ///< u32 pass, u32 n; n i32 pixel indices into the film; n times three numbers
-    finished = 6  ///< the whole picture, or all its shares, is here; no body
+    finished = 5  ///< the whole picture, or all its shares, is here; no body
 };
 
 /// What picture a journal belongs to.
 struct JournalHeader {
     std::uint64_t key = 0;  ///< equal keys mean bit-identical pictures: picture_key
     PictureSpec picture;
-    Rect film;                      ///< the part rendered: the region and what refining it needs
     std::string shares;             ///< as to_string(Shares)
     std::string scene, scene_hash;  ///< as a picture's metadata have them
     /// To render it again: the file as given to the first writer, which may be empty, and what
@@ -53,7 +51,6 @@ template <typename A, Of<JournalHeader> X>
 void describe(A& a, X& x) {
     a("key", x.key, "");
     describe(a, x.picture);
-    a("film", x.film, "");
     a("shares", x.shares, "");
     a("scene", x.scene, "");
     a("scene_hash", x.scene_hash, "");

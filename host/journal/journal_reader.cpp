@@ -82,26 +82,12 @@ bool JournalReader::interpret(JournalRecord& record) const {
             if (body.size() < 16) return false;
             record.rect = rect_at_start(body);
             record.values = body.subspan(16);
-            return is_within(record.rect, header_.film) &&
+            return is_within(record.rect, header_.picture.region) &&
                    record.values.size() == static_cast<std::size_t>(record.rect.pixels()) * pixel;
         case RecordKind::lost:
             if (body.size() != 16) return false;
             record.rect = rect_at_start(body);
-            return is_within(record.rect, header_.film);
-        case RecordKind::refined: {
-            if (body.size() < 8 || !header_.picture.aa.refines()) return false;
-            const auto pass = number_at<std::uint32_t>(body, 0);
-            const std::size_t count = number_at<std::uint32_t>(body, 4);
-            if (pass >= refine_passes || body.size() != 8 + count * (4 + pixel)) return false;
-            record.pass = static_cast<int>(pass);
-            record.indices = body.subspan(8, 4 * count);
-            record.values = body.subspan(8 + 4 * count);
-            for (std::size_t i = 0; i < count; ++i) {
-                const auto index = number_at<std::int32_t>(record.indices, 4 * i);
-                if (index < 0 || index >= header_.film.pixels()) return false;
-            }
-            return true;
-        }
+            return is_within(record.rect, header_.picture.region);
         case RecordKind::finished:
             return body.empty();
     }
@@ -125,20 +111,8 @@ double KnownPixels<T>::share_rendered() const {
 }
 
 template <typename T>
-Film<T> KnownPixels<T>::take_refined_film() {
-    Film<T> result = std::move(film);
-    for (const RefinedPixels<T>& pass : refined) {
-        for (std::size_t i = 0; i < pass.pixels.size(); ++i) {
-            std::copy_n(pass.colors.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
-                        result.rgb.begin() + std::ptrdiff_t{3} * pass.pixels[i]);
-        }
-    }
-    return result;
-}
-
-template <typename T>
 KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used) {
-    const Rect film = reader.header().film;
+    const Rect film = reader.header().picture.region;
     KnownPixels<T> known;
     if (used.width == film.width && used.height == film.height) {
         known.film = std::move(used);
@@ -162,16 +136,6 @@ KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used) {
             }
             std::fill_n(known.is_rendered.begin() + static_cast<std::ptrdiff_t>(at), rect.width,
                         std::uint8_t{is_there});
-        }
-        if (record->kind == RecordKind::refined) {
-            RefinedPixels<T>& pass = known.refined[record->pass];
-            const std::size_t before = pass.pixels.size(), count = record->indices.size() / 4;
-            pass.pixels.resize(before + count);
-            pass.colors.resize(3 * (before + count));
-            if (count > 0) {
-                std::memcpy(&pass.pixels[before], record->indices.data(), record->indices.size());
-                std::memcpy(&pass.colors[3 * before], record->values.data(), record->values.size());
-            }
         }
         if (record->kind == RecordKind::writer) known.writers.push_back(record->writer);
         if (record->kind == RecordKind::finished) known.is_finished = true;

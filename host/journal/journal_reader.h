@@ -10,19 +10,16 @@
 #include "host/base/error.h"
 #include "host/journal/journal_format.h"
 #include "host/render/film.h"
-#include "host/render/picture_loop.h"
 
 namespace rt {
 
-/// A record checked against its journal: its rectangle or pixels lie in the film, and its body has
-/// the right length. Its spans stay valid until the next record is read.
+/// A record checked against its journal: its rectangle lies in the picture's region, and its body
+/// has the right length. Its span stays valid until the next record is read.
 struct JournalRecord {
     RecordKind kind;
-    Rect rect;                           ///< of tile and lost
-    int pass = 0;                        ///< of refined
-    std::span<const std::byte> indices;  ///< of refined: i32 each
-    std::span<const std::byte> values;   ///< of tile and refined: three numbers per pixel
-    JournalWriterInfo writer;            ///< of writer
+    Rect rect;                          ///< of tile and lost
+    std::span<const std::byte> values;  ///< of tile: three numbers per pixel
+    JournalWriterInfo writer;           ///< of writer
 };
 
 /// A journal whose header is missing or incomplete.
@@ -60,27 +57,16 @@ class JournalReader {
     JournalHeader header_;
 };
 
-/// Pixels that were refined in one pass: indices into the film, and three numbers each.
-template <typename T>
-struct RefinedPixels {
-    std::vector<std::int32_t> pixels;
-    std::vector<T> colors;
-};
-
 /// Everything that a journal has of a picture.
 template <typename T>
 struct KnownPixels {
-    Film<T> film{0, 0};  ///< after the first pass
+    Film<T> film{0, 0};
     std::vector<std::uint8_t> is_rendered;
-    RefinedPixels<T> refined[refine_passes];
     bool is_finished = false;
     std::vector<JournalWriterInfo> writers;
 
-    /// The fraction of the film rendered in the first pass: 0 to 1.
+    /// The fraction of the film: 0 to 1.
     double share_rendered() const;
-
-    /// The film with the refined pixels applied; moves it out.
-    Film<T> take_refined_film();
 };
 
 /// Reads the remaining records. Reuses the memory of `used`, a film no longer needed; if it has the

@@ -43,7 +43,7 @@ void read_part(const std::string& path, const Read& read) {
 
 void check_same_picture(const JournalHeader& header, const std::string& first_path,
                         const JournalHeader& first) {
-    if (header.key == first.key && header.film == first.film && header.picture == first.picture) {
+    if (header.key == first.key && header.picture == first.picture) {
         return;
     }
     const auto what = [&]() -> std::string {
@@ -77,17 +77,12 @@ class Merger {
                                         counted(bytes - reader.good_bytes(), "byte")));
         }
         parts_.push_back({path, known.writers});
-        if (header.picture.aa.refines() && !known.is_finished) {
-            notes.push_back(path + ": ignored, because it is adaptive and unfinished");
-            return;
-        }
-        Film<T> film = known.take_refined_film();
-        if (header.film != region_) film = part_of(film, header.film, region_);
+        Film<T> film = std::move(known.film);
         const std::vector<int> share_of = block_shares(blocks_.size(), shares.of);
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
             const auto& numbers = shares.numbers;
             if (!std::binary_search(numbers.begin(), numbers.end(), share_of[b])) continue;
-            take_block(blocks_[b], header.film, known.is_rendered, film);
+            take_block(blocks_[b], known.is_rendered, film);
         }
         used_film_ = std::move(film);
     }
@@ -137,14 +132,13 @@ class Merger {
         std::size_t pixels = 0, first = 0;
     };
 
-    /// Copies the rendered pixels of a block; `rendered` covers the part's film, `film` is cropped
-    /// to the region.
-    void take_block(const Rect& block, const Rect& part_film,
-                    const std::vector<std::uint8_t>& rendered, const Film<T>& film) {
+    /// Copies the rendered pixels of a block.
+    void take_block(const Rect& block, const std::vector<std::uint8_t>& rendered,
+                    const Film<T>& film) {
         for (int y = block.y; y < block.y + block.height; ++y) {
             for (int x = block.x; x < block.x + block.width; ++x) {
-                if (rendered[index_in(part_film, x, y)] == 0) continue;
-                take_pixel(index_in(region_, x, y), film);
+                const std::size_t i = index_in(region_, x, y);
+                if (rendered[i] != 0) take_pixel(i, film);
             }
         }
     }

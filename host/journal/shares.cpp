@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "host/base/text.h"
-#include "host/render/picture_loop.h"
 #include "host/render/tile_queue.h"
 
 namespace rt {
@@ -34,22 +33,6 @@ std::uint64_t mixed(std::uint64_t number) {
     number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
     number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
     return number ^ (number >> 31);
-}
-
-/// Sets to `level` each 0 that has a neighbor of level + 1.
-void grow(std::vector<std::uint8_t>& needs, const Rect& film, std::uint8_t level) {
-    const int right = film.x + film.width - 1, bottom = film.y + film.height - 1;
-    for (int y = film.y; y <= bottom; ++y) {
-        for (int x = film.x; x <= right; ++x) {
-            if (needs[index_in(film, x, y)] != level + 1) continue;
-            for (int row = std::max(y - 1, film.y); row <= std::min(y + 1, bottom); ++row) {
-                for (int near = std::max(x - 1, film.x); near <= std::min(x + 1, right); ++near) {
-                    std::uint8_t& need = needs[index_in(film, near, row)];
-                    if (need == 0) need = level;
-                }
-            }
-        }
-    }
 }
 
 }  // namespace
@@ -106,41 +89,37 @@ std::vector<int> block_shares(std::size_t blocks, int shares) {
     return share_of;
 }
 
-std::vector<std::uint8_t> share_needs(const Shares& shares, const Rect& region, const Rect& film,
-                                      bool refines) {
-    std::vector<std::uint8_t> needs(static_cast<std::size_t>(film.pixels()), 0);
+std::vector<std::uint8_t> shared_pixels(const Shares& shares, const Rect& region) {
+    std::vector<std::uint8_t> shared(static_cast<std::size_t>(region.pixels()), 0);
     const std::vector<Rect> blocks = share_blocks(region);
     const std::vector<int> share_of = block_shares(blocks.size(), shares.of);
-    constexpr std::uint8_t own = refine_passes + 1;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         if (!std::binary_search(shares.numbers.begin(), shares.numbers.end(), share_of[i])) {
             continue;
         }
         const Rect& block = blocks[i];
         for (int y = block.y; y < block.y + block.height; ++y) {
-            std::fill_n(needs.begin() + static_cast<std::ptrdiff_t>(index_in(film, block.x, y)),
-                        block.width, own);
+            std::fill_n(shared.begin() + static_cast<std::ptrdiff_t>(index_in(region, block.x, y)),
+                        block.width, std::uint8_t{1});
         }
     }
-    if (!refines) return needs;
-    for (std::uint8_t level = own - 1; level > 0; --level) grow(needs, film, level);
-    return needs;
+    return shared;
 }
 
 std::vector<Rect> wanted_tiles(const std::vector<Rect>& cells,
-                               const std::vector<std::uint8_t>& wanted, const Rect& film) {
+                               const std::vector<std::uint8_t>& wanted, const Rect& region) {
     std::vector<Rect> tiles;
     for (const Rect& cell : cells) {
         const std::size_t first_of_cell = tiles.size();
         for (int y = cell.y; y < cell.y + cell.height; ++y) {
             const int end = cell.x + cell.width;
             for (int x = cell.x; x < end;) {
-                if (wanted[index_in(film, x, y)] == 0) {
+                if (wanted[index_in(region, x, y)] == 0) {
                     ++x;
                     continue;
                 }
                 const int first = x;
-                while (x < end && wanted[index_in(film, x, y)] != 0) ++x;
+                while (x < end && wanted[index_in(region, x, y)] != 0) ++x;
                 const auto above =
                     std::find_if(tiles.begin() + static_cast<std::ptrdiff_t>(first_of_cell),
                                  tiles.end(), [&](const Rect& tile) {

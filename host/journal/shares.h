@@ -36,15 +36,12 @@ std::vector<Rect> share_blocks(const Rect& region);
 /// expensive blocks cluster.
 std::vector<int> block_shares(std::size_t blocks, int shares);
 
-/// What the shares need of a film, a number per pixel: 0 for nothing, refine_passes + 1 for their
-/// own pixels, d + 1 for pixels refine_passes - d steps away from those. Without refining, all but
-/// their own are 0.
-std::vector<std::uint8_t> share_needs(const Shares& shares, const Rect& region, const Rect& film,
-                                      bool refines);
+/// Which pixels of the region the shares have: 1, or 0.
+std::vector<std::uint8_t> shared_pixels(const Shares& shares, const Rect& region);
 
 /// Greedily covers the pixels of each cell that are not 0 in `wanted` with rectangles. Cells must
-/// lie in the film.
+/// lie in the region.
 std::vector<Rect> wanted_tiles(const std::vector<Rect>& cells,
-                               const std::vector<std::uint8_t>& wanted, const Rect& film);
+                               const std::vector<std::uint8_t>& wanted, const Rect& region);
 
 }  // namespace rt

@@ -20,7 +20,6 @@ std::shared_ptr<OpenDevices> make_open_devices();
 struct ClOptions {
     KernelChoice kernels{};
     Math math = Math::strict;
-    bool will_refine = false;             ///< also build the kernel that `refine` needs
     bool shares_film = false;             ///< others render into the film at the same time
     bool warnings_are_errors = false;     ///< for tests
     OpenDevices* open_devices = nullptr;  ///< keeps context and program; null: not kept

@@ -91,7 +91,7 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     if (options.samples != 0) text += fmt::format(" -DRT_SAMPLES={}", options.samples);
     if (!options.entries.pixels) text += " -DRT_RENDERS_PIXELS=0";
     if (!options.entries.samples) text += " -DRT_RENDERS_SAMPLES=0";
-    if (!options.entries.list) text += " -DRT_RENDERS_LIST=0";
+    if (!options.entries.adaptive && options.samples == 0) text += " -DRT_RENDERS_ADAPTIVE=0";
     if (!options.entries.edges && options.features.edges) text += " -DRT_RENDERS_EDGES=0";
     if (!options.entries.rays) text += " -DRT_TRACES_RAYS=0";
     for (const std::string& more : {build_extras().options, options.more}) {

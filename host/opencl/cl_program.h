@@ -18,11 +18,11 @@ inline cl::Device handle_of(const ClDevice& device) { return cl::Device(device.h
 /// The entry points of kernels/render.cl that a renderer launches; the switches RT_RENDERS_.. of
 /// kernels/features.h.
 struct EntryPoints {
-    bool pixels = true;   ///< render_pixels
-    bool samples = true;  ///< render_samples and resolve_samples
-    bool list = true;     ///< render_list
-    bool rays = true;     ///< trace_rays
-    bool edges = false;   ///< render_centers and render_edges
+    bool pixels = true;     ///< render_pixels
+    bool samples = true;    ///< render_samples and resolve_samples
+    bool rays = true;       ///< trace_rays
+    bool adaptive = false;  ///< render_centers and render_adaptive
+    bool edges = false;     ///< render_centers and render_edges
 };
 
 /// What a program is compiled for. `features` says what may be left out.

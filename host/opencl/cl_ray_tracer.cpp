@@ -31,7 +31,7 @@ class ClRayTracer {
         program.math = options.math;
         program.warnings_are_errors = options.warnings_are_errors;
         program.more = options.kernels.cl_options;
-        program.entries = {false, false, false, true};
+        program.entries = {false, false, true};
         lanes_ = static_cast<std::size_t>(program.lanes);
         kernel_ = cl::Kernel(programs_.program(device, render_kernels, program), "trace_rays");
         const cl_uint params = scene_.set_arguments(kernel_, 2);

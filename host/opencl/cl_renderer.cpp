@@ -18,10 +18,10 @@
 #include "host/opencl/cl_tiles.h"
 #include "host/opencl/opencl.h"
 #include "host/opencl/pocl.h"
-#include "host/render/edge_tile.h"
 #include "host/render/launch_pacer.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
+#include "host/render/tile_rounds.h"
 
 namespace rt {
 
@@ -77,7 +77,7 @@ class ClRenderer : public Renderer<T> {
           pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
                  device.is_cpu ? cpu_most_samples : gpu_most_samples,
                  device.is_cpu ? 1 : gpu_least_samples) {
-        launch_samples_ = launches_samples(options.kernels.launch, device, finds_edges());
+        launch_samples_ = launches_samples(options.kernels.launch, device, in_rounds());
         lanes_ = packet_lanes<T>(options.kernels.lanes, device);
         group_ = picture_group(options.kernels, lanes_);
         try {
@@ -114,24 +114,6 @@ class ClRenderer : public Renderer<T> {
         }
     }
 
-    void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
-                const Rect& region, Film<T>& film) override {
-        try {
-            const Stopwatch watch;
-            const std::vector<T> colors = refined_colors(pixels, grid, region);
-            for (std::size_t i = 0; i < pixels.size(); ++i) {
-                const std::size_t at = 3 * static_cast<std::size_t>(pixels[i]);
-                std::copy_n(colors.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
-                            film.rgb.begin() + static_cast<std::ptrdiff_t>(at));
-            }
-            primary_ += pixels.size() * static_cast<std::size_t>(grid * grid);
-            count_rays(queue);
-            times_.trace += watch.seconds();
-        } catch (const cl::Error& error) {
-            throw_device_error(device_, error);
-        }
-    }
-
     RendererTimes times() const override { return times_; }
 
    private:
@@ -156,10 +138,11 @@ class ClRenderer : public Renderer<T> {
         return cl_tiles<T>(params_, device_, options_, film_width);
     }
 
-    bool finds_edges() const { return params_.tolerance > 0; }
+    bool in_rounds() const { return renders_in_rounds(params_); }
+    int margin() const { return tile_margin(params_); }
     /// Of a pixel, for the pacer.
     std::int64_t paced_samples() const {
-        return finds_edges() ? edge_samples_guess : static_cast<std::int64_t>(params_.samples);
+        return in_rounds() ? round_samples_guess : static_cast<std::int64_t>(params_.samples);
     }
     std::size_t samples() const { return static_cast<std::size_t>(params_.samples); }
 
@@ -173,9 +156,9 @@ class ClRenderer : public Renderer<T> {
         if (traced > pacer_.samples()) return false;
         if (launch_samples_) return traced <= static_cast<std::int64_t>(most_items(device_));
         const FlatTile tile = flat_tile<T>(rect, rect);
-        if (!finds_edges()) return packets(tile, shape(samples())) <= most_items(device_);
-        const FlatTile first_round = size_with_margin(tile, f32::RT_EDGE_MARGIN - 1);
-        return packets(size_with_margin(tile), shape(1)) <= most_items(device_) &&
+        if (!in_rounds()) return packets(tile, shape(samples())) <= most_items(device_);
+        const FlatTile first_round = size_with_margin(tile, margin() - 1);
+        return packets(size_with_margin(tile, margin()), shape(1)) <= most_items(device_) &&
                packets(first_round, {1, lanes_, 1}) <= most_items(device_);
     }
 
@@ -227,13 +210,14 @@ class ClRenderer : public Renderer<T> {
     void build(const ProgramOptions& options) {
         const Stopwatch watch;
         const cl::Program program = programs_.program(device_, render_kernels, options);
-        render_ = cl::Kernel(program, finds_edges()     ? "render_centers"
+        render_ = cl::Kernel(program, in_rounds()       ? "render_centers"
                                       : launch_samples_ ? "render_samples"
                                                         : "render_pixels");
         set_scene_arguments(render_, params_);
-        if (finds_edges()) {
-            edges_ = cl::Kernel(program, "render_edges");
-            set_scene_arguments(edges_, params_);
+        if (in_rounds()) {
+            round_ =
+                cl::Kernel(program, params_.tolerance > 0 ? "render_edges" : "render_adaptive");
+            set_scene_arguments(round_, params_);
         }
         if (launch_samples_) {
             resolve_ = cl::Kernel(program, "resolve_samples");
@@ -246,10 +230,6 @@ class ClRenderer : public Renderer<T> {
         FlatTile nothing{};
         nothing.width = 1;  // kernels divide by the width
         launch(nothing, cl::Buffer());
-        if (options.entries.list) {
-            list_ = cl::Kernel(program, "render_list");
-            launch_list({}, params_, cl::Buffer(), cl::Buffer());
-        }
         queue_.finish();
         times_.build = watch.seconds();
     }
@@ -264,7 +244,7 @@ class ClRenderer : public Renderer<T> {
 
     /// Enqueues the kernels of one tile.
     std::vector<cl::Event> launch(const FlatTile& tile, const cl::Buffer& film) {
-        if (finds_edges()) return launch_edges(tile, film);
+        if (in_rounds()) return launch_rounds(tile, film);
         std::vector<cl::Event> events(launch_samples_ ? 2 : 1);
         render_.setArg(0, launch_samples_ ? samples_ : film);
         render_.setArg(tile_argument_, tile);
@@ -283,63 +263,28 @@ class ClRenderer : public Renderer<T> {
         return events;
     }
 
-    std::vector<cl::Event> launch_edges(const FlatTile& tile, const cl::Buffer& film) {
-        constexpr int margin = f32::RT_EDGE_MARGIN;
-        const std::size_t bytes = edge_plane_values(tile, lanes_) * sizeof(T);
+    std::vector<cl::Event> launch_rounds(const FlatTile& tile, const cl::Buffer& film) {
+        const std::size_t bytes = plane_values(params_, tile, lanes_) * sizeof(T);
         if (bytes > plane_bytes_) {
             planes_ = make_buffer(bytes, "the pixels' centers");
             plane_bytes_ = bytes;
         }
-        std::vector<cl::Event> events(1 + margin);
+        std::vector<cl::Event> events(1 + margin());
         render_.setArg(0, planes_);
         render_.setArg(tile_argument_, tile);
-        enqueue(render_, packets(size_with_margin(tile), shape(1)), events[0]);
+        enqueue(render_, packets(size_with_margin(tile, margin()), shape(1)), events[0]);
         is_half_launched_ = true;
-        edges_.setArg(0, film);
-        edges_.setArg(tile_argument_, tile);
-        edges_.setArg(tile_argument_ + 1, planes_);
-        for (int round = 0; round < margin; ++round) {
-            edges_.setArg(tile_argument_ + 2, static_cast<typename Flat<T>::Index>(round));
-            const FlatTile wide = size_with_margin(tile, margin - 1 - round);
-            enqueue(edges_, packets(wide, {1, lanes_, 1}), events[1 + round]);
+        round_.setArg(0, film);
+        round_.setArg(tile_argument_, tile);
+        round_.setArg(tile_argument_ + 1, planes_);
+        for (int round = 0; round < margin(); ++round) {
+            round_.setArg(tile_argument_ + 2, static_cast<typename Flat<T>::Index>(round));
+            const FlatTile wide = size_with_margin(tile, margin() - 1 - round);
+            enqueue(round_, packets(wide, {1, lanes_, 1}), events[1 + round]);
         }
         is_half_launched_ = false;
         queue_.flush();
         return events;
-    }
-
-    cl::Event launch_list(const FlatTile& tile, const typename Flat<T>::LaunchParams& params,
-                          const cl::Buffer& colors, const cl::Buffer& list) {
-        set_scene_arguments(list_, params);
-        list_.setArg(0, colors);
-        list_.setArg(tile_argument_, tile);
-        list_.setArg(tile_argument_ + 1, list);
-        const PacketShape packet = packet_shape(lanes_, static_cast<int>(params.samples), lanes_);
-        cl::Event event;
-        enqueue(list_,
-                divided_up(static_cast<std::size_t>(tile.width),
-                           static_cast<std::size_t>(packet.pixels())),
-                event);
-        return event;
-    }
-
-    /// RGB of each of the pixels, rendered with a grid of their own.
-    std::vector<T> refined_colors(std::span<const std::int32_t> pixels, int grid,
-                                  const Rect& region) {
-        const std::size_t bytes = pixels.size() * 3 * sizeof(T);
-        cl::Buffer colors = make_buffer(bytes, "the refined pixels");
-        cl::Buffer list = make_buffer(pixels.size_bytes(), "the pixel list", CL_MEM_READ_ONLY);
-        queue_.enqueueWriteBuffer(list, CL_TRUE, 0, pixels.size_bytes(), pixels.data());
-        typename Flat<T>::LaunchParams params = params_;
-        params.grid = grid;
-        params.samples = grid * grid;
-        FlatTile tile = flat_tile<T>(region, region);
-        tile.width = static_cast<typename Flat<T>::Index>(pixels.size());
-        const cl::Event event = launch_list(tile, params, colors, list);
-        std::vector<T> result(pixels.size() * 3);
-        queue_.enqueueReadBuffer(colors, CL_TRUE, 0, bytes, result.data());
-        times_.kernel += device_seconds(event);
-        return result;
     }
 
     void trace_tiles(Progress& progress, const Rect& region) {
@@ -364,7 +309,7 @@ class ClRenderer : public Renderer<T> {
         if (!device_.is_cpu) wait_idly(oldest.events.back());
         oldest.events.back().wait();
         double kernel = device_seconds(oldest.events.front());
-        for (std::size_t i = 1; i < oldest.events.size() && finds_edges(); ++i) {
+        for (std::size_t i = 1; i < oldest.events.size() && in_rounds(); ++i) {
             kernel += device_seconds(oldest.events[i]);
         }
         times_.kernel += kernel;
@@ -434,10 +379,10 @@ class ClRenderer : public Renderer<T> {
     LaunchPacer pacer_;
     cl::Context context_;
     cl::CommandQueue queue_, reads_;
-    cl::Kernel render_, resolve_, edges_, list_, sum_counts_;
+    cl::Kernel render_, resolve_, round_, sum_counts_;
     std::unique_ptr<ClScene<T>> scene_;
     cl::Buffer counts_, samples_;
-    cl::Buffer planes_;  ///< of a tile and its margin, in an edges mode (kernels/edges.cl)
+    cl::Buffer planes_;  ///< of a tile and its margin (kernels/planes.cl)
     std::size_t plane_bytes_ = 0;
     cl_uint tile_argument_ = 0;
     std::size_t used_slots_ = 0;  ///< of counts_, so far
@@ -452,15 +397,16 @@ template <typename T>
 ProgramOptions picture_program(const FlatScene<T>& scene, const ClDevice& device,
                                const ClOptions& options) {
     const KernelChoice& kernels = options.kernels;
+    const bool in_rounds = renders_in_rounds(scene.params);
     const bool finds_edges = scene.params.tolerance > 0;
-    const bool by_samples = launches_samples(kernels.launch, device, finds_edges);
-    const bool by_pixels = !by_samples && !finds_edges;
+    const bool by_samples = launches_samples(kernels.launch, device, in_rounds);
+    const bool by_pixels = !by_samples && !in_rounds;
     ProgramOptions program;
     program.precision = precision_of<T>;
     program.lanes = packet_lanes<T>(kernels.lanes, device);
     program.math = options.math;
     program.warnings_are_errors = options.warnings_are_errors;
-    program.entries = {by_pixels, by_samples, options.will_refine, false, finds_edges};
+    program.entries = {by_pixels, by_samples, false, in_rounds && !finds_edges, finds_edges};
     program.features = either_of(scene.features, kernels.features);
     program.more = kernels.cl_options;
     const auto samples = static_cast<int>(scene.params.samples);

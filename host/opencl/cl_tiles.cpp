@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "host/render/packet_shape.h"
+#include "host/render/tile_rounds.h"
 
 namespace rt {
 
@@ -21,8 +22,8 @@ constexpr std::size_t tile_samples = 1u << 14;
 
 std::size_t most_items(const ClDevice& device) { return device.is_cpu ? cpu_items : gpu_items; }
 
-bool launches_samples(Launch launch, const ClDevice& device, bool finds_edges) {
-    if (finds_edges) return false;
+bool launches_samples(Launch launch, const ClDevice& device, bool in_rounds) {
+    if (in_rounds) return false;
     return launch == Launch::sample || (launch == Launch::automatic && !device.is_cpu);
 }
 
@@ -48,10 +49,10 @@ ClTiles cl_tiles(const typename Flat<T>::LaunchParams& params, const ClDevice& d
     const int across = (film_width + block.width - 1) / block.width;
     const int width = std::min(film_width, std::min(across, blocks) * block.width);
     // A tile has no more packets than pixels, whatever its shape.
-    const bool finds_edges = params.tolerance > 0;
+    const bool in_rounds = renders_in_rounds(params);
     std::size_t most = most_items(device);
-    if (launches_samples(options.kernels.launch, device, finds_edges)) most /= samples;
-    if (finds_edges) most /= 8;  // with its margin, the narrowest tile has seven times its pixels
+    if (launches_samples(options.kernels.launch, device, in_rounds)) most /= samples;
+    if (in_rounds) most /= 8;  // with its margin, the narrowest tile has seven times its pixels
     return {{0, 0, width, std::max(blocks / across, 1) * block.height},
             static_cast<std::int64_t>(most)};
 }

@@ -13,7 +13,7 @@ namespace rt {
 
 /// Whether a launch on this device has a work item per sample; never where pixels differ in
 /// samples.
-bool launches_samples(Launch launch, const ClDevice& device, bool finds_edges);
+bool launches_samples(Launch launch, const ClDevice& device, bool in_rounds);
 
 /// Rays per packet on this device: as requested, or (0) its native vector width on CPUs and one on
 /// GPUs, which themselves run rays side by side.

@@ -17,9 +17,6 @@ namespace rt {
 
 namespace {
 
-/// Pixels that each of several members refines at a time.
-constexpr std::size_t refine_run = 4096;
-
 /// How often to check for a stop while no member is working.
 constexpr std::chrono::milliseconds stop_interval{50};
 
@@ -50,35 +47,6 @@ RendererTimes without(RendererTimes times, const RendererTimes& before) {
     times.pixels -= before.pixels;
     return times;
 }
-
-/// Runs of pixels shared out among several renderers.
-class PixelRuns {
-   public:
-    PixelRuns(std::span<const std::int32_t> pixels, std::size_t run) {
-        for (std::size_t at = 0; at < pixels.size(); at += run) {
-            runs_.push_back(pixels.subspan(at, std::min(run, pixels.size() - at)));
-        }
-    }
-    std::optional<std::span<const std::int32_t>> take() {
-        const std::scoped_lock lock(mutex_);
-        if (runs_.empty()) return std::nullopt;
-        const auto run = runs_.back();
-        runs_.pop_back();
-        return run;
-    }
-    void give_back(std::span<const std::int32_t> run) {
-        const std::scoped_lock lock(mutex_);
-        runs_.push_back(run);
-    }
-    bool empty() {
-        const std::scoped_lock lock(mutex_);
-        return runs_.empty();
-    }
-
-   private:
-    std::mutex mutex_;
-    std::vector<std::span<const std::int32_t>> runs_;
-};
 
 }  // namespace
 
@@ -317,23 +285,6 @@ template <typename T>
 void Crew<T>::render(TileQueue& queue, const Rect& region, Film<T>& film) {
     work([&](Renderer<T>& renderer) { renderer.render(queue, region, film); },
          [&] { return !queue.stopped() && queue.tiles_finished() < queue.tiles().size(); });
-}
-
-template <typename T>
-void Crew<T>::refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
-                     const Rect& region, Film<T>& film) {
-    PixelRuns runs(pixels, shared_->slots.size() > 1 ? refine_run : pixels.size());
-    const auto refine_runs = [&](Renderer<T>& renderer) {
-        while (const auto run = runs.take()) {
-            try {
-                renderer.refine(*run, grid, queue, region, film);
-            } catch (...) {
-                runs.give_back(*run);
-                throw;
-            }
-        }
-    };
-    work(refine_runs, [&] { return !queue.stopped() && !runs.empty(); });
 }
 
 template <typename T>

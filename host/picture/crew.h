@@ -43,8 +43,6 @@ class Crew : public Renderer<T> {
 
     /// Throws Error when the last member fails and there is no spare.
     void render(TileQueue& queue, const Rect& region, Film<T>& film) override;
-    void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
-                const Rect& region, Film<T>& film) override;
 
     RendererTimes times() const override;
 

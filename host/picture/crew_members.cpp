@@ -122,7 +122,6 @@ CrewMember<T> CrewMaker<T>::device_member(const ClDevice& device, bool is_alone)
     ClOptions options;
     options.kernels = settings_.kernels;
     options.math = settings_.math;
-    options.will_refine = aa_.refines();
     options.shares_film = !is_alone;
     options.open_devices = open_.get();
     const ClTiles tiles =
@@ -134,10 +133,8 @@ CrewMember<T> CrewMaker<T>::device_member(const ClDevice& device, bool is_alone)
         return renderer;
     };
     if (settings_.self_test && settings_.math == Math::strict) {
-        member.test = [scene = scene_, name = device.name, isa = settings_.kernels.isa,
-                       refines = aa_.refines()](Renderer<T>& renderer) {
-            self_test(renderer, name, *scene, isa, refines);
-        };
+        member.test = [scene = scene_, name = device.name, isa = settings_.kernels.isa](
+                          Renderer<T>& renderer) { self_test(renderer, name, *scene, isa); };
     }
     return member;
 }
@@ -166,8 +163,9 @@ DeviceStats CrewMaker<T>::stats(const std::vector<DeviceChoice>& devices) const 
     const ClDevice& device = devices.front().device;
     stats.platform = device.platform;
     stats.driver = device.driver;
+    const bool in_rounds = !aa_.fixed_samples();
     stats.launch =
-        launches_samples(settings_.kernels.launch, device, aa_.finds_edges()) ? "sample" : "pixel";
+        launches_samples(settings_.kernels.launch, device, in_rounds) ? "sample" : "pixel";
     stats.lanes = packet_lanes<T>(settings_.kernels.lanes, device);
     stats.kernels = either_of(scene_->features, settings_.kernels.features);
     return stats;

@@ -34,22 +34,17 @@ std::string first_writer(JournalReader& reader) {
 
 template <typename T>
 PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderStats& stats,
-                                  const FlatScene<T>& scene, const Rect& film,
-                                  std::string inexact_devices, Say say)
+                                  const FlatScene<T>& scene, std::string inexact_devices, Say say)
     : settings_(settings),
       scene_(scene),
       aa_(stats.picture.aa),
       region_(stats.picture.region),
-      film_rect_(film),
       inexact_devices_(std::move(inexact_devices)),
       say_(std::move(say)) {
-    if (settings.shares) {
-        needs_ = share_needs(*settings.shares, region_, film, aa_.refines());
-    }
+    if (settings.shares) shared_ = shared_pixels(*settings.shares, region_);
     if (settings.journal.empty()) return;
     if (settings.math == Math::fast || settings.schedule != Schedule::tiles) return;
     header_.picture = stats.picture;
-    header_.film = film;
     header_.shares = to_string(settings.shares.value_or(Shares{}));
     header_.scene = stats.scene.name;
     header_.scene_hash = hash_text(stats.scene.hash);
@@ -61,8 +56,8 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
     open();
 }
 
-/// Hashes all that the film's bits depend on: the scene, how it is sampled and refined, and the
-/// program. Not on hierarchies, which also order the flat scene's arrays.
+/// Hashes all that the film's bits depend on: the scene, how it is sampled, and the program. Not on
+/// hierarchies, which also order the flat scene's arrays.
 template <typename T>
 std::uint64_t PictureJournal<T>::key(std::string_view inexact_devices) const {
     Hasher hasher;
@@ -76,8 +71,8 @@ std::uint64_t PictureJournal<T>::key(std::string_view inexact_devices) const {
     hasher.add_bytes(std::as_bytes(std::span(&params, 1)));
     hasher.add(std::string_view(to_string(aa_)));
     hasher.add(aa_.threshold);
-    for (const Rect& rect : {film_rect_, region_}) {
-        for (const int number : {rect.x, rect.y, rect.width, rect.height}) hasher.add(number);
+    for (const int number : {region_.x, region_.y, region_.width, region_.height}) {
+        hasher.add(number);
     }
     return hasher.value();
 }
@@ -117,9 +112,8 @@ template <typename T>
 void PictureJournal<T>::read() {
     std::uint64_t damaged_bytes = 0;
     const auto read_if_ours = [&](JournalReader& reader) {
-        if (reader.header().shares != header_.shares || reader.header().film != header_.film) {
-            return;
-        }
+        const JournalHeader& header = reader.header();
+        if (header.shares != header_.shares || header.picture.region != region_) return;
         if (reader.header().key != key(inexact_devices_)) {
             const std::string writer = first_writer(reader);
             is_ours_ = reader.header().key == key(writer + "\n");
@@ -145,9 +139,8 @@ void PictureJournal<T>::read() {
     const std::string damage = damaged_bytes == 0 ? ""
                                                   : fmt::format("; ignored its damaged end ({})",
                                                                 counted(damaged_bytes, "byte"));
-    say_(fmt::format("resuming from {}, which has {:.0f} % of the first pass{}{}", file_->path(),
-                     100 * known_->share_rendered(),
-                     known_->refined[0].pixels.empty() ? "" : " and some refined pixels", damage));
+    say_(fmt::format("resuming from {}, which has {:.0f} % of the picture{}", file_->path(),
+                     100 * known_->share_rendered(), damage));
 }
 
 template <typename T>
@@ -168,32 +161,24 @@ void PictureJournal<T>::start_again() {
 
 template <typename T>
 Film<T> PictureJournal<T>::take_film() {
-    if (!known_) return Film<T>(film_rect_.width, film_rect_.height);
-    if (is_finished()) return known_->take_refined_film();
-    return std::move(known_->film);
+    return known_ ? std::move(known_->film) : Film<T>(region_.width, region_.height);
 }
 
 template <typename T>
 std::vector<Rect> PictureJournal<T>::tiles(int width, int height) const {
-    std::vector<Rect> cells = make_tiles(film_rect_, width, height);
-    if (!known_ && needs_.empty()) return cells;
-    std::vector<std::uint8_t> wanted = needs_;
-    if (wanted.empty()) wanted.assign(static_cast<std::size_t>(film_rect_.pixels()), 1);
-    if (known_) {
-        for (std::size_t i = 0; i < wanted.size(); ++i) {
-            if (known_->is_rendered[i] != 0) wanted[i] = 0;
-        }
+    if (!known_) return shared_tiles(width, height);
+    std::vector<std::uint8_t> wanted = shared_;
+    if (wanted.empty()) wanted.assign(static_cast<std::size_t>(region_.pixels()), 1);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        if (known_->is_rendered[i] != 0) wanted[i] = 0;
     }
-    return wanted_tiles(cells, wanted, film_rect_);
+    return wanted_tiles(make_tiles(region_, width, height), wanted, region_);
 }
 
 template <typename T>
-std::vector<Rect> PictureJournal<T>::final_tiles(int width, int height) const {
-    const std::vector<Rect> cells = make_tiles(region_, width, height);
-    if (needs_.empty()) return cells;
-    std::vector<std::uint8_t> own = needs_;
-    for (std::uint8_t& need : own) need = need > refine_passes;
-    return wanted_tiles(cells, own, film_rect_);
+std::vector<Rect> PictureJournal<T>::shared_tiles(int width, int height) const {
+    std::vector<Rect> cells = make_tiles(region_, width, height);
+    return shared_.empty() ? cells : wanted_tiles(cells, shared_, region_);
 }
 
 template <typename T>
@@ -201,7 +186,7 @@ void PictureJournal<T>::begin(const Film<T>& film, const std::string& device) {
     if (!file_) return;
     const JournalWriterInfo writer{host_name(), device, version, static_cast<int>(::getpid())};
     const double delay = settings_.shares ? 0 : settings_.journal_delay;
-    keeper_ = std::make_unique<JournalKeeper<T>>(*file_, writer, film, film_rect_, delay,
+    keeper_ = std::make_unique<JournalKeeper<T>>(*file_, writer, film, region_, delay,
                                                  [this] { tell_failure(); });
     if (delay == 0 || known_) keeper_->claim();
     if (!file_->failure().empty()) tell_failure();
@@ -224,51 +209,8 @@ TileEvents PictureJournal<T>::tile_events() {
 }
 
 template <typename T>
-RefineEvents<T> PictureJournal<T>::refine_events() {
-    RefineEvents<T> events;
-    events.planned = [this](int pass, std::vector<Refinement>& plan, Film<T>& film) {
-        plan_pass(pass, plan, film);
-    };
-    if (keeper_) {
-        events.refined = [this](int pass, std::span<const std::int32_t> pixels) {
-            keeper_->refined(pass, pixels);
-        };
-    }
-    return events;
-}
-
-/// Removes from the plan what the shares do not need and what is already known.
-template <typename T>
-void PictureJournal<T>::plan_pass(int pass, std::vector<Refinement>& plan, Film<T>& film) {
-    if (keeper_ && pass == 0) keeper_->first_pass_ended();
-    const auto keep_only = [&](const auto& is_wanted) {
-        for (Refinement& refinement : plan) {
-            std::erase_if(refinement.pixels, [&](std::int32_t pixel) { return !is_wanted(pixel); });
-        }
-    };
-    if (!needs_.empty()) {
-        keep_only([&](std::int32_t pixel) {
-            return needs_[static_cast<std::size_t>(pixel)] >= pass + 2;
-        });
-    }
-    if (!known_ || known_->refined[pass].pixels.empty()) return;
-    const RefinedPixels<T>& refined = known_->refined[pass];
-    std::vector<std::int32_t> place(static_cast<std::size_t>(film_rect_.pixels()), -1);
-    for (std::size_t i = 0; i < refined.pixels.size(); ++i) {
-        place[static_cast<std::size_t>(refined.pixels[i])] = static_cast<std::int32_t>(i);
-    }
-    keep_only([&](std::int32_t pixel) {
-        const std::int32_t at = place[static_cast<std::size_t>(pixel)];
-        if (at < 0) return true;
-        std::copy_n(refined.colors.begin() + std::ptrdiff_t{3} * at, 3,
-                    film.rgb.begin() + std::ptrdiff_t{3} * pixel);
-        return false;
-    });
-}
-
-template <typename T>
 void PictureJournal<T>::hold() {
-    if (keeper_) keeper_->first_pass_ended();
+    if (keeper_) keeper_->copy_finished();
 }
 
 template <typename T>

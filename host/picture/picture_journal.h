@@ -11,7 +11,7 @@
 #include "host/journal/journal_file.h"
 #include "host/picture/render_settings.h"
 #include "host/picture/render_stats.h"
-#include "host/render/picture_loop.h"
+#include "host/render/tile_queue.h"
 
 namespace rt {
 
@@ -23,12 +23,11 @@ class PictureJournal {
     using Say = std::function<void(const std::string& line)>;
 
     /// Opens settings.journal. `inexact_devices` names those whose bits may differ: only they may
-    /// resume from what they render. `stats` describes the picture; `film` is the part that is
-    /// rendered. Throws Error: output if another process renders the same picture, or if the result
-    /// of shares would replace something else; usage for shares that cannot be kept.
+    /// resume from what they render. `stats` describes the picture. Throws Error: output if another
+    /// process renders the same picture, or if the result of shares would replace something else;
+    /// usage for shares that cannot be kept.
     PictureJournal(const RenderSettings& settings, const RenderStats& stats,
-                   const FlatScene<T>& scene, const Rect& film, std::string inexact_devices,
-                   Say say);
+                   const FlatScene<T>& scene, std::string inexact_devices, Say say);
 
     /// Whether the journal has the whole picture.
     bool is_finished() const { return known_ && known_->is_finished; }
@@ -42,15 +41,14 @@ class PictureJournal {
     /// The film's tiles that remain to be rendered, cut from tiles of this size.
     std::vector<Rect> tiles(int width, int height) const;
 
-    /// Tiles of the region whose pixels are final when all is rendered.
-    std::vector<Rect> final_tiles(int width, int height) const;
+    /// All of them, known or not.
+    std::vector<Rect> shared_tiles(int width, int height) const;
 
     /// Starts saving what is finished of this film. `device`: who renders it. Throws Error (output)
     /// if another process has begun the same picture since, or shares cannot be saved; the events
     /// throw it if that turns out later.
     void begin(const Film<T>& film, const std::string& device);
     TileEvents tile_events();
-    RefineEvents<T> refine_events();
 
     /// The film is final and no longer used.
     void hold();
@@ -70,16 +68,15 @@ class PictureJournal {
     void start_again();
     void tell_failure();
     std::uint64_t key(std::string_view inexact_devices) const;
-    void plan_pass(int pass, std::vector<Refinement>& plan, Film<T>& film);
 
     const RenderSettings& settings_;
     const FlatScene<T>& scene_;
     const AaMode aa_;
-    const Rect region_, film_rect_;
+    const Rect region_;
     const std::string inexact_devices_;
     const Say say_;
     JournalHeader header_;
-    std::vector<std::uint8_t> needs_;  ///< share_needs; empty: everything
+    std::vector<std::uint8_t> shared_;  ///< shared_pixels; empty: everything
     std::shared_ptr<JournalFile> file_;
     bool is_ours_ = false;  ///< what the file had: this picture, though perhaps with other bits
     std::optional<KnownPixels<T>> known_;

@@ -18,7 +18,6 @@
 #include "host/picture/crew_members.h"
 #include "host/picture/picture_journal.h"
 #include "host/picture/tile_check.h"
-#include "host/render/picture_loop.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene.h"
 
@@ -103,9 +102,7 @@ class Job {
           stop_(stop),
           control_(control),
           is_first_(cache == nullptr || !std::exchange(cache->has_warned, true)),
-          picture_(picture_spec(scene, settings)),
-          rendered_(
-              region_to_render(picture_.aa, picture_.region, picture_.width, picture_.height)) {
+          picture_(picture_spec(scene, settings)) {
         FlattenOptions options;
         options.hierarchies = settings.hierarchies;
         options.caster_lists = settings.caster_lists;
@@ -137,10 +134,10 @@ class Job {
         is_exact_ = settings_.math == Math::strict && inexact_names(devices).empty();
         if (!is_exact_) std::erase_if(devices, [](const auto& choice) { return choice.is_helper; });
         if (is_first_) warn_of(devices);
-        journal_.emplace(settings_, stats_, *scene_, rendered_, inexact_names(devices), warn_);
+        journal_.emplace(settings_, stats_, *scene_, inexact_names(devices), warn_);
         stats_.resumed = journal_->share_known();
         if (journal_->is_finished()) {
-            film_ = part_of(journal_->take_film(), rendered_, region_);
+            film_ = journal_->take_film();
             tile_ = final_tile;
             stats_.device = maker_->stats(devices);
         } else {
@@ -187,7 +184,7 @@ class Job {
     /// Renders the whole picture on threads, in place of devices that did these shares of it.
     void render_again(const std::string& devices, std::vector<DeviceShare> shares) {
         journal_->discard();
-        journal_.emplace(settings_, stats_, *scene_, rendered_, "", warn_);
+        journal_.emplace(settings_, stats_, *scene_, "", warn_);
         Crew<T> threads({maker_->spare()}, {}, {});
         threads.open();
         stats_.resumed = 0;
@@ -210,35 +207,31 @@ class Job {
 
     /// Renders the region; a device that fails is left out afterwards. `names`: who renders.
     void render_with(Crew<T>& crew, const std::string& names) {
-        check_memory(static_cast<std::uint64_t>(rendered_.pixels()) *
+        check_memory(static_cast<std::uint64_t>(region_.pixels()) *
                          (3 * (sizeof(T) + sizeof(float)) + file_bytes),
-                     fmt::format("the film of {}x{} pixels, including its file,", rendered_.width,
-                                 rendered_.height),
+                     fmt::format("the film of {}x{} pixels, including its file,", region_.width,
+                                 region_.height),
                      "reduce --size, or render parts with --crop");
         film_ = journal_->take_film();
         tile_ = tile_size(crew);
         if (events_.began) events_.began(region_.width, region_.height);
-        if (stats_.resumed > 0) report_rendered(rendered_);
+        if (stats_.resumed > 0) report_rendered(region_);
         journal_->begin(film_, names);
         TileQueue queue(journal_->tiles(tile_.width, tile_.height), stop_, tile_events());
         if (events_.started) events_.started(queue);
-        RenderedAll rendered;
         try {
-            rendered = render_all<T>(crew, picture_.aa, queue, rendered_, film_, refine_events());
+            crew.render(queue, region_, film_);
         } catch (...) {
             if (events_.ended) events_.ended();
             journal_->end(false);
             throw;
         }
         if (events_.ended) events_.ended();
-        stats_.refined = rendered.is_finished;
         stats_.phases.renderer = crew.times();
-        stats_.phases.renderer.trace += rendered.plan_seconds;
         stats_.rays = queue.rays();
         stats_.tiles = queue.tiles().size();
         stats_.tiles_finished = queue.tiles_finished();
         journal_->hold();
-        if (region_ != rendered_) film_ = part_of(film_, rendered_, region_);
     }
 
     /// The journal's events, which also notify our caller.
@@ -253,37 +246,21 @@ class Job {
         return events;
     }
 
-    /// Reports the pixels of a part that lie in the region to our caller.
+    /// Reports the pixels of a part of the region to our caller.
     void report_rendered(const Rect& part) const {
         if (!events_.rendered) return;
-        const int left = std::max(part.x, region_.x), top = std::max(part.y, region_.y);
-        const int right = std::min(part.x + part.width, region_.x + region_.width);
-        const int bottom = std::min(part.y + part.height, region_.y + region_.height);
-        if (left >= right || top >= bottom) return;
-        Film<T> shown = part_of(film_, rendered_, {left, top, right - left, bottom - top});
-        events_.rendered({left - region_.x, top - region_.y, shown.width, shown.height},
-                         as_floats(std::move(shown)));
-    }
-
-    RefineEvents<T> refine_events() {
-        RefineEvents<T> events = journal_->refine_events();
-        if (!events_.progressed) return events;
-        events.refined = [this, keep = events.refined](int pass,
-                                                       std::span<const std::int32_t> pixels) {
-            if (keep) keep(pass, pixels);
-            events_.progressed();
-        };
-        return events;
+        events_.rendered({part.x - region_.x, part.y - region_.y, part.width, part.height},
+                         as_floats(part_of(film_, region_, part)));
     }
 
     /// The requested tile, reduced to the region and to the renderer's limit.
     PictureSize tile_size(const Renderer<T>& renderer) const {
-        const Rect own = renderer.tile_size(rendered_.width);
+        const Rect own = renderer.tile_size(region_.width);
         const PictureSize asked = settings_.tile.value_or(PictureSize{own.width, own.height});
-        const auto most = static_cast<int>(
-            std::min<std::int64_t>(renderer.most_tile_pixels(), rendered_.pixels()));
-        const int width = std::min({asked.width, rendered_.width, most});
-        return {width, std::min({asked.height, rendered_.height, most / width})};
+        const auto most =
+            static_cast<int>(std::min<std::int64_t>(renderer.most_tile_pixels(), region_.pixels()));
+        const int width = std::min({asked.width, region_.width, most});
+        return {width, std::min({asked.height, region_.height, most / width})};
     }
 
     /// What is wrong with the devices' results: their ray count, or, if requested, a sample of the
@@ -293,8 +270,8 @@ class Job {
                                                  picture_.max_bounces, scene_->features.glass);
         if (!rays.empty()) return "reports an impossible number of rays: " + rays;
         if (settings_.check <= 0) return "";
-        const TileCheck check = check_tiles(*scene_, picture_.aa, settings_.kernels.isa,
-                                            journal_->final_tiles(tile_.width, tile_.height),
+        const TileCheck check = check_tiles(*scene_, settings_.kernels.isa,
+                                            journal_->shared_tiles(tile_.width, tile_.height),
                                             settings_.check, region_, film_);
         stats_.tiles_checked = check.tiles;
         if (check.wrong_tiles == 0) return "";
@@ -365,7 +342,6 @@ class Job {
     const bool is_first_;        ///< of the cache's pictures
     const PictureSpec picture_;  ///< requested
     const Rect& region_ = picture_.region;
-    const Rect rendered_;   ///< its region and what refining that needs
     bool is_exact_ = true;  ///< threads would give the same bits as the devices
     const std::function<void(const std::string& line)> warn_ = [this](const std::string& line) {
         if (events_.message) events_.message(line);

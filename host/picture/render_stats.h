@@ -50,7 +50,7 @@ void describe(A& a, X& x) {
 /// What one of several devices did, or a device that failed.
 struct DeviceShare {
     std::string name;
-    std::int64_t pixels = 0;  ///< rendered, not counting refined ones
+    std::int64_t pixels = 0;  ///< rendered
     double ready = 0;         ///< seconds to open and compile, until it could begin; 0: never
     std::string failure;      ///< empty when it did not fail
 };
@@ -58,7 +58,7 @@ struct DeviceShare {
 template <typename A, Of<DeviceShare> X>
 void describe(A& a, X& x) {
     a("name", x.name, "of the device");
-    a("pixels", x.pixels, "rendered, not counting refined ones");
+    a("pixels", x.pixels, "rendered");
     a("ready", or_null(x.ready > 0 ? std::optional(x.ready) : std::nullopt),
       "seconds until it could begin; null: never");
     a("failure", unless_empty(x.failure), "how it failed");
@@ -178,7 +178,6 @@ struct RenderStats {
     std::size_t tiles = 0, tiles_finished = 0;
     double resumed = 0;             ///< share of the film's pixels that a journal had, 0 to 1
     std::size_t tiles_checked = 0;  ///< traced again on threads
-    bool refined = true;            ///< false if stopped before an adaptive mode finished
     std::uint64_t image_hash = 0;
     std::size_t non_finite = 0;  ///< pixels
     std::optional<ErrorEstimate> estimate;
@@ -191,16 +190,14 @@ struct RenderStats {
     }
 
     /// Whether kernels took less than half of the tracing time, by the device's clock: the driver
-    /// spent the rest, usually compiling. Unknown, so false, for adaptive modes, which plan between
-    /// kernels, and for short pictures.
+    /// spent the rest, usually compiling. Unknown, so false, for short pictures.
     bool driver_took_its_time() const {
         constexpr double short_picture = 0.2;
         const RendererTimes& times = phases.renderer;
-        return times.kernel > 0 && times.trace > short_picture && times.kernel < times.trace / 2 &&
-               !picture.aa.refines();
+        return times.kernel > 0 && times.trace > short_picture && times.kernel < times.trace / 2;
     }
 
-    bool complete() const { return refined && tiles_finished == tiles; }
+    bool complete() const { return tiles_finished == tiles; }
 
     /// How the first device that failed did; empty if none did.
     std::string failure() const {

@@ -9,15 +9,14 @@
 #include <numeric>
 #include <random>
 
-#include "host/render/edge_tile.h"
-#include "host/render/picture_loop.h"
 #include "host/render/threads_renderer.h"
+#include "host/render/tile_rounds.h"
 
 namespace rt {
 
 namespace {
 
-constexpr int strips = 4, refined_grid = 2;
+constexpr int strips = 4;
 constexpr double strip_samples = 8192;
 
 const StopFlag never_stopped = 0;
@@ -30,10 +29,10 @@ std::unique_ptr<Renderer<T>> checking_renderer(const FlatScene<T>& scene, const 
 }
 
 template <typename T>
-Film<T> rendered(Renderer<T>& renderer, const AaMode& aa, const Rect& region) {
+Film<T> rendered(Renderer<T>& renderer, const Rect& region) {
     Film<T> film(region.width, region.height);
     TileQueue queue({region}, never_stopped);
-    render_all(renderer, aa, queue, region, film);
+    renderer.render(queue, region, film);
     return film;
 }
 
@@ -54,7 +53,7 @@ std::vector<Rect> test_strips(const Renderer<T>& device,
                               const typename Flat<T>::LaunchParams& params) {
     const auto width = static_cast<int>(params.width), height = static_cast<int>(params.height);
     const double samples =
-        params.tolerance > 0 ? edge_samples_guess : static_cast<double>(params.samples);
+        renders_in_rounds(params) ? round_samples_guess : static_cast<double>(params.samples);
     const int down = std::clamp(static_cast<int>(4 / std::sqrt(samples)), 1, height);
     const double pixels =
         std::min(strip_samples / samples, static_cast<double>(device.most_tile_pixels()));
@@ -65,19 +64,6 @@ std::vector<Rect> test_strips(const Renderer<T>& device,
         tiles.push_back({(width - across) / 2, std::min(y, height - down), across, down});
     }
     return tiles;
-}
-
-/// A tile at each stage of a picture: as rendered, and as refined.
-template <typename T>
-std::vector<Film<T>> stages(Renderer<T>& renderer, const Rect& tile, bool refines) {
-    std::vector<Film<T>> films{rendered(renderer, AaMode{}, tile)};
-    if (!refines) return films;
-    std::vector<std::int32_t> pixels(static_cast<std::size_t>(tile.pixels()));
-    std::iota(pixels.begin(), pixels.end(), 0);
-    films.push_back(films.front());
-    TileQueue queue({tile}, never_stopped);
-    renderer.refine(pixels, refined_grid, queue, tile, films.back());
-    return films;
 }
 
 /// A share of the numbers below n, at least one, spread evenly; other ones each time.
@@ -96,15 +82,12 @@ std::vector<std::size_t> sample(std::size_t n, double share) {
 
 template <typename T>
 void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
-               const std::string& isa, bool refines) {
+               const std::string& isa) {
     const auto threads = checking_renderer(scene, isa);
     std::size_t wrong = 0, pixels = 0;
     for (const Rect& strip : test_strips(device, scene.params)) {
-        const auto got = stages(device, strip, refines), right = stages(*threads, strip, refines);
-        for (std::size_t i = 0; i < got.size(); ++i) {
-            wrong += differing_pixels(got[i], right[i]);
-            pixels += static_cast<std::size_t>(strip.pixels());
-        }
+        wrong += differing_pixels(rendered(device, strip), rendered(*threads, strip));
+        pixels += static_cast<std::size_t>(strip.pixels());
     }
     if (wrong == 0) return;
     throw WrongPicture(fmt::format(
@@ -114,21 +97,16 @@ void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>&
 }
 
 template <typename T>
-TileCheck check_tiles(const FlatScene<T>& scene, const AaMode& aa, const std::string& isa,
+TileCheck check_tiles(const FlatScene<T>& scene, const std::string& isa,
                       const std::vector<Rect>& tiles, double share, const Rect& region,
                       const Film<T>& film) {
     const auto threads = checking_renderer(scene, isa);
-    const auto width = static_cast<int>(scene.params.width);
-    const auto height = static_cast<int>(scene.params.height);
     TileCheck check;
     for (const std::size_t i : sample(tiles.size(), share)) {
         const Rect& tile = tiles[i];
-        const Rect around = region_to_render(aa, tile, width, height);
-        const Film<T> again = rendered(*threads, aa, around);
+        const Film<T> again = rendered(*threads, tile);
         ++check.tiles;
-        if (differing_pixels(part_of(again, around, tile), part_of(film, region, tile)) != 0) {
-            ++check.wrong_tiles;
-        }
+        if (differing_pixels(again, part_of(film, region, tile)) != 0) ++check.wrong_tiles;
     }
     return check;
 }
@@ -150,12 +128,12 @@ std::string impossible_rays(const RayCounts& rays, std::size_t lights, int max_b
 }
 
 template void self_test(Renderer<float>&, const std::string&, const FlatScene<float>&,
-                        const std::string&, bool);
+                        const std::string&);
 template void self_test(Renderer<double>&, const std::string&, const FlatScene<double>&,
-                        const std::string&, bool);
-template TileCheck check_tiles(const FlatScene<float>&, const AaMode&, const std::string&,
+                        const std::string&);
+template TileCheck check_tiles(const FlatScene<float>&, const std::string&,
                                const std::vector<Rect>&, double, const Rect&, const Film<float>&);
-template TileCheck check_tiles(const FlatScene<double>&, const AaMode&, const std::string&,
+template TileCheck check_tiles(const FlatScene<double>&, const std::string&,
                                const std::vector<Rect>&, double, const Rect&, const Film<double>&);
 
 }  // namespace rt

@@ -7,7 +7,6 @@
 #include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/renderer.h"
-#include "host/scene/aa_mode.h"
 
 namespace rt {
 
@@ -16,13 +15,12 @@ struct WrongPicture : Error {
     explicit WrongPicture(const std::string& message) : Error(ExitCode::device, message) {}
 };
 
-/// Renders four strips across the picture on the device and on threads, and refines them if the
-/// picture will be. Throws WrongPicture unless the bits are the same: the driver, or
-/// the kernel it keeps in its cache, is broken. Strict arithmetic only. At most 33,000 samples, a
-/// millisecond or two.
+/// Renders four strips across the picture on the device and on threads. Throws WrongPicture unless
+/// the bits are the same: the driver, or the kernel it keeps in its cache, is broken. Strict
+/// arithmetic only. About 33,000 samples, a millisecond or two.
 template <typename T>
 void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
-               const std::string& isa, bool refines);
+               const std::string& isa);
 
 /// Describes a ray count too high for so many lights and bounces, which a device must have
 /// miscounted; empty if it is possible. A path has at most one ray per bounce, with glass a binary
@@ -40,7 +38,7 @@ struct TileCheck {
 /// Traces `share` (0 to 1) of the tiles again, at least one, spread over the region that the film
 /// shows, and other ones each time; the tiles lie in it.
 template <typename T>
-TileCheck check_tiles(const FlatScene<T>& scene, const AaMode& aa, const std::string& isa,
+TileCheck check_tiles(const FlatScene<T>& scene, const std::string& isa,
                       const std::vector<Rect>& tiles, double share, const Rect& region,
                       const Film<T>& film);
 

@@ -163,7 +163,7 @@ std::string stats_text(const RenderStats& stats) {
     }
     if (stats.resumed > 0) {
         text +=
-            fmt::format("        {:.0f} % of the first pass from a journal\n", 100 * stats.resumed);
+            fmt::format("        {:.0f} % of the picture from a journal\n", 100 * stats.resumed);
     }
     if (stats.tiles_checked > 0) {
         text += fmt::format("        {} traced again on threads: identical\n",

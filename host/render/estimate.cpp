@@ -8,9 +8,8 @@
 #include <cmath>
 
 #include "host/base/parallel.h"
-#include "host/render/adaptive.h"
-#include "host/render/edge_tile.h"
 #include "host/render/packet_shape.h"
+#include "host/render/tile_rounds.h"
 
 namespace rt {
 
@@ -98,6 +97,36 @@ void draw(const std::vector<double>& sizes, const Weight& weight, std::size_t co
     }
 }
 
+/// Each pixel's largest channel difference from its eight neighbors, clamped to 0..1; 1 near a NaN.
+template <typename T>
+std::vector<double> contrasts_of(const Film<T>& film, int threads) {
+    std::vector<double> contrasts(film.rgb.size() / 3);
+    const auto value = [&film](int x, int y, int channel) {
+        const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) + x;
+        return static_cast<double>(std::clamp<T>(film.rgb[3 * pixel + channel], 0, 1));
+    };
+    const auto contrast = [&](int x, int y) {
+        double largest = 0;
+        for (int row = std::max(y - 1, 0); row <= std::min(y + 1, film.height - 1); ++row) {
+            for (int near = std::max(x - 1, 0); near <= std::min(x + 1, film.width - 1); ++near) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    const double difference = value(near, row, channel) - value(x, y, channel);
+                    if (std::isnan(difference)) return 1.0;
+                    largest = std::max(largest, std::abs(difference));
+                }
+            }
+        }
+        return largest;
+    };
+    for_each_run(contrasts.size(), 4096, threads, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const int pixel = static_cast<int>(i);
+            contrasts[i] = contrast(pixel % film.width, pixel / film.width);
+        }
+    });
+    return contrasts;
+}
+
 /// The mean over channels of (value - a)(value - b), all clamped to 0..1; 0 with a NaN.
 double product(const double* value, const double* a, const double* b) {
     const auto clamped = [](double v) { return std::clamp(v, 0.0, 1.0); };
@@ -123,6 +152,7 @@ std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
     view.params.grid = is_sobol ? 0 : aa.count;
     view.params.samples = aa.samples();
     view.params.tolerance = aa.finds_edges() ? static_cast<T>(aa.threshold) : T(0);
+    view.params.threshold = 0;
     view.params.seed ^= seed;
     std::vector<T> colors(3 * pixels.size());
     std::atomic<std::uint64_t> at_edges = 0;
@@ -142,8 +172,8 @@ std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
                      for (std::size_t i = first; i < last; ++i) {
                          const Rect pixel{region.x + pixels[i] % region.width,
                                           region.y + pixels[i] / region.width, 1, 1};
-                         render_edge_tile(kernels, view, flat_tile<T>(pixel, pixel), planes,
-                                          &colors[3 * i], counts, [] { return false; });
+                         render_tile_in_rounds(kernels, view, flat_tile<T>(pixel, pixel), planes,
+                                               &colors[3 * i], counts, [] { return false; });
                      }
                      at_edges += counts.primary;
                  });

@@ -25,7 +25,10 @@
                      rt::Flat<T>::Index);                                                         \
     void name##_centers(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                    \
                         const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index)         \
-        __attribute__((weak)); /* these and the next are not in lean ones */                      \
+        __attribute__((weak)); /* these and the next are not in all */                            \
+    void name##_adaptive(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                   \
+                         const rt::Flat<T>::Tile*, T*, rt::Flat<T>::Index, rt::Flat<T>::Index,    \
+                         rt::Flat<T>::Index) __attribute__((weak));                               \
     void name##_edges(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                      \
                       const rt::Flat<T>::Tile*, T*, rt::Flat<T>::Index, rt::Flat<T>::Index,       \
                       rt::Flat<T>::Index) __attribute__((weak));                                  \
@@ -53,6 +56,7 @@ namespace {
      name##_resolve,                        \
      name##_list,                           \
      name##_centers,                        \
+     name##_adaptive,                       \
      name##_edges,                          \
      name##_rays},
 

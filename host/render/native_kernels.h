@@ -47,8 +47,11 @@ struct NativeKernels {
                             const Tile*, Index first, Index end);
     void (*render_list)(T* colors, Counts*, const View*, const Tile*, const std::int32_t* pixels,
                         Index first, Index end);
-    /// Null unless edges are compiled in.
+    /// Null where a number of samples is compiled in.
     void (*render_centers)(T* planes, Counts*, const View*, const Tile*, Index first, Index end);
+    void (*render_adaptive)(T* film, Counts*, const View*, const Tile*, T* planes, Index round,
+                            Index first, Index end);
+    /// Null unless edges are compiled in.
     void (*render_edges)(T* film, Counts*, const View*, const Tile*, T* planes, Index round,
                          Index first, Index end);
     /// Null unless all features are compiled in.

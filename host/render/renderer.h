@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "host/flatten/flat_types.h"
 #include "host/render/film.h"
@@ -21,7 +20,7 @@ struct RendererTimes {
     double kernel = 0;        ///< of that, kernels running, by the device's own clock
     double resolve = 0;       ///< average sample buffers, where that is a pass of its own
     double read_back = 0;     ///< film to host
-    std::int64_t pixels = 0;  ///< rendered, not counting refined ones
+    std::int64_t pixels = 0;  ///< rendered
 };
 
 /// One flattened scene on one device, ready to render. A tile's pixels depend on the flat scene
@@ -42,12 +41,6 @@ class Renderer {
     /// (ExitCode::device) if the device fails; the queue then counts only tiles as finished whose
     /// pixels are in the film.
     virtual void render(TileQueue& queue, const Rect& region, Film<T>& film) = 0;
-
-    /// Renders these pixels of the film again, with a regular grid x grid of samples each; at most
-    /// most_tile_pixels of them. Adds their rays to the queue's. Throws like render; then all of
-    /// them must be refined again.
-    virtual void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
-                        const Rect& region, Film<T>& film) = 0;
 
     virtual RendererTimes times() const = 0;
 };

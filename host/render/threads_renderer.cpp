@@ -2,22 +2,18 @@
 #include "host/render/threads_renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <limits>
 
 #include "host/base/memory.h"
 #include "host/base/parallel.h"
-#include "host/render/edge_tile.h"
 #include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
+#include "host/render/tile_rounds.h"
 
 namespace rt {
 
 namespace {
-
-/// Pixels that a thread takes at a time when refining.
-constexpr std::size_t refine_run = 64;
 
 /// The rays that kernels count, plus the primary rays.
 template <typename Counts>
@@ -35,42 +31,23 @@ class ThreadsRenderer : public Renderer<T> {
 
     /// The margin of a larger tile is a smaller part of it.
     Rect tile_size(int) const override {
-        return finds_edges() ? Rect{0, 0, 64, 64} : Rect{0, 0, 32, 32};
+        return in_rounds() ? Rect{0, 0, 64, 64} : Rect{0, 0, 32, 32};
     }
 
-    /// Kernels count the numbers in a tile's sample buffers in an Index. An edges mode keeps more
-    /// of a tile than its pixels.
+    /// Kernels count the numbers in a tile's sample buffers in an Index. Rounds keep more of a
+    /// tile than its pixels.
     std::int64_t most_tile_pixels() const override {
-        if (finds_edges()) return 1 << 20;
+        if (in_rounds()) return 1 << 20;
         if (options_.schedule == Schedule::tiles) return Renderer<T>::most_tile_pixels();
         return std::numeric_limits<Index>::max() / (3 * samples());
     }
 
     void render(TileQueue& queue, const Rect& region, Film<T>& film) override {
-        if (options_.schedule == Schedule::buffers && !finds_edges()) {
+        if (options_.schedule == Schedule::buffers && !in_rounds()) {
             render_buffers(queue, region, film);
         } else {
             render_tiles(queue, region, film);
         }
-    }
-
-    /// Threads take runs of pixels from a shared counter.
-    void refine(std::span<const std::int32_t> pixels, int grid, TileQueue& queue,
-                const Rect& region, Film<T>& film) override {
-        const Stopwatch watch;
-        NativeView<T> view = view_;
-        view.params.grid = grid;
-        view.params.samples = grid * grid;
-        std::atomic<std::size_t> next = 0;
-        run_on_threads(thread_count({options_.threads}, 1), [&](int) {
-            for (;;) {
-                const std::size_t at = next.fetch_add(refine_run);
-                if (at >= pixels.size()) return;
-                refine_some(pixels.subspan(at, std::min(refine_run, pixels.size() - at)), view,
-                            queue, region, film);
-            }
-        });
-        times_.trace += watch.seconds();
     }
 
     RendererTimes times() const override { return times_; }
@@ -92,7 +69,7 @@ class ThreadsRenderer : public Renderer<T> {
     };
 
     int samples() const { return static_cast<int>(view_.params.samples); }
-    bool finds_edges() const { return view_.params.tolerance > 0; }
+    bool in_rounds() const { return renders_in_rounds(view_.params); }
 
     /// Calls work(first, end) for each row of packets until the queue is stopped. Returns the
     /// number of pixels in those rows.
@@ -115,8 +92,8 @@ class ThreadsRenderer : public Renderer<T> {
                 const FlatTile tile = flat_tile<T>(*rect, region);
                 FlatCounts counts{};
                 T* const to = film.rgb.data();
-                const std::uint64_t pixels = finds_edges()
-                                                 ? render_edges(tile, queue, planes, counts, to)
+                const std::uint64_t pixels = in_rounds()
+                                                 ? render_rounds(tile, queue, planes, counts, to)
                                                  : render_pixels(tile, queue, counts, to);
                 queue.add_rays(rays_of(counts, pixels * static_cast<std::uint64_t>(samples())));
                 if (pixels != static_cast<std::uint64_t>(rect->pixels())) continue;
@@ -137,31 +114,11 @@ class ThreadsRenderer : public Renderer<T> {
         });
     }
 
-    std::uint64_t render_edges(const FlatTile& tile, const TileQueue& queue, std::vector<T>& planes,
-                               FlatCounts& counts, T* film) const {
-        const bool is_done = render_edge_tile(kernels_, view_, tile, planes, film, counts,
-                                              [&queue] { return queue.stopped(); });
+    std::uint64_t render_rounds(const FlatTile& tile, const TileQueue& queue,
+                                std::vector<T>& planes, FlatCounts& counts, T* film) const {
+        const bool is_done = render_tile_in_rounds(kernels_, view_, tile, planes, film, counts,
+                                                   [&queue] { return queue.stopped(); });
         return is_done ? static_cast<std::uint64_t>(tile.width * tile.height) : 0;
-    }
-
-    /// Renders the pixels with the view's grid of samples.
-    void refine_some(std::span<const std::int32_t> pixels, const NativeView<T>& view,
-                     TileQueue& queue, const Rect& region, Film<T>& film) const {
-        std::array<T, 3 * refine_run> colors;
-        FlatTile tile = flat_tile<T>(region, region);
-        tile.width = static_cast<Index>(pixels.size());
-        FlatCounts counts{};
-        const int held =
-            packet_shape(kernels_.lanes, static_cast<int>(view.params.samples), kernels_.lanes)
-                .pixels();
-        kernels_.render_list(colors.data(), &counts, &view, &tile, pixels.data(), 0,
-                             (tile.width + held - 1) / held);
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            std::copy_n(colors.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
-                        film.rgb.begin() + std::ptrdiff_t{3} * pixels[i]);
-        }
-        queue.add_rays(
-            rays_of(counts, pixels.size() * static_cast<std::uint64_t>(view.params.samples)));
     }
 
     /// The paper's schedule: a thread renders whole sample buffers, which are averaged at the end.

@@ -26,7 +26,7 @@ struct AaMode {
     int count = 2;         ///< grid 2 is the paper's four buffers at .25 and .75
     double threshold = 0;  ///< adaptive: channel difference, clamped to 0..1; edges: tolerance
 
-    /// Samples per pixel; in adaptive and edges modes, in the first pass.
+    /// Samples per pixel; in adaptive and edges modes, of the centers.
     int samples() const;
 
     /// Samples per pixel where every pixel has as many.
@@ -34,7 +34,6 @@ struct AaMode {
         return threshold > 0 ? std::nullopt : std::optional(samples());
     }
 
-    /// Whether a first pass over the picture is followed by refinement.
     bool refines() const { return pattern == Pattern::adaptive; }
 
     bool finds_edges() const { return pattern == Pattern::edges; }

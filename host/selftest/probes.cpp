@@ -100,7 +100,7 @@ ProbeDevice::ProbeDevice(const ClDevice& device)
     : device_(device), queue_(programs_.context(device_), handle_of(device_)) {}
 
 ProgramOptions probe_program(ProgramOptions build, std::size_t inputs) {
-    build.entries = {false, false, false, false};
+    build.entries = {false, false, false};
     if (inputs < scene_inputs) build.more += " -DRT_SCENE_PROBES=0";
     return build;
 }

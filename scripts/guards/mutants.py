@@ -20,6 +20,13 @@ def edges(test):
     return [("picture_test", "Edges." + test)]
 
 
+def adaptive(test):
+    return [("picture_test", "Adaptive." + test)]
+
+
+ROUNDS = [("picture_test", "Modes/Rounds.HaveTheSameBitsAndRays*")]
+
+
 MUTANTS = [
     # Edges
     Mutant("an edges mode does not see shadows", [
@@ -33,10 +40,10 @@ MUTANTS = [
     ], edges("OpensNoPixelsInsideASurface")),
     Mutant("signatures depend on other lanes", [
         (K + "whitted.cl", "sign_lanes(scene, counts, glassy,", "sign_lanes(scene, counts, path->live,"),
-    ], edges("HaveTheSameBitsAndRays*")),
+    ], ROUNDS),
     Mutant("an edges mode counts the rays of margins", [
-        (K + "edges.cl", "used.shadow *= inside;", ""),
-    ], edges("HaveTheSameBitsAndRays*")),
+        (K + "planes.cl", "used.shadow *= inside;", ""),
+    ], ROUNDS),
     Mutant("an edges mode opens edges that do not pay", [
         (K + "edges.cl", "same | (contrast <=", "same & (contrast <="),
     ], edges("LeavesEdgesAlone*")),
@@ -98,12 +105,22 @@ MUTANTS = [
         (K + "sampling.cl", "position.y = fma(position.y - (Reals)0.5f, side, (Reals)0.5f);",
          "position.y = fma(position.x - (Reals)0.5f, side, (Reals)0.5f);"),
     ], [("kernel_sampling_test", "SamplePosition*")]),
-    Mutant("one refining pass", [
-        ("host/render/picture_loop.h", "refine_passes = 2;", "refine_passes = 1;"),
-    ], [("host_refine_test", "RenderAll.*")]),
-    Mutant("three refining passes", [
-        ("host/render/picture_loop.h", "refine_passes = 2;", "refine_passes = 3;"),
-    ], [("host_refine_test", "RenderAll.*")]),
+    Mutant("adaptive has one round", [
+        (K + "adaptive.cl", "grids = load_row(first_grids + packet.at) > (Reals)1 ? (Indices)0 : grids;",
+         "grids = (Indices)0;"),
+    ], adaptive("IsComposedOfRegularGrids")),
+    Mutant("an adaptive pixel is refined twice", [
+        (K + "adaptive.cl", "grids = load_row(first_grids + packet.at) > (Reals)1 ? (Indices)0 : grids;", ""),
+    ], adaptive("IsComposedOfRegularGrids")),
+    Mutant("adaptive sees beyond the picture", [
+        (K + "adaptive.cl", "color = select3(inside, color, own);", ""),
+    ], adaptive("*")),
+    Mutant("adaptive overlooks a NaN", [
+        (K + "adaptive.cl", "return unknown ? (Reals)1 : contrast;", "return contrast;"),
+    ], adaptive("IsFinestNearANaN")),
+    Mutant("adaptive counts the rays of its margin", [
+        (K + "adaptive.cl", "if (in_margin) return;", ""),
+    ], ROUNDS),
     # Measuring
     Mutant("bench repeats A A B B", [
         (M + "timing.cpp", "try_once(timed, round == 0, watch);",
@@ -247,8 +264,8 @@ MUTANTS = [
         ("host/picture/tile_check.cpp", "if (wrong == 0) return;", "if (wrong < 9999) return;"),
     ], [("wrong_driver_test.py", "Wrong.test_by_its_self_test")]),
     Mutant("--check compares tiles with themselves", [
-        ("host/picture/tile_check.cpp", "part_of(again, around, tile), part_of(film",
-         "part_of(film, region, tile), part_of(film"),
+        ("host/picture/tile_check.cpp", "differing_pixels(again, part_of(film",
+         "differing_pixels(part_of(film, region, tile), part_of(film"),
     ], [("wrong_driver_test.py", "Wrong.test_by_tracing_tiles_again")]),
     Mutant("a driver that crashes while it is listed is not left out", [
         ("host/process/drivers.cpp", "end.task == listing_devices", "end.task.empty()"),

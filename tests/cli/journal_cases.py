@@ -254,7 +254,7 @@ class Resume(JournalTest):
         self.assert_goes_on(signal.SIGTERM, scene_path("mirror-hall"), "--size", "300", "--aa",
                             "grid:40", "--device", "pocl")
 
-    def test_while_refining(self):
+    def test_in_an_adaptive_mode(self):
         self.assert_goes_on(signal.SIGKILL, scene_path("mirror-hall"), "--size", "500", "--aa",
                             "adaptive:0.0001", "--precision", "double", "--device", "threads:1")
 
@@ -367,4 +367,4 @@ class Resume(JournalTest):
         self.assertEqual(stats["resumed"], 1)
         self.share("0/1", "out.png.mbj", *SMALL)
         text = self.render("cornell-box", "-o", "out.png", *SMALL, "--stats").stdout
-        self.assertIn("100 % of the first pass from a journal", text)
+        self.assertIn("100 % of the picture from a journal", text)

@@ -61,20 +61,6 @@ class Interrupted(CliTest):
         self.assertGreater(black, 0)
         self.assertLess(black, len(values) // 3)
 
-    def test_while_refining(self):
-        process = self.start("render", scene_path("mirror-hall"), "-o", "out.pfm", "--size", "1500",
-                             "--aa", "adaptive:0.0001", "--precision", "double", "--device",
-                             "threads", "--stats=json", "--progress", "json")
-        for line in process.stderr:
-            if line.startswith("{") and json.loads(line)["fraction"] >= 1:
-                break
-        process.send_signal(signal.SIGTERM)
-        stdout, stderr = process.communicate(timeout=HANG_LIMIT)
-        self.assertEqual(process.returncode, 143, stderr)
-        self.assertRegex(stderr, r"after (\d+) of \1 tiles, not all refined")
-        self.assertFalse(json.loads(stdout)["complete"])
-        self.assertEqual(self.pictures(), ["out.partial.pfm"])
-
     def test_threads_sigint(self):
         self.assert_stopped("threads", signal.SIGINT, "out.pfm")
         self.assert_has_light_and_gaps("out.partial.pfm")
