@@ -201,6 +201,7 @@ std::vector<std::string> unlisted_drivers(const std::string& place, const std::s
             const fs::path file = fs::path(folder) / library;
             if (named.find(library + "\n") != std::string::npos || !fs::exists(file, error))
                 continue;
+            if (fs::equivalent(file, place, error)) continue;  // OCL_ICD_VENDORS may be a library
             found.push_back(file);
             named += library + "\n";
         }

@@ -63,6 +63,8 @@ class Doctor(CliTest):
         self.assertIn(f"set OCL_ICD_VENDORS={self.folder}/libnvidia-opencl.so.1", finding["verdict"])
         self.write_text("nvidia.icd", "libnvidia-opencl.so.1\n")
         self.assertNotIn("no .icd file", self.run_cli("doctor", env=env).stdout)
+        env["OCL_ICD_VENDORS"] += "/libnvidia-opencl.so.1"
+        self.assertNotIn("no .icd file", self.run_cli("doctor", env=env).stdout)
 
     def test_takes_a_library_for_a_driver(self):
         """As the loader does."""
