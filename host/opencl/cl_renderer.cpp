@@ -32,10 +32,12 @@ namespace {
 constexpr std::size_t single_group = 64;
 constexpr std::size_t packet_group = 1;
 
-/// Samples of the first launch, when nothing is known yet, of the largest, and of the smallest.
+/// Samples of the first launch, when nothing is known yet, and of the largest.
 constexpr std::int64_t cpu_first_samples = 1 << 17, cpu_most_samples = 1 << 22;
 constexpr std::int64_t gpu_first_samples = 1 << 20, gpu_most_samples = 1 << 24;
-constexpr std::int64_t gpu_least_samples = 1 << 18;
+
+/// Work items that a GPU's compute unit runs at once.
+constexpr std::int64_t unit_items = 2048;
 
 /// One runs and one waits; more would only delay an interrupt.
 constexpr std::size_t launches_in_flight = 2;
@@ -76,7 +78,7 @@ class ClRenderer : public Renderer<T> {
           params_(scene.params),
           pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
                  device.is_cpu ? cpu_most_samples : gpu_most_samples,
-                 device.is_cpu ? 1 : gpu_least_samples) {
+                 device.is_cpu ? 1 : unit_items * device.compute_units) {
         launch_samples_ = launches_samples(options.kernels.launch, device, in_rounds());
         lanes_ = packet_lanes<T>(options.kernels.lanes, device);
         group_ = picture_group(options.kernels, lanes_);
