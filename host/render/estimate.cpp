@@ -100,28 +100,27 @@ void draw(const std::vector<double>& sizes, const Weight& weight, std::size_t co
 /// Each pixel's largest channel difference from its eight neighbors, clamped to 0..1; 1 near a NaN.
 template <typename T>
 std::vector<double> contrasts_of(const Film<T>& film, int threads) {
+    const auto rows = static_cast<std::size_t>(film.height);
+    const std::size_t values = 3 * static_cast<std::size_t>(film.width);  // of a row
     std::vector<double> contrasts(film.rgb.size() / 3);
-    const auto value = [&film](int x, int y, int channel) {
-        const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) + x;
-        return static_cast<double>(std::clamp<T>(film.rgb[3 * pixel + channel], 0, 1));
-    };
-    const auto contrast = [&](int x, int y) {
-        double largest = 0;
-        for (int row = std::max(y - 1, 0); row <= std::min(y + 1, film.height - 1); ++row) {
-            for (int near = std::max(x - 1, 0); near <= std::min(x + 1, film.width - 1); ++near) {
-                for (int channel = 0; channel < 3; ++channel) {
-                    const double difference = value(near, row, channel) - value(x, y, channel);
-                    if (std::isnan(difference)) return 1.0;
-                    largest = std::max(largest, std::abs(difference));
+    for_each_run(rows, 64, threads, [&](std::size_t first, std::size_t last) {
+        for (std::size_t y = first; y < last; ++y) {
+            std::vector<T> low(values, 1), high(values, 0);  // of three rows; -1: a NaN
+            for (std::size_t row = y > 0 ? y - 1 : 0; row < std::min(y + 2, rows); ++row) {
+                for (std::size_t i = 0; i < values; ++i) {
+                    const T value = std::clamp<T>(film.rgb[row * values + i], 0, 1);
+                    low[i] = std::isnan(value) ? T(-1) : std::min(low[i], value);
+                    high[i] = std::max(high[i], value);
                 }
             }
-        }
-        return largest;
-    };
-    for_each_run(contrasts.size(), 4096, threads, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const int pixel = static_cast<int>(i);
-            contrasts[i] = contrast(pixel % film.width, pixel / film.width);
+            for (std::size_t i = 0; i < values; ++i) {
+                const std::size_t left = i < 3 ? i : i - 3, right = i + 3 < values ? i + 3 : i;
+                const double least = std::min({low[left], low[i], low[right]});
+                const double most = std::max({high[left], high[i], high[right]});
+                const double own = std::clamp<T>(film.rgb[y * values + i], 0, 1);
+                double& contrast = contrasts[(y * values + i) / 3];
+                contrast = least < 0 ? 1 : std::max({contrast, own - least, most - own});
+            }
         }
     });
     return contrasts;
