@@ -28,14 +28,14 @@ void for_each_pixel(const Rect& region, const StopFlag& stop, const Work& work) 
 }
 
 /// What each pixel of a region counts, beyond its eye rays; in adaptive and edges modes also the
-/// samples beyond that at its center. With single rays, so that a work item has one pixel.
+/// samples beyond that at its center.
 template <typename T>
 class PixelCounter {
    public:
     using Counts = typename Flat<T>::RayCounts;
 
     PixelCounter(const FlatScene<T>& scene, const Rect& region)
-        : kernels_(native_kernels_for(scene, single_rays())),
+        : kernels_(native_kernels_for(scene, any_samples())),
           view_(native_view(scene)),
           region_(region),
           counts_(static_cast<std::size_t>(region.pixels())) {}
@@ -43,47 +43,45 @@ class PixelCounter {
     const Counts& operator[](std::size_t i) const { return counts_[i]; }
     std::uint64_t samples() const { return static_cast<std::uint64_t>(view_.params.samples); }
 
-    void count(const Rect& rect) {
-        const auto tile = flat_tile<T>(rect, rect);
-        std::vector<T> film(3 * static_cast<std::size_t>(rect.pixels()));
-        if (!renders_in_rounds(view_.params)) {
-            each_item(rect, 0, [&](Counts& counts, Index item) {
-                kernels_.render_pixels(film.data(), &counts, &view_, &tile, item, item + 1);
-            });
-            return;
+    /// For a strip of pixels below each other.
+    void count(const Rect& strip) {
+        std::vector<T> film(3 * static_cast<std::size_t>(strip.pixels()));
+        for (int y = strip.y; y < strip.y + strip.height; ++y) {
+            const auto pixel = flat_tile<T>({strip.x, y, 1, 1}, {strip.x, y, 1, 1});
+            kernels_.render_pixels(film.data(), &at(strip.x, y), &view_, &pixel, 0, 1);
         }
-        std::vector<T> planes(plane_values(view_.params, tile, 1));
-        const int margin = tile_margin(view_.params);
-        each_item(rect, margin, [&](Counts& counts, Index item) {
-            kernels_.render_centers(planes.data(), &counts, &view_, &tile, item, item + 1);
-        });
-        const auto render = round_kernel(kernels_, view_.params);
-        for (int round = 0; round < margin; ++round) {
-            each_item(rect, margin - 1 - round, [&](Counts& counts, Index item) {
-                render(film.data(), &counts, &view_, &tile, planes.data(), round, item, item + 1);
-            });
-        }
+        if (renders_in_rounds(view_.params)) count_rounds(strip, film.data());
     }
 
    private:
     using Index = typename Flat<T>::Index;
 
-    static ThreadsOptions single_rays() {
+    static ThreadsOptions any_samples() {
         ThreadsOptions options;
         options.kernels.any_samples = true;
-        options.kernels.lanes = 1;
         return options;
     }
 
-    /// Calls work(counts, item) for each pixel of a rectangle and its margin.
-    template <typename Work>
-    void each_item(const Rect& rect, int margin, const Work& work) {
+    Counts& at(int x, int y) { return counts_[index_in(region_, x, y)]; }
+
+    /// Row by row, each of which has one pixel that is not in the strip's margin.
+    void count_rounds(const Rect& strip, T* film) {
+        const auto tile = flat_tile<T>(strip, strip);
+        const int margin = tile_margin(view_.params);
+        const auto wide = size_with_margin(tile, margin);
+        std::vector<T> planes(plane_values(view_.params, tile, kernels_.lanes));
         Counts ignored{};
-        Index item = 0;
-        for (int y = rect.y - margin; y < rect.y + rect.height + margin; ++y) {
-            for (int x = rect.x - margin; x < rect.x + rect.width + margin; ++x) {
-                const bool is_inside = is_within({x, y, 1, 1}, rect);
-                work(is_inside ? counts_[index_in(region_, x, y)] : ignored, item++);
+        kernels_.render_centers(planes.data(), &ignored, &view_, &tile, 0,
+                                wide.width * wide.height);  // packets of a pixel, or more
+        const auto render = round_kernel(kernels_, view_.params);
+        for (int round = 0; round < margin; ++round) {
+            const int around = margin - 1 - round;
+            const Index across = (1 + 2 * around + kernels_.lanes - 1) / kernels_.lanes;
+            for (Index row = 0; row < strip.height + 2 * around; ++row) {
+                const int y = strip.y + static_cast<int>(row) - around;
+                const bool is_margin = y < strip.y || y >= strip.y + strip.height;
+                render(film, is_margin ? &ignored : &at(strip.x, y), &view_, &tile, planes.data(),
+                       round, row * across, (row + 1) * across);
             }
         }
     }
@@ -123,9 +121,9 @@ template <typename T>
 PixelWork pixel_work(const Scene& scene, const Rect& region, const StopFlag& stop) {
     const FlatScene<T> flat = flatten<T>(scene);
     PixelCounter<T> counter(flat, region);
-    const std::vector<Rect> tiles = make_tiles(region, 64, 64);
-    for_each_run(tiles.size(), 1, available_cores(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last && stop == 0; ++i) counter.count(tiles[i]);
+    const std::vector<Rect> strips = make_tiles(region, 1, 64);
+    for_each_run(strips.size(), 1, available_cores(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last && stop == 0; ++i) counter.count(strips[i]);
     });
     const auto pixels = static_cast<std::size_t>(region.pixels());
     PixelWork work{std::vector<std::uint32_t>(pixels), std::vector<std::uint64_t>(pixels)};
