@@ -2,8 +2,6 @@
 #include "host/image/picture_format.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 
 #include "host/base/error.h"
 #include "host/base/text.h"
@@ -11,17 +9,7 @@
 namespace rt {
 namespace {
 
-struct Format {
-    PictureFormat format;
-    std::string_view name;
-    const char* module_name;
-    std::array<std::string_view, 3> extensions;
-    bool stores_floats = false;
-    std::uintmax_t values_per_byte = 0;
-    int longest_side = std::numeric_limits<int>::max();
-};
-
-constexpr Format formats[] = {
+constexpr PictureFormatFacts formats[] = {
     {PictureFormat::png, "PNG", "png", {".png"}},
     {PictureFormat::exr, "EXR", "openexr", {".exr"}, true},
     {PictureFormat::pfm, "PFM", "pfm", {".pfm"}, true},
@@ -37,26 +25,16 @@ constexpr Format formats[] = {
     {PictureFormat::dpx, "DPX", "dpx", {".dpx"}, false, 4 * 128},
 };
 
-const Format& entry_of(PictureFormat format) {
-    return *std::ranges::find(formats, format, &Format::format);
-}
-
 }  // namespace
 
-std::string_view to_string(PictureFormat format) { return entry_of(format).name; }
-const char* module_name(PictureFormat format) { return entry_of(format).module_name; }
-bool stores_floats(PictureFormat format) { return entry_of(format).stores_floats; }
-int longest_side(PictureFormat format) { return entry_of(format).longest_side; }
-std::uintmax_t values_per_byte(PictureFormat format) { return entry_of(format).values_per_byte; }
-
-bool needs_module(PictureFormat format) {
-    return format != PictureFormat::png && format != PictureFormat::pfm;
+const PictureFormatFacts& facts_of(PictureFormat format) {
+    return *std::ranges::find(formats, format, &PictureFormatFacts::format);
 }
 
 std::optional<PictureFormat> known_picture_format(const std::string& path) {
     const std::string extension = lower_extension(path);
     if (extension.empty()) return std::nullopt;
-    for (const Format& one : formats) {
+    for (const PictureFormatFacts& one : formats) {
         if (std::ranges::count(one.extensions, extension) > 0) return one.format;
     }
     return std::nullopt;

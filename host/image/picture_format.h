@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,24 +13,17 @@ namespace rt {
 /// The formats pictures are read and written in.
 enum class PictureFormat { png, exr, pfm, tiff, jpeg, webp, hdr, tga, bmp, pnm, dpx };
 
-/// "PNG", "EXR", ...
-std::string_view to_string(PictureFormat format);
-
-/// OpenImageIO's name of the format: "png", "openexr", "targa", ...
-const char* module_name(PictureFormat format);
-
-/// Whether it holds floats: .exr, .pfm and .tif exactly, .hdr with 8-bit mantissas. The others
-/// hold 8-bit integers.
-bool stores_floats(PictureFormat format);
-
-/// The most pixels that a side may have, as far as the format or its library limits it.
-int longest_side(PictureFormat format);
-
-/// The most values that a byte of a file can hold; 0: no limit. Generous where it is not exact.
-std::uintmax_t values_per_byte(PictureFormat format);
-
-/// Whether reading and writing it takes a module (picture_module.h).
-bool needs_module(PictureFormat format);
+/// What is known of a format.
+struct PictureFormatFacts {
+    PictureFormat format;
+    std::string_view name;    ///< "PNG"
+    const char* module_name;  ///< OpenImageIO's: "png", "openexr", "targa"
+    std::array<std::string_view, 3> extensions;
+    bool stores_floats = false;  ///< exactly, but for .hdr's 8-bit mantissas; else 8-bit integers
+    std::uintmax_t values_per_byte = 0;  ///< at most, generously where not exact; 0: no limit
+    int longest_side = std::numeric_limits<int>::max();  ///< in pixels
+};
+const PictureFormatFacts& facts_of(PictureFormat format);
 
 /// The format of a file name's extension, case-insensitive; empty if unknown.
 std::optional<PictureFormat> known_picture_format(const std::string& path);

@@ -62,12 +62,12 @@ PictureFormat find_format(const std::string& path, InputFile& file) {
     const auto held = picture_format_of_bytes({first_bytes, count});
     if (held && (!named || named == held)) return *held;
     if (held) {
-        refuse_picture(path, fmt::format("contains {} data", to_string(*held)),
+        refuse_picture(path, fmt::format("contains {} data", facts_of(*held).name),
                        "correct its extension");
     }
     if (named == PictureFormat::tga) return *named;
     if (named)
-        refuse_picture(path, fmt::format("is not a valid {} file", to_string(*named)),
+        refuse_picture(path, fmt::format("is not a valid {} file", facts_of(*named).name),
                        "save it again");
     refuse_picture(path, "is not in a supported format",
                    "use a PNG, EXR, PFM, TIFF, JPEG, WebP, HDR, TGA, BMP, PNM or DPX file");
@@ -79,15 +79,7 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// What OpenImageIO's readers do not check: a file too small for the values that its header
-/// promises, where the format limits its compression (WebP does not).
-void check_stored_values(const std::string& path, PictureFormat format, std::uintmax_t values,
-                         std::uintmax_t file_size) {
-    const std::uintmax_t most = values_per_byte(format);
-    if (most != 0) check_stored_size(path, values, most, file_size);
-}
-
-/// And a JPEG file that was cut short, whose missing pixels its reader makes up.
+/// A JPEG file that was cut short has missing pixels, which OpenImageIO's reader makes up.
 void check_jpeg_end(const std::string& path, InputFile& file) {
     const std::string bytes{std::istreambuf_iterator<char>(file.stream), {}};
     const std::size_t scan = bytes.rfind("\xff\xda");  // the last one; thumbnails come before
@@ -101,12 +93,15 @@ PictureFile read_with_module(const std::string& path, PictureFormat format, Inpu
     const PictureModule& library = picture_module(format, ExitCode::input);
     const auto check = [&](int width, int height, int channels) {
         check_picture_size(path, width, height, channels);
-        check_stored_values(path, format, std::uintmax_t(width) * height * channels, file.size);
+        // Nor does it check whether the file can hold what its header promises; WebP has no limit.
+        if (const std::uintmax_t most = facts_of(format).values_per_byte; most != 0) {
+            check_stored_size(path, std::uintmax_t(width) * height * channels, most, file.size);
+        }
         if (with_pixels) check_picture_memory(path, width, height, channels);
         return with_pixels;
     };
     try {
-        return library.decode(path, module_name(format), check);
+        return library.decode(path, facts_of(format).module_name, check);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -171,9 +166,9 @@ void check_metadata(const std::string& path, Metadata metadata) {
 std::vector<std::byte> encode_with_module(const std::string& path, PictureFormat format,
                                           const Picture& picture, Encoding encoding,
                                           Metadata metadata) {
-    EncodeRequest request{module_name(format), picture, {}, nullptr, metadata};
+    EncodeRequest request{facts_of(format).module_name, picture, {}, nullptr, metadata};
     std::vector<std::uint8_t> bytes;
-    if (!stores_floats(format)) {
+    if (!facts_of(format).stores_floats) {
         bytes = encode_8bit(picture, encoding);
         request.bytes = bytes;
         request.color_space = encoding == Encoding::srgb     ? "sRGB"
@@ -208,19 +203,20 @@ void write_picture(const std::string& path, const Picture& picture, Encoding enc
 void check_picture_fits(const std::string& path, int width, int height,
                         std::optional<PictureFormat> format) {
     if (!format) format = picture_format_of_name(path);
-    const int most = longest_side(*format);
+    const int most = facts_of(*format).longest_side;
     if (width <= most && height <= most) return;
     throw Error(
         ExitCode::limit,
         fmt::format("{}: {}x{} pixels are too many for {}, which has at most {} per side; use "
                     ".png or .exr, or reduce --size",
-                    path, width, height, to_string(*format), most));
+                    path, width, height, facts_of(*format).name, most));
 }
 
 void check_picture_path(const std::string& path, std::optional<PictureFormat> format) {
     if (!format) format = picture_format_of_name(path);
     check_output_path(path);
-    if (needs_module(*format)) picture_module(*format, ExitCode::output);
+    const bool is_built_in = format == PictureFormat::png || format == PictureFormat::pfm;
+    if (!is_built_in) picture_module(*format, ExitCode::output);
 }
 
 }  // namespace rt

@@ -39,9 +39,9 @@ struct PictureModule {
 };
 
 /// The module that reads and writes the format, loaded on the first call: OpenEXR's takes a
-/// millisecond or two, OpenImageIO's, with 260 libraries, 150 and more. Only for formats that need
-/// one (needs_module). The first caller loads it; others wait. Throws Error(failure) naming the
-/// missing file.
+/// millisecond or two, OpenImageIO's, with 260 libraries, 150 and more. Not for PNG and PFM, which
+/// need none. The first caller loads it; others wait. Throws Error(failure) naming the missing
+/// file.
 const PictureModule& picture_module(PictureFormat format, ExitCode failure);
 
 }  // namespace rt
