@@ -7,7 +7,6 @@
 #include <limits>
 #include <sstream>
 
-#include "host/measure/baseline.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/measure/converge.h"
+
 #include <fmt/format.h>
 
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/cli/options.h"
-#include "host/cli/result_file.h"
 #include "host/cli/verb.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
-#include "host/measure/converge_run.h"
 #include "host/measure/timing.h"
 #include "host/print/print_run.h"
 #include "host/process/stop_signal.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/baseline.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "host/base/error.h"
+#include "host/measure/bench.h"
 #include "host/record/record.h"
 #include "host/scene/text_file.h"
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/measure/runs.h"
+#include "host/picture/render_settings.h"
 
 namespace rt {
 
@@ -145,5 +147,56 @@ double parallel_fraction(double trace_seconds, double total_seconds);
 
 /// Amdahl's law: how many times faster `threads` threads can be at most, 1 / ((1 - f) + f / n).
 double amdahl_speed_up(double parallel_fraction, int threads);
+
+/// What an earlier bench measured for a row with verdict right.
+struct BaselineRow {
+    Spread trace, total;  ///< seconds
+};
+
+/// By key_of.
+using Baseline = std::map<std::string, BaselineRow>;
+
+/// Reads the JSON of an earlier bench. Throws Error (ExitCode::input).
+Baseline load_baseline(const std::string& path);
+
+/// Whether a row has become slower: its median exceeds the old one by more than the fraction
+/// `max_regress`, and by more than 3 times the summed MADs, so that noise alone does not count.
+bool is_slower(const Spread& before, const Spread& now, double max_regress);
+
+/// A row that has become slower.
+struct Regression {
+    std::string key;
+    std::string what;  ///< "trace" or "total"
+    Spread before, now;
+};
+
+/// One line: what, from, to, and the noise.
+std::string to_string(const Regression& regression);
+
+/// Throws Error (ExitCode::input) if none of the rows to be measured is in the baseline.
+void check_baseline(const std::vector<BenchCase>& rows, const Baseline& baseline);
+
+/// The rows of the result that are in the baseline and slower now, in total or else in trace.
+std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,
+                                    double max_regress);
+
+/// What to measure.
+struct BenchOptions {
+    std::vector<std::string> scenes;  ///< empty: the built-in scene
+    std::vector<PictureSize> sizes{{100, 100}, {200, 200}, {300, 300}, {400, 400}, {500, 500}};
+    std::vector<AaMode> aa;
+    std::vector<std::string> devices{"all"};
+    int threads = 0;  ///< "threads" runs with 1 to this many; 0: all cores
+    std::vector<Precision> precisions{Precision::float32, Precision::float64};
+    std::vector<Schedule> schedules{Schedule::tiles, Schedule::buffers};
+    bool scalar = true;  ///< also threads without vectors: one ray at a time
+    LightOverrides light;
+    int repeats = 5;      ///< not counting the warm-up
+    bool ablate = false;  ///< measure what leaving features out saves, instead of devices
+    bool quiet = false;
+};
+
+/// Measures. With a baseline, throws Error (ExitCode::input) before that if no row is in it.
+BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline);
 
 }  // namespace rt

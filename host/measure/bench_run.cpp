@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/bench_run.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "host/base/console.h"
 #include "host/base/parallel.h"
+#include "host/measure/bench.h"
 #include "host/measure/device_list.h"
 #include "host/measure/machine_load.h"
 #include "host/measure/timing.h"

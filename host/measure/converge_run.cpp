@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/converge_run.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "host/base/hash.h"
 #include "host/image/image_error.h"
 #include "host/image/picture_io.h"
+#include "host/measure/converge.h"
 #include "host/measure/device_list.h"
 #include "host/measure/machine_load.h"
 #include "host/measure/picture_judge.h"
