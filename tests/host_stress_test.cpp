@@ -8,7 +8,6 @@
 #include "host/base/error.h"
 #include "host/picture/crew_members.h"
 #include "host/print/print_run.h"
-#include "host/print/print_stress.h"
 #include "host/record/record.h"
 #include "host/stress/judge.h"
 #include "host/stress/ray_trials.h"

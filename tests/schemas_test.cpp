@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/print/environment_json.h"
 #include "host/print/print_run.h"
+#include "host/print/print_stats.h"
 #include "host/stress/judge.h"
 
 namespace rt {

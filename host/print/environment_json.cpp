@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/print/environment_json.h"
-
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -11,12 +9,11 @@
 
 #include "host/base/parallel.h"
 #include "host/base/version.h"
+#include "host/print/print_stats.h"
 
 namespace rt {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 #ifdef __clang__
 constexpr const char* compiler = __VERSION__;  // "Debian Clang 14.0.6"

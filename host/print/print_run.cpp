@@ -5,7 +5,7 @@
 
 #include "host/base/version.h"
 #include "host/measure/machine_load.h"
-#include "host/print/environment_json.h"
+#include "host/print/print_stats.h"
 
 namespace rt {
 

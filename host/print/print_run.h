@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/record/record.h"
+#include "host/stress/judge.h"
 
-// The results of bench and converge as text, JSON and CSV.
+// The results of bench, converge and stress as text, JSON and CSV.
 namespace rt {
 
 /// The first bytes of every result of this format.
@@ -45,6 +47,13 @@ std::string rounds_text(const std::vector<Row>& rows, int asked, bool interrupte
 /// Human-readable tables, at most 100 columns wide.
 std::string bench_text(const BenchResult& result);
 std::string converge_text(const ConvergeResult& result);
+
+/// The verdict, then a line per family: its worst figures next to what is allowed, the broken cases
+/// below. Verbose: also why a family matters, and a line per case and renderer.
+std::string stress_text(const StressResult& result, bool verbose);
+
+/// The names of the families and their cases; those of --quick are marked.
+std::string stress_list(const std::vector<StressFamily>& families);
 
 /// [{"name", "unit", "value"}, ...], the form of github-action-benchmark's "customSmallerIsBetter":
 /// the median seconds of each right row; "" if there is none.

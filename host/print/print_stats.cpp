@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include "host/base/text.h"
-#include "host/print/environment_json.h"
 
 namespace rt {
 

@@ -36,6 +36,14 @@ std::string driver_time_text(const RenderStats& stats);
 /// by kind, and what the scene needed and did not need.
 std::string stats_text(const RenderStats& stats);
 
+/// The processor's name, with family and model on x86, where one name is given to many: "Intel(R)
+/// Xeon(R) Processor (family 6, model 143)"; "unknown" where the system does not report it.
+std::string cpu_name();
+
+/// The machine and program behind a result: program, git revision, compiler, CPU, cores, memory,
+/// operating system, kernel, load.
+Json environment_json();
+
 /// One rendering in format "mirrorball-render", version 1 (docs/results-format.md).
 Json stats_json(const RenderStats& stats);
 

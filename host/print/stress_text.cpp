@@ -6,7 +6,6 @@
 
 #include "host/base/text.h"
 #include "host/print/print_run.h"
-#include "host/print/print_stress.h"
 
 namespace rt {
 
