@@ -11,7 +11,6 @@
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/cli/options.h"
-#include "host/cli/result_file.h"
 #include "host/cli/verb.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_format.h"

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,7 +14,6 @@
 
 #include "host/base/text.h"
 #include "host/cli/command_line.h"
-#include "host/cli/result_file.h"
 #include "host/image/encoding.h"
 #include "host/image/picture_format.h"
 #include "host/picture/render_settings.h"
@@ -150,6 +151,26 @@ void add_device_list(const CommandLine& verb, const std::string& option,
                      std::vector<std::string>& devices);
 void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions);
 void add_repeats(const CommandLine& verb, int& repeats, int least);
+
+/// Where results go besides the table: a file, "-" for stdout, or empty for nowhere.
+struct ResultFiles {
+    std::string json, csv;
+
+    bool take_stdout() const { return json == "-" || csv == "-"; }
+};
+
+/// Rejects, before anything is measured, a path that write_result could not or should not write:
+/// Error (output) for a place that cannot be written, Error (usage) for an existing file that does
+/// not begin with `first_bytes` as results do: "--json scene.json" must not replace a scene.
+/// Accepts "" and "-".
+void check_result_path(const std::string& path, const std::string& first_bytes);
+
+/// Writes the text, unless it is empty, to stdout ("-") or atomically to a file; for "" it does not
+/// ask for it. Throws Error (output).
+void write_result(const std::string& path, const std::function<std::string()>& text);
+
+/// Rejects several results that go to stdout. `results`: pairs of an option and its path.
+void check_stdout_has_one_use(const std::vector<std::array<std::string, 2>>& results);
 
 /// --json or --csv: alone, the results go to stdout ("-"). The next word is the file unless that
 /// exists and is not a result file: a scene or a picture.

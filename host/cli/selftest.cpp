@@ -8,7 +8,6 @@
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/cli/options.h"
-#include "host/cli/result_file.h"
 #include "host/cli/verb.h"
 #include "host/measure/device_list.h"
 #include "host/print/print_run.h"
