@@ -31,11 +31,12 @@ VerbText text_of(const CLI::App& verb) {
         for (const std::string& name : option->get_lnames()) one.names.push_back("--" + name);
         one.is_word = one.names.empty();
         one.is_required = option->get_required();
-        const bool may_repeat = option->get_items_expected_max() > 1;
-        if (one.is_word) one.names.push_back(option->get_name() + (may_repeat ? "..." : ""));
+        one.may_repeat = option->get_items_expected_max() > 1;
+        if (one.is_word) one.names.push_back(option->get_name());
         if (!one.is_word && option->get_items_expected_max() > 0)
             one.type = option->get_type_name();
         one.help = option->get_description();
+        one.group = option->get_group();
         text.options.push_back(std::move(one));
     }
     for (const CLI::App* one : verbs_of(verb)) {
@@ -70,35 +71,26 @@ std::string help_entry(const std::string& head, const std::string& help) {
 }
 
 /// The help on the program or a verb, called `name`: its options by group, in their order.
-std::string help_text(const CLI::App& verb, const std::string& name) {
+std::string help_text(const VerbText& verb, const std::string& name) {
     std::vector<std::pair<std::string, std::string>> groups;
-    std::string words, verbs;
-    for (const CLI::Option* option : verb.get_options()) {
-        if (option->get_lnames().empty() && option->get_snames().empty()) {
-            words += help_entry(option->get_name(), option->get_description());
+    std::string words, verbs, usage;
+    for (const OptionText& option : verb.options) {
+        if (option.is_word) {
+            words += help_entry(option.names.front(), option.help);
+            usage += option.is_required ? " " + option.word() : " [" + option.word() + "]";
             continue;
         }
-        const std::string& group = option->get_group();
         auto at = std::find_if(groups.begin(), groups.end(),
-                               [&](const auto& one) { return one.first == group; });
-        if (at == groups.end()) at = groups.insert(at, {group, ""});
-        const bool takes = option->get_items_expected_max() > 0;
-        at->second +=
-            help_entry(option->get_name(false, true) + (takes ? " " + option->get_type_name() : ""),
-                       option->get_description());
+                               [&](const auto& one) { return one.first == option.group; });
+        if (at == groups.end()) at = groups.insert(at, {option.group, ""});
+        at->second += help_entry(fmt::format("{}{}{}", fmt::join(option.names, ","),
+                                             option.type.empty() ? "" : " ", option.type),
+                                 option.help);
     }
-    for (const CLI::App* one : verbs_of(verb)) {
-        verbs += help_entry(one->get_name(), one->get_description());
-    }
-    std::string usage = name + (groups.empty() ? "" : " [OPTIONS]");
-    if (!verbs.empty()) usage += " VERB";
-    for (const CLI::Option* option : verb.get_options()) {
-        if (!option->get_lnames().empty() || !option->get_snames().empty()) continue;
-        const bool many = option->get_items_expected_max() > 1;
-        const std::string word = option->get_name() + (many ? "..." : "");
-        usage += option->get_required() ? " " + word : " [" + word + "]";
-    }
-    std::string text = fmt::format("Usage: {}\n{}\n", usage, verb.get_description());
+    for (const VerbText& one : verb.verbs) verbs += help_entry(one.name, one.help);
+    std::string text =
+        fmt::format("Usage: {}{}{}{}\n{}\n", name, groups.empty() ? "" : " [OPTIONS]",
+                    verbs.empty() ? "" : " VERB", usage, verb.help);
     if (!words.empty()) text += "\n" + words;
     if (!verbs.empty()) text += "\nVerbs (mirrorball help VERB tells more):\n" + verbs;
     for (const auto& [group, entries] : groups) text += fmt::format("\n{}:\n{}", group, entries);
@@ -224,7 +216,7 @@ struct CommandLineParser {
         } catch (const CLI::CallForHelp&) {
             const CLI::App* verb = &app;
             while (!verb->get_subcommands().empty()) verb = verb->get_subcommands().front();
-            return help_text(*verb, place);
+            return help_text(text_of(*verb), place);
         } catch (const CLI::CallForVersion&) {
             return app.version() + "\n";
         } catch (const CLI::ArgumentMismatch& error) {

@@ -27,8 +27,8 @@ std::string roff(const std::string& text) {
 std::string option_roff(const OptionText& option) {
     std::string text = ".TP\n";
     for (std::size_t i = 0; i < option.names.size(); ++i) {
-        const char font = option.is_word ? 'I' : 'B';
-        text += fmt::format("{}\\f{}{}\\fR", i == 0 ? "" : ", ", font, roff(option.names[i]));
+        text += fmt::format("{}\\f{}{}\\fR", i == 0 ? "" : ", ", option.is_word ? 'I' : 'B',
+                            roff(option.is_word ? option.word() : option.names[i]));
     }
     if (!option.type.empty()) text += " \\fI" + roff(option.type) + "\\fR";
     return text + "\n" + roff(option.help) + "\n";
@@ -39,7 +39,7 @@ std::string synopsis(const std::string& name, const VerbText& verb) {
     text += "[\\fIoptions\\fR]";
     for (const OptionText& option : verb.options) {
         if (!option.is_word) continue;
-        const std::string word = "\\fI" + roff(option.names.front()) + "\\fR";
+        const std::string word = "\\fI" + roff(option.word()) + "\\fR";
         text += option.is_required ? " " + word : " [" + word + "]";
     }
     return text + "\n.br\n";

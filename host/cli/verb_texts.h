@@ -11,8 +11,11 @@ struct OptionText {
     std::vector<std::string> names;  ///< "-o", "--output"; of an argument: "SCENE"
     std::string type;                ///< of its value: "FILE", "float|double"; empty: no value
     std::string help;
-    bool is_word = false;
-    bool is_required = false;
+    std::string group;  ///< its heading in --help
+    bool is_word = false, is_required = false, may_repeat = false;
+
+    /// Of an argument, as the command line shows it.
+    std::string word() const { return names.front() + (may_repeat ? "..." : ""); }
 };
 
 /// The help on the program or a verb.
