@@ -18,12 +18,6 @@ constexpr double most_off_along_edges = 0.1;  // of the pixels of a row and a co
 constexpr double most_off_anyway = 2;         // pixels, even in a small picture
 constexpr double largest_rounding_rmse = 2e-4;
 
-std::string shape_mistake(const Picture& picture, const Picture& reference) {
-    if (have_same_shape(picture, reference)) return "";
-    return fmt::format("{}x{} pixels, expected {}x{}", picture.width, picture.height,
-                       reference.width, reference.height);
-}
-
 bool is_black(const Picture& picture) {
     return std::all_of(picture.pixels.begin(), picture.pixels.end(),
                        [](float value) { return value == 0; });
@@ -114,6 +108,19 @@ std::string what_is_wrong(const Picture& picture, const Picture& reference,
     return "";
 }
 
+/// `why_wrong` looks at the clamped pictures.
+template <typename WhyWrong>
+Judgement judge(const Picture& picture, const Picture& reference, const WhyWrong& why_wrong) {
+    if (!have_same_shape(picture, reference)) {
+        return {fmt::format("{}x{} pixels, expected {}x{}", picture.width, picture.height,
+                            reference.width, reference.height),
+                {}};
+    }
+    const Picture shown = clamped(picture), right = clamped(reference);
+    const ImageError error = image_error(shown, right);
+    return {why_wrong(shown, right, error), error};
+}
+
 }  // namespace
 
 Picture clamped(Picture picture) {
@@ -124,25 +131,14 @@ Picture clamped(Picture picture) {
 }
 
 Judgement judge_estimate(const Picture& picture, const Picture& converged) {
-    Judgement judgment;
-    judgment.why_wrong = shape_mistake(picture, converged);
-    if (!judgment.why_wrong.empty()) return judgment;
-    judgment.error = image_error(clamped(picture), clamped(converged));
-    if (judgment.error.non_finite > 0) {
-        judgment.why_wrong =
-            counted(judgment.error.non_finite, "pixel is", "pixels are") + " not finite";
-    }
-    return judgment;
+    return judge(picture, converged, [](const Picture&, const Picture&, const ImageError& error) {
+        const std::size_t count = error.non_finite;
+        return count > 0 ? counted(count, "pixel is", "pixels are") + " not finite" : "";
+    });
 }
 
 Judgement judge_picture(const Picture& picture, const Picture& reference) {
-    Judgement judgment;
-    judgment.why_wrong = shape_mistake(picture, reference);
-    if (!judgment.why_wrong.empty()) return judgment;
-    const Picture shown = clamped(picture), right = clamped(reference);
-    judgment.error = image_error(shown, right);
-    judgment.why_wrong = what_is_wrong(shown, right, judgment.error);
-    return judgment;
+    return judge(picture, reference, what_is_wrong);
 }
 
 }  // namespace rt
