@@ -124,17 +124,6 @@ void add_choice(const CommandLine& verb, const std::string& option, T& target,
                one_of(choices), help);
 }
 
-/// The same; without a name, the option means `bare`.
-template <typename T, typename N, std::size_t n>
-void add_optional_choice(const CommandLine& verb, const std::string& option, T& target,
-                         const Named<N> (&choices)[n], const std::string& bare,
-                         const std::string& help) {
-    verb.optional_value(
-        option, fmt::format("{}", fmt::join(names_of(choices), "|")), help, bare,
-        [&choices](const std::string& text) { return value_of(choices, text).has_value(); },
-        [&target, read = one_of(choices)](const std::string& text) { target = read(text); });
-}
-
 inline constexpr int most_bounces = 100000;
 inline constexpr int most_threads = 4096;
 

@@ -259,8 +259,10 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
 }
 
 void add_report_options(const CommandLine& verb, RenderOptions& render) {
-    add_optional_choice(verb, "--stats", render.stats, stats_formats, "text",
-                        "print phases, rays, and features used and left out to stdout");
+    verb.optional_value(
+        "--stats", "text|json", "print phases, rays, and features used and left out to stdout",
+        "text", [](const std::string& text) { return value_of(stats_formats, text).has_value(); },
+        [&](const std::string& text) { render.stats = one_of(stats_formats)(text); });
     add_choice(verb, "--progress", render.progress, progress_modes,
                "progress on stderr (default: auto, a bar on a terminal, else lines)");
     add_aov(verb, render.aovs);
