@@ -141,7 +141,7 @@ void add_device_list(const CommandLine& verb, const std::string& option,
 void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions);
 void add_repeats(const CommandLine& verb, int& repeats, int least);
 
-/// Where results go besides the table: a file, "-" for stdout, or empty for nowhere.
+/// Where results go in addition to the table: a file, "-" for stdout, or empty for nowhere.
 struct ResultFiles {
     std::string json, csv;
 

@@ -260,8 +260,9 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
 
 void add_report_options(const CommandLine& verb, RenderOptions& render) {
     verb.optional_value(
-        "--stats", "text|json", "print phases, rays, and features used and left out to stdout",
-        "text", [](const std::string& text) { return value_of(stats_formats, text).has_value(); },
+        "--stats", fmt::format("{}", fmt::join(names_of(stats_formats), "|")),
+        "print phases, rays, and features used and left out to stdout", "text",
+        [](const std::string& text) { return value_of(stats_formats, text).has_value(); },
         [&](const std::string& text) { render.stats = one_of(stats_formats)(text); });
     add_choice(verb, "--progress", render.progress, progress_modes,
                "progress on stderr (default: auto, a bar on a terminal, else lines)");
