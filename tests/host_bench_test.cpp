@@ -71,6 +71,15 @@ TEST(Pareto, SlopeOfRandomSamplingIsMinusAHalf) {
     EXPECT_NEAR(log_log_slope(costs).value(), -0.5, 1e-12);
 }
 
+TEST(Pareto, SlopeIsExactWhereTimesAreNearlyEqual) {
+    for (const double step : {1e-3, 1e-6, 1e-9}) {
+        const double seconds = 0.0371, later = seconds * (1 + step);
+        const std::vector<Cost> costs{{seconds, 4e-3}, {later, 1e-3}};
+        const double expected = std::log(0.25) / std::log1p((later - seconds) / seconds);
+        EXPECT_NEAR(log_log_slope(costs).value() / expected, 1, 1e-6) << step;
+    }
+}
+
 /// A bright disc on a gradient: smooth, with an edge.
 Picture test_picture(int width = 40, int height = 30) {
     Picture picture{width, height, 3, {}};

@@ -151,19 +151,25 @@ std::vector<std::size_t> pareto_front(std::span<const Cost> costs) {
 }
 
 std::optional<double> log_log_slope(std::span<const Cost> costs) {
-    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    // Relative to the first cost and about the mean: the spread of nearly equal times must not be a
+    // small difference of large sums.
+    const Cost* first = nullptr;
+    std::vector<double> us, vs;
     for (const Cost& cost : costs) {
         if (!(cost.seconds > 0) || !(cost.rmse > 0)) continue;
-        const double u = std::log(cost.seconds), v = std::log(cost.rmse);
-        n += 1;
-        x += u;
-        y += v;
-        xx += u * u;
-        xy += u * v;
+        if (first == nullptr) first = &cost;
+        us.push_back(std::log(cost.seconds / first->seconds));
+        vs.push_back(std::log(cost.rmse / first->rmse));
     }
-    const double spread = n * xx - x * x;
-    if (n < 2 || !(spread > 0)) return std::nullopt;
-    return (n * xy - x * y) / spread;
+    const double u_mean = std::accumulate(us.begin(), us.end(), 0.0) / us.size();
+    const double v_mean = std::accumulate(vs.begin(), vs.end(), 0.0) / vs.size();
+    double uu = 0, uv = 0;
+    for (std::size_t i = 0; i < us.size(); ++i) {
+        uu += (us[i] - u_mean) * (us[i] - u_mean);
+        uv += (us[i] - u_mean) * (vs[i] - v_mean);
+    }
+    if (!(uu > 0)) return std::nullopt;
+    return uv / uu;
 }
 
 }  // namespace rt
