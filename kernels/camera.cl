@@ -13,9 +13,8 @@
 #include "kernels/sampling.cl"
 #include "kernels/scene_view.h"
 
-// The ray through sample k of pixel (x, y), x to the right and y up.
-Ray camera_ray(const LaunchParams* params, Indices x, Indices y, Indices k) {
-    Position offset = sample_position(params, x, y, k);
+// The ray through this place in pixel (x, y), x to the right and y up.
+Ray position_ray(const LaunchParams* params, Indices x, Indices y, Position offset) {
     Reals sx = (Reals)2 * (RT_TO_REALS(x) + offset.x) - (Real)params->width;
     Reals sy = (Reals)2 * (RT_TO_REALS(y) + offset.y) - (Real)params->height;
     real3 direction = load3(params->direction);
@@ -42,6 +41,11 @@ Ray camera_ray(const LaunchParams* params, Indices x, Indices y, Indices k) {
     ray.zone = (Reals)0;
     ray.left = ray.left_side = (Indices)0;
     return ray;
+}
+
+// The ray through sample k of pixel (x, y).
+Ray camera_ray(const LaunchParams* params, Indices x, Indices y, Indices k) {
+    return position_ray(params, x, y, sample_position(params, x, y, k));
 }
 
 #endif

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The edges mode: which pixels it opens, what they hold, and what it misses.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
+#include <glm/vec2.hpp>
 #include <numeric>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "host/explain/pixel_facts.h"
@@ -64,12 +65,12 @@ TEST(Edges, OpensThePixelsAtASilhouette) {
     add_triangle(scene, {10.3, -99, 0}, {10.3, 99, 0}, {-500, 0, 0});
     EXPECT_EQ(open_in_row(scene, size / 2), 2);
     const auto samples = samples_of(scene);
-    EXPECT_GT(samples[std::size_t{size} * 20 + 10], 100u);  // .3 of it is white
-    EXPECT_LT(samples[std::size_t{size} * 20 + 9], 40u);    // all its samples agree
+    EXPECT_GT(samples[std::size_t{size} * 20 + 10], 17u);  // .3 of it is white
+    EXPECT_EQ(samples[std::size_t{size} * 20 + 9], 17u);   // all its samples agree
 }
 
 TEST(Edges, OpensNoPixelsInsideASurface) {
-    Scene scene = flat_world();
+    Scene scene = flat_world("edges:0.0004");
     scene.materials[0].diffuse = {0.5, 0.5, 0.5};
     scene.lights.push_back({{24, 60, 40}, {1, 1, 1}});  // 0.01 from pixel to pixel, no more edges
     const glm::dvec3 a{-9, -9, -3}, b{60, -9, 1}, c{60, 60, 5.5}, d{-9, 60, 1.5};  // in a plane
@@ -86,7 +87,7 @@ TEST(Edges, OpensNoPixelsInsideASurface) {
 /// A plane behind another of the same direction and material is another surface; a light tells them
 /// apart, or there is nothing to see.
 TEST(Edges, OpensPixelsWhereOnePlaneEndsBeforeAnother) {
-    Scene scene = flat_world("edges:0.02");  // too little contrast for the Laplacian: 24 T
+    Scene scene = flat_world("edges:0.008");  // too little contrast for the Laplacian: 48 T
     scene.materials[0].diffuse = {0.5, 0.5, 0.5};
     scene.lights.push_back({{60, 24, 30}, {1, 1, 1}});
     add_triangle(scene, {-500, -500, 0}, {500, -500, 0}, {0, 900, 0});
@@ -107,7 +108,7 @@ TEST(Edges, OpensPixelsAtTheEdgeOfAShadow) {
 
 TEST(Edges, LeavesEdgesAloneThatAreNotWorthTheirSamples) {
     Scene scene = flat_world("edges:0.2");
-    add_triangle(scene, {10.3, -99, 0}, {10.3, 99, 0}, {-500, 0, 0});  // contrast 0.5 < sqrt(32) T
+    add_triangle(scene, {10.3, -99, 0}, {10.3, 99, 0}, {-500, 0, 0});  // contrast 0.5 < sqrt(200) T
     EXPECT_EQ(all_samples(scene), std::uint64_t{size} * size);
 }
 
@@ -126,40 +127,111 @@ TEST(Edges, FollowsThinShapesBetweenCenters) {
     EXPECT_GT(open, 54);  // 50 next to centers
 }
 
-TEST(Edges, OpenPixelsHaveTheBitsOfSobolAndTheRestAMean) {
+TEST(Edges, SettledPixelsAreTheMeansOfParabolas) {
     for (const char* stem : {"cornell-box", "glass"}) {
         Scene scene = load_named_scene(stem);
         set_image_size(scene, 64, 48);
-        const auto rendered_in = [&scene](const std::string& aa) {
-            scene.aa = *parse_aa_mode(aa);
-            return render_on_threads<float>(scene);
-        };
-        const Film<float> centers = rendered_in("none"), film = rendered_in("edges:0.002");
+        scene.aa = *parse_aa_mode("none");
+        const Film<float> centers = render_on_threads<float>(scene);
+        scene.aa = *parse_aa_mode("edges:0.002");
+        const Film<float> film = render_on_threads<float>(scene);
         const auto samples = samples_of(scene);
-        std::map<std::uint32_t, Film<float>> sobol;
-        std::size_t settled = 0;
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-            const float* const rgb = &film.rgb[3 * i];
-            if (samples[i] > 1) {
-                const std::uint32_t n = samples[i] - 1;
-                if (!sobol.contains(n)) sobol.emplace(n, rendered_in(fmt::format("sobol:{}", n)));
-                EXPECT_TRUE(std::equal(rgb, rgb + 3, &sobol.at(n).rgb[3 * i])) << stem << ' ' << i;
-                continue;
-            }
-            const std::size_t x = i % 64, y = i / 64;
-            if (x == 0 || y == 0 || x == 63 || y == 47) continue;
-            ++settled;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const auto at = [&](std::size_t pixel) {
-                    return double{centers.rgb[3 * pixel + c]};
-                };
-                const double sides = at(i - 1) + at(i + 1) + at(i - 64) + at(i + 64);
-                EXPECT_NEAR(rgb[c], at(i) + (sides - 4 * at(i)) / 24, 1e-6) << stem << ' ' << i;
+        int settled = 0;
+        for (std::size_t y = 1; y < 47; ++y) {
+            for (std::size_t x = 1; x < 63; ++x) {
+                if (samples[64 * y + x] > 1) continue;
+                ++settled;
+                for (std::size_t i = 3 * (64 * y + x); i < 3 * (64 * y + x) + 3; ++i) {
+                    const auto at = [&](std::size_t place) { return double{centers.rgb[place]}; };
+                    const double sides = at(i - 3) + at(i + 3) + at(i - 3 * 64) + at(i + 3 * 64);
+                    EXPECT_NEAR(film.rgb[i], at(i) + (sides - 4 * at(i)) / 24, 1e-6) << stem;
+                }
             }
         }
-        EXPECT_GT(sobol.size(), 2u) << stem;
-        EXPECT_GT(settled, 500u) << stem;
+        EXPECT_GT(settled, 500) << stem;
     }
+}
+
+using Polygon = std::vector<glm::dvec2>;
+
+/// The part of a polygon where `axis` is at least `limit` times `sign` (Sutherland and Hodgman).
+Polygon clipped(const Polygon& polygon, int axis, double sign, double limit) {
+    Polygon kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+        const double before = sign * (from[axis] - limit), after = sign * (to[axis] - limit);
+        if (before >= 0) kept.push_back(from);
+        if (before * after < 0) kept.push_back(from + before / (before - after) * (to - from));
+    }
+    return kept;
+}
+
+double area_in_pixel(Polygon polygon, int x, int y) {
+    polygon = clipped(clipped(polygon, 0, 1, x), 0, -1, x + 1);
+    polygon = clipped(clipped(polygon, 1, 1, size - y - 1), 1, -1, size - y);
+    double twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return std::abs(twice) / 2;
+}
+
+struct Coverage {
+    double rmse, worst;  // of open pixels, as shares of white
+    double samples;      // in an open pixel
+};
+
+Coverage coverage(const Polygon& triangle, const char* aa) {
+    Scene scene = flat_world(aa);
+    add_triangle(scene, {triangle[0], 0}, {triangle[1], 0}, {triangle[2], 0});
+    const Film<float> film = render_on_threads<float>(scene);
+    const auto samples = samples_of(scene);
+    Coverage found{};
+    int open = 0;
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const auto i = static_cast<std::size_t>(y * size + x);
+            const double error = film.rgb[3 * i] / 0.5 - area_in_pixel(triangle, x, y);
+            if (samples[i] == 1) continue;
+            ++open;
+            found.samples += samples[i] - 1;
+            found.rmse += error * error;
+            found.worst = std::max(found.worst, std::abs(error));
+        }
+    }
+    found.samples /= open;
+    found.rmse = std::sqrt(found.rmse / open);
+    return found;
+}
+
+const Polygon slanted{{3.3, 4.2}, {44.6, 9.1}, {20.7, 41.9}};
+const Polygon thin{{3.3, 4.2}, {43.1, 30.4}, {44.6, 34.2}};
+
+/// A pixel is done at a squared error of 26 T^2, of white that is 0.5 bright.
+TEST(Edges, OpenPixelsCoverWhatTheirPolygonsDo) {
+    for (const auto& [aa, tolerance] :
+         {std::pair{"edges:0.001", 1e-3}, {"edges:0.0001", 1e-4}, {"edges:0.00001", 1e-5}}) {
+        const Coverage found = coverage(slanted, aa);
+        EXPECT_LT(found.rmse, 2 * std::sqrt(26.0) * tolerance) << aa;
+        EXPECT_LT(found.worst, 40 * tolerance) << aa;
+    }
+}
+
+/// In one pixel the tip lies between all first samples.
+TEST(Edges, FindsThinTipsOnFurtherLines) {
+    const Coverage found = coverage(thin, "edges:0.00001");
+    EXPECT_LT(found.rmse, 2e-3);
+    EXPECT_LT(found.worst, 0.02);
+}
+
+/// Point samples cost 20 times as much.
+TEST(Edges, EachDigitDoublesTheSamplesAtAnEdge) {
+    const double first = coverage(slanted, "edges:0.001").samples;
+    const double second = coverage(slanted, "edges:0.0001").samples;
+    EXPECT_GT(second, 1.5 * first);
+    EXPECT_LT(second, 2.2 * first);
+    EXPECT_LT(coverage(slanted, "edges:0.00001").samples, 2.2 * second);
 }
 
 class Rounds : public testing::TestWithParam<const char*> {};
@@ -216,9 +288,9 @@ Reached reached(const char* stem, const char* aa) {
 TEST(Edges, ReachesItsToleranceWithFewSamples) {
     for (const char* stem : {"cornell-box", "cones", "meshes"}) {
         const Reached edges = reached(stem, "edges:0.001"), sobol = reached(stem, "sobol:32");
-        EXPECT_LT(edges.rmse, 1.5e-3) << stem;
+        EXPECT_LT(edges.rmse, 2e-3) << stem;
         EXPECT_LT(edges.rmse, sobol.rmse) << stem;
-        EXPECT_LT(edges.samples, 16) << stem;
+        EXPECT_LT(edges.samples, 8) << stem;
     }
 }
 

@@ -73,7 +73,7 @@ Scene scene_needing(const Features& features) {
 bool is_possible(const Features& features) {
     if (features.vertex_normals && !features.triangles) return false;
     if (features.huge_spheres && !features.spheres) return false;
-    if (features.edges && (features.filters || !features.sobol)) return false;
+    if (features.edges && (features.filters || features.sobol)) return false;
     const bool any_shape = features.spheres || features.cones || features.triangles;
     if (features.eye_on_surface && !any_shape) return false;
     return any_shape ||

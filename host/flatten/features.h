@@ -22,7 +22,7 @@ struct Features {
     bool glass = true;           ///< refracted rays, and with mirrors the stack of a ray tree
     bool sobol = true;           ///< scattered samples; else a regular grid's
     bool filters = true;         ///< samples with unequal weights
-    bool edges = true;           ///< signatures of ray trees; implies sobol
+    bool edges = true;           ///< signatures of ray trees, samples on lines
 
     bool operator==(const Features&) const = default;
 };

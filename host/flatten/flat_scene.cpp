@@ -317,7 +317,7 @@ class Flattener {
         features.mirrors = scene_.max_bounces > 0 && material_use_.mirrors;
         features.glass = scene_.max_bounces > 0 && material_use_.transmits;
         features.edges = flat_.params.tolerance > 0;
-        features.sobol = flat_.params.sampling == f32::RT_SAMPLES_SOBOL || features.edges;
+        features.sobol = flat_.params.sampling == f32::RT_SAMPLES_SOBOL;
         features.filters = flat_.params.filter != f32::RT_FILTER_BOX;
     }
 

@@ -39,11 +39,12 @@ bool is_clear(const ErrorEstimate& estimate) {
     return estimate.rmse > large_rmse || estimate.high < 2 * estimate.low;
 }
 
-/// Of a pixel; with edges, of one of high contrast (kernels/edges.cl).
+/// Of a pixel; with edges, as many Sobol samples as are near enough to a pixel that is done
+/// (kernels/lines.cl).
 int most_pixel_samples(const AaMode& aa) {
     if (aa.refines()) return 256;
     if (!aa.finds_edges()) return aa.samples();
-    const double samples = std::pow(0.49 / (aa.threshold * aa.threshold), 0.4);
+    const double samples = std::pow(0.07 / aa.threshold, 4.0 / 3);
     return static_cast<int>(std::min<double>(samples, AaMode::max_sobol));
 }
 

@@ -15,7 +15,7 @@ struct AaMode {
         grid,      ///< count x count regular positions, (i + 0.5) / count from the pixel's corner
         sobol,     ///< count Owen-scrambled Sobol samples
         adaptive,  ///< one sample, then finer grids where neighbors differ by more than threshold
-        edges,     ///< one sample, then Sobol samples where it finds edges (kernels/edges.cl)
+        edges,     ///< one sample, then samples on lines where it finds edges (kernels/edges.cl)
     };
 
     static constexpr int max_grid = 64;

@@ -48,11 +48,23 @@ MUTANTS = [
         (K + "edges.cl", "same | (contrast <=", "same & (contrast <="),
     ], edges("LeavesEdgesAlone*")),
     Mutant("an edges mode does not follow thin shapes", [
-        (K + "edges.cl", "if (!any_lane(foreign)) return 0;", "return 0;"),
+        (K + "edges.cl", "Index sides = 0;", "return 0;"),
     ], edges("FollowsThinShapes*")),
     Mutant("a settled pixel is its center", [
         (K + "edges.cl", "(Reals)((Real)5 / (Real)6)", "(Reals)1"),
-    ], edges("OpenPixelsHaveTheBits*")),
+    ], edges("SettledPixels*")),
+    Mutant("no segment with an edge in it is cut", [
+        (K + "lines.cl", "#define RT_JUMP_ERROR ((Real)1 / (Real)12)", "#define RT_JUMP_ERROR ((Real)0)"),
+    ], edges("OpenPixelsCover*")),
+    Mutant("no lines are added at corners", [
+        (K + "lines.cl", "#define RT_BEND_ERROR ((Real)0.01f)", "#define RT_BEND_ERROR ((Real)0)"),
+    ], edges("OpenPixelsCover*")),
+    Mutant("cuts go to any segment", [
+        (K + "lines.cl", "worst = left[i] > left[worst] ? i : worst;", "worst = more % rated->count;"),
+    ], edges("EachDigit*")),
+    Mutant("further lines do not look for what their neighbors met", [
+        (K + "lines.cl", "Real guess = guess_on(pixel, lines[i]);", "Real guess = (Real)-1;"),
+    ], edges("FindsThinTips*")),
     # Rays and shading
     Mutant("paths go on when they are black", [
         (K + "whitted.cl", "path->live &= !is_black(reflected);", "path->live &= path->live;"),
