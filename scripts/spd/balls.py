@@ -8,11 +8,6 @@ USUAL = 4
 SHRINK = 1 / 3
 
 
-def count(size):
-    """Of spheres: 1 + 9 + ... + 9^size; and the floor."""
-    return {"s": (9 ** (size + 1) - 1) // 8, "p": 1}
-
-
 def directions():
     """Where the nine stand on a parent that points up: three trios around the axis."""
     d = math.sqrt(0.5)

@@ -10,11 +10,6 @@ CLEARANCE = 0.995  # of the radius: gears that mesh do not touch
 PROFILE = [(-0.19, True), (0.19, True), (0.3, False), (0.7, False)]
 
 
-def count(size):
-    """Two faces of 144 corners and 144 rectangles a gear, and the ground."""
-    return {"p": size ** 3 * (2 + 4 * TEETH) + 1}
-
-
 def outline(center, turn, outer, inner):
     """A gear's corners, counterclockwise from above."""
     tooth = 2 * math.pi / TEETH

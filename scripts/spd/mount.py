@@ -11,10 +11,6 @@ CORNER, WIDTH = -1.0, 2.0
 MODULUS = 134456
 
 
-def count(size):
-    return {"s": 4, "p": 2 * 4 ** size}
-
-
 def gauss(seed):
     """A normal deviate by the polar method from a linear congruential generator (Numerical
     Recipes' portable pair), so that every machine grows the same mountain."""

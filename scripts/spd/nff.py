@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes Neutral File Format, and counts what it has written."""
+"""Writes Neutral File Format."""
 import math
 
 SKY = (0.078, 0.361, 0.753)
@@ -17,7 +17,6 @@ class Writer:
     def __init__(self, stream, corners=False):
         self.stream = stream
         self.corners = corners
-        self.counts = {"s": 0, "c": 0, "p": 0, "pp": 0}
 
     def _line(self, *parts):
         self.stream.write(" ".join(parts) + "\n")
@@ -49,23 +48,19 @@ class Writer:
         self._line("f", numbers(*color, kd, ks, shine, t, ior))
 
     def sphere(self, center, radius):
-        self.counts["s"] += 1
         self._line("s", numbers(*center, radius))
 
     def cone(self, base, base_radius, apex, apex_radius):
-        self.counts["c"] += 1
         self._line("c")
         self._line(numbers(*base, base_radius))
         self._line(numbers(*apex, apex_radius))
 
     def polygon(self, corners):
-        self.counts["p"] += 1
         self._line("p", str(len(corners)))
         for corner in corners:
             self._line(numbers(*corner))
 
     def patch(self, corners, normals):
-        self.counts["pp"] += 1
         self._line("pp", str(len(corners)))
         for corner, normal in zip(corners, normals):
             self._line(numbers(*corner, *normal))

@@ -9,12 +9,6 @@ RADIUS = 0.07412
 COLOURS = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 1, 1), (1, 0, 1), (1, 1, 0)]
 
 
-def count(size):
-    """30 cylinders and 30 spheres a knot, 1 + 4 + ... + size^2 knots, and the wall."""
-    knots = size * (size + 1) * (2 * size + 1) // 6
-    return {"c": 30 * knots, "s": 30 * knots, "p": 1}
-
-
 def knot():
     """Six pentagons that join the middles of a dodecahedron's edges, within a sphere of radius 1
     when dressed."""

@@ -32,11 +32,6 @@ SPOUT = [
 ]
 
 
-def count(size):
-    """Two triangles a cell, less those with two corners at the same tip; and the squares."""
-    return {"pp": 64 * size * size - 8 * size, "p": size * size}
-
-
 def quarters(rings, sense=-1):
     """The four patches of a body of revolution, going round clockwise (-1) or the other way."""
     patches = []

@@ -8,10 +8,6 @@ CORNERS = [(-1, -1, 1), (-1, 1, -1), (1, -1, -1), (1, 1, 1)]
 FACES = [(0, 1, 2), (3, 2, 1), (2, 3, 0), (1, 0, 3)]
 
 
-def count(size):
-    return {"p": 4 ** size}
-
-
 def grow(out, depth, center, half):
     if depth > 1:
         for corner in CORNERS:

@@ -12,11 +12,6 @@ LIGHTS = [(-5, 5, 50), (30, -30, 30), (-40, -30, 20), (10, 30, 40), (-30, 40, 10
 FORKS = [(40, 90, 0.65), (25, 230, 0.7)]
 
 
-def count(size):
-    branches = 2 ** (size + 1) - 1
-    return {"c": branches, "s": branches, "p": 1}
-
-
 class Frame:
     """Where a branch stands: its foot, and what x, y and z of a branch become."""
 
