@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The picture while it is rendered: in the terminal, and in tev. Decoders written for these tests
 look at what the program sends."""
+import ctypes.util
 import fcntl
 import os
 import pathlib
@@ -13,6 +14,7 @@ import subprocess
 import termios
 import threading
 import time
+import unittest
 
 from hang_limit import HANG_LIMIT
 from harness import SETTINGS, CliTest, clean_environment, scene_path
@@ -251,7 +253,19 @@ class Tev(CliTest):
 
 
 class Window(CliTest):
-    """scripts/try-window looks at one."""
+    @unittest.skipUnless(ctypes.util.find_library("SDL2-2.0"), "no SDL")
+    def test_it_fills_and_shows_the_saved_picture_until_it_is_closed(self):
+        """On SDL's screen in memory, of which each frame is saved."""
+        process = self.start("render", scene_path("cornell-box"), "--device", "threads", *TAKES_A_WHILE, "--show",
+                             "--progress", "none", "-o", "out.png",
+                             env={"SDL_VIDEODRIVER": "dummy", "SDL_VIDEO_DUMMY_SAVE_FRAMES": "1"})
+        self.assertIn("300x300", process.stderr.readline())
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(HANG_LIMIT), 0)
+        frames = [name for name in self.files() if name.endswith(".bmp")]
+        self.succeed("compare", frames[-1], "out.png", "--max-abs", "0")
+        self.assertEqual(self.run_cli("compare", frames[0], "out.png", "--max-abs", "0").returncode, 1)
 
     def test_none_without_a_display(self):
         result = self.render("single-sphere", "--size", "8", "-o", "out.png", "--show",
