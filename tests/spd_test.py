@@ -189,11 +189,10 @@ class Generated(unittest.TestCase):
         return path
 
     def test_balls_are_as_many_as_they_should_be(self):
-        for name, size, spheres in [("sphere-flake", 3, 820), ("mirror-lattice", 7, 343)]:
-            with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:
-                path = self.generate(folder, name, size)
-                info = json.loads(run(BUILD / "mirrorball", "scene", "info", path, "--json").stdout)
-                self.assertEqual(info["spheres"], spheres)
+        with tempfile.TemporaryDirectory() as folder:
+            path = self.generate(folder, "sphere-flake", 3)
+            info = json.loads(run(BUILD / "mirrorball", "scene", "info", path, "--json").stdout)
+            self.assertEqual(info["spheres"], 820)
 
     def test_mesh_is_closed_and_has_as_many_triangles_as_asked_for(self):
         for triangles in [18, 1000, 20000]:

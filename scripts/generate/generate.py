@@ -6,7 +6,6 @@
   bumpy-mesh N          a bumpy ring of N triangles (N even) on a mirror floor, with mirror balls;
                         the mesh goes into a .ply file next to the scene; --mirror: makes the
                         mesh a mirror, too
-  mirror-lattice N      N x N x N mirror balls
 """
 import argparse
 import array
@@ -67,15 +66,6 @@ def sphere_flake(depth, *_):
     return scene("sphere-flake", [2.1, 1.7, 2.3], [0, 0, 0],
                  materials={"mirror": MIRROR, "floor": FLOOR}, spheres=flake.list,
                  triangles=floor_triangles(-0.5))
-
-
-def mirror_lattice(side, *_):
-    pitch = 2 / side
-    places = [(i + 0.5) * pitch - 1 for i in range(side)]
-    lattice = [sphere((x, y, z), 0.4 * pitch) for x in places for y in places for z in places]
-    return scene("mirror-lattice", [2.6, 1.9, 3.6], [0, 0, 0],
-                 materials={"mirror": MIRROR, "floor": FLOOR}, spheres=lattice,
-                 triangles=floor_triangles(-1.1))
 
 
 def mesh_sides(triangles):
@@ -145,8 +135,7 @@ def bumpy_mesh(triangles, output, mirror):
                  meshes=[{"file": mesh.name, "material": material}])
 
 
-SCENES = {"sphere-flake": (sphere_flake, 0, 7), "bumpy-mesh": (bumpy_mesh, 18, 200000000),
-          "mirror-lattice": (mirror_lattice, 1, 160)}
+SCENES = {"sphere-flake": (sphere_flake, 0, 7), "bumpy-mesh": (bumpy_mesh, 18, 200000000)}
 
 
 def main():
