@@ -285,5 +285,5 @@ MUTANTS = [
     Mutant("NaN in a picture is no error", [
         (V + "render_steps.cpp", "non_finite ? ExitCode::non_finite : ExitCode::done",
          "non_finite ? ExitCode::done : ExitCode::done"),
-    ], [("cli", "picture_cases.NotFinite.test_on_threads")]),
+    ], [("cli", "picture_cases.NotFinite.test_on_every_device")]),
 ]
