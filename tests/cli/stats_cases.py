@@ -2,6 +2,7 @@
 """--stats and --stats=json: valid, complete, adding up."""
 import json
 import platform
+import unittest
 
 from harness import CliTest, image_hash, scene_path
 
@@ -10,19 +11,11 @@ DEVICES = [["--device", "pocl"], ["--device", "pocl", "--launch", "sample"],
 
 
 class JsonStats(CliTest):
-    def test_shape(self):
-        stats = self.stats_of("cornell-box", "--size", "20x10")
-        self.assertEqual((stats["format"], stats["version"]), ("mirrorball-render", 1))
-        for key in ["program", "git_revision", "cpu", "cores", "load"]:
-            self.assertIn(key, stats["environment"])
-        if platform.machine() == "x86_64":
-            self.assertRegex(stats["environment"]["cpu"], r".+ \(family \d+, model \d+\)$")
-        settings = stats["settings"]
-        self.assertEqual((settings["width"], settings["height"]), (20, 10))
-        self.assertEqual(settings["region"], [0, 0, 20, 10])
-        self.assertEqual((settings["precision"], settings["math"]), ("float", "strict"))
-        self.assertTrue(stats["complete"])
-        self.assertEqual(stats["image"]["non_finite"], 0)
+    @unittest.skipUnless(platform.machine() == "x86_64", "no x86-64")
+    def test_names_the_processor(self):
+        """All else is in tests/golden."""
+        environment = self.stats_of("cornell-box", "--size", "20x10")["environment"]
+        self.assertRegex(environment["cpu"], r".+ \(family \d+, model \d+\)$")
 
     def test_hash_is_the_summary_line_s(self):
         for device in DEVICES:
@@ -70,6 +63,8 @@ class Phases(CliTest):
                                     "-o", "out.png")["seconds"]
             known = seconds["set_up"] + seconds["trace"] + seconds["resolve_and_write"]
             with self.subTest(device=device, seconds=seconds):
+                self.assertGreaterEqual(min(seconds.values()), 0)
+                self.assertEqual(seconds["build"] == 0, "threads" in device)
                 self.assertLessEqual(known, seconds["total"] + 0.02)
                 self.assertLess(seconds["total"] - known, 0.1 + 0.1 * seconds["total"])
 
@@ -82,16 +77,6 @@ class Phases(CliTest):
             with self.subTest(launch=launch, seconds=seconds):
                 self.assertLessEqual(seconds["kernel"], seconds["trace"])
                 self.assertGreater(seconds["kernel"], 0.2 * seconds["trace"])
-
-    def test_none_is_negative(self):
-        for device in DEVICES:
-            seconds = self.stats_of("empty", "--size", "9", *device)["seconds"]
-            for name, value in seconds.items():
-                self.assertGreaterEqual(value, 0, name)
-
-    def test_threads_build_nothing(self):
-        seconds = self.stats_of("empty", "--size", "8", "--device", "threads")["seconds"]
-        self.assertEqual(seconds["build"], 0)
 
 
 class TextStats(CliTest):
@@ -108,10 +93,6 @@ class TextStats(CliTest):
         result = self.render("glass", "--size", "8", "--stats")
         self.assertIn("(4 spheres, 4 cones, 128 triangles, 2 lights, mirrors, glass; hash ",
                       result.stdout)
-
-    def test_option_before_the_scene(self):
-        result = self.succeed("render", "--stats", scene_path("empty"), "--size", "4")
-        self.assertIn("ray trace", result.stdout)
 
     def test_features_all_is_said(self):
         result = self.render("empty", "--size", "4", "--features", "all", "--stats")
