@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bench and converge: their JSON is what the schemas say, and every figure in it follows from the
-raw runs in it, computed independently here.
+"""bench and converge: every figure in their JSON follows from the raw runs in it, computed independently
+here.
 
 usage: bench_test.py BUILD_DIR REPO_ROOT
 """
@@ -15,8 +15,6 @@ import subprocess
 import sys
 import tempfile
 import unittest
-
-import jsonschema
 
 from hang_limit import HANG_LIMIT
 
@@ -34,13 +32,6 @@ def run(*arguments, code=0):
                             text=True, timeout=HANG_LIMIT, env=variables, check=False)
     assert result.returncode == code, (result.returncode, result.stderr)
     return result
-
-
-def validator(name):
-    """As docs/results-format.md says."""
-    schema = json.loads((ROOT / "docs" / f"{name}.schema.json").read_text(encoding="utf-8"))
-    jsonschema.Draft202012Validator.check_schema(schema)
-    return jsonschema.Draft202012Validator(schema)
 
 
 def picture_seconds(one):
@@ -82,12 +73,6 @@ class Bench(FiguresTest):
                         other[k] == row[k] for k in ["scene", "width", "height", "aa", "precision"]):
                     return other
         return None
-
-    def test_schema(self):
-        validator("bench").validate(self.result)
-        broken = json.loads(json.dumps(self.result))
-        del broken["rows"][0]["repeats"][0]["seconds"]["trace"]
-        self.assertFalse(validator("bench").is_valid(broken))
 
     def test_rows_are_complete_and_right(self):
         threads = {(r["width"], r["aa"], r["precision"], r["device"], r["schedule"])
@@ -231,8 +216,7 @@ class Converge(FiguresTest):
         return [(statistics.median(picture_seconds(r) for r in p["repeats"]),
                  statistics.median(r["error"]["rmse"] for r in p["repeats"])) for p in self.points]
 
-    def test_schema(self):
-        validator("converge").validate(self.result)
+    def test_table_is_narrow(self):
         self.assertLessEqual(max(map(len, self.table.splitlines())), 80)
 
     def test_promises_nearly_the_true_error(self):
@@ -273,8 +257,6 @@ class Converge(FiguresTest):
         again = json.loads(run(*command, "--reference", path).stdout)
         self.assertNotIn("file", first["reference"])
         self.assertEqual(again["reference"]["file"], path)
-        for result in (first, again):
-            validator("converge").validate(result)
         rmse = [result["points"][0]["figures"]["rmse"] for result in (first, again)]
         self.assertEqual(*rmse)
         run(*command, "--size", "8", "--reference", path, code=2)  # given twice
@@ -342,9 +324,6 @@ class Ablation(FiguresTest):
         cls.result = json.loads(run("bench", SCENE, "--ablate", "--sizes", "24", "--devices",
                                     "threads:2,pocl", "--repeats", "3", "--json", "-q").stdout)
         cls.rows = cls.result["ablation"]
-
-    def test_json_is_what_the_schema_says(self):
-        validator("bench").validate(self.result)
 
     def test_every_omission_is_measured(self):
         changes = [row["change"] for row in self.rows if row["threads"] == 0]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The JSON and CSV of each verb: every key in its order and, where it does not depend on the machine or
-the moment, its value, as in tests/golden/.
+the moment, its value, as in tests/golden/; and each result is what its schema in docs/ says.
 
 usage: golden_test.py BUILD_DIR REPO_ROOT [--write]
 """
@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+import jsonschema
 
 from hang_limit import HANG_LIMIT
 
@@ -75,6 +77,27 @@ def lines(value, path="", volatile=False):
         yield f"{path}: " + (kind(value) if volatile else json.dumps(value))
 
 
+def without(value, keys):
+    """The value without these fields, however deep."""
+    if isinstance(value, list):
+        return [without(item, keys) for item in value]
+    if isinstance(value, dict):
+        return {key: without(inner, keys) for key, inner in value.items() if key not in keys}
+    return value
+
+
+def expect_documented(result):
+    """By the schema of its format, if that has one, which notices missing fields."""
+    name = result["format"].removeprefix("mirrorball-").replace("render", "results")
+    path = ROOT / "docs" / f"{name}.schema.json"
+    if path.exists():
+        schema = json.loads(path.read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        validator = jsonschema.Draft202012Validator(schema)
+        validator.validate(result)
+        assert not validator.is_valid(without(result, ["trace", "max_error", "rmse"]))
+
+
 def outcome(name, command, folder):
     stem = str(pathlib.Path(folder) / name)
     pixels = b"".join(number.to_bytes(4, "little") for number in [0x3F000000] * 3 * 24 * 16)
@@ -85,6 +108,7 @@ def outcome(name, command, folder):
     assert result.returncode == 0, result.stderr
     file = pathlib.Path(stem + ".json")
     text = file.read_text() if file.exists() else result.stdout
+    expect_documented(json.loads(text))
     found = list(lines(json.loads(text)))
     table = pathlib.Path(stem + ".csv")
     if table.exists():

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rays of the quick stress suite pass on PoCL, its JSON is what the schema
-says, and its options do what they say.
+"""The rays of the quick stress suite pass on PoCL, and its options do what they say.
 
 usage: stress_test.py BUILD_DIR REPO_ROOT
 """
@@ -10,8 +9,6 @@ import subprocess
 import sys
 import tempfile
 import unittest
-
-import jsonschema
 
 from hang_limit import HANG_LIMIT
 
@@ -26,18 +23,11 @@ def stress(*arguments, code=0):
     return result
 
 
-def validate(result):
-    own = json.loads((ROOT / "docs" / "stress.schema.json").read_text())
-    jsonschema.Draft202012Validator.check_schema(own)
-    jsonschema.Draft202012Validator(own).validate(result)
-
-
 class Output(unittest.TestCase):
     SMALL = ["--case", "scale-2/2^0,scale-2/2^20,leaving-sphere/1", "--quick", "-q"]
 
     def test_json(self):
         result = json.loads(stress(*self.SMALL, "--json").stdout)
-        validate(result)
         self.assertTrue(result["passed"])
         rows = [row for family in result["families"] for case in family["cases"]
                 for row in case["rows"]]
