@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by the fuzz targets of the model readers.
+// Shared by the fuzz targets that render what they read.
 #pragma once
 
 #include <cmath>
@@ -47,8 +47,8 @@ inline void check_mesh(const Scene::Mesh& mesh, std::size_t materials) {
 }
 
 inline void render(Scene scene) {
-    constexpr std::size_t most_triangles = 200;
-    if (triangle_count(scene) > most_triangles) return;
+    constexpr std::size_t most_primitives = 200;
+    if (scene.spheres.size() + scene.cones.size() + triangle_count(scene) > most_primitives) return;
     constexpr int side = 8;
     set_image_size(scene, side, side);
     scene.aa = grid_aa(1);

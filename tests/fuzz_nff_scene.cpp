@@ -3,30 +3,17 @@
 // scene can be flattened and rendered on a thread.
 // Build with clang++ -fsanitize=fuzzer,address,undefined; seeds: tests/scenes_nff/.
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <string_view>
 
-#include "host/base/error.h"
-#include "host/flatten/flat_scene.h"
-#include "host/render/film.h"
-#include "host/render/threads_renderer.h"
-#include "host/render/tile_queue.h"
-#include "host/scene/scene.h"
 #include "host/scene/scene_file.h"
+#include "tests/fuzz_model.h"
 
 namespace {
 
-constexpr std::size_t most_primitives = 200;
-
-/// Traps on a bug in the reader, as opposed to an error in the text.
-void require(bool condition) {
-    if (!condition) __builtin_trap();
-}
-
-bool finite(glm::dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+using rt::fuzz::finite;
+using rt::fuzz::require;
 
 void check_scene(const rt::Scene& scene) {
     const int materials = static_cast<int>(scene.materials.size());
@@ -45,21 +32,6 @@ void check_scene(const rt::Scene& scene) {
     for (const rt::Scene::Material& material : scene.materials) require(material.ior > 0);
 }
 
-void render(rt::Scene scene) {
-    if (scene.spheres.size() + scene.cones.size() + scene.triangles.size() > most_primitives)
-        return;
-    constexpr int side = 8;
-    rt::set_image_size(scene, side, side);
-    scene.aa = rt::grid_aa(1);
-    const rt::FlatScene<float> flat = rt::flatten<float>(scene);
-    const auto renderer = rt::make_threads_renderer(flat, {1, rt::Schedule::tiles});
-    const rt::Rect whole{0, 0, side, side};
-    rt::Film<float> film(side, side);
-    const rt::StopFlag stop = 0;
-    rt::TileQueue queue(rt::make_tiles(whole, side, side), stop);
-    renderer->render(queue, whole, film);
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -69,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const rt::Scene scene = rt::parse_nff_scene(text, "fuzz.nff");
         is_read = true;
         check_scene(scene);
-        render(scene);
+        rt::fuzz::render(scene);
     } catch (const rt::Error& error) {
         require(error.exit_code() == rt::ExitCode::input ||
                 error.exit_code() == rt::ExitCode::limit);

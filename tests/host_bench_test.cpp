@@ -204,19 +204,6 @@ BenchRow threads_row(int threads, const std::vector<double>& traces) {
     return row;
 }
 
-TEST(Bench, SpeedUpAndAmdahlAreOfMediansWithoutTheWarmUp) {
-    BenchResult result;
-    result.rows = {threads_row(1, {9, 9, 20}), threads_row(2, {4.5, 4, 7})};
-    result.judge();
-    const auto& figures = result.rows[1].figures;
-    ASSERT_TRUE(figures && figures->speed_up && figures->amdahl);
-    EXPECT_DOUBLE_EQ(*figures->parallel_fraction, 0.9);
-    EXPECT_DOUBLE_EQ(*figures->speed_up, 10 / 5.5);
-    EXPECT_DOUBLE_EQ(*figures->trace_speed_up, 9 / 4.5);
-    EXPECT_DOUBLE_EQ(*figures->amdahl, 1 / 0.55);
-    EXPECT_NEAR(*figures->over_amdahl, 0, 1e-12);
-}
-
 TEST(Bench, WrongRowHasNoTimingAndIsNoBase) {
     BenchResult result;
     result.rows = {threads_row(1, {9}), threads_row(2, {4})};

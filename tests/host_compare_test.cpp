@@ -2,21 +2,17 @@
 // The metrics of `compare` against numbers worked out by hand.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <array>
 #include <limits>
 #include <string>
 
 #include "host/image/image_error.h"
 #include "host/measure/heatmap.h"
-#include "host/print/print_stats.h"
 
 namespace {
 
 using namespace rt;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// A row of pixels.
@@ -72,19 +68,6 @@ TEST(ImageError, InfinitiesThatAgreeAreNotFiniteAllTheSame) {
     EXPECT_EQ(error.max_x, 1);
 }
 
-TEST(ErrorTable, SaysThatNothingCouldBeCompared) {
-    const ImageError error = image_error(row(1, {nan}), row(1, {nan}));
-    EXPECT_EQ(error_table(error, 1),
-              "  not finite  1 pixel (100.00 %)\n  no pixel is finite in both pictures\n");
-}
-
-TEST(ErrorJson, HasEveryFigure) {
-    const auto json = json_of(image_error(row(1, {0.5f, 0}), row(1, {0, 0})));
-    EXPECT_EQ(json.at("max_at"), nlohmann::ordered_json({0, 0}));
-    EXPECT_EQ(json.at("rel_mse"), 1250);
-    EXPECT_EQ(json.at("pixels_over_2_255"), 1);
-}
-
 double lightness(const std::array<float, 3>& color) {
     return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
 }
@@ -93,36 +76,6 @@ TEST(HeatColor, RisesInLightness) {
     for (int i = 0; i < 255; ++i) {
         EXPECT_LT(lightness(heat_color(i / 255.0)), lightness(heat_color((i + 1) / 255.0))) << i;
     }
-}
-
-TEST(HeatColor, EndsWhereMagmaEnds) {
-    using Color = std::array<float, 3>;
-    EXPECT_EQ(heat_color(0), (Color{0, 0, 4 / 255.0f}));
-    EXPECT_EQ(heat_color(1), (Color{252 / 255.0f, 253 / 255.0f, 191 / 255.0f}));
-    EXPECT_EQ(heat_color(7), heat_color(1));
-    EXPECT_EQ(heat_color(-1), heat_color(0));
-}
-
-Picture colors(const std::vector<std::array<float, 3>>& list) {
-    Picture picture{static_cast<int>(list.size()), 1, 3, {}};
-    for (const auto& color : list) {
-        picture.pixels.insert(picture.pixels.end(), color.begin(), color.end());
-    }
-    return picture;
-}
-
-TEST(HeatMap, ShowsTheLargestChannelAndWhatIsNotFinite) {
-    const Picture a = row(3, {0, 0, 0, 0, 0.5f, 0.25f, 1, 0, 0, nan, 0, 0, 0, 0, -infinity});
-    const Picture map = heat_map(a, row(3, std::vector<float>(15)), 0.5);
-    EXPECT_EQ(map.width, 5);
-    EXPECT_EQ(map.pixels, colors({heat_color(0), heat_color(1), heat_color(1), non_finite_color,
-                                  non_finite_color})
-                              .pixels);
-}
-
-TEST(HeatMap, OfEqualPicturesIsBlack) {
-    const Picture gray = row(1, {0.5f, 0.25f});
-    EXPECT_EQ(heat_map(gray, gray, 0).pixels, colors({heat_color(0), heat_color(0)}).pixels);
 }
 
 }  // namespace

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "host/image/output_path.h"
 #include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
 #include "host/image/picture_module.h"
@@ -26,9 +21,7 @@
 namespace rt {
 namespace {
 
-namespace fs = std::filesystem;
 using WritePicture = ScratchFolder;
-using CheckPicturePath = ScratchFolder;
 
 std::string text_of(const PictureMetadata& metadata, const std::string& name) {
     for (const auto& [key, text] : metadata) {
@@ -180,27 +173,10 @@ TEST_F(WritePicture, OnlyDeclaredEncodingsAreInTheFile) {
     EXPECT_EQ(gamma, std::string("\0\1\x86\xa0", 4));  // 100000, a gamma of 1.0
 }
 
-TEST_F(WritePicture, CapitalExtensionsAreTheSameFormats) {
-    for (const char* name : {"A.PNG", "A.Exr", "A.PFM"}) {
-        write_picture(path(name), ramp_picture(2, 2), Encoding::display);
-        EXPECT_EQ(read_picture(path(name)).width, 2) << name;
-    }
-}
-
 TEST_F(WritePicture, NamesWithSpacesAndUmlautsWork) {
     const std::string name = path("zwei B\xc3\xa4lle #1 %04d.exr");
     write_picture(name, ramp_picture(2, 2), Encoding::display);
     EXPECT_EQ(read_picture(name).width, 2);
-}
-
-TEST_F(WritePicture, OtherEndingsAreWrongUsage) {
-    for (const char* name : {"a.gif", "a", "a.png.gz", ".png", "png"}) {
-        const auto [code, message] =
-            refusal_of([&] { write_picture(path(name), ramp_picture(2, 2), Encoding::display); });
-        EXPECT_EQ(code, ExitCode::usage) << name;
-        EXPECT_NE(message.find(".png, .exr, .pfm"), message.npos) << message;
-    }
-    EXPECT_EQ(files(), 0u);
 }
 
 TEST_F(WritePicture, ImpossiblePicturesAndNamesAreOurBugs) {
@@ -217,27 +193,6 @@ TEST_F(WritePicture, ImpossiblePicturesAndNamesAreOurBugs) {
                              "mirrorball:TwentyOneLettersLong1"}) {
         EXPECT_EQ(code(ramp_picture(2, 2), name), ExitCode::bug) << name;
     }
-}
-
-TEST_F(WritePicture, FullDiskIsReportedAndTheOldFileStays) {
-    rlimit old{};
-    ::getrlimit(RLIMIT_FSIZE, &old);
-    const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-    for (const char* name : {"a.png", "a.exr", "a.pfm"}) {
-        write_picture(path(name), ramp_picture(2, 2), Encoding::display);
-        const std::string before = contents(path(name));
-        check_picture_path(path(name));
-        const rlimit small{100, old.rlim_max};
-        ::setrlimit(RLIMIT_FSIZE, &small);
-        const auto [code, message] =
-            refusal_of([&] { write_picture(path(name), ramp_picture(90, 90), Encoding::display); });
-        ::setrlimit(RLIMIT_FSIZE, &old);
-        EXPECT_EQ(code, ExitCode::output) << name;
-        EXPECT_NE(message.find("cannot write: File too large; "), message.npos) << message;
-        EXPECT_EQ(contents(path(name)), before) << name;
-    }
-    std::signal(SIGXFSZ, old_handler);
-    EXPECT_EQ(files(), 3u);
 }
 
 TEST_F(WritePicture, MetadataSurvivesInPngAndExr) {
@@ -258,37 +213,6 @@ TEST_F(WritePicture, MetadataSurvivesInPngAndExr) {
     }
     write_picture(path("a.pfm"), ramp_picture(4, 4), Encoding::display, metadata);
     EXPECT_TRUE(read_picture_file(path("a.pfm")).metadata.empty());
-}
-
-TEST_F(CheckPicturePath, RefusesWhatCouldNotBeWritten) {
-    const auto code = [&](const std::string& name) {
-        return refusal_of([&] { check_picture_path(name); }).exit_code;
-    };
-    fs::create_directory(path("d.png"));
-    put(path("file"), "");
-    EXPECT_EQ(code(path("a.png")), ExitCode::done);
-    const fs::path before = fs::current_path();
-    fs::current_path(directory_);
-    EXPECT_EQ(code("a.png"), ExitCode::done);
-    fs::current_path(before);
-    EXPECT_EQ(code(path("a.gif")), ExitCode::usage);
-    EXPECT_EQ(code(""), ExitCode::usage);
-    EXPECT_EQ(code(path("missing/a.png")), ExitCode::output);
-    EXPECT_EQ(code(path("file/a.png")), ExitCode::output);
-    EXPECT_EQ(code(path("d.png")), ExitCode::output);
-    EXPECT_EQ(code(path("d.png/.exr")), ExitCode::usage);
-    EXPECT_EQ(code(path(std::string(300, 'a') + ".png")), ExitCode::output);
-    EXPECT_EQ(files(), 2u);
-}
-
-TEST_F(CheckPicturePath, RefusesReadOnlyPlaces) {
-    if (::geteuid() == 0) GTEST_SKIP() << "root ignores permissions";
-    put(path("a.png"), "");
-    fs::permissions(path("a.png"), fs::perms::owner_read);
-    EXPECT_EQ(refusal_of([&] { check_picture_path(path("a.png")); }).exit_code, ExitCode::output);
-    fs::permissions(directory_, fs::perms::owner_read | fs::perms::owner_exec);
-    EXPECT_EQ(refusal_of([&] { check_picture_path(path("b.png")); }).exit_code, ExitCode::output);
-    fs::permissions(directory_, fs::perms::owner_all);
 }
 
 TEST(PictureModule, MayBeLoadedFromManyThreads) {

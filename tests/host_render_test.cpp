@@ -23,7 +23,6 @@
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
 #include "host/scene/aa_mode.h"
-#include "tests/test_random.h"
 
 namespace rt {
 namespace {
@@ -256,14 +255,6 @@ TEST(NeedsOpencl, KnowsAGpuByItsDeviceFile) {
     EXPECT_TRUE(needs_opencl("threads,pocl"));
 }
 
-TEST(ParseDeviceSpecs, ReadsTheCountOfThreads) {
-    EXPECT_EQ(parse_device_specs("threads").front().threads, 0);
-    EXPECT_EQ(parse_device_specs("0,threads:7").back().threads, 7);
-    for (const char* bad : {"threads:", "threads:0", "threads:-1", "threads:x", "threads:99999"}) {
-        EXPECT_THROW(parse_device_specs(bad), Error) << bad;
-    }
-}
-
 TEST(ParseAaMode, RoundTripsAndRefuses) {
     for (const char* text :
          {"none", "grid:2", "grid:64", "sobol:1", "sobol:4096", "adaptive:0.01", "edges:0.0001"}) {
@@ -286,42 +277,13 @@ TEST(Film, HashSeesEveryBitAndTheShape) {
     EXPECT_NE(hash_of(film), black);
 }
 
-Picture picture(std::vector<float> pixels) {
-    Picture made;
-    made.width = static_cast<int>(pixels.size() / 3);
-    made.height = 1;
-    made.pixels = std::move(pixels);
-    return made;
-}
-
 TEST(CountNonFinite, CountsPixelsAndNamesTheFirst) {
-    Picture made = picture(std::vector<float>(36));
-    made.width = 4;
-    made.height = 3;
+    Picture made{4, 3, 3, std::vector<float>(36)};
     made.pixels[15] = std::numeric_limits<float>::infinity();
     made.pixels[17] = std::nanf("");
     made.pixels[22] = -std::numeric_limits<float>::infinity();
     EXPECT_EQ(count_non_finite(made), 2u);
     EXPECT_EQ(first_non_finite(made), std::make_pair(1, 1));
-}
-
-TEST(ImageErrorOf, IsWhatTheFormulasSay) {
-    const ImageError error =
-        image_error(picture({0, 0, 0, 0.5f, 1, 0.25f}), picture({0, 0, 0, 0.5f, 0.5f, 0.5f}));
-    const double mse = (0.25 + 0.0625) / 6;
-    EXPECT_DOUBLE_EQ(error.rmse, std::sqrt(mse));
-    EXPECT_DOUBLE_EQ(error.psnr, -10 * std::log10(mse));
-    EXPECT_DOUBLE_EQ(error.mean, 0.75 / 6);
-    EXPECT_EQ(error.max, 0.5);
-    EXPECT_EQ(error.max_x, 1);
-    EXPECT_EQ(error.over_1, 1u);
-    EXPECT_EQ(error.over_8, 1u);
-}
-
-TEST(ImageErrorOf, CountsNonFinitePixelsInsteadOfPassingThem) {
-    const Picture nan = picture({std::nanf(""), 0, 0});
-    EXPECT_EQ(image_error(nan, nan).non_finite, 1u);
-    EXPECT_THROW(image_error(nan, picture({0, 0, 0, 0, 0, 0})), Error);
 }
 
 }  // namespace

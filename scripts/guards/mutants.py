@@ -158,7 +158,7 @@ MUTANTS = [
     Mutant("stress ignores same_bits", [
         ("host/stress/stress_run.cpp", "if (!is_new && first->second != row.hash) {",
          "if (is_new && first->second != row.hash) {"),
-    ], driver("Stress.test_cases_that_should_have_the_same_bits_and_do_not_fail")),
+    ], [("host_stress_test", "StressRun.CasesThatShouldHaveTheSameBits*")]),
     Mutant("kernel seconds times 7", [
         ("host/opencl/cl_renderer.cpp", "times_.kernel += kernel;", "times_.kernel += 7 * kernel;"),
     ], [("cli", "stats_cases.Phases.test_kernels_take_most_of_the_trace_time")]),
@@ -183,7 +183,7 @@ MUTANTS = [
     Mutant("RMSE over pixels instead of values", [
         ("host/image/image_error.cpp", "(pixels - error.non_finite) * channels);",
          "(pixels - error.non_finite));"),
-    ], [("host_compare_test", "ImageError.*")]),
+    ], [("cli", "compare_cases.Figures.test_numbers")]),
     Mutant("shifted pictures pass", [
         (M + "picture_judge.cpp", "if (mse < best) {", "if (mse < 0) {"),
     ], [("host_bench_test", "JudgePicture.*")]),

@@ -104,7 +104,7 @@ class Aov(CliTest):
         self.assertIn("b.normal.png: x, y, z from -1 to 1", said)
 
     def test_stopped_after_the_picture(self):
-        process = self.start("render", scene_path("glass"), "--size", "300", "--aa", "grid:16",
+        process = self.start("render", scene_path("glass"), "--size", "200", "--aa", "grid:16",
                              "--device", "threads", "-o", "a.png", "--aov", "rays")
         while "a.png" not in self.files():
             time.sleep(0.01)

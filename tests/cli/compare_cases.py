@@ -218,7 +218,7 @@ class Json(CompareTest):
 class HeatMap(CompareTest):
     def setUp(self):
         super().setUp()
-        self.write_pfm("a.pfm", 3, 2, [0.0] * 3 + [0.5, 0, 0] + [0.0] * 9 + [0, 0, math.nan])
+        self.write_pfm("a.pfm", 3, 2, [0.0] * 3 + [0.25, 0.5, 0] + [0.0] * 9 + [0, 0, math.nan])
         self.write_pfm("b.pfm", 3, 2, [0.0] * 18)
 
     def pixels(self, *arguments):

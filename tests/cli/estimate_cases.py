@@ -34,17 +34,6 @@ class Estimate(CliTest):
             del estimates[-1]["seconds"]
         self.assertEqual(estimates, estimates[:1] * len(estimates))
 
-    def test_is_near_the_error(self):
-        self.render("cornell-box", "--size", "80", "--aa", "sobol:1024", "-o", "right.pfm")
-        for aa in ["none", "grid:3", "sobol:16", "adaptive:0.05"]:
-            self.render("cornell-box", "--size", "80", "--aa", aa, "-o", "out.pfm")
-            error = json.loads(self.run_cli("compare", "out.pfm", "right.pfm", "--clamp",
-                                            "--json").stdout)["error"]["rmse"]
-            estimate = self.estimate_of("--aa", aa)
-            self.assertLess(abs(estimate["rmse"] / error - 1), 0.4, aa)
-            self.assertLess(estimate["low"], estimate["rmse"])
-            self.assertLess(estimate["rmse"], estimate["high"])
-
     def test_is_in_the_metadata_of_the_picture(self):
         self.render("cornell-box", "--size", "80", "--estimate", "-o", "out.png")
         self.assertRegex((self.folder / "out.png").read_bytes().decode("latin-1"),
@@ -62,7 +51,7 @@ class Target(CliTest):
 
     def test_is_reached_by_the_true_error(self):
         for scene in ["cornell-box", "many-lights", "mirror-hall"]:
-            self.render(scene, "--size", "80", "--aa", "sobol:4096", "-o", "right.pfm")
+            self.render(scene, "--size", "80", "--aa", "sobol:1024", "-o", "right.pfm")
             self.reach("1e-3", "-o", "out.pfm", scene=scene)
             error = json.loads(self.run_cli("compare", "out.pfm", "right.pfm", "--clamp",
                                             "--json").stdout)["error"]["rmse"]

@@ -32,11 +32,11 @@ class JournalTest(CliTest):
 
 
 class Shares(JournalTest):
-    def assert_merges(self, count, *arguments, scene="cornell-box", ending="png"):
-        self.render(scene, "-o", f"whole.{ending}", *SMALL, *arguments)
+    def assert_merges(self, count, *arguments, ending):
+        self.render("cornell-box", "-o", f"whole.{ending}", *SMALL, *arguments)
         parts = [f"{count}-{i}.mbj" for i in range(count)]
         for i, part in enumerate(parts):
-            self.share(f"{i}/{count}", part, *SMALL, *arguments, scene=scene)
+            self.share(f"{i}/{count}", part, *SMALL, *arguments)
         random.shuffle(parts)
         result = self.merge(*parts, "-o", f"merged.{ending}")
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
@@ -44,21 +44,14 @@ class Shares(JournalTest):
         for part in parts:
             (self.folder / part).unlink()
 
-    def test_of_every_mode_and_filter(self):
-        for count, mode in [(2, ["--aa", "none"]), (3, ["--aa", "grid:3", "--filter", "tent"]),
-                            (2, ["--aa", "sobol:8", "--filter", "gaussian"]),
-                            (3, ["--aa", "grid:4", "--filter", "mitchell"]),
-                            (7, ["--aa", "adaptive:0.05"]), (2, ["--precision", "double"])]:
-            with self.subTest(mode=mode):
-                self.assert_merges(count, *mode)
-
-    def test_of_one_and_of_64(self):
-        for count in [1, 64]:
-            self.assert_merges(count, "--aa", "adaptive:0.05")
-
-    def test_of_a_window_and_in_other_formats(self):
-        self.assert_merges(3, "--crop", "7,9,83,61", "--aa", "adaptive:0.05", ending="exr")
-        self.assert_merges(2, "--crop", "7,9,83,61", ending="pfm", scene="glass")
+    def test_of_every_filter_of_a_window_and_in_every_format(self):
+        """host_journal_test has all modes and counts."""
+        for count, ending, options in [(3, "png", ["--aa", "grid:3", "--filter", "tent"]),
+                                       (2, "png", ["--aa", "sobol:8", "--filter", "gaussian"]),
+                                       (3, "pfm", ["--aa", "grid:4", "--filter", "mitchell"]),
+                                       (7, "exr", ["--crop", "7,9,83,61", "--aa", "adaptive:0.05"])]:
+            with self.subTest(options=options):
+                self.assert_merges(count, *options, ending=ending)
 
     def test_verified_where_they_are_merged(self):
         settings = [["--aa", "sobol:8", "--filter", "gaussian", "--max-bounces", "3"],
@@ -235,28 +228,22 @@ class Resume(JournalTest):
         process.send_signal(number)
         return process.wait(), process.stderr.read()
 
-    def assert_goes_on(self, number, *arguments):
-        self.render(arguments[0], "-o", "whole.png", *arguments[1:])
-        code, stderr = self.interrupted(number, *arguments)
-        if number != signal.SIGKILL:
-            self.assertEqual(code, 128 + number)
-            self.assertIn("the same command resumes from there", stderr)
-        result = self.succeed("render", *arguments, "-o", "out.png")
-        self.assertRegex(result.stderr, r"resuming from out\.png\.mbj, which has [1-9]\d* %")
-        self.assertEqual(self.bytes_of("out.png"), self.bytes_of("whole.png"))
-        self.assertNotIn("out.png.mbj", self.files())
-
-    def test_after_kill(self):
-        self.assert_goes_on(signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
-                            "grid:28", "--device", "threads:1")
-
-    def test_after_sigterm_on_a_device(self):
-        self.assert_goes_on(signal.SIGTERM, scene_path("mirror-hall"), "--size", "300", "--aa",
-                            "grid:40", "--device", "pocl")
-
-    def test_in_an_adaptive_mode(self):
-        self.assert_goes_on(signal.SIGKILL, scene_path("mirror-hall"), "--size", "500", "--aa",
-                            "adaptive:0.0001", "--precision", "double", "--device", "threads:1")
+    def test_goes_on(self):
+        hall = [scene_path("mirror-hall"), "--size", "300", "--aa", "grid:28"]
+        adaptive = [scene_path("mirror-hall"), "--size", "400", "--aa", "adaptive:0.0001", "--precision", "double"]
+        for number, picture, device in [(signal.SIGKILL, hall, ["threads:1"]),
+                                        (signal.SIGTERM, hall, ["pocl", "--threads", "1"]),
+                                        (signal.SIGKILL, adaptive, ["threads:1"])]:
+            with self.subTest(picture=picture, device=device):
+                code, stderr = self.interrupted(number, *picture, "--device", *device)
+                if number != signal.SIGKILL:
+                    self.assertEqual(code, 128 + number)
+                    self.assertIn("the same command resumes from there", stderr)
+                result = self.succeed("render", *picture, "--device", *device, "-o", "out.png")
+                self.assertRegex(result.stderr, r"resuming from out\.png\.mbj, which has [1-9]\d* %")
+                self.succeed("render", *picture, "--device", "threads", "-o", "whole.png")
+                self.assertEqual(self.bytes_of("out.png"), self.bytes_of("whole.png"))
+                self.assertNotIn("out.png.mbj", self.files())
 
     def test_two_processes_at_one_picture(self):
         arguments = [scene_path("mirror-hall"), "--size", "300", "--aa", "grid:64", "--device",
@@ -298,28 +285,24 @@ class Resume(JournalTest):
                 self.assertRegex(stderr, f"(process {first.pid} on .*|another process) is rendering")
                 (self.folder / "out.png.mbj").unlink(missing_ok=True)
 
-    def test_of_another_picture_stays_after_a_quick_one(self):
-        self.interrupted(signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
-                         "grid:28", "--device", "threads:1")
+    def test_stays_for_its_picture_and_goes_with_it(self):
+        """So does the unfinished picture, and --fresh does not read the journal."""
+        hall = [scene_path("mirror-hall"), "--size", "300", "--aa", "grid:28"]
+        self.interrupted(signal.SIGTERM, *hall, "--device", "threads:1")
         journal = self.bytes_of("out.png.mbj")
         result = self.render("mirror-hall", "--size", "30", "-o", "out.png")
         self.assertIn("belongs to a different picture", result.stderr)
         self.assertEqual(self.bytes_of("out.png.mbj"), journal)
+        self.assertIn("out.partial.png", self.files())
+        result = self.succeed("render", *hall, "--device", "threads", "--fresh", "-o", "out.png")
+        self.assertNotIn("resuming from", result.stderr)
+        self.assertEqual(self.files(), ["out.png"])
 
     def test_that_ends_in_the_middle_of_a_tile(self):
         self.share("0/1", "out.png.mbj", *SMALL)
         (self.folder / "out.png.mbj").write_bytes(self.bytes_of("out.png.mbj")[:-20])
         result = self.render("cornell-box", "-o", "out.png", *SMALL)
         self.assertRegex(result.stderr, r"resuming .*; ignored its damaged end \(\d+ bytes\)")
-
-    def test_the_unfinished_picture_goes_with_the_finished_one(self):
-        self.interrupted(signal.SIGTERM, scene_path("mirror-hall"), "--size", "300", "--aa",
-                         "grid:28", "--device", "threads:1")
-        self.assertIn("out.partial.png", self.files())
-        self.render("mirror-hall", "--size", "30", "-o", "out.png")
-        self.assertIn("out.partial.png", self.files())
-        self.render("mirror-hall", "--size", "300", "--aa", "grid:28", "-o", "out.png")
-        self.assertEqual(self.files(), ["out.png"])
 
     def test_a_full_disk_is_for_the_picture(self):
         namespace = ["unshare", "--map-root-user", "--mount"]
@@ -343,14 +326,6 @@ class Resume(JournalTest):
             self.assertEqual(self.files(), [left, "part.mbj", "t"])
             self.assertGreater((self.folder / left).stat().st_size, 500000)
             (self.folder / left).unlink()
-
-    def test_fresh_ignores_it(self):
-        self.interrupted(signal.SIGKILL, scene_path("mirror-hall"), "--size", "300", "--aa",
-                         "grid:28", "--device", "threads:1")
-        result = self.succeed("render", scene_path("mirror-hall"), "--size", "300", "--aa",
-                              "grid:28", "--device", "threads", "--fresh", "-o", "out.png")
-        self.assertNotIn("resuming from", result.stderr)
-        self.assertEqual(self.files(), ["out.png"])
 
     def test_fresh_leaves_that_of_another_picture(self):
         self.share("0/1", "out.png.mbj", *SMALL)

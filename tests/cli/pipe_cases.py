@@ -99,8 +99,8 @@ class SceneFromStdin(CliTest):
                              (self.folder / "b.pfm").read_bytes())
 
     def test_read_more_than_once(self):
-        self.given(self.text, "bench", "-", "--sizes", "16", "--repeats", "1", "--threads", "1",
-                   "--devices", "pocl")
+        self.given(self.text, "bench", "-", "--sizes", "16", "--aa", "none", "--precision", "float",
+                   "--repeats", "1", "--threads", "1", "--devices", "pocl")
 
     def test_every_verb_that_reads_a_scene(self):
         for verb in [["scene", "check", "-"], ["scene", "info", "-"],

@@ -9,7 +9,7 @@ import signal
 import time
 
 from hang_limit import HANG_LIMIT
-from harness import CAMERA, CliTest, scene_path
+from harness import CliTest, scene_path
 from pictures import png_chunks, png_texts, read_pfm
 
 LONG = ["--size", "900", "--aa", "grid:32", "--progress", "json"]
@@ -61,20 +61,34 @@ class Interrupted(CliTest):
         self.assertGreater(black, 0)
         self.assertLess(black, len(values) // 3)
 
-    def test_threads_sigint(self):
-        self.assert_stopped("threads", signal.SIGINT, "out.pfm")
-        self.assert_has_light_and_gaps("out.partial.pfm")
+    def test_saves_what_is_finished(self):
+        for path, number, output in [
+                ("threads", signal.SIGINT, "out.pfm"), ("pocl", signal.SIGINT, "out.pfm"),
+                ("pocl samples", signal.SIGINT, "out.pfm"), ("buffers", signal.SIGINT, "out.pfm"),
+                ("threads", signal.SIGXCPU, "out.pfm"), ("threads", signal.SIGUSR1, "out.pfm"),
+                ("threads", signal.SIGTERM, "out.png"), ("pocl", signal.SIGTERM, "out.png")]:
+            with self.subTest(path=path, number=number):
+                self.assert_stopped(path, number, output)
+                if output == "out.pfm":
+                    self.assert_has_light_and_gaps("out.partial.pfm")
+                else:
+                    texts = png_texts((self.folder / "out.partial.png").read_bytes())
+                    self.assertRegex(texts["mirrorball:Partial"], r"^\d+ of \d+ tiles$")
+                self.remove_all()
 
-    def test_threads_sigterm(self):
-        self.assert_stopped("threads", signal.SIGTERM, "out.png")
-        texts = png_texts((self.folder / "out.partial.png").read_bytes())
-        self.assertRegex(texts["mirrorball:Partial"], r"^\d+ of \d+ tiles$")
+    def remove_all(self):
+        for name in self.files():
+            (self.folder / name).unlink()
+
+    def interrupted(self, output):
+        """The last line of a render that was interrupted."""
+        code, lines = self.stop(self.start_and_wait_until_tiles_are_done("threads", output), signal.SIGINT)
+        self.assertEqual(code, 130, lines)
+        return lines[-1]
 
     def test_a_finished_picture_is_left_alone(self):
         self.write_text("out.png", "finished yesterday")
-        process = self.start_and_wait_until_tiles_are_done("threads", "out.png")
-        code, lines = self.stop(process, signal.SIGINT)
-        self.assertEqual(code, 130, lines)
+        self.interrupted("out.png")
         self.assertEqual((self.folder / "out.png").read_text(), "finished yesterday")
         self.assertEqual(self.pictures(), ["out.partial.png", "out.png"])
 
@@ -82,10 +96,7 @@ class Interrupted(CliTest):
         for name in ["out.partial.png", "out.partial-2.png"]:
             self.write_text(name, "somebody else's")
         for _ in range(2):  # the second replaces what the first has left
-            process = self.start_and_wait_until_tiles_are_done("threads", "out.png")
-            code, lines = self.stop(process, signal.SIGINT)
-            self.assertEqual(code, 130, lines)
-            self.assertIn("the finished part is in out.partial-3.png", lines[-1])
+            self.assertIn("the finished part is in out.partial-3.png", self.interrupted("out.png"))
         self.assertEqual(self.pictures(),
                          ["out.partial-2.png", "out.partial-3.png", "out.partial.png"])
         for name in ["out.partial.png", "out.partial-2.png"]:
@@ -93,42 +104,21 @@ class Interrupted(CliTest):
 
     def test_a_format_that_does_not_say_who_wrote_it_is_left_alone(self):
         self.write_text("out.partial.pfm", "somebody else's")
-        process = self.start_and_wait_until_tiles_are_done("threads", "out.pfm")
-        code, lines = self.stop(process, signal.SIGINT)
-        self.assertEqual(code, 130, lines)
-        self.assertIn("the finished part is in out.partial-2.pfm", lines[-1])
+        self.assertIn("the finished part is in out.partial-2.pfm", self.interrupted("out.pfm"))
         self.assertEqual((self.folder / "out.partial.pfm").read_text(), "somebody else's")
 
-    def test_pocl_sigint(self):
-        self.assert_stopped("pocl", signal.SIGINT, "out.pfm")
-        self.assert_has_light_and_gaps("out.partial.pfm")
-
-    def test_as_a_terminal_sends_it(self):
-        """To the program and its worker process."""
-        for path in ["threads", "pocl", "pocl", "pocl"]:
-            process = self.start_and_wait_until_tiles_are_done(path, "out.pfm")
-            os.killpg(process.pid, signal.SIGINT)
-            stderr = process.communicate(timeout=HANG_LIMIT)[1]
-            self.assertEqual(process.returncode, 130, stderr)
-            self.assertEqual(self.pictures(), ["out.partial.pfm"])
-            for name in ["out.partial.pfm", "out.pfm.mbj"]:
-                (self.folder / name).unlink(missing_ok=True)
-
-    def test_as_timeout_sends_it(self):
-        """To the program, and at once to its group."""
-        for path in ["threads", "pocl"]:
-            process = self.start_and_wait_until_tiles_are_done(path, "out.pfm")
-            process.send_signal(signal.SIGTERM)
-            os.killpg(process.pid, signal.SIGTERM)
-            stderr = process.communicate(timeout=HANG_LIMIT)[1]
-            self.assertEqual(process.returncode, 143, stderr)
-            self.assertEqual(self.pictures(), ["out.partial.pfm"])
-            for name in ["out.partial.pfm", "out.pfm.mbj"]:
-                (self.folder / name).unlink(missing_ok=True)
-
-    def test_pocl_sigterm(self):
-        self.assert_stopped("pocl", signal.SIGTERM, "out.png")
-        png_chunks((self.folder / "out.partial.png").read_bytes())
+    def test_as_terminals_and_timeout_send_it(self):
+        """To the program and its worker process; to the program, and at once to its group."""
+        for path in ["threads", "pocl", "pocl"]:
+            for number, is_first_alone in [(signal.SIGINT, False), (signal.SIGTERM, True)]:
+                process = self.start_and_wait_until_tiles_are_done(path, "out.pfm")
+                if is_first_alone:
+                    process.send_signal(number)
+                os.killpg(process.pid, number)
+                stderr = process.communicate(timeout=HANG_LIMIT)[1]
+                self.assertEqual(process.returncode, 128 + number, stderr)
+                self.assertEqual(self.pictures(), ["out.partial.pfm"])
+                self.remove_all()
 
     def test_pocl_sigterm_while_its_worker_is_stopped(self):
         process = self.start_and_wait_until_tiles_are_done("pocl", "out.png")
@@ -148,12 +138,6 @@ class Interrupted(CliTest):
             self.assertRegex(lines[-1], r"interrupted \(Ctrl-C\) after \d+ of \d+ tiles$")
             self.assertEqual(self.pictures(), [])
 
-    def test_batch_systems_signals(self):
-        for number in [signal.SIGXCPU, signal.SIGUSR1]:
-            self.assert_stopped("threads", number, "out.pfm")
-            self.assert_has_light_and_gaps("out.partial.pfm")
-            (self.folder / "out.partial.pfm").unlink()
-
     def start_and_wait_until_it_renders(self, *more):
         """One tile that takes minutes."""
         process = self.start("render", scene_path("glass"), "-o", "out.png", "--size", "2000",
@@ -170,18 +154,16 @@ class Interrupted(CliTest):
                 return line
         return ""
 
-    def test_says_at_once_that_it_stops(self):
+    def test_says_at_once_that_it_stops_and_saves_nothing_of_half_a_tile(self):
         process = self.start_and_wait_until_it_renders()
         process.send_signal(signal.SIGINT)
         sent = time.monotonic()
         self.assertIn("stopping, saving what is finished; interrupt again to quit at once",
                       self.next_word(process))
         self.assertLess(time.monotonic() - sent, 20)
-
-    def test_before_the_first_tile_is_done_nothing_is_saved(self):
-        code, lines = self.stop(self.start_and_wait_until_it_renders(), signal.SIGINT)
-        self.assertEqual(code, 130, lines)
-        self.assertRegex(lines[-1], r"interrupted \(Ctrl-C\) after 0 of 1 tiles$")
+        stderr = process.communicate(timeout=HANG_LIMIT)[1]
+        self.assertEqual(process.returncode, 130, stderr)
+        self.assertRegex(stderr, r"interrupted \(Ctrl-C\) after 0 of 1 tiles\n$")
         self.assertEqual(self.pictures(), [])
 
     def test_a_second_signal_of_any_kind_quits_at_once(self):
@@ -203,14 +185,6 @@ class Interrupted(CliTest):
         process = self.start_and_wait_until_tiles_are_done("threads", "out.pfm", "-q")
         _, lines = self.stop(process, signal.SIGINT)
         self.assertNotIn("stopping", " ".join(lines))
-
-    def test_pocl_samples_sigint(self):
-        self.assert_stopped("pocl samples", signal.SIGINT, "out.pfm")
-        self.assert_has_light_and_gaps("out.partial.pfm")
-
-    def test_buffers_sigint(self):
-        self.assert_stopped("buffers", signal.SIGINT, "out.pfm")
-        self.assert_has_light_and_gaps("out.partial.pfm")
 
     def test_finished_tiles_are_those_of_the_whole_picture(self):
         options = ["--size", "300", "--aa", "grid:32", "--device", "threads", "--tile", "20"]
@@ -335,19 +309,12 @@ class StressTest(CliTest):
         self.assertRegex(output, rf"FAIL: {len(names)} of \d\d families, .*interrupted")
 
 
-class LargeSceneTest(CliTest):
-    def write_large_scene(self, spheres):
-        """One that takes a while to read."""
-        sphere = {"center": [0, 0, 0], "radius": 1, "material": "gray"}
-        return self.write_text("large.json", json.dumps(
-            {"camera": CAMERA, "materials": {"gray": {}}, "spheres": [sphere] * spheres}))
-
-
-class SettingUp(LargeSceneTest):
+class SettingUp(CliTest):
     """Before there is a picture: one line says what happened and that nothing is saved."""
 
     def test_every_stop_signal_says_a_word(self):
-        large = self.write_large_scene(1500000)
+        sphere = {"center": [0, 0, 0], "radius": 1, "material": "gray"}
+        large = self.write_scene(materials={"gray": {}}, spheres=[sphere] * 1500000)  # takes a while to read
         for number, reason in [(signal.SIGINT, "interrupted (Ctrl-C)"),
                                (signal.SIGTERM, "terminated"), (signal.SIGHUP, "hung up"),
                                (signal.SIGXCPU, "CPU time"), (signal.SIGUSR1, "asked to stop")]:
@@ -360,6 +327,7 @@ class SettingUp(LargeSceneTest):
                 self.assertIn(reason, lines[0])
                 self.assertIn("nothing is saved", lines[0])
                 self.assertIn(process.returncode, [-number, 128 + number])
+                self.assertEqual(self.files(), ["scene.json"])
 
 
 class Ignored(CliTest):
@@ -368,16 +336,3 @@ class Ignored(CliTest):
         line = ("trap '' INT; $MIRRORBALL render $SCENE --size 200 --aa grid:12 --device threads & "
                 "sleep 0.2; kill -INT $!; wait $!")
         self.assertEqual(self.run_shell(line).returncode, 0)
-
-
-class BeforeRendering(LargeSceneTest):
-    def test_leaves_nothing(self):
-        scene = self.write_large_scene(300000)
-        for number in [signal.SIGINT, signal.SIGTERM]:
-            process = self.start("render", scene, "-o", "out.png", "--size", "4")
-            time.sleep(0.1)
-            process.send_signal(number)
-            lines = process.communicate(timeout=HANG_LIMIT)[1].splitlines()
-            self.assertIn(process.returncode, [128 + number, -number])
-            self.assertRegex(lines[-1], "interrupted|terminated")
-            self.assertEqual(self.files(), ["large.json"])

@@ -12,7 +12,7 @@ class Dies(WrongDriver):
     """A driver that ends its process, or does nothing any more: the picture is whole all the same."""
 
     ARGUMENTS = ["render", SCENE, "--size", "120", "--device", "pocl", "--deadline", "1"]
-    LATE = ["render", SCENE, "--size", "190", "--device", "pocl", "--aa", "grid:64", "--progress", "none"]
+    LATE = ["render", SCENE, "--size", "190", "--device", "pocl", "--aa", "grid:48", "--progress", "none"]
     PLACES = {"clGetPlatformIDs": 1, "clGetDeviceIDs": 1, "clCreateContext": 1, "clBuildProgram": 1,
               "clEnqueueNDRangeKernel": 2, "clFinish": 2}
 
@@ -108,7 +108,7 @@ class Dies(WrongDriver):
         picture = ["--aa", "grid:64", "--progress", "none", "--tile", "16"]
         shim = {"CL_SHIM_DIE_IN": "clEnqueueNDRangeKernel", "CL_SHIM_DIE_BY": "spin",
                 "CL_SHIM_DIE_AT": "4", "CL_SHIM_DIE_AFTER": "0.5"}
-        result = self.run_with(shim, *self.ARGUMENTS[:-1], "0.2", *picture, code=0)
+        result = self.run_with(shim, *self.ARGUMENTS[:-1], "0.1", *picture, code=0)
         self.assertIn("made no progress for", result.stderr)
         self.assertIn("rendering on threads instead", result.stderr)
         right = subprocess.run([str(BUILD / "mirrorball"), *self.ARGUMENTS[:4], *picture,

@@ -100,9 +100,10 @@ class Math(WrongDriver):
         for verb in ["render", "bench", "converge", "stress", "doctor"]:
             log = self.folder / f"{verb}.log"
             arguments = {"render": [SCENE, "--size", "8", "--device", "pocl"], "doctor": [],
-                         "bench": [SCENE, "--sizes", "8", "--devices", "pocl", "--repeats", "1"],
+                         "bench": [SCENE, "--sizes", "8", "--devices", "pocl", "--aa", "none", "--precision", "float",
+                                   "--repeats", "1"],
                          "converge": [SCENE, "--size", "8", "--devices", "pocl", "--aa", "none",
-                                      "--reference-samples", "2"],
+                                      "--precision", "float", "--reference-samples", "2"],
                          "stress": ["--case", "scale-2/2^0", "--device", "pocl"]}[verb]
             self.run_with({"CL_SHIM_LOG": str(log)}, verb, *arguments, "--cl-options=-DMINE=1 -w",
                           "--save-kernels", str(kernels / verb), code=0)
