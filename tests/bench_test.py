@@ -185,12 +185,6 @@ class Bench(FiguresTest):
         self.assertEqual(first["name"], "cornell-box 16x16 none float threads:1 tiles, trace")
         self.assertEqual((second["unit"], second["value"] > 0), ("s", True))
 
-    def test_the_baseline_is_never_replaced(self):
-        path = pathlib.Path(CACHE.name) / "kept.json"
-        path.write_text('[\n  {\n    "name"', encoding="utf-8")
-        result = run("bench", SCENE, "--baseline", str(path), "--smaller-is-better", str(path), code=2)
-        self.assertIn("choose another", result.stderr)
-
     def test_a_scene_is_never_replaced_by_results(self):
         before = pathlib.Path(SCENE).read_bytes()
         self.assertIn("choose another name", run("bench", "--json=" + SCENE, code=2).stderr)

@@ -81,15 +81,15 @@ class Aov(CliTest):
     def test_ids_are_those_of_the_scene_where_it_has_a_hierarchy(self):
         arguments = [scene_path("meshes"), "--size", "64", "-o", "a.exr", "--aov", "id"]
         self.stats(*arguments)
-        with_hierarchy = (self.folder / "a.aov.exr").read_bytes()
+        with_hierarchy = self.bytes_of("a.aov.exr")
         self.stats(*arguments, "--hierarchies", "off")
-        self.assertEqual((self.folder / "a.aov.exr").read_bytes(), with_hierarchy)
+        self.assertEqual(self.bytes_of("a.aov.exr"), with_hierarchy)
 
     def test_false_colors(self):
         plain = self.stats(scene_path("cornell-box"), "--size", "100x60", "-o", "a.png")
         stats = self.stats(scene_path("cornell-box"), "--size", "100x60", "-o", "b.png", "--aov", ALL)
         self.assertEqual(plain["image"]["hash"], stats["image"]["hash"])
-        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+        self.assertEqual(self.bytes_of("a.png"), self.bytes_of("b.png"))
         for name in ALL.split(","):
             width, height, pixels = read_png(self.folder / f"b.{name}.png")
             self.assertEqual((width, height), (100, 60))

@@ -11,12 +11,7 @@ from harness import CliTest, scene_path
 SMALL = ["--size", "32", "--device", "threads"]
 
 
-class BatchTest(CliTest):
-    def bytes_of(self, name):
-        return (self.folder / name).read_bytes()
-
-
-class SeveralScenes(BatchTest):
+class SeveralScenes(CliTest):
     def test_pictures_are_those_of_a_command_each(self):
         scenes = ["single-sphere", "glass", "cones", "glass"]
         for scene in scenes:
@@ -97,7 +92,7 @@ class SeveralScenes(BatchTest):
         self.assertEqual(self.files(), ["cones.png"])
 
 
-class List(BatchTest):
+class List(CliTest):
     def test_lines_name_scenes_and_pictures(self):
         text = (f"# two\n\n{scene_path('cones')}\n  {scene_path('cones')}  \"with blank.png\"\n"
                 f"{scene_path('cones')} a.png b.png")

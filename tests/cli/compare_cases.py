@@ -231,7 +231,7 @@ class HeatMap(CompareTest):
         pixels = self.pixels()
         self.assertEqual(pixels, [(0, 0, 4), (252, 253, 191)] + [(0, 0, 4)] * 3 + [CYAN])
         self.assertIn("h.png: black 0 to yellow 5.0000e-01 by square roots, cyan not finite", self.text)
-        self.assertEqual(png_texts((self.folder / "h.png").read_bytes())["mirrorball:HeatmapScale"],
+        self.assertEqual(png_texts(self.bytes_of("h.png"))["mirrorball:HeatmapScale"],
                          "0.5")
 
     def test_fixed_scale(self):

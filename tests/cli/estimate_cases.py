@@ -36,7 +36,7 @@ class Estimate(CliTest):
 
     def test_is_in_the_metadata_of_the_picture(self):
         self.render("cornell-box", "--size", "80", "--estimate", "-o", "out.png")
-        self.assertRegex((self.folder / "out.png").read_bytes().decode("latin-1"),
+        self.assertRegex(self.bytes_of("out.png").decode("latin-1"),
                          r"mirrorball:EstimatedError.{0,9}" + RMSE)
 
     def test_is_refused_for_shares(self):

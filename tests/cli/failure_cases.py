@@ -123,7 +123,7 @@ class Fallback(PreloadTest):
 
     def test_picture_says_so(self):
         self.render_without_opencl("-q", "-o", "out.png")
-        texts = png_texts((self.folder / "out.png").read_bytes())
+        texts = png_texts(self.bytes_of("out.png"))
         self.assertIn("pthread", texts["mirrorball:FallbackFrom"])
 
 

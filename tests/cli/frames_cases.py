@@ -37,8 +37,8 @@ class Frames(CliTest):
             still["camera"] = {**SCENE["camera"], "from": [x, 0, 5]}
             self.write_text("still.json", json.dumps(still))
             self.run_cli("render", "still.json", "--device", "threads:1", "-o", "still.pfm")
-            self.assertEqual((self.folder / "still.pfm").read_bytes(),
-                             (self.folder / f"f{frame:02}.pfm").read_bytes(), frame)
+            self.assertEqual(self.bytes_of("still.pfm"),
+                             self.bytes_of(f"f{frame:02}.pfm"), frame)
 
     def test_a_list_of_them(self):
         self.frames("--frames", "2,4-5,9", output="f%d.pfm")

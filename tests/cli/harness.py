@@ -157,6 +157,9 @@ class CliTest(unittest.TestCase):
     def stats_of(self, scene, *arguments, **more):
         return json.loads(self.render(scene, "--stats=json", *arguments, **more).stdout)
 
+    def bytes_of(self, name):
+        return (self.folder / name).read_bytes()
+
     def write_text(self, name, text):
         path = self.folder / name
         path.write_text(text, encoding="utf-8")

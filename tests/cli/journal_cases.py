@@ -16,9 +16,6 @@ SMALL = ["--size", "90x70", "--device", "threads"]
 
 
 class JournalTest(CliTest):
-    def bytes_of(self, name):
-        return (self.folder / name).read_bytes()
-
     def share(self, shares, part, *arguments, scene="cornell-box", expected=0):
         result = self.run_cli("render", scene_path(scene), "--shard", shares, "-o", part,
                               *arguments)

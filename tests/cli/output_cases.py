@@ -50,7 +50,7 @@ class WrongName(CliTest):
             with self.subTest(name=name):
                 result = self.render_to(name)
                 self.assertEqual(result.returncode, 0, result.stderr)
-                self.assertTrue((self.folder / name).read_bytes().startswith(start))
+                self.assertTrue(self.bytes_of(name).startswith(start))
         self.assert_refused(self.render_to("out.pgm"), 2, "no color")
         self.render_to("out.exr")
         self.succeed("compare", "out.tif", "out.exr", "--max-abs", "0")
@@ -81,11 +81,11 @@ class OverInputs(CliTest):
     """An output that is an input, by whatever name, is refused before any work."""
 
     def refuse(self, *arguments, files):
-        before = {name: (self.folder / name).read_bytes() for name in files}
+        before = {name: self.bytes_of(name) for name in files}
         result = self.run_cli(*arguments)
         self.assert_refused(result, 2, "is the same file as")
         for name, data in before.items():
-            self.assertEqual((self.folder / name).read_bytes(), data)
+            self.assertEqual(self.bytes_of(name), data)
 
     def test_scene_by_a_link(self):
         scene = self.write_scene()
@@ -128,9 +128,11 @@ class OverInputs(CliTest):
             self.succeed("compare", "a.png", "a.png", "--json=a.json")
 
     def test_baseline_of_bench(self):
-        self.write_text("old.json", '{\n  "format": "mirrorball-bench"')
-        self.refuse("bench", scene_path(SCENE), "--baseline", "old.json", "--json", "old.json",
-                    files=["old.json"])
+        for option, text in [("--json", '{\n  "format": "mirrorball-bench"'),
+                             ("--smaller-is-better", '[\n  {\n    "name"')]:
+            self.write_text("old.json", text)
+            self.refuse("bench", scene_path(SCENE), "--baseline", "old.json", option, "old.json",
+                        files=["old.json"])
 
 
 class OneFileTwice(CliTest):

@@ -82,7 +82,7 @@ class Bytes(CliTest):
             for i, device in enumerate(["pocl", "pocl", "threads:1", "threads:3"]):
                 name = f"{i}.{ending}"
                 self.render("mirror-hall", "--size", "20x15", "--device", device, "-o", name)
-                files.add((self.folder / name).read_bytes())
+                files.add(self.bytes_of(name))
             with self.subTest(ending=ending):
                 self.assertEqual(len(files), 1)
 
@@ -90,7 +90,7 @@ class Bytes(CliTest):
 class Metadata(CliTest):
     def test_png_tells_scene_settings_and_hash(self):
         result = self.render("single-sphere", *SMALL, "-o", "out.png")
-        texts = png_texts((self.folder / "out.png").read_bytes())
+        texts = png_texts(self.bytes_of("out.png"))
         self.assertEqual(texts["mirrorball:Scene"], "single-sphere")
         self.assertRegex(texts["mirrorball:SceneHash"], "^[0-9a-f]{16}$")
         self.assertIn(texts["mirrorball:ImageHash"], result.stderr)
@@ -100,7 +100,7 @@ class Metadata(CliTest):
     def test_no_dates_or_paths(self):
         for name in ["out.png", "out.exr"]:
             self.render("single-sphere", *SMALL, "-o", name)
-            data = (self.folder / name).read_bytes()
+            data = self.bytes_of(name)
             with self.subTest(name=name):
                 self.assertIsNone(re.search(rb"20\d\d[:-]\d\d[:-]\d\d", data))
                 self.assertNotIn(str(self.folder).encode(), data)

@@ -26,7 +26,7 @@ class PictureToStdout(CliTest):
             with self.subTest(name=name):
                 got = self.piped(scene, *SIZE, "-o", "-", *more)
                 self.render(scene, *SIZE, "-o", name)
-                self.assertEqual(got, (self.folder / name).read_bytes())
+                self.assertEqual(got, self.bytes_of(name))
         self.assertEqual([name for name in self.files() if name.endswith(".mbj")], [])
 
     def test_from_a_worker_process(self):
@@ -95,8 +95,8 @@ class SceneFromStdin(CliTest):
         self.render("cornell-box", *SIZE, "-o", "a.pfm")
         for device in ["threads", "pocl"]:  # pocl: a worker process reads it, after its parent
             self.given(self.text, "render", "-", "--size", "16", "--device", device, "-o", "b.pfm")
-            self.assertEqual((self.folder / "a.pfm").read_bytes(),
-                             (self.folder / "b.pfm").read_bytes())
+            self.assertEqual(self.bytes_of("a.pfm"),
+                             self.bytes_of("b.pfm"))
 
     def test_read_more_than_once(self):
         self.given(self.text, "bench", "-", "--sizes", "16", "--aa", "none", "--precision", "float",

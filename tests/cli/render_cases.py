@@ -118,10 +118,10 @@ class Reference(CliTest):
     def test_is_not_overwritten(self):
         other = self.write_scene("other.json", background=0)
         self.render(other, "--size", "16", "--device", "threads", "-o", "same.pfm")
-        before = (self.folder / "same.pfm").read_bytes()
+        before = self.bytes_of("same.pfm")
         result = self.compare("same.pfm", "-o", "same.pfm", "--stats=json")
         self.assertEqual((result.returncode, result.stdout), (2, ""))
-        self.assertEqual((self.folder / "same.pfm").read_bytes(), before)
+        self.assertEqual(self.bytes_of("same.pfm"), before)
 
     def test_what_cannot_be_compared_is_refused(self):
         self.write_text("text.png", "this is no picture")

@@ -103,12 +103,9 @@ class Shell(CliTest):
         self.write_text("my scene.json", "")
         self.write_text("picture.json", "")
         for typed, words in [("ren\t", ["render"]),
-                             ("scene ch\t", ["scene", "check"]),
-                             ("render --no-f\t", ["render", "--no-fallback"]),
                              ("render --filter m\t", ["render", "--filter", "mitchell"]),
                              ("render --math=s\t", ["render", "--math=strict"]),
                              ("render --stats=j\t", ["render", "--stats=json"]),
-                             ("--completions z\t", ["--completions", "zsh"]),
                              ("render pic\t", ["render", "picture.json"]),
                              ("render --batch pic\t", ["render", "--batch", "picture.json"]),
                              ("scene info my\t", ["scene", "info", "my scene.json"])]:

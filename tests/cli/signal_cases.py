@@ -72,7 +72,7 @@ class Interrupted(CliTest):
                 if output == "out.pfm":
                     self.assert_has_light_and_gaps("out.partial.pfm")
                 else:
-                    texts = png_texts((self.folder / "out.partial.png").read_bytes())
+                    texts = png_texts(self.bytes_of("out.partial.png"))
                     self.assertRegex(texts["mirrorball:Partial"], r"^\d+ of \d+ tiles$")
                 self.remove_all()
 
@@ -208,7 +208,7 @@ class Interrupted(CliTest):
         self.assertIn(process.returncode, [130, -signal.SIGINT])
         for name in self.pictures():
             self.assertEqual(name, "out.partial.png")
-            png_chunks((self.folder / name).read_bytes())
+            png_chunks(self.bytes_of(name))
 
     def test_stats_say_incomplete(self):
         process = self.start("render", scene_path("mirror-hall"), *long_options("threads"),

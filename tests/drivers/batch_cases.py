@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A driver ends its process in the middle of several pictures."""
 import json
-import os
 import pathlib
-import subprocess
 
-from driver_case import BUILD, ROOT, WrongDriver
-from hang_limit import HANG_LIMIT
+from driver_case import ROOT, WrongDriver
 
 
 class DiesInABatch(WrongDriver):
@@ -26,12 +23,7 @@ class DiesInABatch(WrongDriver):
 
     def figures(self, code, text, arguments, **shim):
         """The batch's JSON lines, by scene, and what it said."""
-        result = subprocess.run(
-            [str(BUILD / "mirrorball"), "render", *arguments], input=text, text=True,
-            cwd=self.folder, capture_output=True, timeout=HANG_LIMIT, check=False,
-            env=dict(os.environ, LD_PRELOAD=str(BUILD / "libcl_shim.so"),
-                     POCL_CACHE_DIR=str(BUILD / "wrong-driver-cache"), **shim))
-        self.assertEqual(result.returncode, code, result.stderr)
+        result = self.run_with(shim, "render", *arguments, code=code, cwd=self.folder, text=text)
         lines = [json.loads(line) for line in result.stdout.splitlines()]
         return [(line["scene"]["path"], line["image"]["hash"]) for line in lines], result.stderr
 

@@ -27,14 +27,14 @@ class WrongDriver(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def run_with(self, shim, *arguments, code=None):
-        """With the shim's settings; a program it does not find its text in ends the process. `code` is
-        the exit code expected, if any."""
+    def run_with(self, shim, *arguments, code=None, cwd=ROOT, text=None):
+        """With the shim's settings, and a text as standard input; a program it does not find its text in
+        ends the process. `code` is the exit code expected, if any."""
         variables = dict(os.environ, LD_PRELOAD=str(BUILD / "libcl_shim.so"),
                          POCL_CACHE_DIR=str(BUILD / "wrong-driver-cache"), **shim)
         (BUILD / "wrong-driver-cache").mkdir(exist_ok=True)
-        result = subprocess.run([str(BUILD / "mirrorball"), *arguments], cwd=ROOT, text=True,
-                                env=variables, capture_output=True, timeout=HANG_LIMIT, check=False)
+        result = subprocess.run([str(BUILD / "mirrorball"), *arguments], cwd=cwd, text=True,
+                                input=text, env=variables, capture_output=True, timeout=HANG_LIMIT, check=False)
         self.assertNotEqual(result.returncode, 99, result.stderr)
         if code is not None:
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)
