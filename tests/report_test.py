@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page of `mirrorball report`: well-formed, alone, small, described, its numbers those of its data, and
-without a word on the console of a real Chromium.
+"""The page of `mirrorball report`: well-formed, alone, small, described, and its numbers those of its data.
 
 usage: report_test.py BUILD_DIR REPO_ROOT
 """
@@ -24,41 +23,6 @@ BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 EVIL = '</title><script>alert("x")</script>'
 VOID = {"meta", "link", "img", "br", "hr", "input"}
-
-# Looks at the page as a browser lays it out in frames of two widths, and says what is wrong.
-LAYOUT = """<!doctype html><body><iframe style="width:1280px;height:4000px;border:0" srcdoc="%s"></iframe>
-<iframe style="width:400px;height:4000px;border:0" srcdoc="%s"></iframe><pre id="found"></pre><script>
-onload = () => {
- const found = [];
- let texts = 0;
- for (const frame of document.querySelectorAll("iframe")) {
-  const page = frame.contentDocument, root = page.documentElement;
-  texts += page.querySelectorAll("text").length;
-  if (root.scrollWidth > root.clientWidth) found.push("the page is too wide: " + root.scrollWidth);
-  const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
-  for (const svg of page.querySelectorAll(".plot > svg")) {
-    const frame = svg.getBoundingClientRect();
-    const names = [...svg.querySelectorAll("text")];
-    for (const text of names) {
-      const box = text.getBoundingClientRect();
-      if (box.left < frame.left - 1 || box.right > frame.right + 1 || box.bottom > frame.bottom + 1)
-        found.push(svg.id + ": cut off: " + text.textContent);
-      if (box.height < 9) found.push(svg.id + ": too small: " + text.textContent);
-    }
-    const curves = names.filter(text => text.getAttribute("style").includes("font-weight"));
-    for (const [i, a] of curves.entries())
-      for (const b of curves.slice(i + 1))
-        if (!apart(a.getBoundingClientRect(), b.getBoundingClientRect()))
-          found.push(svg.id + ": one name on another: " + a.textContent + ", " + b.textContent);
-  }
-  const tables = "main > section > .scroll, .facts .scroll" + (root.clientWidth > 1000 ? ", .dense" : "");
-  for (const part of page.querySelectorAll(tables))
-    if (part.scrollWidth > part.clientWidth) found.push("a table is cut off: " + part.ariaLabel);
-  if (page.querySelectorAll("figure").length < 10) found.push("elements are lost");
- }
- document.getElementById("found").textContent = "looked at " + texts + " texts\\n" + found.join("\\n");
-};
-</script></body>"""
 
 
 class Page(html.parser.HTMLParser):
@@ -359,30 +323,6 @@ class Report(unittest.TestCase):
             ratio = picture["estimate"]["rmse"] / picture["error"]["rmse"]
             self.assertTrue(0.5 < ratio < 2, ratio)
         self.assertEqual(TEXT.count(" (estimated without the reference: "), 4)  # captions and their images
-
-    def chromium(self, *arguments, page="report.html"):
-        program = shutil.which("chromium") or shutil.which("chromium-browser")
-        if program is None:
-            self.skipTest("no chromium: scripts/install test")
-        with tempfile.TemporaryDirectory() as profile:
-            return subprocess.run(
-                [program, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
-                 "--disable-background-networking", "--disable-component-update",
-                 "--disable-sync", "--user-data-dir=" + profile, "--enable-logging=stderr",
-                 "--v=0", *arguments, (FOLDER / page).as_uri()],
-                capture_output=True, timeout=HANG_LIMIT, check=False)
-
-    def test_chromium_cuts_nothing_off_and_says_nothing(self):
-        (FOLDER / "layout.html").write_text(LAYOUT % ((html.escape(TEXT),) * 2), encoding="utf-8")
-        result = self.chromium("--dump-dom", "--window-size=1800,4000", page="layout.html")
-        self.assertNotIn("CONSOLE", result.stderr.decode(errors="replace"))
-        found = re.search(r'<pre id="found">(.*?)</pre>', result.stdout.decode(), re.S)[1]
-        self.assertRegex(found, r"^looked at [1-9]\d+ texts\n$")
-
-    def test_it_is_short_on_paper(self):
-        paper = FOLDER / "page.pdf"
-        self.chromium(f"--print-to-pdf={paper}")
-        self.assertLessEqual(len(re.findall(rb"/Type\s*/Page\b", paper.read_bytes())), 11)
 
     def test_the_commands_measure_the_same_rows(self):
         commands = html.unescape(re.search(r"<pre tabindex=\"0\"><code>(.*?)</code>", TEXT, re.S)[1])
