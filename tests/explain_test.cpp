@@ -49,15 +49,9 @@ TEST_P(ExplainedScene, AddsUpToItsPixels) {
     }
 }
 
-std::string name_of(const testing::TestParamInfo<std::filesystem::path>& info) {
-    std::string name = info.param.stem().string();
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, ExplainedScene, testing::ValuesIn(scene_files()), name_of);
+INSTANTIATE_TEST_SUITE_P(Scenes, ExplainedScene, testing::ValuesIn(scene_files()), scene_name);
 INSTANTIATE_TEST_SUITE_P(Gallery, ExplainedScene, testing::ValuesIn(scene_files("gallery")),
-                         name_of);
+                         scene_name);
 
 TEST(Explain, HasATreeForEachSample) {
     Scene scene = load_named_scene("glass");

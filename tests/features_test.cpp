@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <bit>
 
-#include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_options.h"
 #include "host/opencl/cl_program.h"
 #include "tests/feature_scenes.h"
+#include "tests/refusals.h"
 #include "tests/render_helpers.h"
 
 namespace rt::test {
@@ -150,13 +150,9 @@ TEST(Flatten, RefusesATreeDeeperThanItsStack) {
     scene.max_bounces = f32::RT_TREE_STACK;
     EXPECT_TRUE(flatten<float>(scene).features.glass);
     scene.max_bounces += 1;
-    try {
-        flatten<double>(scene);
-        ADD_FAILURE() << "not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit_code(), ExitCode::limit);
-        EXPECT_NE(std::string(error.what()).find("max_bounces"), std::string::npos);
-    }
+    const auto [code, message] = refusal_of([&] { flatten<double>(scene); });
+    EXPECT_EQ(code, ExitCode::limit);
+    EXPECT_NE(message.find("max_bounces"), message.npos);
     scene.materials[0].mirror = {0, 0, 0};
     EXPECT_TRUE(flatten<float>(scene).features.glass);
     scene.max_bounces = 0;

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "host/base/error.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_file.h"
+#include "tests/refusals.h"
 
 namespace rt::test {
 namespace {
@@ -121,13 +121,9 @@ TEST(CameraPath, RefusesAViewWithoutADirection) {
         R"({"interpolation": "linear", "keys": [{"frame": 0, "from": [0, 0, 5]},
             {"frame": 2, "from": [0, 0, -5]}]})");
     EXPECT_EQ(camera_at(scene, 1.5).from.z, -2.5);
-    try {
-        camera_at(scene, 1);
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit_code(), ExitCode::input);
-        EXPECT_NE(std::string(error.what()).find("frame 1"), std::string::npos) << error.what();
-    }
+    const Refusal refusal = refusal_of([&] { camera_at(scene, 1); });
+    EXPECT_EQ(refusal.exit_code, ExitCode::input);
+    EXPECT_NE(refusal.message.find("frame 1"), std::string::npos) << refusal.message;
 }
 
 TEST(CameraPath, RefusesASceneWithoutOne) { EXPECT_THROW(camera_at(Scene{}, 1), Error); }

@@ -9,6 +9,7 @@
 #include "host/picture/render_picture.h"
 #include "host/scene/scene_file.h"
 #include "tests/picture_files.h"
+#include "tests/refusals.h"
 #include "tests/test_random.h"
 
 namespace rt {
@@ -221,15 +222,9 @@ TEST_F(Journals, ThatAreSomethingElseStay) {
 TEST_F(Journals, AreOfOneProcessAtATime) {
     render_shares(small("grid:2"), "0/2", path("p.mbj"));
     const JournalFile held(path("p.mbj"));
-    try {
-        const JournalFile second(path("p.mbj"));
-        FAIL() << "two processes at one journal";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit_code(), ExitCode::output);
-        EXPECT_NE(std::string(error.what()).find("process " + std::to_string(::getpid())),
-                  std::string::npos)
-            << error.what();
-    }
+    const auto [code, message] = refusal_of([&] { const JournalFile second(path("p.mbj")); });
+    EXPECT_EQ(code, ExitCode::output);
+    EXPECT_NE(message.find("process " + std::to_string(::getpid())), message.npos) << message;
 }
 
 TEST_F(Journals, CreatedByAnotherProcessAreLeftToIt) {
@@ -273,26 +268,16 @@ TEST_F(Journals, MergeRefusesWhatDiffers) {
         record_crc(RecordKind::tile, std::as_bytes(std::span(bytes)).subspan(body, length));
     std::memcpy(&bytes[body - 4], &crc, 4);
     put("a.mbj", bytes);
-    try {
-        merge_journals({path("a.mbj"), path("b.mbj")});
-        FAIL() << "wrong bits merged";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit_code(), ExitCode::different);
-        const std::string text = error.what();
-        EXPECT_NE(text.find("a.mbj (threads on "), text.npos) << text;
-        EXPECT_NE(text.find("b.mbj (threads on "), text.npos) << text;
-        EXPECT_NE(text.find("1 pixel"), text.npos) << text;
+    const Refusal wrong = refusal_of([&] { merge_journals({path("a.mbj"), path("b.mbj")}); });
+    EXPECT_EQ(wrong.exit_code, ExitCode::different);
+    for (const char* words : {"a.mbj (threads on ", "b.mbj (threads on ", "1 pixel"}) {
+        EXPECT_NE(wrong.message.find(words), std::string::npos) << wrong.message;
     }
     render_shares(small("grid:3"), "1/2", path("c.mbj"));
-    try {
-        merge_journals({path("b.mbj"), path("c.mbj")});
-        FAIL() << "two pictures merged";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit_code(), ExitCode::input);
-        EXPECT_NE(std::string(error.what()).find("c.mbj: is not a part of the same picture as"),
-                  std::string::npos)
-            << error.what();
-    }
+    const Refusal other = refusal_of([&] { merge_journals({path("b.mbj"), path("c.mbj")}); });
+    EXPECT_EQ(other.exit_code, ExitCode::input);
+    EXPECT_NE(other.message.find("c.mbj: is not a part of the same picture as"), std::string::npos)
+        << other.message;
 }
 
 TEST_F(Journals, ForgetLostTiles) {

@@ -2,13 +2,11 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <string>
 #include <thread>
@@ -16,6 +14,7 @@
 
 #include "host/scene/model.h"
 #include "host/scene/scene_file.h"
+#include "tests/picture_files.h"
 #include "tests/refusals.h"
 
 namespace rt {
@@ -24,20 +23,13 @@ namespace {
 namespace fs = std::filesystem;
 using Positions = std::vector<glm::dvec3>;
 
-/// Gives each test a folder of its own, removed afterwards.
-class ModelFiles : public testing::Test {
+class ModelFiles : public ScratchFolder {
    protected:
-    ModelFiles() { fs::create_directories(folder_); }
-    ~ModelFiles() override { fs::remove_all(folder_); }
-
     std::string write(const std::string& name, const std::string& text) const {
-        fs::create_directories((folder_ / name).parent_path());
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return (folder_ / name).string();
+        fs::create_directories((directory_ / name).parent_path());
+        put(path(name), text);
+        return path(name);
     }
-
-    const fs::path folder_ =
-        fs::temp_directory_path() / ("mirrorball-models-" + std::to_string(::getpid()));
 };
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -86,9 +78,9 @@ TEST_F(ModelFiles, ObjWithoutMaterialsNeedsOneFromTheScene) {
 
 TEST_F(ModelFiles, LibrariesOutOfReachAreNotReadAndTheModelIsGray) {
     write("secret.mtl", "newmtl x\nKd 1 0 0\n");
-    fs::create_directories(folder_ / "scene/folder.mtl");
-    fs::create_symlink(folder_ / "secret.mtl", folder_ / "scene/link.mtl");
-    ASSERT_EQ(mkfifo((folder_ / "scene/pipe.mtl").c_str(), 0600), 0);
+    fs::create_directories(directory_ / "scene/folder.mtl");
+    fs::create_symlink(directory_ / "secret.mtl", directory_ / "scene/link.mtl");
+    ASSERT_EQ(mkfifo((directory_ / "scene/pipe.mtl").c_str(), 0600), 0);
     for (const std::string name : {"nowhere.mtl", "../secret.mtl", "/etc/passwd", "link.mtl",
                                    "folder.mtl", "pipe.mtl", "C:\\x\\y.mtl", ""}) {
         SCOPED_TRACE(name);
@@ -113,9 +105,9 @@ TEST_F(ModelFiles, AMaterialOfTheSceneMakesLibrariesNeedless) {
 
 TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
     write("secret.ply", ply_triangle);
-    fs::create_directories(folder_ / "scene");
-    fs::create_symlink(folder_ / "secret.ply", folder_ / "scene/link.ply");
-    fs::create_symlink(folder_, folder_ / "scene/up");
+    fs::create_directories(directory_ / "scene");
+    fs::create_symlink(directory_ / "secret.ply", directory_ / "scene/link.ply");
+    fs::create_symlink(directory_, directory_ / "scene/up");
     for (const std::string name : {"link.ply", "up/secret.ply"}) {
         const std::string path = write(
             "scene/scene.json", scene_with(R"({"material": "red", "file": ")" + name + "\"}"));
@@ -123,7 +115,7 @@ TEST_F(ModelFiles, LinksOutOfTheFolderAreRefused) {
         EXPECT_EQ(refusal.exit_code, ExitCode::input);
         EXPECT_NE(refusal.message.find("is outside the scene's folder"), std::string::npos);
     }
-    fs::create_symlink("../scene/inside.ply", folder_ / "scene/alias.ply");
+    fs::create_symlink("../scene/inside.ply", directory_ / "scene/alias.ply");
     write("scene/inside.ply", ply_triangle);
     const std::string path =
         write("scene/scene.json", scene_with(R"({"material": "red", "file": "alias.ply"})"));
@@ -153,10 +145,10 @@ TEST_F(ModelFiles, AFileThatBecomesALinkMeanwhileIsNotFollowed) {
     const std::string secret = write(
         "secret.ply", std::string(ply_triangle).replace(ply_triangle.find("0 1 0"), 5, "9 9 9"));
     write("scene/inside.ply", ply_triangle);
-    fs::create_symlink(secret, folder_ / "scene/link.ply");
+    fs::create_symlink(secret, directory_ / "scene/link.ply");
     const std::string path =
         write("scene/scene.json", scene_with(R"({"material": "red", "file": "inside.ply"})"));
-    const Exchanger exchanger(folder_ / "scene/inside.ply", folder_ / "scene/link.ply");
+    const Exchanger exchanger(directory_ / "scene/inside.ply", directory_ / "scene/link.ply");
     int loaded = 0;
     for (int i = 0; i < 3000; ++i) {
         const Refusal refusal = refusal_of([&] {
@@ -170,14 +162,14 @@ TEST_F(ModelFiles, AFileThatBecomesALinkMeanwhileIsNotFollowed) {
 }
 
 TEST_F(ModelFiles, PipesAndFoldersDoNotHang) {
-    ASSERT_EQ(mkfifo((folder_ / "pipe.ply").c_str(), 0600), 0);
-    fs::create_directories(folder_ / "folder.ply");
+    ASSERT_EQ(mkfifo((directory_ / "pipe.ply").c_str(), 0600), 0);
+    fs::create_directories(directory_ / "folder.ply");
     for (const std::string name : {"pipe.ply", "folder.ply"}) {
         const std::string path =
             write("scene.json", scene_with(R"({"material": "red", "file": ")" + name + "\"}"));
         const Refusal refusal = refusal_of([&] { load_scene(path); });
         EXPECT_NE(refusal.message.find("is not a regular file"), std::string::npos);
-        const Refusal alone = refusal_of([&] { load_scene((folder_ / name).string()); });
+        const Refusal alone = refusal_of([&] { load_scene((directory_ / name).string()); });
         EXPECT_EQ(alone.exit_code, ExitCode::input);
     }
 }
@@ -232,7 +224,7 @@ TEST_F(ModelFiles, AMissingModelIsLookedForWhereItIsSaid) {
     const std::string path = write("s/scene.json", scene_with(R"({"file": "no.obj"})"));
     const Refusal refusal = refusal_of([&] { load_scene(path); });
     EXPECT_NE(refusal.message.find("'no.obj' cannot be found or opened in '" +
-                                   (folder_ / "s").string() + "'"),
+                                   (directory_ / "s").string() + "'"),
               std::string::npos)
         << refusal.message;
 }

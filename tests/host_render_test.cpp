@@ -23,6 +23,7 @@
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_queue.h"
 #include "host/scene/aa_mode.h"
+#include "tests/refusals.h"
 
 namespace rt {
 namespace {
@@ -197,12 +198,7 @@ int chosen(const std::string& spec) {
 }
 
 ExitCode refusal(const std::string& spec, const std::vector<ClDevice>& devices) {
-    try {
-        choose_device(spec, devices, {});
-    } catch (const Error& error) {
-        return error.exit_code();
-    }
-    return ExitCode::done;
+    return refusal_of([&] { choose_device(spec, devices, {}); }).exit_code;
 }
 
 TEST(ChooseDevice, UnderstandsEverySpec) {

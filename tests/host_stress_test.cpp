@@ -5,7 +5,6 @@
 #include <limits>
 #include <set>
 
-#include "host/base/error.h"
 #include "host/picture/crew_members.h"
 #include "host/print/print_run.h"
 #include "host/record/record.h"
@@ -13,6 +12,7 @@
 #include "host/stress/ray_trials.h"
 #include "host/stress/stress_run.h"
 #include "host/stress/stress_scenes.h"
+#include "tests/refusals.h"
 
 namespace rt {
 namespace {
@@ -47,15 +47,11 @@ TEST(StressFamilies, AreNamedOnceAndHaveReasons) {
 }
 
 TEST(StressFamilies, AnUnknownGlobListsThem) {
-    try {
-        chosen_families(all_stress_families(), {"no-such-family"}, {}, false);
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit_code(), ExitCode::usage);
-        const std::string what = error.what();
-        EXPECT_NE(what.find("no-such-family"), std::string::npos);
-        EXPECT_NE(what.find("\n  facing-mirrors"), std::string::npos);
-    }
+    const auto [code, message] =
+        refusal_of([] { chosen_families(all_stress_families(), {"no-such-family"}, {}, false); });
+    EXPECT_EQ(code, ExitCode::usage);
+    EXPECT_NE(message.find("no-such-family"), message.npos);
+    EXPECT_NE(message.find("\n  facing-mirrors"), message.npos);
 }
 
 TEST(StressFamilies, AreChosenAndLeftOut) {

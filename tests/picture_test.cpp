@@ -62,12 +62,7 @@ TEST_P(EveryScene, FloatStaysNearDouble) {
     EXPECT_LE(error.over_1, 12u);  // of 19200: pixels on hard edges may flip
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_files()),
-                         [](const auto& info) {
-                             std::string name = info.param.stem().string();
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_files()), scene_name);
 
 /// Every sampling mode, on two scenes, with every renderer.
 class EveryAaMode : public testing::TestWithParam<std::tuple<const char*, Filter>> {

@@ -76,15 +76,9 @@ TEST_P(RaysOfScene, AreAsManyAsEver) {
     EXPECT_EQ(rays_of(*device, scene), expected.at(stem));
 }
 
-std::string test_name(const testing::TestParamInfo<std::filesystem::path>& info) {
-    std::string name = info.param.stem().string();
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, RaysOfScene, testing::ValuesIn(scene_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Scenes, RaysOfScene, testing::ValuesIn(scene_files()), scene_name);
 INSTANTIATE_TEST_SUITE_P(Gallery, RaysOfScene, testing::ValuesIn(scene_files("gallery")),
-                         test_name);
+                         scene_name);
 
 }  // namespace
 }  // namespace rt::test

@@ -72,6 +72,12 @@ std::vector<std::filesystem::path> scene_files(const std::string& folder) {
     return files;
 }
 
+std::string scene_name(const testing::TestParamInfo<std::filesystem::path>& info) {
+    std::string name = info.param.stem().string();
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
 Scene load_named_scene(const std::string& stem) {
     return load_scene(std::string(MIRRORBALL_SCENES_DIR) + "/" + stem + ".json");
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,6 +17,9 @@ namespace rt::test {
 
 /// Every scene file in scenes/ or a folder there, sorted, without those in its subfolders.
 std::vector<std::filesystem::path> scene_files(const std::string& folder = "");
+
+/// For tests that are named by their scene.
+std::string scene_name(const testing::TestParamInfo<std::filesystem::path>& info);
 
 /// A scene from scenes/ by its stem, such as "cornell-box".
 Scene load_named_scene(const std::string& stem);
