@@ -46,7 +46,7 @@ class Fails(WrongDriver):
             self.check_fails_at(launch, "--aa", "adaptive:0.01")
 
     def test_beside_others(self):
-        picture = ["--aa", "grid:32", "--tile", "100x10"]
+        picture = ["--aa", "grid:24", "--tile", "100x10"]
         right = self.figures({}, "pocl", *picture)  # compiles, too
         got = self.figures({"CL_SHIM_FAIL_LAUNCH": "7"}, "pocl,threads", *picture)
         self.assertEqual(got["image"]["hash"], right["image"]["hash"])
