@@ -164,7 +164,7 @@ MUTANTS = [
     ], [("cli", "stats_cases.Phases.test_kernels_take_most_of_the_trace_time")]),
     Mutant("--math fast without its options", [
         ("host/opencl/cl_program.cpp", '" -DRT_FAST_MATH=1 -cl-mad-enable"', '""'),
-    ], driver("Math.test_fast_lets_the_compiler_contract")),
+    ], driver("Math.test_fast_lets_the_compiler_contract_and_strict_does_not")),
     Mutant("medians of an even number by the upper one", [
         (M + "runs.cpp", "(values[middle - 1] + values[middle]) / 2", "values[middle]"),
     ], [("host_bench_test", "Statistics.*")]),

@@ -119,11 +119,8 @@ class SceneFromStdin(CliTest):
         self.assertRegex(info, r"1 triangle")
 
     def test_mistakes_name_line_and_column(self):
-        result = self.given('{"camera": 3}', "render", "-", code=3)
-        self.assertIn("stdin:1:12: ", result.stderr)
-
-    def test_nothing_there(self):
-        self.assertIn("stdin", self.given("", "render", "-", code=3).stderr)
+        for text, words in [('{"camera": 3}', "stdin:1:12: "), ("", "stdin")]:
+            self.assertIn(words, self.given(text, "render", "-", code=3).stderr)
 
     def test_not_twice(self):
         result = self.given(self.text, "render", "-", "--batch", "-", code=2)

@@ -17,12 +17,6 @@ class JsonStats(CliTest):
         environment = self.stats_of("cornell-box", "--size", "20x10")["environment"]
         self.assertRegex(environment["cpu"], r".+ \(family \d+, model \d+\)$")
 
-    def test_hash_is_the_summary_line_s(self):
-        for device in DEVICES:
-            summary = self.hash_of("cornell-box", "--size", "20", *device)
-            stats = self.stats_of("cornell-box", "--size", "20", *device)
-            self.assertEqual(stats["image"]["hash"], summary)
-
     def test_nothing_else_on_stdout_or_stderr(self):
         result = self.render("cornell-box", "--stats=json", "--size", "20", "-v")
         json.loads(result.stdout)

@@ -148,11 +148,3 @@ class OptionalValues(CliTest):
         for words in [["--json", scene], ["--json", "-", scene], [scene, "--json"]]:
             self.assert_json(self.succeed(*self.BENCH, *words).stdout)
         self.assertEqual((self.folder / "scene.json").read_text(), before)
-
-    def test_compare_json_alone_leaves_the_pictures(self):
-        self.render("empty", "--size", "4", "-o", "a.pfm")
-        for words in [["--json", "a.pfm", "a.pfm"], ["a.pfm", "a.pfm", "--json"],
-                      ["a.pfm", "a.pfm", "--json", "-"]]:
-            self.assert_json(self.succeed("compare", *words).stdout)
-        self.succeed("compare", "a.pfm", "a.pfm", "--json", "out.json")
-        self.assert_json((self.folder / "out.json").read_text())

@@ -90,10 +90,14 @@ class Math(WrongDriver):
                       str(self.folder / "a.pfm"), *arguments, code=0)
         return log.read_text()
 
-    def test_fast_lets_the_compiler_contract(self):
+    def test_fast_lets_the_compiler_contract_and_strict_does_not(self):
         fast = self.options("--math", "fast")
         self.assertIn(" -DRT_FAST_MATH=1", fast)
         self.assertIn(" -cl-mad-enable", fast)
+        strict = self.options()
+        self.assertNotIn("FAST_MATH", strict)
+        self.assertNotIn("-cl-mad-enable", strict)
+        self.assertIn("-cl-fp32-correctly-rounded-divide-sqrt", strict)
 
     def test_further_options_reach_every_build_and_each_is_saved(self):
         kernels = self.folder / "kernels"
@@ -120,9 +124,3 @@ class Math(WrongDriver):
         self.run_with({"CL_SHIM_OLD": "__kernel", "CL_SHIM_NEW": "nonsense"}, "render", SCENE, "--size", "8",
                       "--device", "pocl", "--no-fallback", "--save-kernels", str(kernels), code=5)
         self.assertTrue(any("nonsense" in log.read_text() for log in kernels.glob("*.log")))
-
-    def test_strict_does_not(self):
-        strict = self.options()
-        self.assertNotIn("FAST_MATH", strict)
-        self.assertNotIn("-cl-mad-enable", strict)
-        self.assertIn("-cl-fp32-correctly-rounded-divide-sqrt", strict)

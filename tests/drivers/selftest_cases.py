@@ -33,18 +33,13 @@ class Selftest(WrongDriver):
                 self.assertRegex(lines[0], f"^wrong +{check}: ")
                 self.assertRegex(lines[1], r"^2 checks, 1 wrong, ")
 
-    def test_tells_inexact_from_wrong(self):
-        result = self.selftest(1, "--filter", "square_root/float/1",
-                               shim=self.fault("square root an ulp off"))
-        self.assertRegex(result.stdout, r"by up to [12]\.\d+ ulps from the exact value")
-
-    def test_tells_nan_from_numbers(self):
-        result = self.selftest(1, "--filter", "max_of/float/1", shim=self.fault("fmax returns NaN"))
-        self.assertIn(" differ, by far; ", result.stdout)
-
-    def test_tells_words_in_double(self):
-        result = self.selftest(1, "--filter", "hash_bits/double/1", shim=self.fault("a shift off by one"))
-        self.assertRegex(result.stdout, r"items differ; item \d+: 0x[0-9a-f]+ instead of 0x[0-9a-f]+\n")
+    def test_tells_by_how_much(self):
+        for check, fault, words in [
+                ("square_root/float/1", "square root an ulp off", r"by up to [12]\.\d+ ulps from the exact value"),
+                ("max_of/float/1", "fmax returns NaN", " differ, by far; "),
+                ("hash_bits/double/1", "a shift off by one",
+                 r"items differ; item \d+: 0x[0-9a-f]+ instead of 0x[0-9a-f]+\n")]:
+            self.assertRegex(self.selftest(1, "--filter", check, shim=self.fault(fault)).stdout, words)
 
     def test_of_a_right_device(self):
         report, junit = self.folder / "report.json", self.folder / "junit.xml"
