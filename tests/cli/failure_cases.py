@@ -31,8 +31,6 @@ void* malloc(size_t size) {
 __attribute__((destructor)) static void hang(void) { while (out) pause(); }
 """
 
-NO_BUILD = "int clBuildProgram(void) { return -11; }"
-
 CRASH = "__attribute__((constructor)) static void crash(void) { __builtin_trap(); }"
 
 
@@ -111,10 +109,11 @@ class OutOfMemory(PreloadTest):
         self.assert_refused(result, 7, "out of memory")
 
 
-class Fallback(PreloadTest):
+class Fallback(CliTest):
     def render_without_opencl(self, *more):
         return self.render("single-sphere", "--size", "8", "--device", "pocl", *more,
-                           env=self.preload(NO_BUILD))
+                           env={"LD_PRELOAD": SETTINGS["shim"], "CL_SHIM_DIE_IN": "clBuildProgram",
+                                "CL_SHIM_DIE_BY": "error"})
 
     def test_stats_text_says_so(self):
         text = self.render_without_opencl("--stats").stdout
@@ -204,11 +203,6 @@ class KernelCache(CliTest):
         self.assertEqual([*shared.iterdir(), *folder.iterdir()], [])
         self.assertEqual(list(folder.parent.iterdir()), [folder])
 
-    def test_is_temporary_where_the_home_cannot_be_written(self):
-        self.succeed("render", scene_path("single-sphere"), "--size", "8", "--device",
-                     "pocl", "--no-fallback", "-q",
-                     env={"POCL_CACHE_DIR": "", "XDG_CACHE_HOME": "", "HOME": "/proc/no"})
-
     def test_what_builds_leave_is_removed_after_an_hour(self):
         own = self.render_on_pocl(POCL_CACHE_DIR="")
         self.assertEqual(list(own.glob("tempfile_*")), [])  # each process leaves an empty one
@@ -256,18 +250,17 @@ class KernelCache(CliTest):
         stat = pathlib.Path(f"/proc/{(self.folder / 'linker').read_text().strip()}/stat")
         self.assertTrue(not stat.exists() or ") Z " in stat.read_text())
 
-    def test_a_relative_folder_is_not_used(self):
-        self.succeed("render", scene_path("single-sphere"), "--size", "8", "--device", "pocl", "-q",
-                     env={"POCL_CACHE_DIR": "", "XDG_CACHE_HOME": "here", "HOME": str(self.folder / "home")})
-        self.assertEqual(self.files(), ["home"])
-
-    def test_is_temporary_where_its_name_is_too_long_for_pocl(self):
+    def test_is_temporary_where_the_home_cannot_be_written_or_is_too_long_for_pocl(self):
         home = self.folder.joinpath(*["x" * 200] * 5)
         home.mkdir(parents=True)
-        self.succeed("render", scene_path("single-sphere"), "--size", "8", "--device", "pocl",
-                     "--no-fallback", "-q", env={"POCL_CACHE_DIR": "", "XDG_CACHE_HOME": "", "HOME": str(home)})
+        for place in ["/proc/no", str(home)]:
+            self.render_on_pocl(POCL_CACHE_DIR="", XDG_CACHE_HOME="", HOME=place)
         answer = json.loads(self.run_cli("doctor", "--json", env={"POCL_CACHE_DIR": str(home)}).stdout)
         self.assertTrue(any("PoCL has room for" in finding["verdict"] for finding in answer["findings"]))
+
+    def test_a_relative_folder_is_not_used(self):
+        self.render_on_pocl(POCL_CACHE_DIR="", XDG_CACHE_HOME="here", HOME=str(self.folder / "home"))
+        self.assertEqual(self.files(), ["home"])
 
     def hash_on_pocl(self, **env):
         """With fallback."""

@@ -52,7 +52,8 @@ class Shares(JournalTest):
 
     def test_verified_where_they_are_merged(self):
         settings = [["--aa", "sobol:8", "--filter", "gaussian", "--max-bounces", "3"],
-                    ["--aa", "adaptive:0.05", "--crop", "7,9,83,61", "--precision", "double"]]
+                    ["--aa", "adaptive:0.05", "--crop", "7,9,83,61", "--precision", "double"],
+                    ["--ambient", "0.3"], ["--ambient", "0.1,0.2,0.3", "--light-scale", "0.4"]]
         for more in settings:
             with self.subTest(more=more):
                 self.share("0/2", "a.mbj", *SMALL, *more)
@@ -72,20 +73,6 @@ class Shares(JournalTest):
         self.merge("a.mbj", "--verify", "1%", "--scene", "moved.json")
         self.assert_refused(self.run_cli("merge", "a.mbj", "--verify", "1%", "--scene",
                                          scene_path("glass")), 3, "the scene differs")
-
-    def test_verified_with_the_options_of_the_parts(self):
-        for more in [["--ambient", "0.3"], ["--ambient", "0.1,0.2,0.3", "--light-scale", "0.4"]]:
-            with self.subTest(more=more):
-                self.share("0/1", "a.mbj", *SMALL, *more, scene="mirror-hall")
-                self.merge("a.mbj", "--verify", "5%")
-                (self.folder / "a.mbj").unlink()
-
-    def test_that_differ_in_settings_name_them(self):
-        self.share("0/2", "a.mbj", *SMALL, scene="mirror-hall")
-        self.share("1/2", "b.mbj", *SMALL, "--max-bounces", "2", scene="mirror-hall")
-        result = self.run_cli("merge", "a.mbj", "b.mbj")
-        self.assert_refused(result, 3, "b.mbj: is not a part of the same picture as a.mbj: the settings differ")
-        self.assertEqual(result.stderr.count("b.mbj"), 1)
 
     def test_of_which_one_is_whole_are_its_picture(self):
         for name in ["whole.pfm", "whole.png"]:
@@ -204,7 +191,7 @@ class Shares(JournalTest):
         self.share("1/2", "b.mbj", *SMALL, "--aa", "none")
         self.share("1/2", "c.mbj", *SMALL, scene="glass")
         self.write_text("text.mbj", "no journal")
-        for part, words in [("b.mbj", "the settings differ"), ("c.mbj", "the scene differs"),
+        for part, words in [("b.mbj", "part of the same picture as a.mbj: the settings differ"), ("c.mbj", "the scene differs"),
                             ("text.mbj", "is not a journal"),
                             ("nowhere.mbj", "cannot read"), (".", "directory")]:
             self.assert_refused(self.run_cli("merge", "a.mbj", part, "-o", "x.png"), 3, part, words)
