@@ -15,6 +15,7 @@
 #include "host/explain/pixel_facts.h"
 #include "host/render/estimate.h"
 #include "tests/render_helpers.h"
+#include "tests/whole_film.h"
 
 namespace rt::test {
 namespace {
@@ -242,15 +243,12 @@ TEST_P(Rounds, HaveTheSameBitsAndRaysInAnyPacketAndTile) {
     set_image_size(scene, 60, 44);
     scene.aa = *parse_aa_mode(GetParam());
     const FlatScene<float> flat = flatten<float>(scene);
-    const Rect whole{0, 0, scene.width, scene.height};
     const auto render = [&](int lanes, int width, int height) {
         ThreadsOptions options;
         options.kernels.lanes = lanes;
-        const StopFlag never = 0;
-        TileQueue queue(make_tiles(whole, width, height), never);
-        Film<float> film(scene.width, scene.height);
-        make_threads_renderer(flat, options)->render(queue, whole, film);
-        const RayCounts rays = queue.rays();
+        RayCounts rays;
+        const Film<float> film = whole_film(*make_threads_renderer(flat, options), scene.width,
+                                            scene.height, {0, 0, width, height}, &rays);
         return std::tuple(hash_of(film), rays.primary, rays.shadow, rays.mirror, rays.transmitted);
     };
     const auto expected = render(0, 60, 44);

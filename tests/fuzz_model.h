@@ -9,10 +9,9 @@
 
 #include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
-#include "host/render/film.h"
 #include "host/render/threads_renderer.h"
-#include "host/render/tile_queue.h"
 #include "host/scene/model.h"
+#include "tests/whole_film.h"
 
 namespace rt::fuzz {
 
@@ -53,12 +52,7 @@ inline void render(Scene scene) {
     set_image_size(scene, side, side);
     scene.aa = grid_aa(1);
     const FlatScene<float> flat = flatten<float>(scene);
-    const auto renderer = make_threads_renderer(flat, {1, Schedule::tiles});
-    const Rect whole{0, 0, side, side};
-    Film<float> film(side, side);
-    const StopFlag stop = 0;
-    TileQueue queue(make_tiles(whole, side, side), stop);
-    renderer->render(queue, whole, film);
+    whole_film(*make_threads_renderer(flat, {1, Schedule::tiles}), side, side);
 }
 
 /// Runs a reader and renders its model alone and mirrored. Any bytes give either a picture or an

@@ -6,25 +6,18 @@
 
 #include <filesystem>
 
-#include "host/render/film.h"
 #include "host/render/threads_renderer.h"
 #include "host/scene/scene_file.h"
 #include "tests/hit_scenes.h"
+#include "tests/whole_film.h"
 
 namespace rt {
 namespace {
 
 template <typename T>
 std::uint64_t picture_hash(const Scene& scene, const FlattenOptions& options) {
-    static const StopFlag never_stop = 0;
     const FlatScene<T> flat = flatten<T>(scene, options);
-    const auto renderer = make_threads_renderer(flat, {});
-    const Rect region{0, 0, scene.width, scene.height};
-    const Rect tile = renderer->tile_size(scene.width);
-    TileQueue queue(make_tiles(region, tile.width, tile.height), never_stop);
-    Film<T> film(scene.width, scene.height);
-    renderer->render(queue, region, film);
-    return hash_of(film);
+    return hash_of(whole_film(*make_threads_renderer(flat, {}), scene.width, scene.height));
 }
 
 std::vector<std::filesystem::path> scene_files() {

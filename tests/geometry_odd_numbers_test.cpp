@@ -12,6 +12,7 @@
 #include "host/base/error.h"
 #include "host/render/threads_renderer.h"
 #include "host/scene/scene_file.h"
+#include "tests/whole_film.h"
 
 namespace rt {
 namespace {
@@ -52,13 +53,8 @@ std::string joined(const std::vector<std::string>& parts) {
 
 template <typename T>
 bool has_nan(const Scene& scene) {
-    static const StopFlag never_stop = 0;
     const FlatScene<T> flat = flatten<T>(scene);
-    const auto renderer = make_threads_renderer(flat, {});
-    const Rect region{0, 0, scene.width, scene.height};
-    TileQueue queue(make_tiles(region, scene.width, scene.height), never_stop);
-    Film<T> film(scene.width, scene.height);
-    renderer->render(queue, region, film);
+    const Film<T> film = whole_film(*make_threads_renderer(flat, {}), scene.width, scene.height);
     return std::any_of(film.rgb.begin(), film.rgb.end(), [](T x) { return std::isnan(x); });
 }
 

@@ -13,6 +13,7 @@
 #include "host/render/threads_renderer.h"
 #include "tests/hit_scenes.h"
 #include "tests/test_random.h"
+#include "tests/whole_film.h"
 
 namespace rt {
 namespace {
@@ -65,16 +66,10 @@ Scene::Material matte(double ambient, double diffuse) {
 
 template <typename T>
 Film<T> picture(const Scene& scene, int lanes, const FlattenOptions& flattening = {}) {
-    static const StopFlag never_stop = 0;
     const FlatScene<T> flat = flatten<T>(scene, flattening);
     ThreadsOptions options;
     options.kernels.lanes = lanes;
-    const auto renderer = make_threads_renderer(flat, options);
-    const Rect region{0, 0, scene.width, scene.height};
-    TileQueue queue(make_tiles(region, scene.width, scene.height), never_stop);
-    Film<T> film(scene.width, scene.height);
-    renderer->render(queue, region, film);
-    return film;
+    return whole_film(*make_threads_renderer(flat, options), scene.width, scene.height);
 }
 
 /// Expects the red of each pixel that shows the square of half the size `half` around the origin,

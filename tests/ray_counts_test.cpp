@@ -9,6 +9,7 @@
 
 #include "host/flatten/flat_scene.h"
 #include "tests/render_helpers.h"
+#include "tests/whole_film.h"
 
 namespace rt::test {
 namespace {
@@ -49,12 +50,8 @@ Scene small_scene(const std::string& stem) {
 }
 
 Counts rays_of(Renderer<float>& renderer, const Scene& scene) {
-    const Rect region{0, 0, scene.width, scene.height};
-    const StopFlag never_stop = 0;
-    TileQueue queue(make_tiles(region, scene.width, 10), never_stop);
-    Film<float> film(scene.width, scene.height);
-    renderer.render(queue, region, film);
-    const auto rays = queue.rays();
+    RayCounts rays;
+    whole_film(renderer, scene.width, scene.height, {0, 0, scene.width, 10}, &rays);
     return {rays.primary, rays.shadow, rays.mirror, rays.transmitted};
 }
 

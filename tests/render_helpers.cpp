@@ -9,23 +9,11 @@
 #include "host/opencl/cl_program.h"
 #include "host/opencl/device_spec.h"
 #include "host/scene/scene_file.h"
+#include "tests/whole_film.h"
 
 namespace rt::test {
 
 namespace {
-
-const StopFlag never_stop = 0;
-
-template <typename T>
-Film<T> render_all(Renderer<T>& renderer, const Scene& scene, Rect tile) {
-    Film<T> film(scene.width, scene.height);
-    const Rect region{0, 0, scene.width, scene.height};
-    if (tile.width == 0) tile = renderer.tile_size(scene.width);
-    TileQueue queue(make_tiles(region, tile.width, tile.height), never_stop);
-    renderer.render(queue, region, film);
-    if (queue.tiles_finished() != queue.tiles().size()) throw std::logic_error("unfinished tiles");
-    return film;
-}
 
 ClDevice find_test_device() {
     std::vector<std::string> problems;
@@ -90,7 +78,7 @@ const ClDevice& test_device() {
 template <typename T>
 Film<T> render_on_threads(const Scene& scene, const ThreadsOptions& options, Rect tile) {
     const FlatScene<T> flat = flatten<T>(scene);
-    return render_all<T>(*make_threads_renderer(flat, options), scene, tile);
+    return whole_film(*make_threads_renderer(flat, options), scene.width, scene.height, tile);
 }
 
 template <typename T>
@@ -98,7 +86,8 @@ Film<T> render_on_device(const Scene& scene, const ClOptions& options, Rect tile
     const FlatScene<T> flat = flatten<T>(scene);
     ClOptions for_scene = options;
     for_scene.open_devices = &open_devices();
-    return render_all<T>(*make_cl_renderer(flat, test_device(), for_scene), scene, tile);
+    return whole_film(*make_cl_renderer(flat, test_device(), for_scene), scene.width, scene.height,
+                      tile);
 }
 
 ClOptions cl_options(Launch launch, bool all_features) {
