@@ -76,6 +76,15 @@ CrewMember<float> failing_to_open(const std::string& name) {
     return painter;
 }
 
+CrewMember<float> waiting_for(const std::shared_ptr<std::atomic<bool>>& gate) {
+    CrewMember<float> slow = member("slow", 2);
+    slow.make = [gate, make = slow.make] {
+        while (!*gate) std::this_thread::yield();
+        return make();
+    };
+    return slow;
+}
+
 /// A crew, its messages and its picture.
 struct Painting {
     std::vector<std::string> said;
@@ -121,11 +130,7 @@ TEST(Crew, OfSeveralSharesTheTiles) {
 
 TEST(Crew, DoesNotWaitForAMemberThatIsStillBeingMade) {
     auto gate = std::make_shared<std::atomic<bool>>(false);
-    CrewMember<float> slow = member("slow", 2);
-    slow.make = [gate, make = slow.make] {
-        while (!*gate) std::this_thread::yield();
-        return make();
-    };
+    const CrewMember<float> slow = waiting_for(gate);
     {
         Painting painting({slow, member("a", 1)});
         painting.render();
@@ -214,11 +219,7 @@ TEST(Crew, LeavesErrorsThatAreNotTheDevicesToTheCaller) {
 TEST(Crew, StopsWhileNobodyIsReady) {
     StopFlag stop = 0;
     auto gate = std::make_shared<std::atomic<bool>>(false);
-    CrewMember<float> slow = member("slow", 1);
-    slow.make = [gate, make = slow.make] {
-        while (!*gate) std::this_thread::yield();
-        return make();
-    };
+    const CrewMember<float> slow = waiting_for(gate);
     Film<float> film(picture.width, picture.height);
     TileQueue queue(make_tiles(picture, 4, 5), stop);
     {

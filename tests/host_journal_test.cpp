@@ -179,28 +179,17 @@ TEST_F(Journals, OfOtherPicturesAreNotUsed) {
         return stats.resumed;
     };
     EXPECT_EQ(resumed(settings), 1);
-    RenderSettings other = settings;
-    other.aa = grid_aa(3);
-    EXPECT_EQ(resumed(other), 0);
-    other = settings;
-    other.size = {60, 37};
-    EXPECT_EQ(resumed(other), 0);
-    other = settings;
-    other.max_bounces = 1;
-    EXPECT_EQ(resumed(other), 0);
-    other = settings;
-    other.precision = Precision::float64;
-    EXPECT_EQ(resumed(other), 0);
-    other = settings;
-    other.crop = Rect{0, 0, 61, 36};
-    EXPECT_EQ(resumed(other), 0);
-    other = small("sobol:4");
-    other.journal = settings.journal;
-    EXPECT_EQ(resumed(other), 0);
+    std::vector<RenderSettings> others(6, settings);
+    others[0].aa = grid_aa(3);
+    others[1].size = {60, 37};
+    others[2].max_bounces = 1;
+    others[3].precision = Precision::float64;
+    others[4].crop = Rect{0, 0, 61, 36};
+    others[5].aa = parse_aa_mode("sobol:4");
+    for (const RenderSettings& other : others) EXPECT_EQ(resumed(other), 0);
     put("p.mbj", bytes);
-    other = settings;
-    other.fresh = true;
-    EXPECT_EQ(render(other).resumed, 0);
+    settings.fresh = true;
+    EXPECT_EQ(render(settings).resumed, 0);
 }
 
 TEST_F(Journals, ThatAreSomethingElseStay) {

@@ -51,26 +51,12 @@ class Oclgrind(unittest.TestCase):
             with self.subTest(scene=scene):
                 self.check(scene, "--size", "12x9", "--aa", "none")
 
-    def test_render_pixels(self):
-        self.check("cornell-box.json", "--launch", "pixel")
-
-    def test_render_samples_and_resolve(self):
-        self.check("cornell-box.json", "--launch", "sample")
-
-    def test_double(self):
-        self.check("cornell-box.json", "--launch", "pixel", "--precision", "double")
-
-    def test_adaptive(self):
-        self.check("cornell-box.json", "--aa", "adaptive:0.4")
-
-    def test_edges(self):
-        self.check("cornell-box.json", "--aa", "edges:0.1")
-
-    def test_sobol_samples_under_a_filter(self):
-        self.check("cornell-box.json", "--aa", "sobol:4", "--filter", "gaussian", "--launch",
-                   "sample")
-
-    def test_every_feature_with_vertex_normals(self):
+    def test_every_kernel(self):
+        for options in [["--launch", "pixel"], ["--launch", "sample"], ["--launch", "pixel", "--precision", "double"],
+                        ["--aa", "adaptive:0.4"], ["--aa", "edges:0.1"],
+                        ["--aa", "sobol:4", "--filter", "gaussian", "--launch", "sample"]]:
+            with self.subTest(options=options):
+                self.check("cornell-box.json", *options)
         self.check("vertex-normals.json", "--aa", "none", "--features", "all")
 
 

@@ -155,13 +155,10 @@ class List(CliTest):
         self.assertIn("list:2: b.png: is already the output of another scene", result.stderr)
         self.assertIn("list:3: folder/a.png: is already the output of another scene", result.stderr)
 
-    def test_a_folder_is_no_list(self):
-        self.assert_refused(self.run_cli("render", "--batch", "."), 3, "is a directory")
-
-    def test_no_scene_at_all(self):
-        self.assert_refused(self.run_cli("render", "--batch", self.write_text("list", "# none\n")),
-                            2, "no scene")
-        self.assert_refused(self.run_cli("render", "--batch", "nowhere"), 3, "nowhere")
+    def test_that_has_no_scene(self):
+        for name, code, words in [(self.write_text("list", "# none\n"), 2, "no scene"), ("nowhere", 3, "nowhere"),
+                                  (".", 3, "is a directory")]:
+            self.assert_refused(self.run_cli("render", "--batch", name), code, words)
 
     def test_json_has_a_line_for_each_picture_as_it_is_done(self):
         process = self.start("render", "--batch", "-", "--stats=json", *SMALL,

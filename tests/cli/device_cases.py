@@ -166,16 +166,10 @@ class EnvironmentDefault(CliTest):
     def device_name(self, *arguments, **env):
         return self.stats_of("empty", "--size", "4", *arguments, env=env)["device"]["name"]
 
-    def test_is_honored(self):
-        self.assertEqual(self.device_name(MIRRORBALL_DEVICE="threads:2"), "threads")
-
-    def test_is_overridden(self):
-        name = self.device_name("--device", "pocl", MIRRORBALL_DEVICE="threads:2")
-        self.assertTrue(name.startswith("pthread"))
-
-    def test_empty_is_auto(self):
-        for spec in ["", "auto"]:
-            self.assertEqual(self.device_name(MIRRORBALL_DEVICE=spec), "threads")
+    def test_is_honored_and_overridden(self):
+        for options, spec, name in [([], "threads:2", "threads"), ([], "", "threads"), ([], "auto", "threads"),
+                                    (["--device", "pocl"], "threads:2", "pthread")]:
+            self.assertTrue(self.device_name(*options, MIRRORBALL_DEVICE=spec).startswith(name), spec)
 
     def test_what_test_suites_of_drivers_set_is_honored(self):
         for variables in [{"CL_PLATFORM_INDEX": "0"}, {"CL_PLATFORM_INDEX": "0", "CL_DEVICE_INDEX": "0"},

@@ -11,9 +11,10 @@ class Estimate(CliTest):
     def estimate_of(self, *options):
         return self.stats_of("cornell-box", "--size", "80", "--estimate", *options)["estimate"]
 
-    def test_is_in_the_summary_line(self):
+    def test_is_in_the_summary_line_and_in_the_picture(self):
         result = self.render("cornell-box", "--size", "80", "--estimate", "-o", "out.png")
         self.assertRegex(result.stderr, RMSE + ", image ")
+        self.assertRegex(self.bytes_of("out.png").decode("latin-1"), r"mirrorball:EstimatedError.{0,9}" + RMSE)
 
     def test_is_in_the_text_of_stats(self):
         result = self.render("cornell-box", "--size", "80", "--estimate", "--stats")
@@ -33,11 +34,6 @@ class Estimate(CliTest):
             estimates.append(self.estimate_of("--device", *device))
             del estimates[-1]["seconds"]
         self.assertEqual(estimates, estimates[:1] * len(estimates))
-
-    def test_is_in_the_metadata_of_the_picture(self):
-        self.render("cornell-box", "--size", "80", "--estimate", "-o", "out.png")
-        self.assertRegex(self.bytes_of("out.png").decode("latin-1"),
-                         r"mirrorball:EstimatedError.{0,9}" + RMSE)
 
     def test_is_refused_for_shares(self):
         result = self.run_cli("render", scene_path("cornell-box"), "--estimate", "--shard", "0/2",

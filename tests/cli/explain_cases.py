@@ -43,15 +43,19 @@ class Explain(CliTest):
             text = self.explain(scene_path("cornell-box"), "--size", "40", "--pixel", pixel)
             self.assertRegex(text.splitlines()[1], words)
 
+    def write_hall(self, mirror, max_bounces):
+        """Two mirrors that face each other, and the eye between them."""
+        wall = [[-99, -99, -2], [99, -99, -2], [0, 99, -2]]
+        return self.write_scene(
+            camera={"from": [0, 0, 0], "at": [0, 0, -1], "fov_degrees": 20},
+            image={"width": 3, "height": 3}, max_bounces=max_bounces,
+            materials={"m": {"mirror": mirror, "two_sided": True}},
+            triangles=[{"vertices": [[x, y, z * side] for x, y, z in wall], "material": "m"}
+                       for side in (1, -1)])
+
     def test_leaves_out_what_nobody_sees(self):
         """Unless asked for all: rays between two mirrors that return little."""
-        wall = [[-99, -99, -2], [99, -99, -2], [0, 99, -2]]
-        path = self.write_scene(
-            camera={"from": [0, 0, 0], "at": [0, 0, -1], "fov_degrees": 20}, max_bounces=9,
-            materials={"dim": {"mirror": 0.1, "two_sided": True}},
-            triangles=[{"vertices": [[x, y, z * side] for x, y, z in wall], "material": "dim"}
-                       for side in (1, -1)])
-        pixel = [path, "--pixel", "1,1"]
+        pixel = [self.write_hall(mirror=0.1, max_bounces=9), "--pixel", "1,1"]
         self.assertEqual(self.explain(*pixel, "-v").count(" ray hits "), 10)
         text = self.explain(*pixel)
         self.assertEqual(text.count(" ray hits "), 3)
@@ -66,18 +70,11 @@ class Explain(CliTest):
         self.assertEqual(max(ray["bounce"] for ray in rays_of(answer["samples"][0]["ray"])), 1)
 
     def test_refuses_trees_without_an_end(self):
-        wall = [[-99, -99, -2], [99, -99, -2], [0, 99, -2]]
-        self.write_text("hall.json", json.dumps({
-            "camera": {"from": [0, 0, 0], "at": [0, 0, -1], "fov_degrees": 20},
-            "image": {"width": 3, "height": 3}, "max_bounces": 100000,
-            "materials": {"mirror": {"mirror": 1, "two_sided": True}},
-            "triangles": [{"vertices": [[x, y, z * side] for x, y, z in wall], "material": "mirror"}
-                          for side in (1, -1)]}))
-        result = self.run_cli("explain", "hall.json", "--pixel", "1,1")
+        pixel = [self.write_hall(mirror=1, max_bounces=100000), "--pixel", "1,1"]
+        result = self.run_cli("explain", *pixel)
         self.assertEqual(result.returncode, 7)
         self.assertIn("--max-bounces 256", result.stderr)
-        answer = json.loads(self.explain("hall.json", "--pixel", "1,1", "--max-bounces", "256",
-                                         "--json"))
+        answer = json.loads(self.explain(*pixel, "--max-bounces", "256", "--json"))
         self.assertEqual(len(list(rays_of(answer["samples"][0]["ray"]))), 257)
 
     def test_refuses_what_it_cannot_explain(self):

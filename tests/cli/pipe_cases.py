@@ -127,9 +127,3 @@ class SceneFromStdin(CliTest):
         self.assertIn("standard input", result.stderr)
         result = self.given("-\n", "render", "--batch", "-", code=2)
         self.assertIn("stdin:1: ", result.stderr)
-
-    def test_through_a_pipe(self):
-        self.render("single-sphere", *SIZE, "-o", "a.png")
-        line = f"cat $SCENE | $MIRRORBALL render - {' '.join(SIZE)} -q -o - | cmp - a.png"
-        result = self.run_shell(line)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
