@@ -261,7 +261,7 @@ class Window(CliTest):
                              env={"SDL_VIDEODRIVER": "dummy", "SDL_VIDEO_DUMMY_SAVE_FRAMES": "1"})
         self.assertIn("300x300", process.stderr.readline())
         self.assertIsNone(process.poll())
-        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(HANG_LIMIT), 0)
         frames = [name for name in self.files() if name.endswith(".bmp")]
         self.succeed("compare", frames[-1], "out.png", "--max-abs", "0")
