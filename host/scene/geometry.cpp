@@ -138,20 +138,6 @@ int exact_orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     return sum.sign_of();
 }
 
-/// The orientation of exact differences.
-int exact_orientation(double ax, double ay, double bx, double by) {
-    ExactSum sum;
-    sum.add_product(ax, by);
-    sum.add_product(-ay, bx);
-    return sum.sign_of();
-}
-
-/// Whether a - b was inexact (Knuth's two-sum).
-bool is_rounded(double a, double b, double difference) {
-    const double back = a - difference;
-    return (a - (difference + back)) + (back - b) != 0;
-}
-
 }  // namespace
 
 std::optional<glm::dvec3> unit_direction(glm::dvec3 v) {
@@ -236,11 +222,7 @@ int orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     const double area = left - right;
     if (std::abs(area) > bound) return sign(area);
     if ((ax == 0 || by == 0) && (ay == 0 || bx == 0)) return 0;
-    if (is_rounded(a.x, c.x, ax) || is_rounded(a.y, c.y, ay) || is_rounded(b.x, c.x, bx) ||
-        is_rounded(b.y, c.y, by)) {
-        return exact_orientation(a, b, c);
-    }
-    return exact_orientation(ax, ay, bx, by);
+    return exact_orientation(a, b, c);
 }
 
 }  // namespace rt
