@@ -24,37 +24,31 @@ Scene::Window centered(double half_width, double half_height) {
 
 using Key = Scene::CameraPath::Key;
 
-/// A camera's interpolated numbers: from, at, up, and the amount of its field of view.
-struct CameraNumbers {
-    glm::dvec3 from, at, up;
-    double amount;
-
-    explicit CameraNumbers(const Scene::Camera& camera)
-        : from(camera.from), at(camera.at), up(camera.up), amount(camera.field_of_view.amount) {}
-
-    /// Adds `factor` times `slope` times the way from one camera to another.
-    void add(double factor, double slope, const Scene::Camera& start, const Scene::Camera& end) {
-        const CameraNumbers a(start), b(end);
-        from += factor * (slope * (b.from - a.from));
-        at += factor * (slope * (b.at - a.at));
-        up += factor * (slope * (b.up - a.up));
-        amount += factor * (slope * (b.amount - a.amount));
-    }
-};
+/// Adds `factor` times `slope` times the way from one camera to another to the numbers that are
+/// interpolated.
+void add_way(Scene::Camera& view, double factor, double slope, const Scene::Camera& start,
+             const Scene::Camera& end) {
+    view.from += factor * (slope * (end.from - start.from));
+    view.at += factor * (slope * (end.at - start.at));
+    view.up += factor * (slope * (end.up - start.up));
+    const double amount = end.field_of_view.amount - start.field_of_view.amount;
+    view.field_of_view.amount += factor * (slope * amount);
+}
 
 /// Between keys[i] and the next: a straight line, or a cubic Hermite curve with the tangents of
 /// Catmull and Rom 1974, for unequal key spacing. Where the camera stands still it is the same to
 /// the last bit.
-CameraNumbers between(const std::vector<Key>& keys, std::size_t i, double share, bool is_smooth) {
+Scene::Camera between(const std::vector<Key>& keys, std::size_t i, double share, bool is_smooth) {
     const double frames = keys[i + 1].frame - keys[i].frame;
     const double s = share, rest = 1 - share;
     const Key &start = keys[i], &end = keys[i + 1];
-    CameraNumbers view(start.camera);
-    view.add(is_smooth ? s * s * (3 - 2 * s) : s, 1, start.camera, end.camera);
+    Scene::Camera view = start.camera;
+    add_way(view, is_smooth ? s * s * (3 - 2 * s) : s, 1, start.camera, end.camera);
     const auto add_tangent = [&](double factor, std::size_t at) {
         const Key& before = keys[at == 0 ? 0 : at - 1];
         const Key& after = keys[std::min(at + 1, keys.size() - 1)];
-        view.add(factor, frames / (after.frame - before.frame), before.camera, after.camera);
+        const double slope = frames / (after.frame - before.frame);
+        add_way(view, factor, slope, before.camera, after.camera);
     };
     if (is_smooth) {
         add_tangent(s * rest * rest, i);
@@ -62,7 +56,8 @@ CameraNumbers between(const std::vector<Key>& keys, std::size_t i, double share,
     }
     // Splines and rounding overshoot; the field of view must not.
     const double one = start.camera.field_of_view.amount, other = end.camera.field_of_view.amount;
-    view.amount = std::clamp(view.amount, std::min(one, other), std::max(one, other));
+    double& amount = view.field_of_view.amount;
+    amount = std::clamp(amount, std::min(one, other), std::max(one, other));
     return view;
 }
 
@@ -118,12 +113,7 @@ Scene::Camera camera_at(const Scene& scene, double frame) {
     const auto i = static_cast<std::size_t>(next - keys.begin()) - 1;
     const double share = (frame - keys[i].frame) / (next->frame - keys[i].frame);
     if (share == 0) return keys[i].camera;
-    const CameraNumbers view = between(keys, i, share, scene.path.is_smooth);
-    Scene::Camera camera = scene.camera;
-    camera.from = view.from;
-    camera.at = view.at;
-    camera.up = view.up;
-    camera.field_of_view.amount = view.amount;
+    const Scene::Camera camera = between(keys, i, share, scene.path.is_smooth);
     if (const auto mistake = find_axes_mistake(camera.from, camera.at, camera.up)) {
         throw Error(ExitCode::input, fmt::format("{}: the camera's path at frame {}: {}",
                                                  scene.name, frame, mistake->message));
