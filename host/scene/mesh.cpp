@@ -2,6 +2,7 @@
 #include "host/scene/mesh.h"
 
 #include <algorithm>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -157,22 +158,15 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
 }
 
 void MeshBuilder::use_material(int material) {
-    if (runs_.empty() || runs_.back().material != material) {
-        runs_.push_back({mesh.faces.size(), material});
-    }
+    mesh.face_materials.resize(mesh.faces.size(), material_);
+    material_ = material;
 }
 
 Scene::Mesh MeshBuilder::take() {
-    if (runs_.empty() || runs_[0].first_face > 0) runs_.insert(runs_.begin(), Run{0, -1});
+    use_material(-1);
     std::vector<int>& materials = mesh.face_materials;
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-        const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first_face : mesh.faces.size();
-        materials.resize(end, runs_[i].material);
-    }
-    const auto differs = [&](int material) { return material != materials[0]; };
-    if (std::none_of(materials.begin(), materials.end(), differs)) {
-        materials = {materials.empty() ? -1 : materials[0]};
-    }
+    const bool same = std::ranges::adjacent_find(materials, std::not_equal_to{}) == materials.end();
+    if (same) materials.resize(1, -1);
     return std::move(mesh);
 }
 

@@ -63,12 +63,7 @@ class MeshBuilder {
     }
 
    private:
-    struct Run {
-        std::size_t first_face;
-        int material;
-    };
-
-    std::vector<Run> runs_;
+    int material_ = -1;                ///< of subsequent faces
     std::vector<glm::dvec3> outline_;  ///< of the face at hand
     PolygonSplitter splitter_;
 };

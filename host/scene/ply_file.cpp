@@ -241,7 +241,6 @@ class BodyReader {
     Model finish() {
         Model model;
         model.mesh = builder_.take();
-        model.mesh.face_materials = {-1};
         if (model.mesh.faces.empty()) mistakes_.refuse_notes();
         for (glm::dvec3& p : model.mesh.positions) {
             if (!all_readable_ && std::isnan(p.x)) p = glm::dvec3(0);  // no face uses it
