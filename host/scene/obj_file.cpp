@@ -7,7 +7,6 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <variant>
 
 #include "host/base/text.h"
 #include "host/scene/mesh.h"
@@ -43,15 +42,12 @@ bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
     return std::ranges::find(words, word) != words.end();
 }
 
-/// A face that is neither a triangle nor a quadrilateral that passes parts_well.
-struct Polygon {
-    std::vector<std::uint32_t> corners, normals;
-};
-
-/// What interrupts the triangles of a chunk: a polygon, or a usemtl.
+/// What interrupts the triangles of a chunk: a face that is not a usual one (append_usual_face), or
+/// a usemtl, which has no corners.
 struct Event {
     std::size_t faces_before = 0;
-    std::variant<Polygon, ObjMaterials::Use> what;
+    std::vector<std::uint32_t> corners, normals;
+    ObjMaterials::Use material;
 };
 
 /// The number of vertices defined above a statement.
@@ -179,9 +175,7 @@ class FaceReader {
         if (word == "usemtl") {
             ObjMaterials::Use use = rest();
             use.name = printable(use.name);
-            Event& event = chunk_.events.emplace_back();
-            event.faces_before = chunk_.faces.size();
-            event.what.emplace<ObjMaterials::Use>(std::move(use));
+            chunk_.events.push_back({chunk_.faces.size(), {}, {}, std::move(use)});
         } else if (word == "mtllib") {
             chunk_.libraries.push_back(rest());
         } else if (word == "l" || word == "p") {
@@ -258,7 +252,11 @@ class FaceReader {
             notes_.note(bad_vertex, offset, {});
         } else {
             if (!read_normals(offset)) normals_.clear();
-            add_face();
+            if (append_usual_face(corners_, normals_, positions_, chunk_.faces,
+                                  chunk_.face_normals)) {
+                return;
+            }
+            chunk_.events.push_back({chunk_.faces.size(), corners_, normals_, {}});
         }
     }
 
@@ -284,15 +282,6 @@ class FaceReader {
         if (all_readable_ || !has_unreadable(normals_, all_normals_)) return true;
         notes_.note(bad_normal, offset, {});
         return false;
-    }
-
-    void add_face() {
-        if (append_usual_face(corners_, normals_, positions_, chunk_.faces, chunk_.face_normals)) {
-            return;
-        }
-        Event& event = chunk_.events.emplace_back();
-        event.faces_before = chunk_.faces.size();
-        event.what.emplace<Polygon>(Polygon{corners_, normals_});
     }
 
     Chunk& chunk_;
@@ -390,10 +379,10 @@ class ObjReader {
         };
         for (const Event& event : chunk.events) {
             add_up_to(event.faces_before);
-            if (const auto* polygon = std::get_if<Polygon>(&event.what)) {
-                builder_.add_face(polygon->corners, polygon->normals);
+            if (event.corners.empty()) {
+                builder_.use_material(materials_.use(event.material));
             } else {
-                builder_.use_material(materials_.use(std::get<ObjMaterials::Use>(event.what)));
+                builder_.add_face(event.corners, event.normals);
             }
         }
         add_up_to(faces.size());
