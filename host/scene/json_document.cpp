@@ -23,27 +23,14 @@ constexpr std::string_view delimiters = " \t\r\n,:[]{}\"/";
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Whether a text is -?(0|[1-9][0-9]*)(.[0-9]+)?([eE][+-]?[0-9]+)?.
+/// Of the numbers that from_chars accepts, JSON has those that match -?(0|[1-9][0-9]*)(.[0-9]+)?
+/// and perhaps an exponent.
 bool is_json_number(std::string_view text) {
-    std::size_t i = text.starts_with('-') ? 1 : 0;
-    const auto digits = [&] {
-        const std::size_t start = i;
-        while (i < text.size() && is_digit(text[i])) ++i;
-        return i - start;
-    };
-    const bool zero = i < text.size() && text[i] == '0';
-    const std::size_t whole = digits();
-    if (whole == 0 || (zero && whole > 1)) return false;
-    if (i < text.size() && text[i] == '.') {
-        ++i;
-        if (digits() == 0) return false;
-    }
-    if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
-        ++i;
-        if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
-        if (digits() == 0) return false;
-    }
-    return i == text.size();
+    const std::string_view whole = text.substr(text.starts_with('-') ? 1 : 0);
+    const auto digit_at = [&](std::size_t i) { return i < whole.size() && is_digit(whole[i]); };
+    const std::size_t point = whole.find('.');
+    return digit_at(0) && !(whole[0] == '0' && digit_at(1)) &&
+           (point == whole.npos || digit_at(point + 1));
 }
 
 void append_utf8(std::uint32_t code, std::string& text) {
@@ -186,8 +173,9 @@ class Parser {
 
     void read_number(double& number) {
         const std::string_view word = token();
-        if (!is_json_number(word)) fail_number();
-        const auto result = std::from_chars(word.data(), word.data() + word.size(), number);
+        const char* const end = word.data() + word.size();
+        const auto result = std::from_chars(word.data(), end, number);
+        if (!is_json_number(word) || result.ptr != end) fail_number();
         if (result.ec != std::errc()) number = std::strtod(std::string(word).c_str(), nullptr);
         if (!std::isfinite(number)) {
             fail(at_, fmt::format("number {} is too large; write one from -1e30 to 1e30",
@@ -259,12 +247,10 @@ class Parser {
 
     std::uint32_t read_hex(std::size_t at) {
         std::uint32_t code = 0;
-        for (std::size_t i = at; i < at + 4; ++i) {
-            const auto digit =
-                std::string_view("0123456789abcdefABCDEF").find(i < text_.size() ? text_[i] : '\0');
-            if (digit == std::string_view::npos) fail_string(std::min(i, text_.size() - 1), false);
-            code = code * 16 + static_cast<std::uint32_t>(digit < 16 ? digit : digit - 6);
-        }
+        const std::string_view digits = text_.substr(std::min(at, text_.size()), 4);
+        const auto stop = std::from_chars(digits.begin(), digits.end(), code, 16).ptr;
+        const std::size_t end = at + static_cast<std::size_t>(stop - digits.begin());
+        if (end != at + 4) fail_string(std::min(end, text_.size() - 1), false);
         return code;
     }
 
