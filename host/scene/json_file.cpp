@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -53,41 +54,28 @@ void read_image(const JsonValue& value, Scene& scene, Mistakes& mistakes) {
                  max_image_pixels);
 }
 
-std::optional<Scene::Projection> read_projection(const JsonField& field) {
-    const auto is_perspective = read_choice(field, "camera type", "perspective", "orthographic");
-    if (!is_perspective) return std::nullopt;
-    return *is_perspective ? Scene::Projection::perspective : Scene::Projection::orthographic;
-}
-
-std::optional<Fixed> read_fov_axis(const JsonField& field) {
-    const auto is_x = read_choice(field, field.name, "x", "y");
-    if (!is_x) return std::nullopt;
-    return *is_x ? Fixed::horizontal : Fixed::vertical;
-}
+constexpr Named<Scene::Projection> projections[] = {
+    {"perspective", Scene::Projection::perspective},
+    {"orthographic", Scene::Projection::orthographic}};
+constexpr Named<Fixed> fov_axes[] = {{"x", Fixed::horizontal}, {"y", Fixed::vertical}};
+constexpr Named<bool> interpolations[] = {{"catmull-rom", true}, {"linear", false}};
 
 std::optional<Scene::Window> read_window(const JsonField& field) {
-    const auto* items = read_array(field, 4);
-    if (!items) return std::nullopt;
-    double sides[4] = {};
-    for (int i = 0; i < 4; ++i) {
-        const auto number = read_number(field.item((*items)[i]));
-        if (!number) return std::nullopt;
-        sides[i] = *number;
-    }
-    const auto [left, right, bottom, top] = sides;
+    const auto sides = read_items<4>(field, "an array, [...]", "4 of them", read_number);
+    if (!sides) return std::nullopt;
+    const auto [left, right, bottom, top] = *sides;
     if (left < right && bottom < top) return Scene::Window{left, right, bottom, top};
     return field.refuse(
         "the window is empty or mirrored; write [left, right, bottom, top] with left < right and "
         "bottom < top");
 }
 
-/// Notes every key that does not apply to this kind of camera.
+/// Notes every key that does not apply; `why` continues "is not allowed".
 void refuse_keys(const ObjectReader& camera, std::initializer_list<std::string_view> unwanted,
-                 std::string_view where, std::string_view advice) {
+                 std::string_view why) {
     for (const std::string_view key : unwanted) {
         if (const JsonMember* member = camera.find_member(key)) {
-            camera.mistakes().add(member->key_offset, "{} is not allowed in {}; {}", in_quotes(key),
-                                  where, advice);
+            camera.mistakes().add(member->key_offset, "{} is not allowed {}", in_quotes(key), why);
         }
     }
 }
@@ -110,22 +98,27 @@ std::optional<std::string_view> find_only(const ObjectReader& camera, const Json
 }
 
 void read_perspective(const ObjectReader& reader, const JsonValue& value, Scene::Camera& camera) {
-    refuse_keys(reader, {"width", "height"}, "a perspective camera",
-                "use fov_degrees or window, or \"type\": \"orthographic\"");
+    refuse_keys(reader, {"width", "height"},
+                "in a perspective camera; use fov_degrees or window, or \"type\": "
+                "\"orthographic\"");
     const auto key =
         find_only(reader, value, {"fov_degrees", "window"}, "'fov_degrees' and 'window'");
     if (key == "window") {
-        refuse_keys(reader, {"fov_axis"}, "a camera with a window", "remove it or use fov_degrees");
+        refuse_keys(reader, {"fov_axis"},
+                    "in a camera with a window; remove it or use fov_degrees");
     } else if (key) {
         camera.field_of_view.fixed = Fixed::vertical;
-        reader.optional("fov_axis", camera.field_of_view.fixed, read_fov_axis);
+        reader.optional("fov_axis", camera.field_of_view.fixed, [](const JsonField& field) {
+            return read_choice(field, field.name, fov_axes);
+        });
         reader.optional("fov_degrees", camera.field_of_view.amount, read_angle);
     }
 }
 
 void read_orthographic(const ObjectReader& reader, const JsonValue& value, Scene::Camera& camera) {
-    refuse_keys(reader, {"fov_degrees", "fov_axis"}, "an orthographic camera",
-                "use height, width or window, or \"type\": \"perspective\"");
+    refuse_keys(reader, {"fov_degrees", "fov_axis"},
+                "in an orthographic camera; use height, width or window, or \"type\": "
+                "\"perspective\"");
     const auto key =
         find_only(reader, value, {"height", "width", "window"}, "'height', 'width' and 'window'");
     if (!key || key == "window") return;
@@ -150,7 +143,9 @@ Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes) {
     }
     reader.optional("window", camera.window, read_window);
     const std::size_t before_type = mistakes.count();
-    reader.optional("type", camera.projection, read_projection);
+    reader.optional("type", camera.projection, [](const JsonField& field) {
+        return read_choice(field, "camera type", projections);
+    });
     if (mistakes.count() != before_type) return camera;  // the valid keys are unknown
     if (camera.projection == Scene::Projection::perspective) {
         read_perspective(reader, value, camera);
@@ -178,12 +173,10 @@ std::string_view extent_key(const Scene::Camera& camera) {
 
 void read_extent(const ObjectReader& reader, Scene::Camera& camera) {
     const std::string_view own = extent_key(camera);
+    const std::string why =
+        fmt::format("here: the scene's camera gives {}", own.empty() ? "a window" : in_quotes(own));
     for (const std::string_view key : {"fov_degrees", "width", "height"}) {
-        const JsonMember* member = reader.find_member(key);
-        if (member == nullptr || key == own) continue;
-        reader.mistakes().add(member->key_offset,
-                              "{} is not allowed here: the scene's camera gives {}", in_quotes(key),
-                              own.empty() ? "a window" : in_quotes(own));
+        if (key != own) refuse_keys(reader, {key}, why);
     }
     if (own.empty()) return;
     reader.optional(own, camera.field_of_view.amount,
@@ -193,7 +186,6 @@ void read_extent(const ObjectReader& reader, Scene::Camera& camera) {
 Scene::CameraPath::Key read_key(const JsonField& item, const Scene::Camera& camera) {
     Scene::CameraPath::Key key{0, camera};
     const ObjectReader reader(item.value, "a key of the path", key_keys, item.mistakes);
-    if (!reader.is_object()) return key;
     const std::size_t before = item.mistakes.count();
     reader.required("frame", "\"frame\": 1", key.frame, read_number);
     reader.optional("from", key.camera.from, read_vec3);
@@ -225,7 +217,7 @@ Scene::CameraPath read_camera_path(const JsonValue& value, const Scene::Camera& 
     Scene::CameraPath path;
     const ObjectReader reader(value, "the path", path_keys, mistakes);
     reader.optional("interpolation", path.is_smooth, [](const JsonField& field) {
-        return read_choice(field, field.name, "catmull-rom", "linear");
+        return read_choice(field, field.name, interpolations);
     });
     int frames = 0;
     reader.optional("turntable", frames,
@@ -257,49 +249,15 @@ Scene::CameraPath read_camera_path(const JsonValue& value, const Scene::Camera& 
     return path;
 }
 
-/// Appends read(item) for every item of the array under `key`, if it is there.
-template <class T, class Read>
-void read_list(const ObjectReader& reader, std::string_view key, std::vector<T>& target,
-               Read read) {
-    const JsonValue* value = reader.find(key);
-    const auto* items = value ? read_array({*value, key, reader.mistakes()}) : nullptr;
-    if (!items) return;
-    target.reserve(items->size());
-    for (const JsonValue& item : *items) target.push_back(read({item, key, reader.mistakes()}));
-}
-
-/// A scene without its meshes, which are loaded only if all else is valid.
-struct SceneText {
-    Scene scene;
-    std::vector<MeshRequest> meshes;
-};
-
-void read_objects(const ObjectReader& reader, const SceneFolder& folder, SceneText& text) {
-    Scene& scene = text.scene;
-    MaterialTable materials(reader.find("materials"), reader.mistakes());
-    const auto with_materials = [&](auto read) {
-        return [&materials, read](const JsonField& item) { return read(item, materials); };
-    };
-    read_list(reader, "lights", scene.lights, read_light);
-    read_list(reader, "spheres", scene.spheres, with_materials(read_sphere));
-    read_list(reader, "cones", scene.cones, with_materials(read_cone));
-    read_list(reader, "triangles", scene.triangles, with_materials(read_triangle));
-    read_list(reader, "meshes", text.meshes,
-              [&](const JsonField& item) { return read_mesh(item, materials, folder); });
-    scene.materials = materials.take();
-}
-
 std::optional<std::string> read_name(const JsonField& field) {
     const auto name = read_string(field);
     if (!name || printable(*name) == *name) return name;
     return field.refuse("'name' contains a control character; use plain text");
 }
 
-SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes& mistakes) {
-    SceneText text;
-    Scene& scene = text.scene;
-    const ObjectReader reader(root, "the scene", scene_keys, mistakes);
-    if (!reader.is_object()) return text;
+/// Reads all but the objects.
+void read_settings(const ObjectReader& reader, Scene& scene) {
+    Mistakes& mistakes = reader.mistakes();
     std::string ignored;  // for editors and people
     reader.optional("$schema", ignored, read_string);
     reader.optional("description", ignored, read_string);
@@ -319,8 +277,43 @@ SceneText read_scene(const JsonValue& root, const SceneFolder& folder, Mistakes&
                     [](const JsonField& field) { return read_integer(field, 0, max_max_bounces); });
     reader.optional("background", scene.background, read_color);
     reader.optional("ambient_light", scene.ambient_light, read_color);
-    read_objects(reader, folder, text);
-    return text;
+}
+
+/// Appends a model and its materials to the scene.
+void add_model(Model model, const MeshRequest& request, Scene& scene) {
+    const auto first = static_cast<int>(scene.materials.size());
+    std::vector<int>& materials = model.mesh.face_materials;
+    if (request.material) materials = {*request.material};
+    if (!request.material) {
+        for (int& material : materials) material += first;
+        std::ranges::move(model.materials, std::back_inserter(scene.materials));
+    }
+    scene.meshes.push_back(std::move(model.mesh));
+    std::ranges::move(model.notes, std::back_inserter(scene.notes));
+    std::ranges::move(model.library_files, std::back_inserter(scene.model_files));
+}
+
+/// Loads the models and appends their materials to the scene's. Throws as load_model does.
+void load_meshes(const std::vector<MeshRequest>& requests, const SceneFolder& folder, Scene& scene,
+                 Mistakes& mistakes) {
+    for (const MeshRequest& request : requests) {
+        const OpenedFile opened = open_beneath(folder, request.file);
+        if (!opened.problem.empty()) {
+            mistakes.add(request.offset, opened.problem);
+            continue;
+        }
+        const ModelOptions options{folder.root, !request.material, request.transform};
+        Model model = load_model(opened.file, opened.path, options);
+        if (!request.material && model.materials.empty()) {
+            mistakes.add(request.offset,
+                         "a mesh has no \"material\", and {} has none "
+                         "either; add \"material\": \"name\"",
+                         in_quotes(opened.path));
+            continue;
+        }
+        add_model(std::move(model), request, scene);
+        scene.model_files.push_back(opened.path);
+    }
 }
 
 }  // namespace
@@ -329,14 +322,16 @@ Scene parse_json_scene(std::string_view text, const std::string& file_name) {
     Mistakes mistakes(text, file_name);
     const JsonValue root = parse_json(mistakes);
     const SceneFolder folder = SceneFolder::of(file_name);
-    SceneText read = read_scene(root, folder, mistakes);
+    const ObjectReader reader(root, "the scene", scene_keys, mistakes);
+    Scene scene;
+    read_settings(reader, scene);
+    const std::vector<MeshRequest> meshes = read_objects(reader, folder, scene);
     mistakes.throw_if_any();
-    Scene& scene = read.scene;
-    load_meshes(read.meshes, folder, scene, mistakes);
+    load_meshes(meshes, folder, scene, mistakes);
     mistakes.throw_if_any();
     if (scene.name.empty()) scene.name = name_of_file(file_name);
     set_image_size(scene, scene.width, scene.height);
-    return std::move(scene);
+    return scene;
 }
 
 }  // namespace rt

@@ -2,13 +2,11 @@
 #include "host/scene/json_objects.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
+#include <unordered_map>
 
-#include "host/base/text.h"
 #include "host/scene/geometry.h"
-#include "host/scene/words.h"
 
 namespace rt {
 namespace {
@@ -21,19 +19,13 @@ std::nullopt_t refuse_number(const JsonField& field, double number, std::string_
     return field.refuse("{} is {}; write {}", field.name, number, wanted);
 }
 
-/// Three items, each read by read_one(field).
+/// Three items, each read by `read`.
 template <typename Read>
-std::optional<glm::dvec3> read_triple(const JsonField& field, std::string_view wanted,
-                                      Read read_one) {
-    const auto* items = field.value.as<JsonValue::Array>();
-    if (!items) return refuse_kind(field, wanted);
-    if (items->size() != 3) {
-        return field.refuse("{} has {} items; write {}", field.name, items->size(), wanted);
-    }
-    const auto x = read_one(field.item((*items)[0]));
-    const auto y = read_one(field.item((*items)[1]));
-    const auto z = read_one(field.item((*items)[2]));
-    return x && y && z ? std::optional(glm::dvec3(*x, *y, *z)) : std::nullopt;
+std::optional<glm::dvec3> read_triple(const JsonField& field, std::string_view wanted, Read read) {
+    const auto items = read_items<3>(field, wanted, wanted, read);
+    if (!items) return std::nullopt;
+    const auto [x, y, z] = *items;
+    return glm::dvec3(x, y, z);
 }
 
 std::optional<double> read_not_negative(const JsonField& field) {
@@ -125,22 +117,58 @@ Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
     return material;
 }
 
+/// The materials of a scene file, looked up by name.
+class MaterialTable {
+   public:
+    /// Reads the "materials" object (null: the file has none).
+    MaterialTable(const JsonValue* value, Mistakes& mistakes) {
+        if (!value) return;
+        const auto* members = value->as<JsonValue::Object>();
+        readable_ = members != nullptr;
+        if (!members) {
+            mistakes.add(value->offset,
+                         "materials is {}; write an object, {{\"name\": "
+                         "{{...}}}}",
+                         kind_of(*value));
+            return;
+        }
+        for (const JsonMember& member : *members) {
+            if (member.key.empty()) {
+                mistakes.add(member.key_offset, "a material's name is empty; give it one");
+            }
+            index_.emplace(member.key, static_cast<int>(materials_.size()));
+            materials_.push_back(read_material(member, mistakes));
+        }
+    }
+
+    /// The index of the material a shape names; notes an unknown one.
+    std::optional<int> read_reference(const JsonField& field) const {
+        const auto text = read_string(field);
+        if (!text || !readable_) return std::nullopt;
+        if (const auto found = index_.find(*text); found != index_.end()) return found->second;
+        std::vector<std::string_view> known;
+        for (const Scene::Material& material : materials_) known.push_back(material.name);
+        return field.refuse("unknown material {}; {}", in_quotes(*text),
+                            known.empty()
+                                ? "the scene has no materials; define it under \"materials\""
+                                : suggestion(*text, known, "known materials are"));
+    }
+
+    std::vector<Scene::Material> take() { return std::move(materials_); }
+
+   private:
+    std::vector<Scene::Material> materials_;
+    std::unordered_map<std::string, int> index_;
+    bool readable_ = true;  ///< false: names are unknown, so all are accepted
+};
+
 void read_material_of(const ObjectReader& reader, const MaterialTable& materials, int& target) {
     reader.required("material", "\"material\": \"name\"", target,
                     [&](const JsonField& field) { return materials.read_reference(field); });
 }
 
 std::optional<Corners> read_corners(const JsonField& field) {
-    const auto* items = read_array(field, 3);
-    if (!items) return std::nullopt;
-    Corners corners{};
-    bool good = true;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const auto corner = read_vec3(field.item((*items)[i]));
-        good = good && corner;
-        if (corner) corners[i] = *corner;
-    }
-    return good ? std::optional(corners) : std::nullopt;
+    return read_items<3>(field, "an array, [...]", "3 of them", read_vec3);
 }
 
 std::optional<Corners> read_vertices(const JsonField& field) {
@@ -183,31 +211,24 @@ std::optional<Affine> read_steps(const JsonField& field) {
     return make_affine(scale, degrees, translation);
 }
 
-std::optional<Affine> read_matrix(const JsonField& field, const JsonValue::Array& items) {
-    std::array<double, 16> m{};
-    if (items.size() != m.size()) {
-        return field.refuse("{} has {} items; write 16 of them, row by row", field.name,
-                            items.size());
-    }
-    bool good = true;
-    for (std::size_t i = 0; i < m.size(); ++i) {
-        const auto number = read_number(field.item(items[i]));
-        good = good && number;
-        m[i] = number.value_or(0);
-    }
-    if (!good) return std::nullopt;
+std::optional<Affine> read_matrix(const JsonField& field) {
+    const auto numbers =
+        read_items<16>(field, "an array, [...]", "16 of them, row by row", read_number);
+    if (!numbers) return std::nullopt;
+    const auto& m = *numbers;
     if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
-        return field.item(items[12]).refuse(
-            "the last row of the transform is not 0, 0, 0, 1; write the matrix row by row, the "
-            "translation in column 4");
+        return field.item((*field.value.as<JsonValue::Array>())[12])
+            .refuse(
+                "the last row of the transform is not 0, 0, 0, 1; write the matrix row by row, the "
+                "translation in column 4");
     }
     return Affine{{m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]}, {m[3], m[7], m[11]}};
 }
 
 /// The 16 numbers of a matrix, row by row, or an object with scale, rotate_degrees, translate.
 std::optional<Affine> read_transform(const JsonField& field) {
-    const auto* items = field.value.as<JsonValue::Array>();
-    const auto affine = items ? read_matrix(field, *items) : read_steps(field);
+    const bool is_matrix = field.value.as<JsonValue::Array>() != nullptr;
+    const auto affine = is_matrix ? read_matrix(field) : read_steps(field);
     if (!affine || normal_matrix(affine->linear)) return affine;
     return field.refuse("the transform is singular and flattens the mesh; correct its numbers");
 }
@@ -223,152 +244,6 @@ std::optional<std::string> read_file_name(const JsonField& field, const SceneFol
     const OpenedFile opened = open_beneath(folder, *text);
     if (opened.problem.empty()) return text;
     return field.refuse("{}", opened.problem);
-}
-
-/// Appends a model and its materials to the scene.
-void add_model(Model model, const MeshRequest& request, Scene& scene) {
-    const auto first = static_cast<int>(scene.materials.size());
-    std::vector<int>& materials = model.mesh.face_materials;
-    if (request.material) materials = {*request.material};
-    if (!request.material) {
-        for (int& material : materials) material += first;
-        std::ranges::move(model.materials, std::back_inserter(scene.materials));
-    }
-    scene.meshes.push_back(std::move(model.mesh));
-    std::ranges::move(model.notes, std::back_inserter(scene.notes));
-    std::ranges::move(model.library_files, std::back_inserter(scene.model_files));
-}
-
-}  // namespace
-
-std::optional<double> read_number(const JsonField& field) {
-    const double* number = field.value.as<double>();
-    if (!number) return refuse_kind(field, "a number");
-    if (std::abs(*number) <= max_scene_number) return *number;
-    return refuse_number(field, *number, "a number from -1e30 to 1e30");
-}
-
-std::optional<double> read_positive(const JsonField& field) {
-    const auto number = read_number(field);
-    if (!number || *number > 0) return number;
-    return refuse_number(field, *number, "a number above 0");
-}
-
-std::optional<int> read_integer(const JsonField& field, int low, int high) {
-    const std::string wanted = fmt::format("a whole number from {} to {}", low, high);
-    const double* number = field.value.as<double>();
-    if (!number) return refuse_kind(field, wanted);
-    if (*number >= low && *number <= high && *number == std::floor(*number)) {
-        return static_cast<int>(*number);
-    }
-    return refuse_number(field, *number, wanted);
-}
-
-std::optional<std::string> read_string(const JsonField& field) {
-    if (const auto* text = field.value.as<std::string>()) return *text;
-    return refuse_kind(field, "text in double quotes");
-}
-
-std::optional<double> read_angle(const JsonField& field) {
-    const auto degrees = read_positive(field);
-    if (!degrees || *degrees < 180) return degrees;
-    return refuse_number(field, *degrees, "an angle between 0 and 180");
-}
-
-std::optional<bool> read_choice(const JsonField& field, std::string_view what,
-                                std::string_view first, std::string_view second) {
-    const auto text = read_string(field);
-    if (!text) return std::nullopt;
-    if (*text == first || *text == second) return *text == first;
-    return field.refuse("unknown {} {}; write \"{}\" or \"{}\"", what, in_quotes(*text), first,
-                        second);
-}
-
-std::optional<glm::dvec3> read_vec3(const JsonField& field) {
-    return read_triple(field, "three numbers, [x, y, z]", read_number);
-}
-
-std::optional<glm::dvec3> read_color(const JsonField& field) {
-    if (field.value.as<double>()) {
-        const auto level = read_not_negative(field);
-        return level ? std::optional(glm::dvec3(*level)) : std::nullopt;
-    }
-    return read_triple(field, "one number for a gray, or three, [r, g, b]", read_not_negative);
-}
-
-const JsonValue::Array* read_array(const JsonField& field, int size) {
-    const auto* items = field.value.as<JsonValue::Array>();
-    if (!items) {
-        refuse_kind(field, "an array, [...]");
-    } else if (size >= 0 && items->size() != static_cast<std::size_t>(size)) {
-        field.refuse("{} has {} items; write {} of them", field.name, items->size(), size);
-        return nullptr;
-    }
-    return items;
-}
-
-ObjectReader::ObjectReader(const JsonValue& value, std::string_view what,
-                           std::span<const std::string_view> known_keys, Mistakes& mistakes)
-    : members_(value.as<JsonValue::Object>()), field_{value, what, mistakes} {
-    if (!members_) {
-        refuse_kind(field_, "an object, {...}");
-        return;
-    }
-    for (const JsonMember& member : *members_) {
-        if (std::ranges::find(known_keys, member.key) != known_keys.end()) continue;
-        mistakes.add(member.key_offset, "unknown key {} in {}; {}", in_quotes(member.key), what,
-                     guess(member.key, known_keys));
-    }
-}
-
-const JsonMember* ObjectReader::find_member(std::string_view key) const {
-    if (!members_) return nullptr;
-    const auto found = std::ranges::find(*members_, key, &JsonMember::key);
-    return found == members_->end() ? nullptr : &*found;
-}
-
-const JsonValue* ObjectReader::find(std::string_view key) const {
-    const JsonMember* member = find_member(key);
-    return member ? &member->value : nullptr;
-}
-
-const JsonValue* ObjectReader::require(std::string_view key, std::string_view example) const {
-    const JsonValue* value = find(key);
-    if (!value && members_) {
-        field_.refuse("{} has no {}; add {}", field_.name, in_quotes(key), example);
-    }
-    return value;
-}
-
-MaterialTable::MaterialTable(const JsonValue* value, Mistakes& mistakes) {
-    if (!value) return;
-    const auto* members = value->as<JsonValue::Object>();
-    readable_ = members != nullptr;
-    if (!members) {
-        mistakes.add(value->offset,
-                     "materials is {}; write an object, {{\"name\": "
-                     "{{...}}}}",
-                     kind_of(*value));
-        return;
-    }
-    for (const JsonMember& member : *members) {
-        if (member.key.empty()) {
-            mistakes.add(member.key_offset, "a material's name is empty; give it one");
-        }
-        index_.emplace(member.key, static_cast<int>(materials_.size()));
-        materials_.push_back(read_material(member, mistakes));
-    }
-}
-
-std::optional<int> MaterialTable::read_reference(const JsonField& field) const {
-    const auto text = read_string(field);
-    if (!text || !readable_) return std::nullopt;
-    if (const auto found = index_.find(*text); found != index_.end()) return found->second;
-    std::vector<std::string_view> known;
-    for (const Scene::Material& material : materials_) known.push_back(material.name);
-    return field.refuse("unknown material {}; {}", in_quotes(*text),
-                        known.empty() ? "the scene has no materials; define it under \"materials\""
-                                      : suggestion(*text, known, "known materials are"));
 }
 
 Scene::Light read_light(const JsonField& item) {
@@ -436,26 +311,119 @@ MeshRequest read_mesh(const JsonField& item, const MaterialTable& materials,
     return request;
 }
 
-void load_meshes(const std::vector<MeshRequest>& requests, const SceneFolder& folder, Scene& scene,
-                 Mistakes& mistakes) {
-    for (const MeshRequest& request : requests) {
-        const OpenedFile opened = open_beneath(folder, request.file);
-        if (!opened.problem.empty()) {
-            mistakes.add(request.offset, opened.problem);
-            continue;
-        }
-        const ModelOptions options{folder.root, !request.material, request.transform};
-        Model model = load_model(opened.file, opened.path, options);
-        if (!request.material && model.materials.empty()) {
-            mistakes.add(request.offset,
-                         "a mesh has no \"material\", and {} has none "
-                         "either; add \"material\": \"name\"",
-                         in_quotes(opened.path));
-            continue;
-        }
-        add_model(std::move(model), request, scene);
-        scene.model_files.push_back(opened.path);
+/// Appends read(item) for every item of the array under `key`, if it is there.
+template <class T, class Read>
+void read_list(const ObjectReader& reader, std::string_view key, std::vector<T>& target,
+               Read read) {
+    const JsonValue* value = reader.find(key);
+    const auto* items = value ? read_array({*value, key, reader.mistakes()}) : nullptr;
+    if (!items) return;
+    target.reserve(items->size());
+    for (const JsonValue& item : *items) target.push_back(read({item, key, reader.mistakes()}));
+}
+
+}  // namespace
+
+std::optional<double> read_number(const JsonField& field) {
+    const double* number = field.value.as<double>();
+    if (!number) return refuse_kind(field, "a number");
+    if (std::abs(*number) <= max_scene_number) return *number;
+    return refuse_number(field, *number, "a number from -1e30 to 1e30");
+}
+
+std::optional<double> read_positive(const JsonField& field) {
+    const auto number = read_number(field);
+    if (!number || *number > 0) return number;
+    return refuse_number(field, *number, "a number above 0");
+}
+
+std::optional<int> read_integer(const JsonField& field, int low, int high) {
+    const std::string wanted = fmt::format("a whole number from {} to {}", low, high);
+    const double* number = field.value.as<double>();
+    if (!number) return refuse_kind(field, wanted);
+    if (*number >= low && *number <= high && *number == std::floor(*number)) {
+        return static_cast<int>(*number);
     }
+    return refuse_number(field, *number, wanted);
+}
+
+std::optional<std::string> read_string(const JsonField& field) {
+    if (const auto* text = field.value.as<std::string>()) return *text;
+    return refuse_kind(field, "text in double quotes");
+}
+
+std::optional<double> read_angle(const JsonField& field) {
+    const auto degrees = read_positive(field);
+    if (!degrees || *degrees < 180) return degrees;
+    return refuse_number(field, *degrees, "an angle between 0 and 180");
+}
+
+std::optional<glm::dvec3> read_vec3(const JsonField& field) {
+    return read_triple(field, "three numbers, [x, y, z]", read_number);
+}
+
+std::optional<glm::dvec3> read_color(const JsonField& field) {
+    if (field.value.as<double>()) {
+        const auto level = read_not_negative(field);
+        return level ? std::optional(glm::dvec3(*level)) : std::nullopt;
+    }
+    return read_triple(field, "one number for a gray, or three, [r, g, b]", read_not_negative);
+}
+
+const JsonValue::Array* read_array(const JsonField& field, std::string_view wanted) {
+    const auto* items = field.value.as<JsonValue::Array>();
+    if (!items) refuse_kind(field, wanted);
+    return items;
+}
+
+ObjectReader::ObjectReader(const JsonValue& value, std::string_view what,
+                           std::span<const std::string_view> known_keys, Mistakes& mistakes)
+    : members_(value.as<JsonValue::Object>()), field_{value, what, mistakes} {
+    if (!members_) {
+        refuse_kind(field_, "an object, {...}");
+        return;
+    }
+    for (const JsonMember& member : *members_) {
+        if (std::ranges::find(known_keys, member.key) != known_keys.end()) continue;
+        mistakes.add(member.key_offset, "unknown key {} in {}; {}", in_quotes(member.key), what,
+                     guess(member.key, known_keys));
+    }
+}
+
+const JsonMember* ObjectReader::find_member(std::string_view key) const {
+    if (!members_) return nullptr;
+    const auto found = std::ranges::find(*members_, key, &JsonMember::key);
+    return found == members_->end() ? nullptr : &*found;
+}
+
+const JsonValue* ObjectReader::find(std::string_view key) const {
+    const JsonMember* member = find_member(key);
+    return member ? &member->value : nullptr;
+}
+
+const JsonValue* ObjectReader::require(std::string_view key, std::string_view example) const {
+    const JsonValue* value = find(key);
+    if (!value && members_) {
+        field_.refuse("{} has no {}; add {}", field_.name, in_quotes(key), example);
+    }
+    return value;
+}
+
+std::vector<MeshRequest> read_objects(const ObjectReader& reader, const SceneFolder& folder,
+                                      Scene& scene) {
+    std::vector<MeshRequest> meshes;
+    MaterialTable materials(reader.find("materials"), reader.mistakes());
+    const auto with_materials = [&](auto read) {
+        return [&materials, read](const JsonField& item) { return read(item, materials); };
+    };
+    read_list(reader, "lights", scene.lights, read_light);
+    read_list(reader, "spheres", scene.spheres, with_materials(read_sphere));
+    read_list(reader, "cones", scene.cones, with_materials(read_cone));
+    read_list(reader, "triangles", scene.triangles, with_materials(read_triangle));
+    read_list(reader, "meshes", meshes,
+              [&](const JsonField& item) { return read_mesh(item, materials, folder); });
+    scene.materials = materials.take();
+    return meshes;
 }
 
 }  // namespace rt

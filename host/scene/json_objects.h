@@ -3,21 +3,25 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "host/base/text.h"
 #include "host/scene/json_document.h"
 #include "host/scene/mistakes.h"
 #include "host/scene/model.h"
 #include "host/scene/scene.h"
 #include "host/scene/text_file.h"
+#include "host/scene/words.h"
 
 namespace rt {
 
@@ -45,14 +49,41 @@ std::optional<int> read_integer(const JsonField& field, int low, int high);
 std::optional<std::string> read_string(const JsonField& field);
 /// An angle strictly between 0 and 180 degrees.
 std::optional<double> read_angle(const JsonField& field);
-/// True for the first of two words. `what` is used in messages: "camera type".
-std::optional<bool> read_choice(const JsonField& field, std::string_view what,
-                                std::string_view first, std::string_view second);
+/// What one of two words means. `what` is used in messages: "camera type".
+template <class T>
+std::optional<T> read_choice(const JsonField& field, std::string_view what,
+                             const Named<T> (&choices)[2]) {
+    const auto text = read_string(field);
+    const auto value = text ? value_of(choices, *text) : std::nullopt;
+    if (!text || value) return value;
+    return field.refuse("unknown {} {}; write \"{}\" or \"{}\"", what, in_quotes(*text),
+                        choices[0].name, choices[1].name);
+}
 std::optional<glm::dvec3> read_vec3(const JsonField& field);
 /// [r, g, b] or one number for gray, not negative.
 std::optional<glm::dvec3> read_color(const JsonField& field);
-/// An array; if `size` >= 0, of exactly that many items.
-const JsonValue::Array* read_array(const JsonField& field, int size = -1);
+const JsonValue::Array* read_array(const JsonField& field,
+                                   std::string_view wanted = "an array, [...]");
+/// An array of so many items, each read by `read`; notes all that is wrong with them.
+template <std::size_t size, class Read>
+auto read_items(const JsonField& field, std::string_view wanted_kind, std::string_view wanted_size,
+                Read read) {
+    std::array<typename std::invoke_result_t<Read, JsonField>::value_type, size> values{};
+    std::optional<decltype(values)> nothing;
+    const auto* items = read_array(field, wanted_kind);
+    if (!items) return nothing;
+    if (items->size() != size) {
+        field.refuse("{} has {} items; write {}", field.name, items->size(), wanted_size);
+        return nothing;
+    }
+    bool good = true;
+    for (std::size_t i = 0; i < size; ++i) {
+        const auto value = read(field.item((*items)[i]));
+        good = good && value;
+        if (value) values[i] = *value;
+    }
+    return good ? values : nothing;
+}
 
 /// An object with a fixed set of keys. The constructor notes unknown keys, and a value that is no
 /// object, which then has no members.
@@ -91,28 +122,6 @@ class ObjectReader {
     JsonField field_;
 };
 
-/// The materials of a scene file, looked up by name.
-class MaterialTable {
-   public:
-    /// Reads the "materials" object (null: the file has none).
-    MaterialTable(const JsonValue* value, Mistakes& mistakes);
-
-    /// The index of the material a shape names; notes an unknown one.
-    std::optional<int> read_reference(const JsonField& field) const;
-
-    std::vector<Scene::Material> take() { return std::move(materials_); }
-
-   private:
-    std::vector<Scene::Material> materials_;
-    std::unordered_map<std::string, int> index_;
-    bool readable_ = true;  ///< false: names are unknown, so all are accepted
-};
-
-Scene::Light read_light(const JsonField& item);
-Scene::Sphere read_sphere(const JsonField& item, const MaterialTable& materials);
-Scene::Cone read_cone(const JsonField& item, const MaterialTable& materials);
-Scene::Triangle read_triangle(const JsonField& item, const MaterialTable& materials);
-
 /// An item of "meshes" without the model itself, which is loaded only if the scene has no other
 /// mistakes.
 struct MeshRequest {
@@ -122,11 +131,8 @@ struct MeshRequest {
     Affine transform;
 };
 
-MeshRequest read_mesh(const JsonField& item, const MaterialTable& materials,
-                      const SceneFolder& folder);
-
-/// Loads the models and appends their materials to the scene's. Throws as load_model does.
-void load_meshes(const std::vector<MeshRequest>& requests, const SceneFolder& folder, Scene& scene,
-                 Mistakes& mistakes);
+/// Reads a scene's lights, materials and shapes.
+std::vector<MeshRequest> read_objects(const ObjectReader& reader, const SceneFolder& folder,
+                                      Scene& scene);
 
 }  // namespace rt

@@ -212,8 +212,8 @@ MUTANTS = [
          "return m;"),
     ], [("host_transform_test", "*")]),
     Mutant("fov_axis x and y exchanged", [
-        (S + "json_file.cpp", "*is_x ? Fixed::horizontal : Fixed::vertical",
-         "*is_x ? Fixed::vertical : Fixed::horizontal"),
+        (S + "json_file.cpp", '{"x", Fixed::horizontal}, {"y", Fixed::vertical}',
+         '{"y", Fixed::horizontal}, {"x", Fixed::vertical}'),
     ], [("host_scene_test", "*")]),
     Mutant("the last column of tiles left out", [
         ("host/render/tile_queue.cpp", "x < region.width; x += tile_width",
