@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "host/scene/mesh.h"
@@ -232,37 +233,6 @@ void check_header(const PlyHeader& header, Mistakes& mistakes) {
     mistakes.throw_if_any();
 }
 
-/// A value's position in its row.
-struct Place {
-    std::size_t offset = 0;
-    PlyType type = PlyType::float32;
-};
-
-bool read_vector(const char* row, const std::array<Place, 3>& places, bool swapped,
-                 glm::dvec3& target) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const Place& place = places[static_cast<std::size_t>(axis)];
-        target[axis] = ply_number(row + place.offset, place.type, swapped);
-    }
-    return is_within(target);
-}
-
-/// The same for three consecutive floats in native byte order: the usual layout, without branching
-/// on each value's type.
-bool read_floats(const char* row, glm::dvec3& target) {
-    std::array<float, 3> v;
-    std::memcpy(v.data(), row, sizeof v);
-    target = glm::dvec3(v[0], v[1], v[2]);
-    return is_within(target);
-}
-
-bool are_floats(const std::array<Place, 3>& places, bool swapped) {
-    return !swapped && std::ranges::all_of(places, [&](const Place& place) {
-        const auto i = static_cast<std::size_t>(&place - places.data());
-        return place.type == PlyType::float32 && place.offset == places[0].offset + 4 * i;
-    });
-}
-
 /// Calls work(row) for all rows in parallel; returns whether all calls did.
 template <typename Work>
 bool all_rows(std::size_t rows, std::size_t row_bytes, const ReadPace& pace, Work work) {
@@ -276,48 +246,28 @@ bool all_rows(std::size_t rows, std::size_t row_bytes, const ReadPace& pace, Wor
     return good;
 }
 
-/// The layout of a face row whose list has N items.
-struct FaceLayout {
-    std::size_t list = 0, first_item = 0, stride = 0;
-    PlyType count_type = PlyType::uint8, item_type = PlyType::int32;
-};
-
-FaceLayout layout_of(const PlyElement& element, std::size_t items) {
-    FaceLayout layout;
-    for (const PlyProperty& property : element.properties) {
-        if (property.is_list()) {
-            layout.list = layout.stride;
-            layout.count_type = *property.count_type;
-            layout.item_type = property.type;
-            layout.stride += size_of(*property.count_type);
-            layout.first_item = layout.stride;
-            layout.stride += items * size_of(property.type);
-        } else {
-            layout.stride += size_of(property.type);
-        }
-    }
-    return layout;
-}
-
-/// Reads the N corners of a row; returns whether it has so many, and all exist. `usual` rows have a
-/// count byte, then 32-bit indices in native byte order.
+/// Reads the N corners of a list; returns whether it has so many, and all exist. `usual` lists have
+/// a count byte, then 32-bit indices.
 template <std::size_t N>
-bool read_corners(const char* row, const FaceLayout& layout, bool usual, bool swapped,
+bool read_corners(const char* at, const PlyProperty& list, bool usual, bool swapped,
                   std::size_t vertices, std::array<std::uint32_t, N>& corners) {
-    const char* item = row + layout.first_item;
     bool good = true;
     if (usual) {
-        std::memcpy(corners.data(), item, sizeof corners);
-        good = row[layout.list] == N;
-        for (const std::uint32_t corner : corners) good &= corner < vertices;
+        std::memcpy(corners.data(), at + 1, sizeof corners);
+        good = *at == N;
+        for (std::uint32_t& corner : corners) {
+            if (swapped) corner = __builtin_bswap32(corner);
+            good &= corner < vertices;
+        }
         return good;
     }
-    if (ply_whole(row + layout.list, layout.count_type, swapped) != N) return false;
+    if (ply_number(at, *list.count_type, swapped) != N) return false;
+    at += size_of(*list.count_type);
     for (std::uint32_t& corner : corners) {
-        const std::int64_t index = ply_whole(item, layout.item_type, swapped);
-        item += size_of(layout.item_type);
-        good &= index >= 0 && static_cast<std::uint64_t>(index) < vertices;
-        corner = static_cast<std::uint32_t>(index);
+        const double index = ply_number(at, list.type, swapped);
+        at += size_of(list.type);
+        good &= index >= 0 && index < static_cast<double>(vertices);
+        corner = static_cast<std::uint32_t>(static_cast<std::int64_t>(index));
     }
     return good;
 }
@@ -333,11 +283,15 @@ std::size_t PlyElement::find_corners() const {
     return std::min(find("vertex_indices"), find("vertex_index"));
 }
 
-std::size_t PlyElement::least_bytes(PlyFormat format) const {
+std::size_t PlyElement::list_count() const {
+    return static_cast<std::size_t>(std::ranges::count_if(properties, &PlyProperty::is_list));
+}
+
+std::size_t PlyElement::offset_of(std::size_t property, std::size_t items) const {
     std::size_t bytes = 0;
-    for (const PlyProperty& property : properties) {
-        bytes +=
-            format == PlyFormat::ascii ? 2 : size_of(property.count_type.value_or(property.type));
+    for (const PlyProperty& above : std::span(properties).first(property)) {
+        if (above.is_list()) bytes += size_of(*above.count_type);
+        bytes += size_of(above.type) * (above.is_list() ? items : 1);
     }
     return bytes;
 }
@@ -348,67 +302,64 @@ PlyHeader parse_ply_header(Mistakes& mistakes) {
     return header;
 }
 
-std::optional<std::string_view> fixed_rows(std::string_view data, const PlyElement& element) {
-    std::size_t stride = 0;
-    for (const PlyProperty& property : element.properties) {
-        if (property.is_list()) return std::nullopt;
-        stride += size_of(property.type);
-    }
-    if (stride == 0 || data.size() / stride < element.count) return std::nullopt;
-    return data.substr(0, element.count * stride);
-}
-
-bool read_columns(std::string_view rows, const PlyElement& element,
+bool read_columns(const char* rows, const PlyElement& element,
                   const std::array<std::size_t, 3>& properties, bool swapped,
                   std::vector<glm::dvec3>& target, const ReadPace& pace) {
-    std::array<Place, 3> places{};
-    std::size_t stride = 0;
-    for (std::size_t i = 0; i < element.properties.size(); ++i) {
-        const PlyType type = element.properties[i].type;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (properties[axis] == i) places[axis] = {stride, type};
-        }
-        stride += size_of(type);
+    std::array<PlyType, 3> types{};
+    std::array<std::size_t, 3> offsets{};
+    bool usual = !swapped;  // three floats in a row, read without branching on each one's type
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        types[axis] = element.properties[properties[axis]].type;
+        offsets[axis] = element.offset_of(properties[axis], 0);
+        usual &= types[axis] == PlyType::float32 && offsets[axis] == offsets[0] + 4 * axis;
     }
-    const bool floats = are_floats(places, swapped);
+    const std::size_t stride = element.row_bytes(0);
     target.resize(element.count);
     return all_rows(target.size(), stride, pace, [&](std::size_t i) {
-        const char* row = rows.data() + i * stride;
-        return floats ? read_floats(row + places[0].offset, target[i])
-                      : read_vector(row, places, swapped, target[i]);
+        const char* row = rows + i * stride;
+        if (usual) {
+            std::array<float, 3> v;
+            std::memcpy(v.data(), row + offsets[0], sizeof v);
+            target[i] = glm::dvec3(v[0], v[1], v[2]);
+        } else {
+            for (int axis = 0; axis < 3; ++axis) {
+                target[i][axis] = ply_number(row + offsets[axis], types[axis], swapped);
+            }
+        }
+        return is_within(target[i]);
     });
 }
 
-std::optional<PlyFaces> read_face_block(std::string_view data, const PlyElement& element,
-                                        bool swapped, const std::vector<glm::dvec3>& positions,
-                                        const ReadPace& pace) {
-    if (std::ranges::count_if(element.properties, &PlyProperty::is_list) != 1) return std::nullopt;
-    const FaceLayout start = layout_of(element, 0);
-    if (!is_whole(start.count_type) || !is_whole(start.item_type)) return std::nullopt;
-    if (element.count == 0 || data.size() < start.stride) return std::nullopt;
-    const std::int64_t corners = ply_whole(data.data() + start.list, start.count_type, swapped);
-    if (corners != 3 && corners != 4) return std::nullopt;
-    const FaceLayout layout = layout_of(element, static_cast<std::size_t>(corners));
-    if (data.size() / layout.stride < element.count) return std::nullopt;
-    PlyFaces read;
-    read.bytes = element.count * layout.stride;
-    read.faces.resize(element.count * (corners == 3 ? 1 : 2));
-    const bool usual =
-        !swapped && size_of(layout.count_type) == 1 && size_of(layout.item_type) == 4;
+std::size_t read_face_block(std::string_view data, const PlyElement& element, bool swapped,
+                            const std::vector<glm::dvec3>& positions,
+                            std::vector<Scene::Mesh::Face>& faces, const ReadPace& pace) {
+    const std::size_t place = element.find_corners(), start = element.offset_of(place, 0);
+    if (element.list_count() != 1 || element.count == 0 || data.size() < element.row_bytes(0)) {
+        return 0;
+    }
+    const PlyProperty& list = element.properties[place];
+    const double corners = ply_number(data.data() + start, *list.count_type, swapped);
+    if (corners != 3 && corners != 4) return 0;
+    const std::size_t stride = element.row_bytes(corners == 3 ? 3 : 4);
+    if (data.size() / stride < element.count) return 0;
+    const bool usual = size_of(*list.count_type) == 1 && size_of(list.type) == 4;
+    const std::size_t first = faces.size();
+    faces.resize(first + element.count * (corners == 3 ? 1 : 2));
     const auto& p = positions;
     const auto read_row = [&](std::size_t i) {
-        const char* row = data.data() + i * layout.stride;
+        const char* at = data.data() + i * stride + start;
         if (corners == 3) {
-            return read_corners<3>(row, layout, usual, swapped, p.size(), read.faces[i]);
+            return read_corners<3>(at, list, usual, swapped, p.size(), faces[first + i]);
         }
         std::array<std::uint32_t, 4> c{};
-        if (!read_corners<4>(row, layout, usual, swapped, p.size(), c)) return false;
-        read.faces[2 * i] = {c[0], c[1], c[2]};
-        read.faces[2 * i + 1] = {c[0], c[2], c[3]};
+        if (!read_corners<4>(at, list, usual, swapped, p.size(), c)) return false;
+        faces[first + 2 * i] = {c[0], c[1], c[2]};
+        faces[first + 2 * i + 1] = {c[0], c[2], c[3]};
         return parts_well({p[c[0]], p[c[1]], p[c[2]], p[c[3]]});
     };
-    const bool good = all_rows(element.count, layout.stride, pace, read_row);
-    return good ? std::optional(std::move(read)) : std::nullopt;
+    if (all_rows(element.count, stride, pace, read_row)) return element.count * stride;
+    faces.resize(first);
+    return 0;
 }
 
 }  // namespace rt

@@ -47,8 +47,12 @@ struct PlyElement {
     /// properties.size() if there is none.
     std::size_t find(std::string_view property) const;
     std::size_t find_corners() const;
-    /// The minimum bytes per row: in a binary file, or as text.
-    std::size_t least_bytes(PlyFormat format) const;
+    std::size_t list_count() const;
+
+    /// Where a property starts in a binary row whose lists have so many items.
+    std::size_t offset_of(std::size_t property, std::size_t items) const;
+    /// The bytes of such a row.
+    std::size_t row_bytes(std::size_t items) const { return offset_of(properties.size(), items); }
 };
 
 struct PlyHeader {
@@ -70,8 +74,7 @@ T ply_bytes(const char* at, bool swapped) {
     return std::bit_cast<T>(bytes);
 }
 
-/// A value of a whole type.
-inline std::int64_t ply_whole(const char* at, PlyType type, bool swapped) {
+inline double ply_number(const char* at, PlyType type, bool swapped) {
     switch (type) {
         case PlyType::int8:
             return static_cast<std::int8_t>(*at);
@@ -84,40 +87,28 @@ inline std::int64_t ply_whole(const char* at, PlyType type, bool swapped) {
         case PlyType::int32:
             return ply_bytes<std::int32_t>(at, swapped);
         case PlyType::uint32:
+            return ply_bytes<std::uint32_t>(at, swapped);
         case PlyType::float32:
+            return ply_bytes<float>(at, swapped);
         case PlyType::float64:
             break;
     }
-    return ply_bytes<std::uint32_t>(at, swapped);
-}
-
-/// A value of any type.
-inline double ply_number(const char* at, PlyType type, bool swapped) {
-    if (type == PlyType::float32) return ply_bytes<float>(at, swapped);
-    if (type == PlyType::float64) return ply_bytes<double>(at, swapped);
-    return static_cast<double>(ply_whole(at, type, swapped));
+    return ply_bytes<double>(at, swapped);
 }
 
 // A fast parallel path for the rows of a binary file that all have the same length.
 
-/// The bytes of an element's rows; empty if a list makes their length vary or they are truncated.
-std::optional<std::string_view> fixed_rows(std::string_view data, const PlyElement& element);
-
-/// Reads three properties, given by their places, of rows as returned by fixed_rows; returns
-/// whether all numbers are within max_scene_number.
-bool read_columns(std::string_view rows, const PlyElement& element,
+/// Reads three properties, given by their places, of an element's rows, which have no lists;
+/// returns whether all numbers are within max_scene_number.
+bool read_columns(const char* rows, const PlyElement& element,
                   const std::array<std::size_t, 3>& properties, bool swapped,
                   std::vector<glm::dvec3>& target, const ReadPace& pace);
 
-struct PlyFaces {
-    std::vector<Scene::Mesh::Face> faces;
-    std::size_t bytes = 0;  ///< read from the data
-};
-
-/// Reads faces that are all triangles, or all quadrilaterals that pass parts_well, from the start
-/// of `data`; a row must have one list. Nothing for all others: rows must then be read one by one.
-std::optional<PlyFaces> read_face_block(std::string_view data, const PlyElement& element,
-                                        bool swapped, const std::vector<glm::dvec3>& positions,
-                                        const ReadPace& pace);
+/// Appends faces that are all triangles, or all quadrilaterals that pass parts_well, from the start
+/// of `data`, and returns their bytes; a row must have one list. Returns 0 for all others: rows
+/// must then be read one by one.
+std::size_t read_face_block(std::string_view data, const PlyElement& element, bool swapped,
+                            const std::vector<glm::dvec3>& positions,
+                            std::vector<Scene::Mesh::Face>& faces, const ReadPace& pace);
 
 }  // namespace rt

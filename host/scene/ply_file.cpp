@@ -254,7 +254,8 @@ class BodyReader {
     /// Checks a declared row count against the bytes that are left; faces at the end of a text may
     /// be missing.
     void check_count(const PlyElement& element) {
-        const std::size_t least = element.least_bytes(header_.format);
+        const std::size_t least =
+            rows_.is_text() ? 2 * element.properties.size() : element.row_bytes(0);
         if (least == 0 || (rows_.is_text() && element.name != "vertex")) return;
         const std::uint64_t most = (rows_.left().size() + 1) / least;
         if (element.count <= most) return;
@@ -281,12 +282,12 @@ class BodyReader {
         const std::span<const std::size_t> wanted(places.data(), smooth ? 6 : 3);
         Vectors& positions = builder_.mesh.positions;
         Vectors& normals = builder_.mesh.normals;
-        const auto bytes = rows_.is_text() ? std::nullopt : fixed_rows(rows_.left(), element);
-        if (bytes) {
+        const std::size_t bytes = element.count * element.row_bytes(0);
+        if (!rows_.is_text() && element.list_count() == 0 && bytes <= rows_.left().size()) {
             rows_.start_element(element, wanted);
-            read_block(*bytes, element, places, 0, positions);
-            if (smooth) read_block(*bytes, element, places, 3, normals);
-            return rows_.advance(bytes->size());
+            read_block(element, places, 0, positions);
+            if (smooth) read_block(element, places, 3, normals);
+            return rows_.advance(bytes);
         }
         positions.reserve(element.count);
         if (smooth) normals.reserve(element.count);
@@ -301,11 +302,11 @@ class BodyReader {
         });
     }
 
-    void read_block(std::string_view bytes, const PlyElement& element, const Places& places,
-                    std::size_t first, Vectors& target) {
-        const bool good =
-            read_columns(bytes, element, {places[first], places[first + 1], places[first + 2]},
-                         rows_.swapped(), target, pace_);
+    void read_block(const PlyElement& element, const Places& places, std::size_t first,
+                    Vectors& target) {
+        const bool good = read_columns(rows_.left().data(), element,
+                                       {places[first], places[first + 1], places[first + 2]},
+                                       rows_.swapped(), target, pace_);
         for (std::size_t i = 0; !good && i < target.size(); ++i) {
             rows_.set_row(i);
             target[i] = checked(target[i], first);
@@ -338,26 +339,18 @@ class BodyReader {
                 if (rows_.is_good()) add_strip(rows_.values(list[0]));
             });
         }
-        if (read_faces_side_by_side(element)) return;
+        if (!rows_.is_text() && all_readable_) {
+            const std::size_t bytes =
+                read_face_block(rows_.left(), element, rows_.swapped(), builder_.mesh.positions,
+                                builder_.mesh.faces, pace_);
+            rows_.advance(bytes);
+            if (bytes > 0) return;
+        }
         constexpr std::uint64_t triangle_bytes = 8;  // "3 0 1 2\n"; usual binary rows take more
         builder_.mesh.faces.reserve(std::min(element.count, rows_.left().size() / triangle_bytes));
         read_rows(element, list, [&] {
             if (rows_.is_good()) add_face(rows_.values(list[0]));
         });
-    }
-
-    bool read_faces_side_by_side(const PlyElement& element) {
-        if (rows_.is_text() || !all_readable_) return false;
-        auto block =
-            read_face_block(rows_.left(), element, rows_.swapped(), builder_.mesh.positions, pace_);
-        if (!block) return false;
-        if (builder_.mesh.faces.empty()) {
-            builder_.mesh.faces = std::move(block->faces);
-        } else {
-            builder_.add_triangles(block->faces, {});
-        }
-        rows_.advance(block->bytes);
-        return true;
     }
 
     void add_face(std::span<const double> indices) {
