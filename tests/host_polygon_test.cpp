@@ -33,7 +33,7 @@ double area_of(const std::vector<glm::dvec3>& corners, const Face& face) {
 std::vector<Face> expect_split(const std::vector<glm::dvec3>& corners, double area) {
     std::int64_t work = max_polygon_work;
     std::vector<Face> faces;
-    EXPECT_EQ(triangulate(corners, work, faces), PolygonFault::none);
+    EXPECT_TRUE(triangulate(corners, work, faces));
     double sum = 0;
     for (const Face& face : faces) {
         EXPECT_GT(area_of(corners, face), 0);
@@ -114,7 +114,7 @@ TEST(Triangulate, BackOfAPolygonStaysItsBack) {
     std::reverse(ring.begin(), ring.end());
     std::int64_t work = max_polygon_work;
     std::vector<Face> faces;
-    ASSERT_EQ(triangulate(ring, work, faces), PolygonFault::none);
+    ASSERT_TRUE(triangulate(ring, work, faces));
     for (const Face& face : faces) EXPECT_LT(area_of(ring, face), 0);
 }
 
@@ -129,21 +129,20 @@ TEST(Triangulate, WhatIsNotFlatLosesNothing) {
           Corners{{0, 0, 0}, {2, 0, 0}, {4, 0, 1}, {2, 0, 0.5}, {2, 2, 0}, {0, 2, 0}}}) {
         std::int64_t work = max_polygon_work;
         std::vector<Face> faces;
-        EXPECT_EQ(triangulate(corners, work, faces), PolygonFault::none);
+        EXPECT_TRUE(triangulate(corners, work, faces));
         EXPECT_EQ(faces.size(), corners.size() - 2);
     }
 }
 
-TEST(Triangulate, FaultsAreNamed) {
-    const auto fault_of = [](const std::vector<glm::dvec3>& corners, std::int64_t work) {
-        std::vector<Face> faces;
+TEST(Triangulate, TellsWhatIsNotExact) {
+    std::vector<Face> faces;
+    const auto is_exact = [&](const std::vector<glm::dvec3>& corners, std::int64_t work) {
         return triangulate(corners, work, faces);
     };
-    EXPECT_EQ(fault_of({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, max_polygon_work),
-              PolygonFault::crosses_itself);
-    EXPECT_EQ(fault_of({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}}, max_polygon_work),
-              PolygonFault::zero_area);
-    EXPECT_EQ(fault_of(ring_of(1000, 0.3, 1), 1000), PolygonFault::too_complex);
+    EXPECT_FALSE(is_exact({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, max_polygon_work));
+    EXPECT_FALSE(is_exact(ring_of(1000, 0.3, 1), 1000));
+    EXPECT_TRUE(is_exact({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}}, max_polygon_work));
+    EXPECT_TRUE(faces.empty());
 }
 
 }  // namespace

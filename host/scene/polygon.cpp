@@ -92,23 +92,21 @@ class EarClipper {
           work_(work),
           triangles_(triangles) {}
 
-    PolygonFault run() {
+    /// Returns whether the triangles are the polygon.
+    bool run() {
         link();
         tidy_all();
-        if (count_ < 3) return PolygonFault::none;
+        if (count_ < 3) return true;
         if (is_strictly_convex()) {
             for (Index i = next_[start_]; next_[i] != start_; i = next_[i]) {
                 triangles_.push_back({start_, i, next_[i]});
             }
-            return PolygonFault::none;
+            return true;
         }
-        if (edges_cross()) {
-            return work_ < 0 ? PolygonFault::too_complex : PolygonFault::crosses_itself;
-        }
+        if (edges_cross()) return false;
         find_obstacles();
         clip();
-        if (work_ < 0) return PolygonFault::too_complex;
-        return count_ > 2 ? PolygonFault::crosses_itself : PolygonFault::none;
+        return work_ >= 0 && count_ < 3;
     }
 
    private:
@@ -333,22 +331,21 @@ class EarClipper {
 
 }  // namespace
 
-PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
-                         std::vector<std::array<std::uint32_t, 3>>& triangles) {
+bool triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
+                 std::vector<std::array<std::uint32_t, 3>>& triangles) {
     triangles.clear();
     if (corners.size() == 3) {
-        if (zero_area({corners[0], corners[1], corners[2]})) return PolygonFault::zero_area;
-        triangles.push_back({0, 1, 2});
-        return PolygonFault::none;
+        if (!zero_area({corners[0], corners[1], corners[2]})) triangles.push_back({0, 1, 2});
+        return true;
     }
-    if (corners.size() < 3 || on_one_line(corners)) return PolygonFault::zero_area;
+    if (corners.size() < 3 || on_one_line(corners)) return true;
     const glm::dvec3 normal = normal_of(corners);
-    if (largest(normal) == 0) return PolygonFault::crosses_itself;
-    const PolygonFault fault = EarClipper(flattened(corners, normal), work, triangles).run();
+    if (largest(normal) == 0) return false;
+    const bool exact = EarClipper(flattened(corners, normal), work, triangles).run();
     std::erase_if(triangles, [&](const auto& triangle) {
         return zero_area({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
     });
-    return fault;
+    return exact;
 }
 
 const std::vector<std::array<std::uint32_t, 3>>& PolygonSplitter::split(
@@ -357,15 +354,13 @@ const std::vector<std::array<std::uint32_t, 3>>& PolygonSplitter::split(
     work_ = std::min(max_polygon_work,
                      std::max<std::int64_t>(work_, 0) +
                          work_of_a_corner * static_cast<std::int64_t>(corners.size()));
-    const PolygonFault fault = triangulate(corners, work_, parts_);
-    if (fault == PolygonFault::none) return parts_;
-    parts_.clear();
-    if (fault == PolygonFault::zero_area) {
+    if (!triangulate(corners, work_, parts_)) {
+        ++fans_;
+        parts_.clear();
+        for (std::uint32_t i = 2; i < corners.size(); ++i) parts_.push_back({0, i - 1, i});
+    } else if (parts_.empty()) {
         ++zero_areas_;
-        return parts_;
     }
-    ++fans_;
-    for (std::uint32_t i = 2; i < corners.size(); ++i) parts_.push_back({0, i - 1, i});
     return parts_;
 }
 

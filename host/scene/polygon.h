@@ -10,22 +10,17 @@
 
 namespace rt {
 
-enum class PolygonFault {
-    none,
-    zero_area,       ///< all corners lie on one line
-    crosses_itself,  ///< two edges cross, or the boundary folds over
-    too_complex,     ///< the work would exceed the budget
-};
-
 /// Work budget, in comparisons, for triangulating the polygons of a file, to bound the time.
 inline constexpr std::int64_t max_polygon_work = std::int64_t{1} << 28;
 
 /// Triangulates a polygon, convex or not, flat or not, by ear clipping: index triples into
 /// `corners`, with the polygon's winding. Corners may repeat and lie on edges, and edges may
-/// overlap, as where a slit joins a hole to the outside. No triangle is of zero_area. `work` is the
-/// remaining budget. Replaces `triangles`, whose contents are meaningless on a fault.
-PolygonFault triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
-                         std::vector<std::array<std::uint32_t, 3>>& triangles);
+/// overlap, as where a slit joins a hole to the outside. No triangle is of zero_area; a polygon
+/// whose corners lie on one line has none. `work` is the remaining budget. Replaces `triangles`.
+/// Returns whether they are exact: if not, two edges cross, the boundary folds over, or the budget
+/// is spent.
+bool triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
+                 std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 /// Splits the polygons of a file, whatever is wrong with them.
 class PolygonSplitter {
