@@ -16,7 +16,6 @@
 #include "host/scene/json_document.h"
 #include "host/scene/mistakes.h"
 #include "host/scene/scene_file.h"
-#include "host/scene/scene_warnings.h"
 #include "host/scene/words.h"
 #include "tests/refusals.h"
 

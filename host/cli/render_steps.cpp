@@ -19,7 +19,6 @@
 #include "host/process/drivers.h"
 #include "host/process/stop_signal.h"
 #include "host/scene/scene_file.h"
-#include "host/scene/scene_warnings.h"
 #include "host/view/viewer.h"
 
 namespace rt {

@@ -11,7 +11,6 @@
 #include "host/flatten/flat_scene.h"
 #include "host/print/print_stats.h"
 #include "host/scene/scene_file.h"
-#include "host/scene/scene_warnings.h"
 
 namespace rt {
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -79,10 +78,6 @@ struct MeshLosses {
 /// removed; a mirroring transform reverses the faces, so that fronts stay fronts. The transform
 /// must not be singular.
 MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform);
-
-struct Box {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;  ///< empty
-};
 
 /// The box of all faces; vertices of none do not count.
 Box bounding_box(const Scene::Mesh& mesh);

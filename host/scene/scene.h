@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -147,6 +148,13 @@ struct Scene {
     std::vector<std::string> model_files;  ///< read in addition to the scene's own file
 };
 
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;  ///< empty
+};
+
+/// The box of all shapes.
+Box bounding_box(const Scene& scene);
+
 /// The triangles of the scene, those of its meshes included.
 std::size_t triangle_count(const Scene& scene);
 
@@ -163,6 +171,10 @@ std::string name_of_file(const std::string& path);
 /// Throws Error (ExitCode::input) for a scene without a path, and where the view direction or up
 /// vector is degenerate.
 Scene::Camera camera_at(const Scene& scene, double frame);
+
+/// Warnings about valid but rarely intended input, one sentence each: no light at all, nothing in
+/// view, colors of 0 to 255, mirrors that brighten. No false alarms, but not exhaustive.
+std::vector<std::string> scene_warnings(const Scene& scene);
 
 /// A hash of what the scene shows: camera, light, materials and shapes; not its name or its
 /// sampling (size, AA, bounces).

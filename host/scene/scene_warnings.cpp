@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/scene_warnings.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "host/scene/geometry.h"
+#include "host/scene/mesh.h"
+#include "host/scene/scene.h"
 #include "host/scene/words.h"
 
 namespace rt {
