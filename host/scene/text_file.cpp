@@ -144,11 +144,6 @@ FileDescriptor open_steps(const fs::path& root, const fs::path& steps) {
     return at;
 }
 
-bool is_regular(const FileDescriptor& file) {
-    struct stat status {};
-    return fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode);
-}
-
 }  // namespace
 
 FileDescriptor open_text_file(const std::string& path) {
@@ -250,7 +245,8 @@ OpenedFile open_beneath(const SceneFolder& folder, const std::string& name) {
         throw Error(ExitCode::limit, fmt::format("{}: cannot be opened: {}; raise the limit",
                                                  in_quotes(name), std::strerror(errno)));
     }
-    if (!is_regular(file)) return problem("is not a regular file; name one");
+    const mode_t mode = status_of(file, path.string()).st_mode;
+    if (!S_ISREG(mode)) return problem("is not a regular file; name one");
     return {std::move(file), path.string(), {}};
 }
 
