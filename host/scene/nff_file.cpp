@@ -148,15 +148,10 @@ class NffReader {
     }
 
     std::optional<double> read_next(std::string_view name) {
-        scanner_.find_word();
-        const std::size_t start = scanner_.offset();
-        if (const auto usual = scanner_.number()) {
-            if (std::abs(*usual) <= max_scene_number) return usual;
-            scanner_ = LineScanner(mistakes_.text(), start);
-        }
         if (number_follows()) {
-            has_lost_ = has_lost_ || remedy_ == &left_out;
-            return scan_number(scanner_, name, mistakes_, remedy_);
+            const auto number = scan_number(scanner_, name, mistakes_, remedy_);
+            has_lost_ = has_lost_ || (!number && remedy_ == &left_out);
+            return number;
         }
         const std::string_view word = LineScanner(scanner_).word();
         report(scanner_.offset(),
