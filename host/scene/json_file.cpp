@@ -82,8 +82,7 @@ void refuse_keys(const ObjectReader& camera, std::initializer_list<std::string_v
 
 /// The one of the keys that is present; notes it if there is none, or more.
 std::optional<std::string_view> find_only(const ObjectReader& camera, const JsonValue& value,
-                                          std::initializer_list<std::string_view> wanted,
-                                          std::string_view names) {
+                                          std::span<const std::string_view> wanted) {
     std::optional<std::string_view> only;
     int count = 0;
     for (const std::string_view key : wanted) {
@@ -93,7 +92,7 @@ std::optional<std::string_view> find_only(const ObjectReader& camera, const Json
     }
     if (count == 1) return only;
     camera.mistakes().add(value.offset, "the camera gives {} of {}; give exactly one", count,
-                          names);
+                          word_list(wanted));
     return std::nullopt;
 }
 
@@ -101,8 +100,7 @@ void read_perspective(const ObjectReader& reader, const JsonValue& value, Scene:
     refuse_keys(reader, {"width", "height"},
                 "in a perspective camera; use fov_degrees or window, or \"type\": "
                 "\"orthographic\"");
-    const auto key =
-        find_only(reader, value, {"fov_degrees", "window"}, "'fov_degrees' and 'window'");
+    const auto key = find_only(reader, value, {{"fov_degrees", "window"}});
     if (key == "window") {
         refuse_keys(reader, {"fov_axis"},
                     "in a camera with a window; remove it or use fov_degrees");
@@ -119,8 +117,7 @@ void read_orthographic(const ObjectReader& reader, const JsonValue& value, Scene
     refuse_keys(reader, {"fov_degrees", "fov_axis"},
                 "in an orthographic camera; use height, width or window, or \"type\": "
                 "\"perspective\"");
-    const auto key =
-        find_only(reader, value, {"height", "width", "window"}, "'height', 'width' and 'window'");
+    const auto key = find_only(reader, value, {{"height", "width", "window"}});
     if (!key || key == "window") return;
     camera.field_of_view.fixed = key == "height" ? Fixed::view_height : Fixed::view_width;
     reader.optional(*key, camera.field_of_view.amount, read_positive);
@@ -155,24 +152,14 @@ Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes) {
     return camera;
 }
 
-/// The key for the field of view of this kind of camera; "" if it has a window.
-std::string_view extent_key(const Scene::Camera& camera) {
-    switch (camera.field_of_view.fixed) {
-        case Fixed::horizontal:
-        case Fixed::vertical:
-            return "fov_degrees";
-        case Fixed::view_width:
-            return "width";
-        case Fixed::view_height:
-            return "height";
-        case Fixed::window:
-            break;
-    }
-    return "";
-}
+/// The keys for what a camera fixes of its field of view, unless it has a window.
+constexpr Named<Fixed> extents[] = {{"fov_degrees", Fixed::horizontal},
+                                    {"fov_degrees", Fixed::vertical},
+                                    {"width", Fixed::view_width},
+                                    {"height", Fixed::view_height}};
 
 void read_extent(const ObjectReader& reader, Scene::Camera& camera) {
-    const std::string_view own = extent_key(camera);
+    const std::string_view own = name_of(extents, camera.field_of_view.fixed);
     const std::string why =
         fmt::format("here: the scene's camera gives {}", own.empty() ? "a window" : in_quotes(own));
     for (const std::string_view key : {"fov_degrees", "width", "height"}) {

@@ -48,44 +48,34 @@ std::optional<glm::dvec3> read_reflectance(const JsonField& field) {
     return refuse_number(field, brightest, fmt::format("{} at most", max_reflectance));
 }
 
-/// What other programs call a key, where no known key is spelled much like it.
-constexpr std::pair<std::string_view, std::string_view> synonyms[] = {
-    {"pos", "position"},
-    {"pos", "from"},
-    {"pos", "center"},
-    {"position", "from"},
-    {"position", "center"},
-    {"position", "translate"},
-    {"location", "position"},
-    {"location", "from"},
-    {"origin", "from"},
-    {"eye", "from"},
-    {"look_at", "at"},
-    {"lookat", "at"},
-    {"target", "at"},
-    {"color", "diffuse"},
-    {"color", "intensity"},
-    {"colour", "diffuse"},
-    {"colour", "intensity"},
-    {"reflection", "mirror"},
-    {"reflectivity", "mirror"},
-    {"refraction", "ior"},
-    {"opacity", "transmission"},
-    {"exponent", "shininess"},
-    {"power", "intensity"},
-    {"brightness", "intensity"},
-    {"samples", "aa"},
-    {"antialiasing", "aa"},
-    {"size", "width"},
-    {"resolution", "width"},
-    {"points", "vertices"},
-    {"path", "file"},
-    {"rotation", "rotate_degrees"},
-    {"depth", "max_bounces"}};
+/// A key, and what other programs call it, where that is not spelled much like it.
+struct Synonyms {
+    std::string_view key;
+    std::string_view others[5];
+};
+
+constexpr Synonyms synonyms[] = {{"position", {"pos", "location"}},
+                                 {"from", {"pos", "position", "location", "origin", "eye"}},
+                                 {"center", {"pos", "position"}},
+                                 {"translate", {"position"}},
+                                 {"at", {"look_at", "lookat", "target"}},
+                                 {"diffuse", {"color", "colour"}},
+                                 {"intensity", {"color", "colour", "power", "brightness"}},
+                                 {"mirror", {"reflection", "reflectivity"}},
+                                 {"ior", {"refraction"}},
+                                 {"transmission", {"opacity"}},
+                                 {"shininess", {"exponent"}},
+                                 {"aa", {"samples", "antialiasing"}},
+                                 {"width", {"size", "resolution"}},
+                                 {"vertices", {"points"}},
+                                 {"file", {"path"}},
+                                 {"rotate_degrees", {"rotation"}},
+                                 {"max_bounces", {"depth"}}};
 
 std::string guess(std::string_view key, std::span<const std::string_view> known) {
-    for (const auto& [word, meant] : synonyms) {
-        const bool fits = word == key && std::ranges::find(known, meant) != known.end();
+    for (const auto& [meant, others] : synonyms) {
+        const bool fits = !key.empty() && std::ranges::find(others, key) != std::end(others) &&
+                          std::ranges::find(known, meant) != known.end();
         if (fits) return fmt::format("did you mean {}?", in_quotes(meant));
     }
     return suggestion(key, known, "known keys are");
