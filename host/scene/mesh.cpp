@@ -19,18 +19,11 @@ constexpr Face flat_face = {Scene::Mesh::no_normal, Scene::Mesh::no_normal, Scen
 /// Appends the triangle of three of a face's corners.
 void append_triangle(const Face& which, std::span<const std::uint32_t> corners,
                      std::span<const std::uint32_t> normals, std::vector<Face>& faces,
-                     std::vector<Face>& face_normals) {
+                     std::vector<Face>* face_normals) {
     const auto [a, b, c] = which;
-    if (!normals.empty() && face_normals.empty()) {
-        face_normals.reserve(faces.capacity());
-        face_normals.assign(faces.size(), flat_face);
-    }
     faces.push_back({corners[a], corners[b], corners[c]});
-    if (!normals.empty()) {
-        face_normals.push_back({normals[a], normals[b], normals[c]});
-    } else if (!face_normals.empty()) {
-        face_normals.push_back(flat_face);
-    }
+    if (!face_normals) return;
+    face_normals->push_back(normals.empty() ? flat_face : Face{normals[a], normals[b], normals[c]});
 }
 
 constexpr std::size_t grain = 1 << 15;  // faces that a thread takes at a time
@@ -126,7 +119,7 @@ bool parts_well(const std::array<glm::dvec3, 4>& quad) {
 bool append_usual_face(std::span<const std::uint32_t> corners,
                        std::span<const std::uint32_t> normals,
                        const std::vector<glm::dvec3>& positions, std::vector<Face>& faces,
-                       std::vector<Face>& face_normals) {
+                       std::vector<Face>* face_normals) {
     const auto& p = positions;
     const auto& c = corners;
     const bool is_quad = c.size() == 4 && parts_well({p[c[0]], p[c[1]], p[c[2]], p[c[3]]});
@@ -136,24 +129,14 @@ bool append_usual_face(std::span<const std::uint32_t> corners,
     return true;
 }
 
-void MeshBuilder::add_triangles(std::span<const Face> faces, std::span<const Face> normals) {
-    std::vector<Face>& all = mesh.face_normals;
-    if (!normals.empty() && all.empty()) {
-        all.reserve(mesh.faces.capacity());
-        all.assign(mesh.faces.size(), flat_face);
-    }
-    mesh.faces.insert(mesh.faces.end(), faces.begin(), faces.end());
-    all.insert(all.end(), normals.begin(), normals.end());
-    if (!all.empty()) all.resize(mesh.faces.size(), flat_face);
-}
-
 void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
                            std::span<const std::uint32_t> normals) {
-    if (append_usual_face(corners, normals, mesh.positions, mesh.faces, mesh.face_normals)) return;
+    auto* const rows = mesh.normals.empty() ? nullptr : &mesh.face_normals;
+    if (append_usual_face(corners, normals, mesh.positions, mesh.faces, rows)) return;
     outline_.clear();
     for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
     for (const Face& which : splitter_.split(outline_)) {
-        append_triangle(which, corners, normals, mesh.faces, mesh.face_normals);
+        append_triangle(which, corners, normals, mesh.faces, rows);
     }
 }
 
@@ -167,6 +150,8 @@ Scene::Mesh MeshBuilder::take() {
     std::vector<int>& materials = mesh.face_materials;
     const bool same = std::ranges::adjacent_find(materials, std::not_equal_to{}) == materials.end();
     if (same) materials.resize(1, -1);
+    const auto is_flat = [](const Face& normals) { return normals == flat_face; };
+    if (std::ranges::all_of(mesh.face_normals, is_flat)) mesh.face_normals.clear();
     return std::move(mesh);
 }
 
@@ -176,10 +161,9 @@ MeshLosses finish_mesh(Scene::Mesh& mesh, const Affine& transform) {
     const auto matrix = normal_matrix(transform.linear);
     const bool any_zero = turn_normals(mesh.normals, matrix.value_or(glm::dmat3(1)));
     losses.zero_areas = drop_zero_areas(mesh);
-    constexpr std::uint32_t none = Scene::Mesh::no_normal;
     for (Face& normals : mesh.face_normals) {
         if (!any_zero || !has_zero_normal(mesh, normals)) continue;
-        normals = {none, none, none};
+        normals = flat_face;
         ++losses.flat_faces;
     }
     if (mirrors(transform.linear)) {

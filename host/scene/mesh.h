@@ -29,22 +29,18 @@ bool parts_well(const std::array<glm::dvec3, 4>& quad);
 
 /// Appends the triangles of a face, if it is one of the usual ones: a triangle, or a quadrilateral
 /// that parts well. `corners` are indices into positions; `normals` as many into the normals, or
-/// none. Once any face has normals, every face has a row of them.
+/// none. `face_normals` gets a row for each triangle; null for a mesh without normals.
 bool append_usual_face(std::span<const std::uint32_t> corners,
                        std::span<const std::uint32_t> normals,
                        const std::vector<glm::dvec3>& positions,
                        std::vector<Scene::Mesh::Face>& faces,
-                       std::vector<Scene::Mesh::Face>& face_normals);
+                       std::vector<Scene::Mesh::Face>* face_normals);
 
 /// Turns a model's faces, with any number of corners, into the triangles of a mesh. Readers write
-/// positions and normals directly to `mesh`.
+/// positions and normals, and faces that are triangles, directly to `mesh`.
 class MeshBuilder {
    public:
     Scene::Mesh mesh;
-
-    /// Appends triangles unchanged; with a row of normals each, or none.
-    void add_triangles(std::span<const Scene::Mesh::Face> faces,
-                       std::span<const Scene::Mesh::Face> normals);
 
     /// `corners` are at least 3 indices into mesh.positions; `normals` as many into mesh.normals,
     /// or none. All must be in range.

@@ -63,7 +63,7 @@ struct Chunk {
 
     Positions positions, normals;  ///< NaN where they cannot be read
     std::vector<Face> faces;
-    std::vector<Face> face_normals;  ///< one for each face, or none
+    std::vector<Face> face_normals;  ///< one for each face, if the file has normals
     std::vector<Event> events;
     std::vector<ObjMaterials::Use> libraries;
 };
@@ -252,10 +252,8 @@ class FaceReader {
             notes_.note(bad_vertex, offset, {});
         } else {
             if (!read_normals(offset)) normals_.clear();
-            if (append_usual_face(corners_, normals_, positions_, chunk_.faces,
-                                  chunk_.face_normals)) {
-                return;
-            }
+            auto* const rows = all_normals_.empty() ? nullptr : &chunk_.face_normals;
+            if (append_usual_face(corners_, normals_, positions_, chunk_.faces, rows)) return;
             chunk_.events.push_back({chunk_.faces.size(), corners_, normals_, {}});
         }
     }
@@ -312,6 +310,7 @@ class ObjReader {
         std::size_t triangles = 0;
         for (const Chunk& chunk : chunks_) triangles += chunk.faces.size();
         builder_.mesh.faces.reserve(triangles);
+        if (!builder_.mesh.normals.empty()) builder_.mesh.face_normals.reserve(triangles);
         for (Chunk& chunk : chunks_) add(chunk);
         Model model;
         model.mesh = builder_.take();
@@ -370,11 +369,14 @@ class ObjReader {
     }
 
     void add(Chunk& chunk) {
-        const std::span<const Face> faces = chunk.faces, normals = chunk.face_normals;
+        Scene::Mesh& mesh = builder_.mesh;
         std::size_t done = 0;
         const auto add_up_to = [&](std::size_t end) {
-            builder_.add_triangles(faces.subspan(done, end - done),
-                                   normals.empty() ? normals : normals.subspan(done, end - done));
+            const auto append = [&](const std::vector<Face>& part, std::vector<Face>& all) {
+                all.insert(all.end(), part.data() + done, part.data() + end);
+            };
+            append(chunk.faces, mesh.faces);
+            if (!mesh.normals.empty()) append(chunk.face_normals, mesh.face_normals);
             done = end;
         };
         for (const Event& event : chunk.events) {
@@ -385,7 +387,7 @@ class ObjReader {
                 builder_.add_face(event.corners, event.normals);
             }
         }
-        add_up_to(faces.size());
+        add_up_to(chunk.faces.size());
         for (const ObjMaterials::Use& library : chunk.libraries) materials_.use_library(library);
         mistakes_.take_notes(chunk.notes);
         chunk = {Mistakes({}, {}), 0, 0, {}, {}, {}, {}, {}, {}};

@@ -245,7 +245,8 @@ class BodyReader {
         for (glm::dvec3& p : model.mesh.positions) {
             if (!all_readable_ && std::isnan(p.x)) p = glm::dvec3(0);  // no face uses it
         }
-        if (!model.mesh.normals.empty()) model.mesh.face_normals = model.mesh.faces;
+        if (!normals_.empty()) model.mesh.face_normals = model.mesh.faces;
+        model.mesh.normals = std::move(normals_);
         model.notes = mistakes_.notes();
         std::ranges::move(builder_.notes(mistakes_.file_name()), std::back_inserter(model.notes));
         return model;
@@ -281,16 +282,15 @@ class BodyReader {
         });
         const std::span<const std::size_t> wanted(places.data(), smooth ? 6 : 3);
         Vectors& positions = builder_.mesh.positions;
-        Vectors& normals = builder_.mesh.normals;
         const std::size_t bytes = element.count * element.row_bytes(0);
         if (!rows_.is_text() && element.list_count() == 0 && bytes <= rows_.left().size()) {
             rows_.start_element(element, wanted);
             read_block(element, places, 0, positions);
-            if (smooth) read_block(element, places, 3, normals);
+            if (smooth) read_block(element, places, 3, normals_);
             return rows_.advance(bytes);
         }
         positions.reserve(element.count);
-        if (smooth) normals.reserve(element.count);
+        if (smooth) normals_.reserve(element.count);
         read_rows(element, wanted, [&] {
             const auto vector = [&](std::size_t first) {
                 if (!rows_.is_good()) return glm::dvec3(nan);
@@ -298,7 +298,7 @@ class BodyReader {
                                   rows_.value(places[first + 2]));
             };
             positions.push_back(checked(vector(0), 0));
-            if (smooth) normals.push_back(checked(vector(3), 3));
+            if (smooth) normals_.push_back(checked(vector(3), 3));
         });
     }
 
@@ -413,6 +413,7 @@ class BodyReader {
     Mistakes& mistakes_;
     ReadPace pace_;
     MeshBuilder builder_;
+    Vectors normals_;                     ///< of the vertices, whose numbers they have
     std::vector<std::uint32_t> corners_;  ///< of the face or strip being read
     bool all_readable_ = true;            ///< no position is NaN
 };
