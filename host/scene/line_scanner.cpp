@@ -136,12 +136,11 @@ std::optional<std::int64_t> LineScanner::integer() {
 
 std::optional<double> scan_number(LineScanner& scanner, std::string_view name, Mistakes& mistakes,
                                   const Remedy* remedy, std::size_t count) {
-    const bool there = scanner.word_follows();
-    const std::size_t offset = scanner.offset();
-    const auto number = there ? scanner.number() : std::nullopt;
+    const std::size_t offset = scanner.word_offset();
+    const auto number = scanner.number();
     if (number && std::abs(*number) <= max_scene_number) return number;
     std::string message = fmt::format("{} is {}; write a number from -1e30 to 1e30", name,
-                                      found_text(scanner, there, number));
+                                      found_text(scanner, number));
     if (remedy) {
         mistakes.note_in({}, *remedy, offset, std::move(message), count);
     } else {

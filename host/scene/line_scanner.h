@@ -39,6 +39,11 @@ class LineScanner {
 
     /// Skips blanks; whether a word follows on this line.
     bool word_follows();
+    /// Skips blanks; the offset of the next word of this line, or of its end.
+    std::size_t word_offset() {
+        word_follows();
+        return offset();
+    }
     /// The next word of this line, empty at its end.
     std::string_view word();
     /// The rest of this line, trimmed (continuations and comments are not handled).
@@ -62,12 +67,13 @@ class LineScanner {
     const char *begin_, *at_, *end_;
 };
 
-/// What stands where a number was wanted, for messages: nothing, a number, or a word, which it
-/// skips.
+/// What stands where a number was wanted, for messages: a number, or a word, which it skips, or
+/// nothing.
 template <typename Number>
-std::string found_text(LineScanner& scanner, bool is_there, const std::optional<Number>& number) {
-    if (!is_there) return "missing";
-    return number ? fmt::format("{}", *number) : in_quotes(scanner.word());
+std::string found_text(LineScanner& scanner, const std::optional<Number>& number) {
+    if (number) return fmt::format("{}", *number);
+    const std::string_view word = scanner.word();
+    return word.empty() ? "missing" : in_quotes(word);
 }
 
 /// The next number, within max_scene_number. Otherwise nothing, and a note (or, without a remedy,

@@ -167,8 +167,7 @@ class MtlReader {
 
     /// Reads a number from 0 to `most` into `target`; one beyond is limited.
     void read_amount(std::string_view word, double most, double& target) {
-        scanner_.word_follows();
-        const std::size_t offset = scanner_.offset();
+        const std::size_t offset = scanner_.word_offset();
         const auto number = scan_number(scanner_, word, mistakes_, &value_ignored);
         if (!number) return;
         target = std::clamp(*number, 0.0, most);
@@ -179,15 +178,14 @@ class MtlReader {
 
     void read_illum(Mtl& mtl) {
         constexpr int last = 10;
-        const bool there = scanner_.word_follows();
-        const std::size_t offset = scanner_.offset();
-        const auto number = there ? scanner_.integer() : std::nullopt;
+        const std::size_t offset = scanner_.word_offset();
+        const auto number = scanner_.integer();
         if (number && *number >= 0 && *number <= last) {
             mtl.illum = static_cast<int>(*number);
             return;
         }
         mistakes_.note(value_ignored, offset, "illum is {}; write a whole number from 0 to {}",
-                       found_text(scanner_, there, number), last);
+                       found_text(scanner_, number), last);
     }
 
     LineScanner scanner_;

@@ -186,8 +186,7 @@ class FaceReader {
     }
 
     ObjMaterials::Use rest() {
-        scanner_.word_follows();
-        const std::size_t offset = scanner_.offset();
+        const std::size_t offset = scanner_.word_offset();
         return {std::string(scanner_.rest()), offset};
     }
 

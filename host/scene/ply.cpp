@@ -83,8 +83,7 @@ class HeaderReader {
 
     void read_format() {
         constexpr std::string_view names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
-        scanner_.word_follows();
-        const std::size_t offset = scanner_.offset();
+        const std::size_t offset = scanner_.word_offset();
         const std::string_view name = scanner_.word(), version = scanner_.word();
         const auto found = std::ranges::find(names, name);
         const auto format = static_cast<PlyFormat>(found - std::begin(names));
@@ -106,12 +105,11 @@ class HeaderReader {
         PlyElement element;
         element.offset = offset_;
         element.name = scanner_.word();
-        const bool there = scanner_.word_follows();
-        const std::size_t offset = scanner_.offset();
-        const auto count = there ? scanner_.integer() : std::nullopt;
+        const std::size_t offset = scanner_.word_offset();
+        const auto count = scanner_.integer();
         if (!count || *count < 0) {
             mistakes_.add(offset, "the count of element {} is {}; write a whole number, 0 or more",
-                          in_quotes(element.name), found_text(scanner_, there, count));
+                          in_quotes(element.name), found_text(scanner_, count));
         } else {
             element.count = static_cast<std::uint64_t>(*count);
         }
@@ -123,8 +121,7 @@ class HeaderReader {
     }
 
     std::optional<PlyType> read_type() {
-        scanner_.word_follows();
-        const std::size_t offset = scanner_.offset();
+        const std::size_t offset = scanner_.word_offset();
         const std::string_view word = scanner_.word();
         const auto found = std::ranges::find(type_names, word);
         if (found != std::end(type_names)) {
@@ -147,8 +144,7 @@ class HeaderReader {
         PlyProperty property;
         if (LineScanner ahead = scanner_; ahead.word() == "list") {
             scanner_ = ahead;
-            scanner_.word_follows();
-            const std::size_t offset = scanner_.offset();
+            const std::size_t offset = scanner_.word_offset();
             property.count_type = read_type();
             if (!property.count_type) return;
             if (!is_whole(*property.count_type) && header_.format != PlyFormat::ascii) {
