@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <utility>
@@ -21,11 +22,6 @@ bool before(glm::dvec2 a, glm::dvec2 b) { return a.x < b.x || (a.x == b.x && a.y
 bool properly_cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
     return orientation(a, b, c) * orientation(a, b, d) < 0 &&
            orientation(c, d, a) * orientation(c, d, b) < 0;
-}
-
-/// The corners of an edge's bounding box.
-std::pair<glm::dvec2, glm::dvec2> box_of(glm::dvec2 a, glm::dvec2 b) {
-    return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
 }
 
 bool on_one_line(std::span<const glm::dvec3> corners) {
@@ -180,11 +176,9 @@ class EarClipper {
         edges.reserve(count_);
         for (Index i = start_, seen = 0; seen < count_; i = next_[i], ++seen) {
             const glm::dvec2 a = points_[i], b = points_[next_[i]];
-            const auto [low, high] = box_of(a, b);
-            edges.push_back({a, b, low, high});
+            edges.push_back({a, b, glm::min(a, b), glm::max(a, b)});
         }
-        std::sort(edges.begin(), edges.end(),
-                  [](const Edge& e, const Edge& f) { return e.low.x < f.low.x; });
+        std::ranges::sort(edges, {}, [](const Edge& edge) { return edge.low.x; });
         for (std::size_t i = 0; i < edges.size() && work_ >= 0; ++i) {
             const Edge& e = edges[i];
             for (std::size_t j = i + 1; j < edges.size() && edges[j].low.x <= e.high.x; ++j) {
@@ -309,9 +303,8 @@ class EarClipper {
     bool inside(glm::dvec2 point, Index corner, bool strict) const {
         const glm::dvec2 a = points_[previous_[corner]], b = points_[corner];
         const glm::dvec2 c = points_[next_[corner]];
-        const auto [low, high] = box_of(a, b);
-        if (point.x < std::min(low.x, c.x) || point.x > std::max(high.x, c.x) ||
-            point.y < std::min(low.y, c.y) || point.y > std::max(high.y, c.y)) {
+        const glm::dvec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
+        if (point.x < low.x || point.x > high.x || point.y < low.y || point.y > high.y) {
             return false;
         }
         const int least = strict ? 0 : 1;
