@@ -88,12 +88,4 @@ void Mistakes::throw_if_any() const {
     throw Error(ExitCode::input, lines);
 }
 
-void limit_notes(std::vector<std::string>& notes) {
-    constexpr std::size_t most = Mistakes::max_count;
-    if (notes.size() <= most) return;
-    const std::size_t more = notes.size() - most;
-    notes.resize(most);
-    notes.push_back(fmt::format("and {}", counted(more, "more note", "more notes")));
-}
-
 }  // namespace rt

@@ -103,7 +103,4 @@ class Mistakes {
     std::vector<Note> notes_;
 };
 
-/// Keeps a scene's notes few: the first 20, then "and 5 more notes".
-void limit_notes(std::vector<std::string>& notes);
-
 }  // namespace rt

@@ -40,6 +40,15 @@ Scene load(const std::string& path) {
     return parse_json_scene(text.view(), path);
 }
 
+/// Keeps a scene's notes few: the first 20, then "and 5 more notes".
+void limit_notes(std::vector<std::string>& notes) {
+    constexpr std::size_t most = Mistakes::max_count;
+    if (notes.size() <= most) return;
+    const std::size_t more = notes.size() - most;
+    notes.resize(most);
+    notes.push_back(fmt::format("and {}", counted(more, "more note", "more notes")));
+}
+
 }  // namespace
 
 Scene load_scene(const std::string& path, const LightOverrides& light) {

@@ -14,14 +14,10 @@ namespace {
 constexpr std::size_t max_quoted_bytes = 60;
 constexpr std::size_t max_words = 16;
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-/// Edits (insert, delete, replace, swap neighbors) between two words, letter case aside: the
-/// restricted distance of Damerau 1964.
+/// Edits (insert, delete, replace, swap neighbors) between two words: the restricted distance of
+/// Damerau 1964.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    const auto same = [&](std::size_t i, std::size_t j) {
-        return lower(a[i - 1]) == lower(b[j - 1]);
-    };
+    const auto same = [&](std::size_t i, std::size_t j) { return a[i - 1] == b[j - 1]; };
     std::vector<std::size_t> before, above, row(b.size() + 1);
     for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -51,7 +47,8 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
     std::string_view best;
     for (const std::string_view candidate : known) {
         if (candidate.size() > word.size() + best_distance) continue;
-        const std::size_t distance = edit_distance(word, candidate);
+        const std::size_t distance =
+            edit_distance(lower(std::string(word)), lower(std::string(candidate)));
         if (distance < best_distance && distance < candidate.size()) {
             best_distance = distance;
             best = candidate;
