@@ -10,7 +10,7 @@
 #include <string>
 
 #include "host/base/error.h"
-#include "host/journal/journal_reader.h"
+#include "host/journal/journal_format.h"
 
 namespace {
 

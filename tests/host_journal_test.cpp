@@ -277,12 +277,7 @@ TEST_F(Journals, ForgetLostTiles) {
     header.picture.height = 2;
     header.picture.region = {0, 0, 4, 2};
     JournalFile file(path("f.mbj"));
-    file.restart([&] {
-        const auto magic = std::as_bytes(std::span(journal_magic));
-        std::vector<std::byte> start(magic.begin(), magic.end());
-        append_header(start, header);
-        return start;
-    });
+    file.restart([&] { return journal_start(header); });
     {
         JournalKeeper<float> keeper(file, {"host", "device", "1", 1}, film, header.picture.region,
                                     0, [] {});

@@ -8,10 +8,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <fstream>
 #include <new>
 #include <system_error>
@@ -47,10 +45,6 @@ std::string holder(const std::string& path) {
 }
 
 constexpr std::chrono::seconds period{1};
-
-std::array<std::int32_t, 4> numbers_of(const Rect& rect) {
-    return {rect.x, rect.y, rect.width, rect.height};
-}
 
 bool is_start_of_magic(std::string_view bytes) {
     return bytes.size() < journal_magic.size() && journal_magic.starts_with(bytes);
@@ -263,8 +257,7 @@ template <typename T>
 void JournalKeeper<T>::tile_lost(const Rect& tile) {
     const std::scoped_lock lock(mutex_);
     std::erase(tiles_, tile);
-    const auto numbers = numbers_of(tile);
-    append_record(records_, RecordKind::lost, std::as_bytes(std::span(numbers)));
+    append_record(records_, RecordKind::lost, std::as_bytes(std::span(&tile, 1)));
 }
 
 /// Makes records of the finished tiles; the mutex is held.
@@ -272,15 +265,11 @@ template <typename T>
 void JournalKeeper<T>::take_tiles() {
     std::vector<std::byte> body;
     for (const Rect& tile : tiles_) {
-        const auto numbers = numbers_of(tile);
-        const std::size_t row_bytes = 3 * sizeof(T) * static_cast<std::size_t>(tile.width);
-        body.resize(sizeof(numbers) + row_bytes * static_cast<std::size_t>(tile.height));
-        std::memcpy(body.data(), numbers.data(), sizeof(numbers));
-        for (int row = 0; row < tile.height; ++row) {
-            const std::size_t pixel = index_in(shown_, tile.x, tile.y + row);
-            std::memcpy(body.data() + sizeof(numbers) + static_cast<std::size_t>(row) * row_bytes,
-                        &film_.rgb[3 * pixel], row_bytes);
-        }
+        const Film<T> part = part_of(film_, shown_, tile);
+        const auto rect = std::as_bytes(std::span(&tile, 1));
+        const auto values = std::as_bytes(std::span(part.rgb));
+        body.assign(rect.begin(), rect.end());
+        body.insert(body.end(), values.begin(), values.end());
         append_record(records_, RecordKind::tile, body);
     }
     tiles_.clear();

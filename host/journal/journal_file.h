@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "host/base/files.h"
-#include "host/journal/journal_reader.h"
+#include "host/journal/journal_format.h"
 #include "host/render/film.h"
 #include "host/render/stopwatch.h"
 

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
+#include <utility>
 
-#include "host/base/error.h"
+#include "host/base/memory.h"
 #include "host/record/record.h"
 
 static_assert(std::endian::native == std::endian::little, "journals are little-endian");
@@ -15,10 +17,18 @@ namespace rt {
 
 namespace {
 
-constexpr int largest_side = 65536;
+/// Precedes a record's body.
+struct RecordHead {
+    RecordKind kind;
+    std::uint32_t bytes, crc;
+};
+static_assert(sizeof(RecordHead) == 12 && sizeof(Rect) == 16, "they are stored as they are");
 
-std::string_view text_in(std::span<const std::byte> body) {
-    return {reinterpret_cast<const char*>(body.data()), body.size()};
+constexpr int largest_side = 65536;
+constexpr std::size_t most_text_bytes = 1 << 16;  // of a header or writer
+
+void append(std::vector<std::byte>& bytes, std::span<const std::byte> more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
 template <typename T>
@@ -27,44 +37,18 @@ void append_json(std::vector<std::byte>& bytes, RecordKind kind, const T& x) {
     append_record(bytes, kind, std::as_bytes(std::span(text)));
 }
 
-template <typename N>
-void append_number(std::vector<std::byte>& bytes, N number) {
-    const auto raw = std::as_bytes(std::span(&number, 1));
-    bytes.insert(bytes.end(), raw.begin(), raw.end());
+template <typename T>
+void parse_json(std::span<const std::byte> body, T& x) {
+    const std::string_view text(reinterpret_cast<const char*>(body.data()), body.size());
+    read_json(Json::parse(text, nullptr, false), x);
 }
 
-}  // namespace
-
-std::uint32_t record_crc(RecordKind kind, std::span<const std::byte> body) {
-    const std::uint32_t head[2] = {static_cast<std::uint32_t>(kind),
-                                   static_cast<std::uint32_t>(body.size())};
-    const uLong start = crc32_z(0, reinterpret_cast<const Bytef*>(head), sizeof(head));
-    if (body.empty()) return static_cast<std::uint32_t>(start);  // null would reset zlib's CRC
-    return static_cast<std::uint32_t>(
-        crc32_z(start, reinterpret_cast<const Bytef*>(body.data()), body.size()));
-}
-
-void append_record(std::vector<std::byte>& bytes, RecordKind kind,
-                   std::span<const std::byte> body) {
-    append_number(bytes, static_cast<std::uint32_t>(kind));
-    append_number(bytes, static_cast<std::uint32_t>(body.size()));
-    append_number(bytes, record_crc(kind, body));
-    bytes.insert(bytes.end(), body.begin(), body.end());
-}
-
-void append_header(std::vector<std::byte>& bytes, const JournalHeader& header) {
-    append_json(bytes, RecordKind::header, header);
-}
-
-void append_writer(std::vector<std::byte>& bytes, const JournalWriterInfo& writer) {
-    append_json(bytes, RecordKind::writer, writer);
-}
-
+/// Throws Error (ExitCode::input) describing the problem, without a file name.
 JournalHeader parse_header(std::span<const std::byte> body) {
     JournalHeader header;
     std::string what;
     try {
-        read_json(Json::parse(text_in(body), nullptr, false), header);
+        parse_json(body, header);
         const PictureSpec& picture = header.picture;
         const int side = std::max(picture.width, picture.height);
         const Rect whole{0, 0, picture.width, picture.height};
@@ -82,13 +66,153 @@ JournalHeader parse_header(std::span<const std::byte> body) {
     throw Error(ExitCode::input, "its header is damaged (" + what + "); render it again");
 }
 
+/// Whatever fields can be parsed, for messages.
 JournalWriterInfo parse_writer(std::span<const std::byte> body) {
     JournalWriterInfo writer;
     try {
-        read_json(Json::parse(text_in(body), nullptr, false), writer);
+        parse_json(body, writer);
     } catch (const Error&) {
     }
     return writer;
 }
+
+}  // namespace
+
+std::uint32_t record_crc(RecordKind kind, std::span<const std::byte> body) {
+    const std::uint32_t head[2] = {static_cast<std::uint32_t>(kind),
+                                   static_cast<std::uint32_t>(body.size())};
+    const uLong start = crc32_z(0, reinterpret_cast<const Bytef*>(head), sizeof(head));
+    if (body.empty()) return static_cast<std::uint32_t>(start);  // null would reset zlib's CRC
+    return static_cast<std::uint32_t>(
+        crc32_z(start, reinterpret_cast<const Bytef*>(body.data()), body.size()));
+}
+
+void append_record(std::vector<std::byte>& bytes, RecordKind kind,
+                   std::span<const std::byte> body) {
+    const RecordHead head{kind, static_cast<std::uint32_t>(body.size()), record_crc(kind, body)};
+    append(bytes, std::as_bytes(std::span(&head, 1)));
+    append(bytes, body);
+}
+
+void append_writer(std::vector<std::byte>& bytes, const JournalWriterInfo& writer) {
+    append_json(bytes, RecordKind::writer, writer);
+}
+
+std::vector<std::byte> journal_start(const JournalHeader& header) {
+    std::vector<std::byte> bytes;
+    append(bytes, std::as_bytes(std::span(journal_magic)));
+    append_json(bytes, RecordKind::header, header);
+    return bytes;
+}
+
+JournalReader::JournalReader(std::istream& stream, std::uint64_t size)
+    : stream_(stream), size_(size) {
+    char magic[journal_magic.size()];
+    stream_.read(magic, sizeof(magic));
+    const std::string_view found(magic, static_cast<std::size_t>(stream_.gcount()));
+    if (found.size() < sizeof(magic) && journal_magic.starts_with(found)) {
+        throw DamagedJournal(ExitCode::input, "is empty; render it again");
+    }
+    if (!found.starts_with(journal_magic.substr(0, 6))) {
+        throw Error(ExitCode::input, "is not a journal; use a file written by render --shard");
+    }
+    if (found != journal_magic) {
+        throw Error(ExitCode::input,
+                    "was written by a different version of mirrorball; render it again");
+    }
+    good_bytes_ = sizeof(magic);
+    if (!read_record() || kind_ != RecordKind::header) {
+        throw DamagedJournal(ExitCode::input, "its header is damaged; render it again");
+    }
+    header_ = parse_header(body_);
+}
+
+/// Reads the next record; false if it is truncated or damaged.
+bool JournalReader::read_record() {
+    RecordHead head;
+    if (size_ - good_bytes_ < sizeof(head)) return false;
+    if (!stream_.read(reinterpret_cast<char*>(&head), sizeof(head))) return false;
+    if (head.bytes > size_ - good_bytes_ - sizeof(head)) return false;
+    kind_ = head.kind;
+    body_.resize(head.bytes);
+    if (!stream_.read(reinterpret_cast<char*>(body_.data()), head.bytes)) return false;
+    if (record_crc(kind_, body_) != head.crc) return false;
+    if (kind_ == RecordKind::header && head.bytes > most_text_bytes) return false;
+    good_bytes_ += sizeof(head) + head.bytes;
+    return true;
+}
+
+bool JournalReader::interpret(JournalRecord& record) const {
+    const std::span<const std::byte> body(body_);
+    record.kind = kind_;
+    if (kind_ == RecordKind::finished) return body.empty();
+    if (kind_ == RecordKind::writer) {
+        if (body.size() > most_text_bytes) return false;
+        record.writer = parse_writer(body);
+        return true;
+    }
+    const bool is_tile = kind_ == RecordKind::tile;
+    if (!is_tile && kind_ != RecordKind::lost) return false;
+    if (body.size() < sizeof(Rect)) return false;
+    std::memcpy(&record.rect, body.data(), sizeof(Rect));
+    record.values = body.subspan(sizeof(Rect));
+    if (!is_within(record.rect, header_.picture.region)) return false;
+    const auto pixels = static_cast<std::size_t>(is_tile ? record.rect.pixels() : 0);
+    return record.values.size() == pixels * header_.pixel_bytes();
+}
+
+std::optional<JournalRecord> JournalReader::next() {
+    const std::uint64_t before = good_bytes_;
+    JournalRecord record{};
+    if (read_record() && interpret(record)) return record;
+    good_bytes_ = before;
+    stream_.setstate(std::ios::failbit);
+    return std::nullopt;
+}
+
+template <typename T>
+double KnownPixels<T>::share_rendered() const {
+    if (is_rendered.empty()) return 0;
+    const auto count = std::count(is_rendered.begin(), is_rendered.end(), std::uint8_t{1});
+    return static_cast<double>(count) / static_cast<double>(is_rendered.size());
+}
+
+template <typename T>
+KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used) {
+    const Rect film = reader.header().picture.region;
+    KnownPixels<T> known;
+    if (used.width == film.width && used.height == film.height) {
+        known.film = std::move(used);
+    } else {
+        check_memory(static_cast<std::uint64_t>(film.pixels()) * (3 * sizeof(T) + 1),
+                     "the film of a journal", "render parts with --crop");
+        known.film = Film<T>(film.width, film.height);
+    }
+    known.is_rendered.resize(static_cast<std::size_t>(film.pixels()));
+    while (const auto record = reader.next()) {
+        const Rect& rect = record->rect;
+        for (int row = 0; row < rect.height; ++row) {
+            const std::size_t at = index_in(film, rect.x, rect.y + row);
+            const bool is_there = record->kind == RecordKind::tile;
+            const std::size_t bytes = 3 * sizeof(T) * static_cast<std::size_t>(rect.width);
+            if (is_there) {
+                std::memcpy(&known.film.rgb[3 * at],
+                            record->values.data() + static_cast<std::size_t>(row) * bytes, bytes);
+            } else {
+                std::memset(&known.film.rgb[3 * at], 0, bytes);
+            }
+            std::fill_n(known.is_rendered.begin() + static_cast<std::ptrdiff_t>(at), rect.width,
+                        std::uint8_t{is_there});
+        }
+        if (record->kind == RecordKind::writer) known.writers.push_back(record->writer);
+        if (record->kind == RecordKind::finished) known.is_finished = true;
+    }
+    return known;
+}
+
+template struct KnownPixels<float>;
+template struct KnownPixels<double>;
+template KnownPixels<float> read_known_pixels(JournalReader&, Film<float>);
+template KnownPixels<double> read_known_pixels(JournalReader&, Film<double>);
 
 }  // namespace rt

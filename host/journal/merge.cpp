@@ -14,7 +14,7 @@
 #include "host/base/hash.h"
 #include "host/base/text.h"
 #include "host/image/built_in_formats.h"
-#include "host/journal/journal_reader.h"
+#include "host/journal/journal_format.h"
 
 namespace rt {
 

@@ -149,13 +149,9 @@ void PictureJournal<T>::start_again() {
     known_.reset();
     if (!file_) return;
     file_->restart([this] {
-        std::vector<std::byte> start;
-        const auto magic = std::as_bytes(std::span(journal_magic));
-        start.insert(start.end(), magic.begin(), magic.end());
         JournalHeader header = header_;
         header.key = key(inexact_devices_);
-        append_header(start, header);
-        return start;
+        return journal_start(header);
     });
 }
 
