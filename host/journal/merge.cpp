@@ -26,13 +26,13 @@ Shares shares_of(const JournalHeader& header) {
     throw Error(ExitCode::input, "its header is damaged (shares); render it again");
 }
 
-/// Calls read(reader, bytes) with a part, and adds its name to errors.
+/// Calls read(reader) with a part, and adds its name to errors.
 template <typename Read>
 void read_part(const std::string& path, const Read& read) {
     InputFile file = open_input_file(path);
     try {
         JournalReader reader(file.stream, file.size);
-        read(reader, file.size);
+        read(reader);
     } catch (const DamagedJournal& error) {
         throw DamagedJournal(error.exit_code(), path + ": " + error.what());
     } catch (const Error& error) {
@@ -64,27 +64,20 @@ class Merger {
     explicit Merger(const JournalHeader& header)
         : region_(header.picture.region),
           film_(region_.width, region_.height),
-          owner_(static_cast<std::size_t>(region_.pixels()), -1),
-          blocks_(share_blocks(region_)) {}
+          owner_(static_cast<std::size_t>(region_.pixels()), -1) {}
 
-    void add(const std::string& path, JournalReader& reader, std::uint64_t bytes,
-             std::vector<std::string>& notes) {
-        const JournalHeader& header = reader.header();
-        const Shares shares = shares_of(header);
+    void add(const std::string& path, JournalReader& reader, std::vector<std::string>& notes) {
+        const std::vector<std::uint8_t> shared = shared_pixels(shares_of(reader.header()), region_);
         KnownPixels<T> known = read_known_pixels<T>(reader, std::move(used_film_));
-        if (reader.good_bytes() < bytes) {
+        if (const auto damaged = reader.bytes() - reader.good_bytes(); damaged > 0) {
             notes.push_back(fmt::format("{}: ignored the last {}, which are damaged", path,
-                                        counted(bytes - reader.good_bytes(), "byte")));
+                                        counted(damaged, "byte")));
         }
         parts_.push_back({path, known.writers});
-        Film<T> film = std::move(known.film);
-        const std::vector<int> share_of = block_shares(blocks_.size(), shares.of);
-        for (std::size_t b = 0; b < blocks_.size(); ++b) {
-            const auto& numbers = shares.numbers;
-            if (!std::binary_search(numbers.begin(), numbers.end(), share_of[b])) continue;
-            take_block(blocks_[b], known.is_rendered, film);
+        for (std::size_t i = 0; i < shared.size(); ++i) {
+            if (shared[i] != 0 && known.is_rendered[i] != 0) take_pixel(i, known.film);
         }
-        used_film_ = std::move(film);
+        used_film_ = std::move(known.film);
     }
 
     /// Throws Error where parts differ.
@@ -132,17 +125,6 @@ class Merger {
         std::size_t pixels = 0, first = 0;
     };
 
-    /// Copies the rendered pixels of a block.
-    void take_block(const Rect& block, const std::vector<std::uint8_t>& rendered,
-                    const Film<T>& film) {
-        for (int y = block.y; y < block.y + block.height; ++y) {
-            for (int x = block.x; x < block.x + block.width; ++x) {
-                const std::size_t i = index_in(region_, x, y);
-                if (rendered[i] != 0) take_pixel(i, film);
-            }
-        }
-    }
-
     void take_pixel(std::size_t i, const Film<T>& film) {
         const auto part = static_cast<int>(parts_.size()) - 1;
         constexpr std::size_t bytes = 3 * sizeof(T);
@@ -168,9 +150,10 @@ class Merger {
     /// Which shares, out of `of`, have missing pixels.
     Shares missing(int of) const {
         std::set<int> numbers;
-        const std::vector<int> share_of = block_shares(blocks_.size(), of);
-        for (std::size_t b = 0; b < blocks_.size(); ++b) {
-            const Rect& block = blocks_[b];
+        const std::vector<Rect> blocks = share_blocks(region_);
+        const std::vector<int> share_of = block_shares(blocks.size(), of);
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            const Rect& block = blocks[b];
             for (int y = block.y; y < block.y + block.height; ++y) {
                 const std::size_t first = index_in(region_, block.x, y);
                 const std::span row(&owner_[first], static_cast<std::size_t>(block.width));
@@ -182,9 +165,8 @@ class Merger {
 
     const Rect region_;
     Film<T> film_;
-    Film<T> used_film_{0, 0};         ///< the previous part's, reused: 100 MB at 4K
-    std::vector<int> owner_;          ///< index of the part that each pixel came from; -1: none
-    const std::vector<Rect> blocks_;  ///< that shares are made of
+    Film<T> used_film_{0, 0};  ///< the previous part's, reused: 100 MB at 4K
+    std::vector<int> owner_;   ///< index of the part that each pixel came from; -1: none
     std::vector<Part> parts_;
     std::map<std::pair<int, int>, Difference> differences_;
 };
@@ -194,9 +176,9 @@ MergedPicture merge(const std::vector<std::string>& paths, const JournalHeader& 
                     std::vector<std::string> notes) {
     Merger<T> merger(first);
     for (const std::string& path : paths) {
-        read_part(path, [&](JournalReader& reader, std::uint64_t bytes) {
+        read_part(path, [&](JournalReader& reader) {
             check_same_picture(reader.header(), paths.front(), first);
-            merger.add(path, reader, bytes, notes);
+            merger.add(path, reader, notes);
         });
     }
     merger.check();
@@ -212,7 +194,7 @@ MergedPicture merge_journals(const std::vector<std::string>& parts) {
     JournalHeader first;
     for (const std::string& path : parts) {
         try {
-            read_part(path, [&](JournalReader& reader, std::uint64_t) {
+            read_part(path, [&](JournalReader& reader) {
                 if (readable.empty()) first = reader.header();
                 readable.push_back(path);
             });
