@@ -182,8 +182,7 @@ ClDevice device(int index, int platform_index, const char* name, const char* pla
     made.device_index = 0;
     made.name = name;
     made.platform = platform;
-    made.is_gpu = gpu;
-    made.is_cpu = !gpu;
+    made.kind = gpu ? "GPU" : "CPU";
     return made;
 }
 
@@ -193,12 +192,10 @@ std::vector<ClDevice> three_devices() {
             device(2, 2, "Xeon", "Intel OpenCL", false)};
 }
 
-int chosen(const std::string& spec) {
-    return choose_device(spec, three_devices(), {}).device.index;
-}
+int chosen(const std::string& spec) { return choose_device(spec, {three_devices()}).device.index; }
 
 ExitCode refusal(const std::string& spec, const std::vector<ClDevice>& devices) {
-    return refusal_of([&] { choose_device(spec, devices, {}); }).exit_code;
+    return refusal_of([&] { choose_device(spec, {devices}); }).exit_code;
 }
 
 TEST(ChooseDevice, UnderstandsEverySpec) {
@@ -225,15 +222,15 @@ TEST(ChooseDevice, RefusesWhatFitsNoneOrSeveral) {
 TEST(ChooseDevice, AutoTakesAGpuElseThreads) {
     auto devices = three_devices();
     const auto gpu = std::find_if(devices.begin(), devices.end(),
-                                  [](const ClDevice& device) { return device.is_gpu; });
-    EXPECT_FALSE(choose_device("auto", devices, {}).use_threads);
-    EXPECT_TRUE(choose_device("", devices, {}).device.is_gpu);
+                                  [](const ClDevice& device) { return device.is_gpu(); });
+    EXPECT_FALSE(choose_device("auto", {devices}).use_threads);
+    EXPECT_TRUE(choose_device("", {devices}).device.is_gpu());
     gpu->unusable = "its driver has no compiler";
-    const DeviceChoice choice = choose_device("auto", devices, {});
+    const DeviceChoice choice = choose_device("auto", {devices});
     EXPECT_TRUE(choice.use_threads);
     EXPECT_NE(choice.note.find("its driver has no compiler"), std::string::npos);
     devices.erase(gpu);
-    EXPECT_TRUE(choose_device("auto", devices, {}).use_threads);
+    EXPECT_TRUE(choose_device("auto", {devices}).use_threads);
 }
 
 TEST(NeedsOpencl, KnowsAGpuByItsDeviceFile) {

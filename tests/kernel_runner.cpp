@@ -49,11 +49,10 @@ ClDevice default_device(const std::vector<ClDevice>& devices) {
 }
 
 ClDevice test_device() {
-    std::vector<std::string> problems;
-    const auto devices = list_cl_devices(problems);
+    const ClDeviceList list = list_cl_devices();
     const std::string spec = asked_device();
-    if (spec.empty()) return default_device(devices);
-    const DeviceChoice choice = choose_device(spec, devices, problems);
+    if (spec.empty()) return default_device(list.devices);
+    const DeviceChoice choice = choose_device(spec, list);
     if (choice.use_threads) {
         throw Error(ExitCode::usage,
                     fmt::format("MIRRORBALL_TEST_DEVICE={}: not an OpenCL device", spec));

@@ -16,16 +16,15 @@ namespace rt::test {
 namespace {
 
 ClDevice find_test_device() {
-    std::vector<std::string> problems;
-    const auto devices = list_cl_devices(problems);
+    const ClDeviceList list = list_cl_devices();
     if (const char* spec = std::getenv("MIRRORBALL_TEST_DEVICE")) {
-        return choose_device(spec, devices, problems).device;
+        return choose_device(spec, list).device;
     }
-    for (const ClDevice& device : devices) {
+    for (const ClDevice& device : list.devices) {
         if (device.platform == "Portable Computing Language") return device;
     }
-    if (devices.empty()) throw std::runtime_error("no OpenCL device to test");
-    return devices.front();
+    if (list.devices.empty()) throw std::runtime_error("no OpenCL device to test");
+    return list.devices.front();
 }
 
 /// Contexts and programs for the whole test run, never destroyed: drivers may unload first.

@@ -21,38 +21,10 @@ namespace rt {
 
 namespace {
 
-const char* kind_of(const ClDevice& device) {
-    return device.is_gpu ? "GPU" : (device.is_cpu ? "CPU" : "accelerator");
-}
-
-Json to_json(const ClDevice& device) {
-    return {{"index", device.index},
-            {"platform_index", device.platform_index},
-            {"device_index", device.device_index},
-            {"name", device.name},
-            {"vendor", device.vendor},
-            {"platform", device.platform},
-            {"driver", device.driver},
-            {"version", device.version},
-            {"kind", kind_of(device)},
-            {"compute_units", device.compute_units},
-            {"float_lanes", device.float_lanes},
-            {"double_lanes", device.double_lanes},
-            {"memory_bytes", device.memory_bytes},
-            {"max_buffer_bytes", device.max_buffer_bytes},
-            {"has_double", device.has_double},
-            {"rounds_correctly", device.rounds_correctly},
-            {"keeps_subnormals", device.keeps_subnormals},
-            {"usable", device.unusable.empty()},
-            {"unusable_because", device.unusable}};
-}
-
 void print_json(const Drivers& drivers) {
-    Json list = Json::array();
-    for (const ClDevice& device : drivers.devices) list.push_back(to_json(device));
     const Json json{{"format", "mirrorball-devices"},
                     {"version", 1},
-                    {"devices", list},
+                    {"devices", json_of(drivers.devices)},
                     {"threads", {{"cores", available_cores()}, {"isas", native_isas()}}},
                     {"machine", machine_load_json(load_of(other_load()))},
                     {"problems", drivers.problems}};
@@ -67,7 +39,7 @@ std::string device_text(const ClDevice& device) {
         "   {}:{} {} '{}' on {}, driver {}, {}\n"
         "   {}, {}, {}, {:.1f} GiB, largest buffer {:.1f} GiB\n",
         device.index, short_device_name(device.name), device.platform_index, device.device_index,
-        kind_of(device), device.name, device.platform, device.driver, device.version,
+        device.kind, device.name, device.platform, device.driver, device.version,
         counted(device.compute_units, "unit"), counted(device.float_lanes, "float lane"),
         device.has_double ? counted(device.double_lanes, "double lane") : "no double",
         static_cast<double>(device.memory_bytes) / gib,

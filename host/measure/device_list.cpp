@@ -2,6 +2,7 @@
 #include "host/measure/device_list.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "host/base/console.h"
 #include "host/opencl/device_spec.h"
@@ -29,52 +30,37 @@ void add_once(std::vector<ListedDevice>& list, const ListedDevice& device) {
     if (!known) list.push_back(device);
 }
 
-/// The OpenCL devices, listed when first needed.
-class ClDevices {
-   public:
-    const std::vector<ClDevice>& list() {
-        if (!listed_) {
-            prepare_pocl(0);
-            const DriverTask task(listing_devices);
-            devices_ = list_cl_devices(problems_);
-        }
-        listed_ = true;
-        return devices_;
-    }
-    const std::vector<std::string>& problems() const { return problems_; }
-
-   private:
-    bool listed_ = false;
-    std::vector<ClDevice> devices_;
-    std::vector<std::string> problems_;
-};
-
-void add_all(std::vector<ListedDevice>& list, ClDevices& devices) {
+void add_all(std::vector<ListedDevice>& list, const ClDeviceList& all) {
     add_once(list, threads_entry("threads", 0));
-    for (const ClDevice& device : devices.list()) {
+    for (const ClDevice& device : all.devices) {
         if (device.unusable.empty()) {
             add_once(list, list_entry(device));
         } else {
             print_note("skipping " + device.name + ": " + device.unusable);
         }
     }
-    print_notes(devices.problems());
+    print_notes(all.problems);
 }
 
 }  // namespace
 
 std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs) {
     std::vector<ListedDevice> list;
-    ClDevices devices;
+    std::optional<ClDeviceList> all;
+    const auto listed = [&]() -> const ClDeviceList& {
+        if (all) return *all;
+        prepare_pocl(0);
+        const DriverTask task(listing_devices);
+        return all.emplace(list_cl_devices());
+    };
     for (const std::string& text : specs) {
         const DeviceSpec spec = parse_device_specs(text).front();
         if (spec.kind == DeviceSpec::Kind::all) {
-            add_all(list, devices);
+            add_all(list, listed());
         } else if (spec.kind == DeviceSpec::Kind::threads) {
             add_once(list, threads_entry(text, spec.threads));
         } else {
-            const auto& all = devices.list();
-            const DeviceChoice choice = choose_device(text, all, devices.problems());
+            const DeviceChoice choice = choose_device(text, listed());
             add_once(list,
                      choice.use_threads ? threads_entry("threads", 0) : list_entry(choice.device));
         }

@@ -52,8 +52,9 @@ ClDevice describe(const cl::Device& device) {
     described.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
     described.version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
     const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
-    described.is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
-    described.is_gpu = (type & CL_DEVICE_TYPE_GPU) != 0;
+    described.kind = (type & CL_DEVICE_TYPE_GPU) != 0   ? "GPU"
+                     : (type & CL_DEVICE_TYPE_CPU) != 0 ? "CPU"
+                                                        : "accelerator";
     described.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     described.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     described.max_buffer_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
@@ -77,63 +78,47 @@ std::vector<cl::Device> devices_of(const cl::Platform& platform) {
     return devices;
 }
 
-/// `problems` and `failure` as of list_cl_devices.
-struct Trouble {
-    std::vector<std::string>& problems;
-    std::string* failure;
-
-    void add_failure(std::string text) {
-        if (failure != nullptr && failure->empty()) *failure = text;
-        problems.push_back(std::move(text));
-    }
-};
-
-void list_platform(const cl::Platform& platform, int platform_index, std::vector<ClDevice>& found,
-                   Trouble trouble) {
+void list_platform(const cl::Platform& platform, int platform_index, ClDeviceList& list) {
     const std::string name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
     try {
         const std::vector<cl::Device> devices = devices_of(platform);
-        if (devices.empty()) trouble.problems.push_back(why_no_device(name));
+        if (devices.empty()) list.problems.push_back(why_no_device(name));
         int device_index = 0;
         for (const cl::Device& device : devices) {
             ClDevice described = describe(device);
             described.platform = name;
-            described.index = static_cast<int>(found.size());
+            described.index = static_cast<int>(list.devices.size());
             described.platform_index = platform_index;
             described.device_index = device_index++;
-            found.push_back(std::move(described));
+            list.devices.push_back(std::move(described));
         }
     } catch (const cl::Error& error) {
-        trouble.add_failure(
+        list.problems.push_back(
             fmt::format("OpenCL platform '{}' cannot list its devices: {}; check its driver", name,
                         cl_status_text(error.err())));
+        if (list.failure.empty()) list.failure = list.problems.back();
     }
 }
 
 }  // namespace
 
-std::vector<ClDevice> list_cl_devices(std::vector<std::string>& problems, std::string* failure) {
-    std::vector<ClDevice> found;
+ClDeviceList list_cl_devices() {
+    ClDeviceList list;
     std::vector<cl::Platform> platforms;
-    Trouble trouble{problems, failure};
     try {
         cl::Platform::get(&platforms);
     } catch (const cl::Error& error) {
-        std::string text = fmt::format(
+        const std::string text = fmt::format(
             "no OpenCL platform: {}; install pocl-opencl-icd or a GPU "
             "driver with OpenCL",
             cl_status_text(error.err()));
-        if (error.err() == CL_PLATFORM_NOT_FOUND_KHR) {
-            problems.push_back(std::move(text));
-        } else {
-            trouble.add_failure(std::move(text));
-        }
-        return found;
+        if (error.err() != CL_PLATFORM_NOT_FOUND_KHR) list.failure = text;
+        list.problems.push_back(text);
     }
     for (std::size_t i = 0; i < platforms.size(); ++i) {
-        list_platform(platforms[i], static_cast<int>(i), found, trouble);
+        list_platform(platforms[i], static_cast<int>(i), list);
     }
-    return found;
+    return list;
 }
 
 }  // namespace rt

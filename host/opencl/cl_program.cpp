@@ -62,7 +62,7 @@ cl_int build(const cl::Program& program, const ClDevice& device, const std::stri
 /// The program as PoCL builds it fastest; empty if it cannot, and on all other devices.
 std::optional<cl::Program> built_for_pocl(const cl::Context& context, const ClDevice& device,
                                           const char* source, const std::string& flags) {
-    if (!device.is_cpu || device.platform != pocl_platform) return {};
+    if (!device.is_cpu() || device.platform != pocl_platform) return {};
     const cl::Program program(context, std::string(source));
     if (build(program, device, flags + pocl_build_options) != CL_SUCCESS) return {};
     return program;

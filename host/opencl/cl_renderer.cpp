@@ -76,9 +76,9 @@ class ClRenderer : public Renderer<T> {
           options_(options),
           programs_(options.open_devices != nullptr ? *options.open_devices : own_programs_),
           params_(scene.params),
-          pacer_(device.is_cpu ? cpu_first_samples : gpu_first_samples,
-                 device.is_cpu ? cpu_most_samples : gpu_most_samples,
-                 device.is_cpu ? 1 : unit_items * device.compute_units) {
+          pacer_(device.is_cpu() ? cpu_first_samples : gpu_first_samples,
+                 device.is_cpu() ? cpu_most_samples : gpu_most_samples,
+                 device.is_cpu() ? 1 : unit_items * device.compute_units) {
         launch_samples_ = launches_samples(options.kernels.launch, device, in_rounds());
         lanes_ = packet_lanes<T>(options.kernels.lanes, device);
         group_ = picture_group(options.kernels, lanes_);
@@ -99,7 +99,7 @@ class ClRenderer : public Renderer<T> {
             const Stopwatch watch;
             const double read_before = times_.read_back;
             ClFilm<T> on_device(film, context_, queue_, device_,
-                                device_.is_cpu && !options_.shares_film);
+                                device_.is_cpu() && !options_.shares_film);
             Progress progress{queue, on_device, {}, {}, counted_};
             try {
                 trace_tiles(progress, region);
@@ -308,7 +308,7 @@ class ClRenderer : public Renderer<T> {
     /// Reads the oldest launch back while the next one runs.
     void finish_oldest(Progress& progress, const Rect& region) {
         const InFlight& oldest = progress.in_flight.front();
-        if (!device_.is_cpu) wait_idly(oldest.events.back());
+        if (!device_.is_cpu()) wait_idly(oldest.events.back());
         oldest.events.back().wait();
         double kernel = device_seconds(oldest.events.front());
         for (std::size_t i = 1; i < oldest.events.size() && in_rounds(); ++i) {
@@ -349,7 +349,7 @@ class ClRenderer : public Renderer<T> {
 
     /// Adds to the queue the rays traced since the last call.
     void count_rays(TileQueue& queue) {
-        if (!device_.is_cpu && used_slots_ > kept_slots) {
+        if (!device_.is_cpu() && used_slots_ > kept_slots) {
             sum_counts_.setArg(1, static_cast<typename Flat<T>::Index>(used_slots_));
             queue_.enqueueNDRangeKernel(sum_counts_, cl::NullRange, kept_slots);
             used_slots_ = kept_slots;

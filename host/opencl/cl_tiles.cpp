@@ -20,17 +20,17 @@ constexpr std::size_t tile_samples = 1u << 14;
 
 }  // namespace
 
-std::size_t most_items(const ClDevice& device) { return device.is_cpu ? cpu_items : gpu_items; }
+std::size_t most_items(const ClDevice& device) { return device.is_cpu() ? cpu_items : gpu_items; }
 
 bool launches_samples(Launch launch, const ClDevice& device, bool in_rounds) {
     if (in_rounds) return false;
-    return launch == Launch::sample || (launch == Launch::automatic && !device.is_cpu);
+    return launch == Launch::sample || (launch == Launch::automatic && !device.is_cpu());
 }
 
 template <typename T>
 int packet_lanes(int asked_for, const ClDevice& device) {
     if (asked_for != 0) return asked_for;
-    if (!device.is_cpu) return 1;
+    if (!device.is_cpu()) return 1;
     const unsigned native = sizeof(T) == sizeof(float) ? device.float_lanes : device.double_lanes;
     return static_cast<int>(std::bit_floor(std::clamp(native, 1u, 16u)));
 }

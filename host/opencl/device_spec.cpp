@@ -62,12 +62,11 @@ bool needs_opencl(const DeviceSpec& spec) {
     return spec.kind == Kind::automatic ? gpu_may_be_here() : spec.kind != Kind::threads;
 }
 
-std::string describe_all(const std::vector<ClDevice>& devices,
-                         const std::vector<std::string>& problems = {}) {
+std::string describe_all(const ClDeviceList& list) {
     std::string text;
-    if (devices.empty() && !problems.empty())
-        return " none (" + problems.front() + "); see 'mirrorball devices'";
-    for (const ClDevice& device : devices) {
+    if (list.devices.empty() && !list.problems.empty())
+        return " none (" + list.problems.front() + "); see 'mirrorball devices'";
+    for (const ClDevice& device : list.devices) {
         text += fmt::format("\n  {}  {} ({})", device.index, device.name, device.platform);
     }
     return text.empty() ? " none (see 'mirrorball devices')" : text;
@@ -77,39 +76,16 @@ std::string describe_all(const std::vector<ClDevice>& devices,
 DeviceChoice best_device(const std::vector<ClDevice>& devices) {
     DeviceChoice choice = threads_choice();
     for (const ClDevice& device : devices) {
-        if (device.is_cpu) continue;
+        if (device.is_cpu()) continue;
         if (!device.unusable.empty()) {
             choice.note = fmt::format("rendering on threads: {}: {}", device.name, device.unusable);
-        } else if (choice.use_threads || (device.is_gpu && !choice.device.is_gpu)) {
+        } else if (choice.use_threads || (device.is_gpu() && !choice.device.is_gpu())) {
             choice.use_threads = false;
             choice.device = device;
         }
     }
     if (!choice.use_threads) choice.note.clear();
     return choice;
-}
-
-DeviceChoice choose(const DeviceSpec& spec, const std::vector<ClDevice>& devices,
-                    const std::vector<std::string>& problems) {
-    if (spec.kind == Kind::automatic) return best_device(devices);
-    std::vector<ClDevice> fitting;
-    std::copy_if(devices.begin(), devices.end(), std::back_inserter(fitting),
-                 [&](const ClDevice& device) { return spec.fits(device); });
-    if (fitting.empty()) {
-        throw Error(ExitCode::device,
-                    fmt::format("device '{}' matches no OpenCL device; available:{}", spec.text,
-                                describe_all(devices, problems)));
-    }
-    if (fitting.size() > 1) {
-        usage_error("device '{}' matches several devices; choose one by its index:{}", spec.text,
-                    describe_all(fitting));
-    }
-    const ClDevice& device = fitting.front();
-    if (!device.unusable.empty()) {
-        throw Error(ExitCode::device, fmt::format("device {} ({}) cannot be used: {}", device.index,
-                                                  device.name, device.unusable));
-    }
-    return {.device = device};
 }
 
 /// Resolves a list of specs, listing devices at most once.
@@ -122,7 +98,7 @@ class DeviceFinder {
         for (const DeviceSpec& spec : parse_device_specs(list)) {
             if (spec.kind == Kind::all) {
                 add(threads_choice());
-                for (const ClDevice& device : listed()) {
+                for (const ClDevice& device : listed().devices) {
                     if (device.unusable.empty()) add({.device = device});
                 }
                 continue;
@@ -158,36 +134,34 @@ class DeviceFinder {
             usage_error("--threads {} contradicts --device {}; keep one", threads_, spec.text);
         }
         if (!needs_opencl(spec)) return threads_choice(spec.threads);
-        const std::vector<ClDevice>& devices = listed();
+        const ClDeviceList& all = listed();
         const auto fits = [&](const ClDevice& device) { return spec.fits(device); };
-        if (!failure_.empty() && spec.kind != Kind::automatic &&
-            std::none_of(devices.begin(), devices.end(), fits)) {
+        if (!all.failure.empty() && spec.kind != Kind::automatic &&
+            std::ranges::none_of(all.devices, fits)) {
             DeviceChoice unlisted;
             unlisted.device.name = "--device " + spec.text;
-            unlisted.failure = unlisted.device.name + ": " + failure_;
+            unlisted.failure = unlisted.device.name + ": " + all.failure;
             return unlisted;
         }
-        DeviceChoice choice = choose(spec, devices, problems_);
-        if (choice.use_threads && choice.note.empty() && !failure_.empty()) {
-            choice.note = "rendering on threads: " + failure_;
+        DeviceChoice choice = choose_device(spec.text, all);
+        if (choice.use_threads && choice.note.empty() && !all.failure.empty()) {
+            choice.note = "rendering on threads: " + all.failure;
         }
         return choice;
     }
 
-    const std::vector<ClDevice>& listed() {
-        if (!devices_) {
-            devices_ = list_cl_devices(problems_, &failure_);
+    const ClDeviceList& listed() {
+        if (!listed_) {
+            listed_ = list_cl_devices();
             if (loaded_) loaded_();
         }
-        return *devices_;
+        return *listed_;
     }
 
     const int threads_;
     const std::function<void()> loaded_;
     std::vector<DeviceChoice> found_;
-    std::optional<std::vector<ClDevice>> devices_;
-    std::vector<std::string> problems_;
-    std::string failure_;  ///< of the first driver that could not list its devices
+    std::optional<ClDeviceList> listed_;
 };
 
 /// Whether a name in the folder begins with one of these.
@@ -210,9 +184,9 @@ bool DeviceSpec::fits(const ClDevice& device) const {
         case Kind::all:
             return false;
         case Kind::cpu:
-            return device.is_cpu;
+            return device.is_cpu();
         case Kind::gpu:
-            return device.is_gpu;
+            return device.is_gpu();
         case Kind::pocl:
             return device.platform == pocl_platform;
         case Kind::name:
@@ -253,9 +227,27 @@ bool gpu_may_be_here(const std::string& folder) {
            has_entry(dev / "dri", {"renderD"}) || has_entry(dev / "accel", {"accel"});
 }
 
-DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,
-                           const std::vector<std::string>& problems) {
-    return choose(parse_spec(spec), devices, problems);
+DeviceChoice choose_device(const std::string& text, const ClDeviceList& list) {
+    const DeviceSpec spec = parse_spec(text);
+    if (spec.kind == Kind::automatic) return best_device(list.devices);
+    std::vector<ClDevice> fitting;
+    std::ranges::copy_if(list.devices, std::back_inserter(fitting),
+                         [&](const ClDevice& device) { return spec.fits(device); });
+    if (fitting.empty()) {
+        throw Error(ExitCode::device,
+                    fmt::format("device '{}' matches no OpenCL device; available:{}", text,
+                                describe_all(list)));
+    }
+    if (fitting.size() > 1) {
+        usage_error("device '{}' matches several devices; choose one by its index:{}", text,
+                    describe_all({fitting}));
+    }
+    const ClDevice& device = fitting.front();
+    if (!device.unusable.empty()) {
+        throw Error(ExitCode::device, fmt::format("device {} ({}) cannot be used: {}", device.index,
+                                                  device.name, device.unusable));
+    }
+    return {.device = device};
 }
 
 std::future<std::vector<DeviceChoice>> find_devices(const std::string& list, int threads,

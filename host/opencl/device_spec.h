@@ -57,8 +57,7 @@ bool gpu_may_be_here(const std::string& folder = "/dev");
 /// threads, which start sooner than OpenCL on the same CPU. Throws Error: ExitCode::usage with the
 /// candidates if it fits several, ExitCode::device if it fits none or one that cannot be used;
 /// "auto" then chooses threads and says so in `note`.
-DeviceChoice choose_device(const std::string& spec, const std::vector<ClDevice>& devices,
-                           const std::vector<std::string>& problems);
+DeviceChoice choose_device(const std::string& spec, const ClDeviceList& list);
 
 /// The devices that a list of specs names, each once.
 /// Another thread searches: drivers take time to load (PoCL 0.03 s), and a scene can be read

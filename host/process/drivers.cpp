@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -19,17 +18,10 @@
 #include "host/base/console.h"
 #include "host/base/text.h"
 #include "host/process/stop_signal.h"
+#include "host/record/record.h"
 #include "host/render/stopwatch.h"
 
 namespace rt {
-
-using Json = nlohmann::json;
-
-/// What a worker says of a device.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClDevice, index, platform_index, device_index, name, vendor,
-                                   driver, version, platform, is_cpu, is_gpu, compute_units,
-                                   float_lanes, double_lanes, memory_bytes, max_buffer_bytes,
-                                   has_double, rounds_correctly, keeps_subnormals, unusable)
 
 namespace {
 
@@ -171,7 +163,7 @@ class Lister {
             drivers_.bad_files.push_back(problem_of(file, "cannot be loaded: " + why));
             std::erase(drivers_.files, file);
         }
-        answer.at("devices").get_to(drivers_.devices);
+        read_json(answer.at("devices"), drivers_.devices);
         for (const Json& problem : answer.at("problems")) drivers_.problems.push_back(problem);
     }
 
@@ -218,9 +210,9 @@ void list_drivers_for_parent(const std::string& place) {
         if (const std::string why = why_skipped(file); !why.empty()) skipped.emplace(file, why);
     }
     watch_worker("listing its devices");
-    std::vector<std::string> problems;
-    const std::vector<ClDevice> devices = list_cl_devices(problems);
-    const Json answer{{"skipped", skipped}, {"devices", devices}, {"problems", problems}};
+    const ClDeviceList list = list_cl_devices();
+    const Json answer{
+        {"skipped", skipped}, {"devices", json_of(list.devices)}, {"problems", list.problems}};
     tell_parent(answer.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
