@@ -280,7 +280,7 @@ TEST_F(Journals, ForgetLostTiles) {
     file.restart([&] { return journal_start(header); });
     {
         JournalKeeper<float> keeper(file, {"host", "device", "1", 1}, film, header.picture.region,
-                                    0, [] {});
+                                    0, true, [] {});
         keeper.tile_finished({0, 0, 2, 2});
         keeper.tile_finished({2, 0, 2, 1});
         keeper.copy_finished();

@@ -23,8 +23,8 @@ namespace rt {
 
 namespace {
 
-/// The last process to write to it.
-JournalWriterInfo last_writer(const std::string& path) {
+/// Who holds the lock: the last process to write to it.
+std::string holder(const std::string& path) {
     JournalWriterInfo last;
     try {
         InputFile file = open_input_file(path);
@@ -34,14 +34,8 @@ JournalWriterInfo last_writer(const std::string& path) {
         }
     } catch (const Error&) {
     }
-    return last;
-}
-
-/// Who holds the lock.
-std::string holder(const std::string& path) {
-    const JournalWriterInfo writer = last_writer(path);
-    if (writer.process == 0) return "another process";
-    return fmt::format("process {} on {}", writer.process, printable(writer.host));
+    if (last.process == 0) return "another process";
+    return fmt::format("process {} on {}", last.process, printable(last.host));
 }
 
 constexpr std::chrono::seconds period{1};
@@ -190,33 +184,20 @@ void JournalFile::make_room(const std::function<void()>& work) {
 
 template <typename T>
 JournalKeeper<T>::JournalKeeper(JournalFile& file, const JournalWriterInfo& writer,
-                                const Film<T>& film, const Rect& shown, double delay,
+                                const Film<T>& film, const Rect& shown, double delay, bool claims,
                                 std::function<void()> failed)
     : file_(file), film_(film), shown_(shown), delay_(delay), failed_(std::move(failed)) {
     append_writer(writer_, writer);
+    if (claims) file_.append(std::exchange(writer_, {}));
+    if (!file_.failure().empty()) failed_();
 }
 
 template <typename T>
-JournalKeeper<T>::~JournalKeeper() {
-    stop();
-}
-
-/// Starts the thread when it is time. Requires the mutex.
-template <typename T>
-void JournalKeeper<T>::have_thread() {
-    if (has_thread_ || is_stopped_ || !is_time()) return;
-    has_thread_ = true;
-    try {
-        thread_ = std::thread([this] { keep(); });
-    } catch (const std::system_error&) {
-    }
-}
-
-template <typename T>
-void JournalKeeper<T>::keep() {
+void JournalKeeper<T>::keep(const std::stop_token& stop) {
+    const auto is_over = [&stop] { return stop.stop_requested(); };
     bool is_told = false;
     std::unique_lock lock(mutex_);
-    while (!stopped_.wait_for(lock, period, [&] { return is_stopped_; })) {
+    while (!stopped_.wait_for(lock, stop, period, is_over)) {
         lock.unlock();
         std::exception_ptr failure;
         try {
@@ -240,17 +221,17 @@ void JournalKeeper<T>::check() const {
 }
 
 template <typename T>
-void JournalKeeper<T>::claim() {
-    file_.append(std::exchange(writer_, {}));
-}
-
-template <typename T>
 void JournalKeeper<T>::tile_finished(const Rect& tile) {
     const std::scoped_lock lock(mutex_);
     check();
     has_pixels_ = true;
     tiles_.push_back(tile);
-    have_thread();
+    if (has_thread_ || !is_time()) return;
+    has_thread_ = true;
+    try {
+        thread_ = std::jthread([this](const std::stop_token& stop) { keep(stop); });
+    } catch (const std::system_error&) {
+    }
 }
 
 template <typename T>
@@ -297,18 +278,9 @@ void JournalKeeper<T>::write() {
 }
 
 template <typename T>
-void JournalKeeper<T>::stop() {
-    {
-        const std::scoped_lock lock(mutex_);
-        is_stopped_ = true;
-        stopped_.notify_all();
-    }
-    if (thread_.joinable()) thread_.join();
-}
-
-template <typename T>
 void JournalKeeper<T>::discard() {
-    stop();
+    thread_.request_stop();
+    if (thread_.joinable()) thread_.join();
     check();
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <mutex>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -83,17 +84,14 @@ class JournalFile {
 template <typename T>
 class JournalKeeper {
    public:
-    /// `writer` identifies this process. The film covers `shown` and must outlive this. `failed` is
-    /// called once if nothing more can be written, on the thread; if it throws Error, so do
-    /// tile_finished from then on, as when another process has created the file.
+    /// `writer` identifies this process, at once if it `claims` the file. The film covers `shown`
+    /// and must outlive this. `failed` is called when nothing can be written, here or later on the
+    /// thread; if it throws Error, so do tile_finished from then on, as when another process has
+    /// created the file.
     JournalKeeper(JournalFile& file, const JournalWriterInfo& writer, const Film<T>& film,
-                  const Rect& shown, double delay, std::function<void()> failed);
+                  const Rect& shown, double delay, bool claims, std::function<void()> failed);
     JournalKeeper(const JournalKeeper&) = delete;
     JournalKeeper& operator=(const JournalKeeper&) = delete;
-    ~JournalKeeper();
-
-    /// Writes at once who this is.
-    void claim();
 
     /// A rectangle of the picture is now in the film. Callable from any thread.
     void tile_finished(const Rect& tile);
@@ -117,10 +115,8 @@ class JournalKeeper {
     void discard();
 
    private:
-    void stop();
     void check() const;
-    void have_thread();
-    void keep();
+    void keep(const std::stop_token& stop);
     bool is_time() const { return watch_.seconds() >= delay_; }
     void take_tiles();
     void write();
@@ -137,10 +133,9 @@ class JournalKeeper {
     std::vector<std::byte> writer_;  ///< precedes the first records; empty once it is written
     bool has_pixels_ = false;        ///< it ever had more
     std::exception_ptr failure_;     ///< Error that ends the render
-    bool is_stopped_ = false;
-    std::condition_variable stopped_;
-    std::thread thread_;
+    std::condition_variable_any stopped_;
     bool has_thread_ = false;  ///< or failed to start it: close() then writes everything
+    std::jthread thread_;
 };
 
 }  // namespace rt

@@ -183,9 +183,7 @@ void PictureJournal<T>::begin(const Film<T>& film, const std::string& device) {
     const JournalWriterInfo writer{host_name(), device, version, static_cast<int>(::getpid())};
     const double delay = settings_.shares ? 0 : settings_.journal_delay;
     keeper_ = std::make_unique<JournalKeeper<T>>(*file_, writer, film, region_, delay,
-                                                 [this] { tell_failure(); });
-    if (delay == 0 || known_) keeper_->claim();
-    if (!file_->failure().empty()) tell_failure();
+                                                 delay == 0 || known_, [this] { tell_failure(); });
 }
 
 /// Shares that cannot be written are not worth rendering.
