@@ -18,7 +18,7 @@ constexpr std::chrono::seconds patience(5);
 }  // namespace
 
 LivePicture::LivePicture(std::vector<std::unique_ptr<Viewer>> viewers)
-    : viewers_(std::move(viewers)), thread_([this] { run(); }) {}
+    : viewers_(std::move(viewers)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void LivePicture::begin(int width, int height) {
     const std::scoped_lock lock(mutex_);
@@ -56,9 +56,9 @@ bool LivePicture::any_open() const {
                        [](const auto& viewer) { return viewer->is_open(); });
 }
 
-void LivePicture::run() {
+void LivePicture::run(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    while (!is_done_) {
+    while (!stop.stop_requested()) {
         const bool begins = std::exchange(has_begun_, false);
         const std::vector<Part> parts = std::exchange(parts_, {});
         std::optional<Picture> last = std::exchange(final_, {});
@@ -76,7 +76,7 @@ void LivePicture::run() {
         if (last && !has_begun_) is_shown_ = true;
         is_over_ = is_shown_ && !any_open();
         changed_.notify_all();
-        changed_.wait_for(lock, interval, [this] { return is_done_ || final_; });
+        changed_.wait_for(lock, stop, interval, [this] { return final_.has_value(); });
     }
 }
 
@@ -88,15 +88,6 @@ void LivePicture::show_last(Picture picture) {
         viewer->finish(shown_);
         viewer->tick(shown_);
     }
-}
-
-LivePicture::~LivePicture() {
-    {
-        const std::scoped_lock lock(mutex_);
-        is_done_ = true;
-        changed_.notify_all();
-    }
-    thread_.join();
 }
 
 void LivePicture::finish(Picture picture) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -20,7 +21,6 @@ namespace rt {
 class LivePicture {
    public:
     explicit LivePicture(std::vector<std::unique_ptr<Viewer>> viewers);
-    ~LivePicture();
     LivePicture(const LivePicture&) = delete;
     LivePicture& operator=(const LivePicture&) = delete;
 
@@ -46,7 +46,7 @@ class LivePicture {
         std::vector<float> rgb;
     };
 
-    void run();
+    void run(const std::stop_token& stop);
     void add(const Part& part);
     void show_last(Picture picture);
     void tell(bool begins, const std::vector<Rect>& parts);
@@ -54,16 +54,15 @@ class LivePicture {
 
     const std::vector<std::unique_ptr<Viewer>> viewers_;
     std::mutex mutex_;
-    std::condition_variable changed_;
+    std::condition_variable_any changed_;
     int width_ = 0, height_ = 0;
     std::vector<Part> parts_;  ///< not yet sent to viewers
     bool has_begun_ = false;   ///< begun, but not yet sent to viewers
     std::optional<Picture> final_;
     bool is_shown_ = false;  ///< the final picture is
     bool is_over_ = false;   ///< it is, and no viewer wants anything more
-    bool is_done_ = false;
-    Picture shown_;  ///< so far; used only by the thread
-    std::thread thread_;
+    Picture shown_;          ///< so far; used only by the thread
+    std::jthread thread_;
 };
 
 }  // namespace rt
