@@ -10,7 +10,6 @@
 #include <bit>
 #include <cerrno>
 #include <cmath>
-#include <csetjmp>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -170,43 +169,17 @@ Picture read_pfm(const std::string& path, InputFile file, bool with_pixels) {
 
 namespace {
 
-/// libpng reports an error by longjmp, so functions that call setjmp hold nothing that needs a
-/// destructor: all of that is in PngWriter and PngReader.
-using PngMessage = std::array<char, 200>;
-
-[[noreturn]] void stop_png(png_structp png, png_const_charp reason) {
-    auto& message = *static_cast<PngMessage*>(png_get_error_ptr(png));
-    std::snprintf(message.data(), message.size(), "%s", reason);
-    png_longjmp(png, 1);
-}
+// libpng's frames pass on exceptions, as those of all C code on x86-64: its errors leave it as
+// ours.
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-struct PngWriter {
-    const Picture& picture;
-    Encoding encoding;
-    std::vector<png_text> texts;
-    std::vector<std::uint8_t> row;
-    std::vector<std::byte> file;
-    PngMessage error{};
-};
-
 void flush_nothing(png_structp) {}
 
-bool append(std::vector<std::byte>& file, std::span<const std::byte> bytes) {
-    try {
-        file.insert(file.end(), bytes.begin(), bytes.end());
-        return true;
-    } catch (const std::bad_alloc&) {
-        return false;
-    }
-}
-
 void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
-    auto& writer = *static_cast<PngWriter*>(png_get_io_ptr(png));
-    if (!append(writer.file, std::as_bytes(std::span(bytes, count)))) {
-        png_error(png, "out of memory");
-    }
+    auto& file = *static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
+    const auto more = std::as_bytes(std::span(bytes, count));
+    file.insert(file.end(), more.begin(), more.end());
 }
 
 int color_type(int channels) {
@@ -230,25 +203,6 @@ void choose_compression(png_structp png) {
     png_set_compression_buffer_size(png, 1 << 18);  // the size of a chunk of pixels
 }
 
-bool write_png(png_structp png, png_infop info, PngWriter& writer) {
-    const Picture& picture = writer.picture;
-    if (setjmp(png_jmpbuf(png)) != 0) return false;
-    png_set_write_fn(png, &writer, append_bytes, flush_nothing);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width),
-                 static_cast<png_uint_32>(picture.height), 8, color_type(picture.channels),
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    choose_compression(png);
-    declare_encoding(png, info, writer.encoding);
-    png_set_text(png, info, writer.texts.data(), static_cast<int>(writer.texts.size()));
-    png_write_info(png, info);
-    for (int y = 0; y < picture.height; ++y) {
-        encode_8bit_row(picture, y, writer.encoding, writer.row);
-        png_write_row(png, writer.row.data());
-    }
-    png_write_end(png, nullptr);
-    return true;
-}
-
 /// tEXt holds Latin-1, iTXt UTF-8.
 png_text text_chunk(const std::string& name, const std::string& text) {
     const bool is_ascii =
@@ -261,10 +215,32 @@ png_text text_chunk(const std::string& name, const std::string& text) {
     return chunk;
 }
 
+/// libpng's structures for writing a file.
+struct PngWriter {
+    explicit PngWriter(const std::string& path) {
+        const auto fail = [](png_structp failing, png_const_charp reason) {
+            fail_to_encode(*static_cast<const std::string*>(png_get_error_ptr(failing)), reason);
+        };
+        png = png_create_write_struct(PNG_LIBPNG_VER_STRING, const_cast<std::string*>(&path), fail,
+                                      ignore_warning);
+        info = png == nullptr ? nullptr : png_create_info_struct(png);
+        if (info == nullptr) fail_to_encode(path, "out of memory");
+    }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+    ~PngWriter() { png_destroy_write_struct(&png, &info); }
+
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+};
+
 class PngReader {
    public:
     PngReader(const std::string& path, std::istream& stream) : path_(path), stream_(stream) {
-        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error_, stop_png, ignore_warning);
+        const auto fail = [](png_structp failing, png_const_charp reason) {
+            refuse_damaged(static_cast<PngReader*>(png_get_error_ptr(failing))->path_, reason);
+        };
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore_warning);
         info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
         if (info_ == nullptr) {
             png_destroy_read_struct(&png_, nullptr, nullptr);
@@ -276,7 +252,12 @@ class PngReader {
     ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
 
     PictureFile read(std::uintmax_t file_size, bool with_pixels) {
-        check(read_header());
+        png_set_read_fn(png_, this, read_bytes);
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // we check the size ourselves
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // bad checksums would stop nearly all inputs
+        png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+#endif
+        png_read_info(png_, info_);
         const auto width = static_cast<int>(png_get_image_width(png_, info_));
         const auto height = static_cast<int>(png_get_image_height(png_, info_));
         // After expansion: a palette is 3 channels, a transparent color one more.
@@ -290,10 +271,15 @@ class PngReader {
         PictureFile file{{width, height, channels, {}}, {}};
         if (with_pixels) {
             check_picture_memory(path_, width, height, channels);
-            check(expand());
-            if (png_get_channels(png_, info_) != channels) fail("inconsistent header");
+            png_set_expand(png_);
+            png_set_swap(png_);  // to this machine's byte order
+            png_set_interlace_handling(png_);
+            png_read_update_info(png_, info_);
+            if (png_get_channels(png_, info_) != channels) {
+                refuse_damaged(path_, "inconsistent header");
+            }
             read_pixels(file.picture);
-            check(read_end());
+            png_read_end(png_, info_);
         }
         file.metadata = texts();
         return file;
@@ -306,44 +292,6 @@ class PngReader {
         if (!stream) png_error(png, "unexpected end of file");
     }
 
-    [[noreturn]] void fail(const char* reason) const { refuse_damaged(path_, reason); }
-
-    void check(bool done) const {
-        if (!done) fail(error_.data());
-    }
-
-    bool read_header() {
-        if (setjmp(png_jmpbuf(png_)) != 0) return false;
-        png_set_read_fn(png_, this, read_bytes);
-        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // we check the size ourselves
-#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // bad checksums would stop nearly all inputs
-        png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
-#endif
-        png_read_info(png_, info_);
-        return true;
-    }
-
-    bool expand() {
-        if (setjmp(png_jmpbuf(png_)) != 0) return false;
-        png_set_expand(png_);
-        png_set_swap(png_);  // to this machine's byte order
-        png_set_interlace_handling(png_);
-        png_read_update_info(png_, info_);
-        return true;
-    }
-
-    bool read_row(png_bytep row) {
-        if (setjmp(png_jmpbuf(png_)) != 0) return false;
-        png_read_row(png_, row, nullptr);
-        return true;
-    }
-
-    bool read_end() {
-        if (setjmp(png_jmpbuf(png_)) != 0) return false;
-        png_read_end(png_, info_);
-        return true;
-    }
-
     void read_pixels(Picture& picture) {
         const bool is_wide = png_get_bit_depth(png_, info_) == 16;
         const std::size_t values = static_cast<std::size_t>(picture.width) * picture.channels;
@@ -353,11 +301,12 @@ class PngReader {
         std::vector<png_byte> bytes(interlaced ? row_bytes * picture.height : row_bytes);
         // Each pass but the last leaves gaps in all rows.
         for (int pass = interlaced ? 7 : 1; pass > 1; --pass) {
-            for (int y = 0; y < picture.height; ++y) check(read_row(&bytes[row_bytes * y]));
+            for (int y = 0; y < picture.height; ++y)
+                png_read_row(png_, &bytes[row_bytes * y], nullptr);
         }
         for (int y = 0; y < picture.height; ++y) {
             png_bytep row = interlaced ? &bytes[row_bytes * y] : bytes.data();
-            check(read_row(row));
+            png_read_row(png_, row, nullptr);
             is_wide ? append_wide(row, values, picture.pixels)
                     : append_narrow(row, values, picture.pixels);
         }
@@ -392,26 +341,36 @@ class PngReader {
     std::istream& stream_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
-    PngMessage error_{};
 };
 
 }  // namespace
 
 std::vector<std::byte> encode_png_file(
     const std::string& path, const Picture& picture, Encoding encoding,
-    std::span<const std::pair<std::string, std::string>> metadata) {
-    PngWriter writer{picture, encoding, {}, {}, {}};
+    std::span<const std::pair<std::string, std::string>> metadata) try {
+    const PngWriter writer(path);
+    std::vector<std::byte> file;
+    png_set_write_fn(writer.png, &file, append_bytes, flush_nothing);
+    png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(picture.width),
+                 static_cast<png_uint_32>(picture.height), 8, color_type(picture.channels),
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    choose_compression(writer.png);
+    declare_encoding(writer.png, writer.info, encoding);
+    std::vector<png_text> texts;
     for (const auto& [name, text] : metadata) {
-        if (!text.empty()) writer.texts.push_back(text_chunk(name, text));
+        if (!text.empty()) texts.push_back(text_chunk(name, text));
     }
-    writer.row.resize(static_cast<std::size_t>(picture.width) * picture.channels);
-    png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer.error, stop_png, ignore_warning);
-    png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-    const bool written = info != nullptr && write_png(png, info, writer);
-    png_destroy_write_struct(&png, &info);
-    if (written) return std::move(writer.file);
-    fail_to_encode(path, writer.error[0] == '\0' ? "out of memory" : writer.error.data());
+    png_set_text(writer.png, writer.info, texts.data(), static_cast<int>(texts.size()));
+    png_write_info(writer.png, writer.info);
+    std::vector<std::uint8_t> row(static_cast<std::size_t>(picture.width) * picture.channels);
+    for (int y = 0; y < picture.height; ++y) {
+        encode_8bit_row(picture, y, encoding, row);
+        png_write_row(writer.png, row.data());
+    }
+    png_write_end(writer.png, nullptr);
+    return file;
+} catch (const std::bad_alloc&) {
+    fail_to_encode(path, "out of memory");
 }
 
 PictureFile read_png(const std::string& path, std::istream& stream, std::uintmax_t size,
