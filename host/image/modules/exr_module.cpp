@@ -48,13 +48,11 @@ class Bytes {
 
     template <typename Number>
     Number number() {
-        std::array<unsigned char, sizeof(Number)> bytes{};
-        take(bytes.size());
-        stream_.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
+        Number value{};
+        take(sizeof(value));
+        stream_.read(reinterpret_cast<char*>(&value), sizeof(value));
         if (!stream_) refuse("its header ends too early");
-        std::uint64_t value = 0;
-        for (std::size_t i = bytes.size(); i-- > 0;) value = value << 8 | bytes[i];
-        return static_cast<Number>(value);
+        return value;
     }
 
     std::string text() {
