@@ -178,26 +178,13 @@ bool has_entry(const std::filesystem::path& folder, const std::vector<const char
 }  // namespace
 
 bool DeviceSpec::fits(const ClDevice& device) const {
-    switch (kind) {
-        case Kind::automatic:
-        case Kind::threads:
-        case Kind::all:
-            return false;
-        case Kind::cpu:
-            return device.is_cpu();
-        case Kind::gpu:
-            return device.is_gpu();
-        case Kind::pocl:
-            return device.platform == pocl_platform;
-        case Kind::name:
-            return lower(device.name + "\n" + device.platform + "\n" + device.vendor).find(name) !=
-                   std::string::npos;
-        case Kind::index:
-            return device.index == index;
-        case Kind::place:
-            return device.platform_index == platform && device.device_index == index;
-    }
-    return false;
+    const std::string names = lower(device.name + "\n" + device.platform + "\n" + device.vendor);
+    return (kind == Kind::cpu && device.is_cpu()) || (kind == Kind::gpu && device.is_gpu()) ||
+           (kind == Kind::pocl && device.platform == pocl_platform) ||
+           (kind == Kind::name && names.find(name) != std::string::npos) ||
+           (kind == Kind::index && device.index == index) ||
+           (kind == Kind::place && device.platform_index == platform &&
+            device.device_index == index);
 }
 
 std::vector<DeviceSpec> parse_device_specs(const std::string& list) {
