@@ -3,59 +3,49 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 #include "host/base/error.h"
+#include "host/base/text.h"
 
 namespace rt {
 
 namespace {
 
-struct StatusName {
-    int status;
-    const char* name;
+constexpr Named<int> status_names[] = {
+    {"CL_SUCCESS", 0},
+    {"CL_DEVICE_NOT_FOUND", -1},
+    {"CL_DEVICE_NOT_AVAILABLE", -2},
+    {"CL_COMPILER_NOT_AVAILABLE", -3},
+    {"CL_MEM_OBJECT_ALLOCATION_FAILURE", -4},
+    {"CL_OUT_OF_RESOURCES", -5},
+    {"CL_OUT_OF_HOST_MEMORY", -6},
+    {"CL_IMAGE_FORMAT_MISMATCH", -9},
+    {"CL_BUILD_PROGRAM_FAILURE", -11},
+    {"CL_MAP_FAILURE", -12},
+    {"CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST", -14},
+    {"CL_INVALID_VALUE", -30},
+    {"CL_INVALID_DEVICE", -33},
+    {"CL_INVALID_CONTEXT", -34},
+    {"CL_INVALID_COMMAND_QUEUE", -36},
+    {"CL_INVALID_MEM_OBJECT", -38},
+    {"CL_INVALID_BINARY", -42},
+    {"CL_INVALID_BUILD_OPTIONS", -43},
+    {"CL_INVALID_PROGRAM", -44},
+    {"CL_INVALID_KERNEL_NAME", -46},
+    {"CL_INVALID_KERNEL", -48},
+    {"CL_INVALID_ARG_INDEX", -49},
+    {"CL_INVALID_ARG_VALUE", -50},
+    {"CL_INVALID_ARG_SIZE", -51},
+    {"CL_INVALID_KERNEL_ARGS", -52},
+    {"CL_INVALID_WORK_GROUP_SIZE", -54},
+    {"CL_INVALID_BUFFER_SIZE", -61},
+    {"CL_PLATFORM_NOT_FOUND_KHR", -1001},
 };
-
-constexpr std::array<StatusName, 28> status_names{{
-    {0, "CL_SUCCESS"},
-    {-1, "CL_DEVICE_NOT_FOUND"},
-    {-2, "CL_DEVICE_NOT_AVAILABLE"},
-    {-3, "CL_COMPILER_NOT_AVAILABLE"},
-    {-4, "CL_MEM_OBJECT_ALLOCATION_FAILURE"},
-    {-5, "CL_OUT_OF_RESOURCES"},
-    {-6, "CL_OUT_OF_HOST_MEMORY"},
-    {-9, "CL_IMAGE_FORMAT_MISMATCH"},
-    {-11, "CL_BUILD_PROGRAM_FAILURE"},
-    {-12, "CL_MAP_FAILURE"},
-    {-14, "CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST"},
-    {-30, "CL_INVALID_VALUE"},
-    {-33, "CL_INVALID_DEVICE"},
-    {-34, "CL_INVALID_CONTEXT"},
-    {-36, "CL_INVALID_COMMAND_QUEUE"},
-    {-38, "CL_INVALID_MEM_OBJECT"},
-    {-42, "CL_INVALID_BINARY"},
-    {-43, "CL_INVALID_BUILD_OPTIONS"},
-    {-44, "CL_INVALID_PROGRAM"},
-    {-46, "CL_INVALID_KERNEL_NAME"},
-    {-48, "CL_INVALID_KERNEL"},
-    {-49, "CL_INVALID_ARG_INDEX"},
-    {-50, "CL_INVALID_ARG_VALUE"},
-    {-51, "CL_INVALID_ARG_SIZE"},
-    {-52, "CL_INVALID_KERNEL_ARGS"},
-    {-54, "CL_INVALID_WORK_GROUP_SIZE"},
-    {-61, "CL_INVALID_BUFFER_SIZE"},
-    {-1001, "CL_PLATFORM_NOT_FOUND_KHR"},
-}};
 
 }  // namespace
 
 std::string cl_status_text(int status) {
-    const auto found =
-        std::find_if(status_names.begin(), status_names.end(),
-                     [&](const StatusName& entry) { return entry.status == status; });
-    return fmt::format("{} ({})", found == status_names.end() ? "OpenCL error" : found->name,
-                       status);
+    const std::string name = name_of(status_names, status);
+    return fmt::format("{} ({})", name.empty() ? "OpenCL error" : name, status);
 }
 
 cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, std::size_t bytes,
