@@ -5,7 +5,6 @@
 #include "host/opencl/cl_options.h"
 #include "host/opencl/cl_program.h"
 #include "host/opencl/cl_renderer.h"
-#include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/opencl/opencl.h"
 
@@ -24,7 +23,7 @@ class ClRayTracer {
           programs_(options.open_devices != nullptr ? *options.open_devices : own_programs_),
           context_(programs_.context(device)),
           queue_(context_, handle_of(device)),
-          scene_(scene, context_, queue_, device) {
+          scene_(upload_scene(scene, context_, queue_, device)) {
         ProgramOptions program;
         program.precision = precision_of<T>;
         program.lanes = packet_lanes<T>(options.kernels.lanes, device);
@@ -34,7 +33,7 @@ class ClRayTracer {
         program.entries = {false, false, true};
         lanes_ = static_cast<std::size_t>(program.lanes);
         kernel_ = cl::Kernel(programs_.program(device, render_kernels, program), "trace_rays");
-        const cl_uint params = scene_.set_arguments(kernel_, 2);
+        const cl_uint params = set_arguments(kernel_, 2, scene_);
         kernel_.setArg(params, scene.params);
         count_argument_ = params + 1;
         queries_ = make_cl_buffer(context_, device_, rays_of_a_launch * sizeof(Query), "the rays",
@@ -72,7 +71,7 @@ class ClRayTracer {
     OpenDevices& programs_;
     cl::Context context_;
     cl::CommandQueue queue_;
-    ClScene<T> scene_;
+    std::vector<cl::Buffer> scene_;
     cl::Kernel kernel_;
     cl::Buffer queries_, answers_;
     cl_uint count_argument_ = 0;

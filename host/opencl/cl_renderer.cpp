@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <deque>
 #include <memory>
@@ -11,10 +12,8 @@
 #include <thread>
 
 #include "host/base/error.h"
-#include "host/opencl/cl_film.h"
 #include "host/opencl/cl_options.h"
 #include "host/opencl/cl_program.h"
-#include "host/opencl/cl_scene.h"
 #include "host/opencl/cl_tiles.h"
 #include "host/opencl/opencl.h"
 #include "host/opencl/pocl.h"
@@ -67,6 +66,71 @@ void wait_idly(const cl::Event& event) {
         pause = std::min(pause * 1.125, longest_pause);
     }
 }
+
+/// A black film on a device: the film's own memory on a CPU that renders alone (if the driver
+/// supports that), else a copy that is read back rectangle by rectangle. The film must outlive it.
+/// Throws Error (ExitCode::limit) if it exceeds the device's largest allocation.
+template <typename T>
+class ClFilm {
+   public:
+    ClFilm(Film<T>& film, const cl::Context& context, const cl::CommandQueue& queue,
+           const ClDevice& device, bool is_shared)
+        : film_(film), queue_(queue), is_shared_(is_shared) {
+        const cl_mem_flags shared = is_shared_ ? CL_MEM_USE_HOST_PTR : 0;
+        buffer_ = make_cl_buffer(context, device, bytes(), "the film", CL_MEM_READ_WRITE | shared,
+                                 is_shared_ ? film.rgb.data() : nullptr);
+        if (!is_shared_) queue_.enqueueFillBuffer(buffer_, T(0), 0, bytes());
+    }
+    /// Waits: commands in flight write to the film's memory.
+    ~ClFilm() {
+        if (is_shared_) clFinish(queue_());
+    }
+    ClFilm(const ClFilm&) = delete;
+    ClFilm& operator=(const ClFilm&) = delete;
+
+    const cl::Buffer& buffer() const { return buffer_; }
+
+    /// Copies a rectangle of the film, finished on the device, back; waits for nothing else.
+    void read_back(const Rect& rect, const cl::CommandQueue& reads) {
+        const std::size_t pixel = 3 * sizeof(T),
+                          row = pixel * static_cast<std::size_t>(film_.width);
+        if (is_shared_) {
+            void* const mapped = reads.enqueueMapBuffer(
+                buffer_, CL_TRUE, CL_MAP_READ, row * static_cast<std::size_t>(rect.y),
+                row * static_cast<std::size_t>(rect.height));
+            reads.enqueueUnmapMemObject(buffer_, mapped);
+            return;
+        }
+        if (rect.width == film_.width) {
+            const std::size_t at = 3 * static_cast<std::size_t>(rect.y * film_.width);
+            reads.enqueueReadBuffer(buffer_, CL_TRUE, at * sizeof(T),
+                                    row * static_cast<std::size_t>(rect.height), &film_.rgb[at]);
+            return;
+        }
+        const std::array<std::size_t, 3> corner{pixel * static_cast<std::size_t>(rect.x),
+                                                static_cast<std::size_t>(rect.y), 0};
+        const std::array<std::size_t, 3> size{pixel * static_cast<std::size_t>(rect.width),
+                                              static_cast<std::size_t>(rect.height), 1};
+        reads.enqueueReadBufferRect(buffer_, CL_TRUE, corner, corner, size, row, 0, row, 0,
+                                    film_.rgb.data());
+    }
+
+    /// Brings back a film in shared memory.
+    void finish() {
+        if (!is_shared_) return;
+        void* const mapped = queue_.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_READ, 0, bytes());
+        queue_.enqueueUnmapMemObject(buffer_, mapped);
+        queue_.finish();
+    }
+
+   private:
+    std::size_t bytes() const { return film_.rgb.size() * sizeof(T); }
+
+    Film<T>& film_;
+    const cl::CommandQueue& queue_;
+    const bool is_shared_;
+    cl::Buffer buffer_;
+};
 
 template <typename T>
 class ClRenderer : public Renderer<T> {
@@ -197,7 +261,7 @@ class ClRenderer : public Renderer<T> {
 
     void upload(const FlatScene<T>& scene) {
         const Stopwatch watch;
-        scene_ = std::make_unique<ClScene<T>>(scene, context_, queue_, device_);
+        scene_ = upload_scene(scene, context_, queue_, device_);
         const std::size_t count_bytes = count_slots() * sizeof(FlatCounts);
         counts_ = make_buffer(count_bytes, "the ray counts");
         queue_.enqueueFillBuffer(counts_, std::uint64_t{0}, 0, count_bytes);
@@ -239,7 +303,7 @@ class ClRenderer : public Renderer<T> {
     /// Sets all arguments that stay the same for a picture; the tile's comes next.
     void set_scene_arguments(cl::Kernel& kernel, const typename Flat<T>::LaunchParams& params) {
         kernel.setArg(1, counts_);
-        const cl_uint params_argument = scene_->set_arguments(kernel, 2);
+        const cl_uint params_argument = set_arguments(kernel, 2, scene_);
         kernel.setArg(params_argument, params);
         tile_argument_ = params_argument + 1;
     }
@@ -382,7 +446,7 @@ class ClRenderer : public Renderer<T> {
     cl::Context context_;
     cl::CommandQueue queue_, reads_;
     cl::Kernel render_, resolve_, round_, sum_counts_;
-    std::unique_ptr<ClScene<T>> scene_;
+    std::vector<cl::Buffer> scene_;
     cl::Buffer counts_, samples_;
     cl::Buffer planes_;  ///< of a tile and its margin (kernels/planes.cl)
     std::size_t plane_bytes_ = 0;

@@ -60,4 +60,30 @@ cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, st
     return cl::Buffer(context, flags, bytes, host);
 }
 
+template <typename T>
+std::vector<cl::Buffer> upload_scene(const FlatScene<T>& scene, const cl::Context& context,
+                                     const cl::CommandQueue& queue, const ClDevice& device) {
+    std::vector<cl::Buffer> lists;
+    const auto upload = [&](const auto& items, const char* what) {
+        const std::size_t bytes = items.size() * sizeof(items[0]);
+        const auto& list =
+            lists.emplace_back(make_cl_buffer(context, device, bytes, what, CL_MEM_READ_ONLY));
+        if (bytes > 0) queue.enqueueWriteBuffer(list, CL_TRUE, 0, bytes, items.data());
+    };
+#define RT_UPLOAD(type, name, what) upload(scene.name, what);
+    RT_SCENE_ARRAYS(RT_UPLOAD)
+#undef RT_UPLOAD
+    return lists;
+}
+
+template std::vector<cl::Buffer> upload_scene(const FlatScene<float>&, const cl::Context&,
+                                              const cl::CommandQueue&, const ClDevice&);
+template std::vector<cl::Buffer> upload_scene(const FlatScene<double>&, const cl::Context&,
+                                              const cl::CommandQueue&, const ClDevice&);
+
+cl_uint set_arguments(cl::Kernel& kernel, cl_uint first, const std::vector<cl::Buffer>& scene) {
+    for (const cl::Buffer& list : scene) kernel.setArg(first++, list);
+    return first;
+}
+
 }  // namespace rt

@@ -13,7 +13,9 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
+#include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_device.h"
 
 namespace rt {
@@ -27,5 +29,14 @@ std::string cl_status_text(int status);
 cl::Buffer make_cl_buffer(const cl::Context& context, const ClDevice& device, std::size_t bytes,
                           const char* what, cl_mem_flags flags = CL_MEM_READ_WRITE,
                           void* host = nullptr);
+
+/// A flat scene on a device: a buffer for each of its lists, in kernels/render.cl's order. The
+/// scene need not outlive the call. Throws like make_cl_buffer.
+template <typename T>
+std::vector<cl::Buffer> upload_scene(const FlatScene<T>& scene, const cl::Context& context,
+                                     const cl::CommandQueue& queue, const ClDevice& device);
+
+/// Sets them as a kernel's arguments from `first` on. Returns the number of the next argument.
+cl_uint set_arguments(cl::Kernel& kernel, cl_uint first, const std::vector<cl::Buffer>& scene);
 
 }  // namespace rt
