@@ -28,8 +28,8 @@ ClDevice find_test_device() {
 }
 
 /// Contexts and programs for the whole test run, never destroyed: drivers may unload first.
-OpenDevices& open_devices() {
-    static OpenDevices& devices = *new OpenDevices;
+const std::shared_ptr<OpenDevices>& open_devices() {
+    static const auto& devices = *new std::shared_ptr<OpenDevices>(make_open_devices());
     return devices;
 }
 
@@ -84,7 +84,7 @@ template <typename T>
 Film<T> render_on_device(const Scene& scene, const ClOptions& options, Rect tile) {
     const FlatScene<T> flat = flatten<T>(scene);
     ClOptions for_scene = options;
-    for_scene.open_devices = &open_devices();
+    for_scene.open_devices = open_devices();
     return whole_film(*make_cl_renderer(flat, test_device(), for_scene), scene.width, scene.height,
                       tile);
 }

@@ -20,9 +20,9 @@ std::shared_ptr<OpenDevices> make_open_devices();
 struct ClOptions {
     KernelChoice kernels{};
     Math math = Math::strict;
-    bool shares_film = false;             ///< others render into the film at the same time
-    bool warnings_are_errors = false;     ///< for tests
-    OpenDevices* open_devices = nullptr;  ///< keeps context and program; null: not kept
+    bool shares_film = false;          ///< others render into the film at the same time
+    bool warnings_are_errors = false;  ///< for tests
+    std::shared_ptr<OpenDevices> open_devices = make_open_devices();
 };
 
 /// What is asked for with every build of this process.

@@ -20,8 +20,8 @@ class ClRayTracer {
    public:
     ClRayTracer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
         : device_(device),
-          programs_(options.open_devices != nullptr ? *options.open_devices : own_programs_),
-          context_(programs_.context(device)),
+          programs_(options.open_devices),
+          context_(programs_->context(device)),
           queue_(context_, handle_of(device)),
           scene_(upload_scene(scene, context_, queue_, device)) {
         ProgramOptions program;
@@ -32,7 +32,7 @@ class ClRayTracer {
         program.more = options.kernels.cl_options;
         program.entries = {false, false, true};
         lanes_ = static_cast<std::size_t>(program.lanes);
-        kernel_ = cl::Kernel(programs_.program(device, render_kernels, program), "trace_rays");
+        kernel_ = cl::Kernel(programs_->program(device, render_kernels, program), "trace_rays");
         const cl_uint params = set_arguments(kernel_, 2, scene_);
         kernel_.setArg(params, scene.params);
         count_argument_ = params + 1;
@@ -67,8 +67,7 @@ class ClRayTracer {
     }
 
     const ClDevice device_;
-    OpenDevices own_programs_;
-    OpenDevices& programs_;
+    const std::shared_ptr<OpenDevices> programs_;
     cl::Context context_;
     cl::CommandQueue queue_;
     std::vector<cl::Buffer> scene_;

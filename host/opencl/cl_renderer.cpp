@@ -138,7 +138,7 @@ class ClRenderer : public Renderer<T> {
     ClRenderer(const FlatScene<T>& scene, const ClDevice& device, const ClOptions& options)
         : device_(device),
           options_(options),
-          programs_(options.open_devices != nullptr ? *options.open_devices : own_programs_),
+          programs_(*options_.open_devices),
           params_(scene.params),
           pacer_(device.is_cpu() ? cpu_first_samples : gpu_first_samples,
                  device.is_cpu() ? cpu_most_samples : gpu_most_samples,
@@ -435,7 +435,6 @@ class ClRenderer : public Renderer<T> {
 
     const ClDevice device_;
     const ClOptions options_;
-    OpenDevices own_programs_;
     OpenDevices& programs_;
     typename Flat<T>::LaunchParams params_;
     bool launch_samples_ = false;

@@ -12,8 +12,6 @@
 
 namespace rt {
 
-RenderCache::RenderCache() : devices(make_open_devices()) {}
-
 std::string joined_names(const std::vector<DeviceChoice>& devices) {
     std::string names;
     for (const DeviceChoice& choice : devices) {
@@ -123,11 +121,11 @@ CrewMember<T> CrewMaker<T>::device_member(const ClDevice& device, bool is_alone)
     options.kernels = settings_.kernels;
     options.math = settings_.math;
     options.shares_film = !is_alone;
-    options.open_devices = open_.get();
+    options.open_devices = open_;
     const ClTiles tiles =
         cl_tiles<T>(scene_->params, device, options, static_cast<int>(scene_->params.width));
     CrewMember<T> member{device.name, tiles.best, tiles.most_pixels, {}, {}};
-    member.make = [scene = scene_, device, options, open = open_, loaded = loaded_] {
+    member.make = [scene = scene_, device, options, loaded = loaded_] {
         auto renderer = make_cl_renderer<T>(*scene, device, options);
         if (loaded) loaded();
         return renderer;

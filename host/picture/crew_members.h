@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/flatten/flat_scene.h"
+#include "host/opencl/cl_options.h"
 #include "host/opencl/device_spec.h"
 #include "host/picture/crew.h"
 #include "host/picture/render_picture.h"
@@ -17,8 +18,6 @@
 
 // The devices that render a picture: who they are, their renderers, and what is kept for the next.
 namespace rt {
-
-class OpenDevices;
 
 /// A scene ready to render, shared by all its renderers.
 template <typename T>
@@ -35,9 +34,7 @@ struct RenderCache {
         SharedScene<T> scene;      ///< null: none yet
     };
 
-    RenderCache();
-
-    std::shared_ptr<OpenDevices> devices;
+    std::shared_ptr<OpenDevices> devices = make_open_devices();
     std::tuple<Flattened<float>, Flattened<double>> scenes;
     bool has_warned = false;  ///< of what users should know of devices and settings
 };
@@ -56,7 +53,7 @@ void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& 
 template <typename T>
 class CrewMaker {
    public:
-    /// `open`: devices to reuse; may be null. `loaded` is called when a driver was loaded, which
+    /// `open`: devices to reuse. `loaded` is called when a driver was loaded, which
     /// may have replaced signal handlers. `settings` must outlive this.
     CrewMaker(SharedScene<T> scene, const RenderSettings& settings, const AaMode& aa,
               std::shared_ptr<OpenDevices> open, std::function<void()> loaded);

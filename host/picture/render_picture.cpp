@@ -117,7 +117,7 @@ class Job {
             scene_ = flattened_scene<T>(scene, stats_.scene.hash, picture_, options, *cache);
             stats_.phases.flatten = watch.seconds();
         }
-        maker_.emplace(scene_, settings, picture_.aa, cache ? cache->devices : nullptr,
+        maker_.emplace(scene_, settings, picture_.aa, cache ? cache->devices : make_open_devices(),
                        events.driver_loaded);
         stats_.scene.triangles = scene_->triangles.size();
         stats_.scene.smooth_triangles = scene_->vertex_normals.size();

@@ -34,9 +34,9 @@ RenderSettings row_settings(const StressRow& row, const StressOptions& stress) {
 }
 
 /// Traces a trial's rays on the device that renders its pictures.
-RayCaster ray_caster(const DeviceChoice& choice, OpenDevices& open) {
+RayCaster ray_caster(const DeviceChoice& choice, const std::shared_ptr<OpenDevices>& open) {
     if (choice.use_threads) return threads_ray_caster();
-    const ClOptions options{.open_devices = &open};
+    const ClOptions options{.open_devices = open};
     const auto make = [device = choice.device, options](const auto& scene) {
         return [tracer = make_cl_ray_tracer(scene, device, options)](auto queries, auto answers) {
             tracer(queries, answers);
@@ -172,7 +172,7 @@ class Runner {
             const Stopwatch watch;
             try {
                 const DriverTask task(device.use_threads ? "" : row.renderer);
-                const RayCaster caster = ray_caster(device, *cache_.devices);
+                const RayCaster caster = ray_caster(device, cache_.devices);
                 row.rays = row.precision == Precision::float64 ? trial.in_double(rays, caster)
                                                                : trial.in_float(rays, caster);
                 row.why = exceeded_tolerance(*row.rays, one.tolerance);
