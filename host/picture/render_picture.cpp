@@ -365,17 +365,11 @@ RenderedPicture render_in(const Scene& scene, const RenderSettings& settings,
     return job.run(chosen, watch.seconds());
 }
 
-RenderedPicture render_once(const Scene& scene, const RenderSettings& settings,
-                            const std::function<Devices()>& devices, const RenderEvents& events,
-                            const StopFlag& stop, RenderCache* cache, ErrorControl& control) {
-    const auto render =
-        settings.precision == Precision::float64 ? render_in<double> : render_in<float>;
-    return render(scene, settings, devices, events, stop, cache, control);
-}
-
 RenderedPicture render_on(const Scene& scene, RenderSettings settings,
                           const std::function<Devices()>& devices, const RenderEvents& events,
                           const StopFlag& stop, RenderCache* cache) {
+    const auto render_once =
+        settings.precision == Precision::float64 ? render_in<double> : render_in<float>;
     ErrorControl control;
     if (settings.target_rmse <= 0) {
         return render_once(scene, settings, devices, events, stop, cache, control);
