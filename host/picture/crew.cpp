@@ -300,6 +300,13 @@ RendererTimes Crew<T>::times() const {
 }
 
 template <typename T>
+DeviceStats Crew<T>::stats() const {
+    DeviceStats stats = shared_->slots.back().member.stats;
+    if (uses_spare_) stats.fallback_from = shared_->slots.front().member.name;
+    return stats;
+}
+
+template <typename T>
 std::vector<DeviceShare> Crew<T>::shares() const {
     const std::scoped_lock lock(shared_->mutex);
     std::vector<DeviceShare> shares;

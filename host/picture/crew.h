@@ -22,6 +22,7 @@ struct CrewMember {
     std::function<std::unique_ptr<Renderer<T>>()> make;  ///< opens and compiles; throws Error
     std::function<void(Renderer<T>&)> test;              ///< throws Error if results are wrong
     std::string failure = {};                            ///< why it cannot be created, if known
+    DeviceStats stats = {};
 };
 
 /// The renderers of one picture. A single one renders on the caller's thread. Several take tiles
@@ -48,6 +49,9 @@ class Crew : public Renderer<T> {
 
     /// Whether the spare had to take over.
     bool uses_spare() const { return uses_spare_; }
+
+    /// The only member, or the spare that took over.
+    DeviceStats stats() const;
 
     /// What each has done so far, in the given order, the spare last.
     std::vector<DeviceShare> shares() const;

@@ -60,116 +60,80 @@ void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& 
 }
 
 template <typename T>
-CrewMaker<T>::CrewMaker(SharedScene<T> scene, const RenderSettings& settings, const AaMode& aa,
-                        std::shared_ptr<OpenDevices> open, std::function<void()> loaded)
-    : scene_(std::move(scene)),
-      settings_(settings),
-      aa_(aa),
-      open_(std::move(open)),
-      loaded_(std::move(loaded)) {}
-
-template <typename T>
 std::vector<CrewMember<T>> CrewMaker<T>::members(const std::vector<DeviceChoice>& devices) const {
     const bool is_alone = devices.size() == 1;
     std::vector<CrewMember<T>> members;
     for (const DeviceChoice& choice : devices) {
-        if (!choice.failure.empty()) {
-            CrewMember<T>& unlisted = members.emplace_back(spare());
-            unlisted.name = choice.device.name;
-            unlisted.failure = choice.failure;
-        } else if (choice.use_threads) {
-            ThreadsOptions options = threads_options(choice.threads);
-            if (!is_alone) options.schedule = Schedule::tiles;
-            members.push_back(threads_member(options));
+        if (choice.use_threads) {
+            members.push_back(
+                threads_member({choice.threads > 0 ? choice.threads : settings.threads,
+                                is_alone ? settings.schedule : Schedule::tiles, settings.kernels}));
         } else {
             members.push_back(device_member(choice.device, is_alone));
+            members.back().failure = choice.failure;
         }
     }
     return members;
 }
 
-/// `threads`: 0 means the settings'.
 template <typename T>
-ThreadsOptions CrewMaker<T>::threads_options(int threads) const {
-    return {threads > 0 ? threads : settings_.threads, settings_.schedule, settings_.kernels};
-}
-
-template <typename T>
-ThreadsOptions CrewMaker<T>::spare_options() const {
-    ThreadsOptions options = threads_options(0);
-    options.schedule = Schedule::tiles;
+CrewMember<T> CrewMaker<T>::spare() const {
+    ThreadsOptions options{settings.threads, Schedule::tiles, settings.kernels};
     options.kernels.lanes = 0;
-    return options;
+    return threads_member(options);
 }
 
 template <typename T>
 CrewMember<T> CrewMaker<T>::threads_member(const ThreadsOptions& options) const {
-    const auto make = [scene = scene_, options] {
+    const auto make = [scene = scene, options] {
         return make_threads_renderer<T>(*scene, options);
     };
     const auto renderer = make();
-    return {"threads",
-            renderer->tile_size(static_cast<int>(scene_->params.width)),
-            renderer->most_tile_pixels(),
-            make,
-            {}};
+    CrewMember<T> member{"threads",
+                         renderer->tile_size(static_cast<int>(scene->params.width)),
+                         renderer->most_tile_pixels(),
+                         make,
+                         {}};
+    const NativeKernels<T>& kernels = native_kernels_for(*scene, options);
+    member.stats.name = member.name;
+    member.stats.lanes = kernels.lanes;
+    member.stats.isa = kernels.isa;
+    member.stats.kernels = kernels.features;
+    member.stats.threads = thread_count(options, aa.samples());
+    member.stats.schedule = to_string(options.schedule);
+    return member;
 }
 
 template <typename T>
 CrewMember<T> CrewMaker<T>::device_member(const ClDevice& device, bool is_alone) const {
     ClOptions options;
-    options.kernels = settings_.kernels;
-    options.math = settings_.math;
+    options.kernels = settings.kernels;
+    options.math = settings.math;
     options.shares_film = !is_alone;
-    options.open_devices = open_;
+    options.open_devices = open;
     const ClTiles tiles =
-        cl_tiles<T>(scene_->params, device, options, static_cast<int>(scene_->params.width));
+        cl_tiles<T>(scene->params, device, options, static_cast<int>(scene->params.width));
     CrewMember<T> member{device.name, tiles.best, tiles.most_pixels, {}, {}};
-    member.make = [scene = scene_, device, options, loaded = loaded_] {
+    member.make = [scene = scene, device, options, loaded = loaded] {
         auto renderer = make_cl_renderer<T>(*scene, device, options);
         if (loaded) loaded();
         return renderer;
     };
-    if (settings_.self_test && settings_.math == Math::strict) {
-        member.test = [scene = scene_, name = device.name, isa = settings_.kernels.isa](
+    if (settings.self_test && settings.math == Math::strict) {
+        member.test = [scene = scene, name = device.name, isa = settings.kernels.isa](
                           Renderer<T>& renderer) { self_test(renderer, name, *scene, isa); };
     }
+    const bool by_samples = launches_samples(settings.kernels.launch, device, !aa.fixed_samples());
+    member.stats.name = member.name;
+    member.stats.platform = device.platform;
+    member.stats.driver = device.driver;
+    member.stats.launch = by_samples ? "sample" : "pixel";
+    member.stats.lanes = packet_lanes<T>(settings.kernels.lanes, device);
+    member.stats.kernels = either_of(scene->features, settings.kernels.features);
     return member;
 }
 
-template <typename T>
-DeviceStats CrewMaker<T>::threads_stats(const ThreadsOptions& options) const {
-    const NativeKernels<T>& kernels = native_kernels_for(*scene_, options);
-    DeviceStats stats;
-    stats.lanes = kernels.lanes;
-    stats.isa = kernels.isa;
-    stats.kernels = kernels.features;
-    stats.name = "threads";
-    stats.threads = thread_count(options, aa_.samples());
-    stats.schedule = to_string(options.schedule);
-    return stats;
-}
-
-template <typename T>
-DeviceStats CrewMaker<T>::stats(const std::vector<DeviceChoice>& devices) const {
-    DeviceStats stats;
-    stats.name = joined_names(devices);
-    if (devices.size() > 1) return stats;
-    if (devices.front().use_threads) {
-        return threads_stats(threads_options(devices.front().threads));
-    }
-    const ClDevice& device = devices.front().device;
-    stats.platform = device.platform;
-    stats.driver = device.driver;
-    const bool in_rounds = !aa_.fixed_samples();
-    stats.launch =
-        launches_samples(settings_.kernels.launch, device, in_rounds) ? "sample" : "pixel";
-    stats.lanes = packet_lanes<T>(settings_.kernels.lanes, device);
-    stats.kernels = either_of(scene_->features, settings_.kernels.features);
-    return stats;
-}
-
-template class CrewMaker<float>;
-template class CrewMaker<double>;
+template struct CrewMaker<float>;
+template struct CrewMaker<double>;
 
 }  // namespace rt

@@ -51,37 +51,24 @@ void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& 
 
 /// Makes the renderers of a scene, and describes them for figures.
 template <typename T>
-class CrewMaker {
-   public:
-    /// `open`: devices to reuse. `loaded` is called when a driver was loaded, which
-    /// may have replaced signal handlers. `settings` must outlive this.
-    CrewMaker(SharedScene<T> scene, const RenderSettings& settings, const AaMode& aa,
-              std::shared_ptr<OpenDevices> open, std::function<void()> loaded);
-
+struct CrewMaker {
     /// A member for each device. An OpenCL device is opened (or reused), compiled and uploaded to,
     /// and tested by self_test; one that its driver could not list fails.
     std::vector<CrewMember<T>> members(const std::vector<DeviceChoice>& devices) const;
 
     /// Threads that stand in for devices, some tiles of which may be finished: they cannot render
     /// whole sample buffers, and the settings of packets are the devices'.
-    CrewMember<T> spare() const { return threads_member(spare_options()); }
+    CrewMember<T> spare() const;
 
-    /// Of several devices, only their names.
-    DeviceStats stats(const std::vector<DeviceChoice>& devices) const;
-    DeviceStats spare_stats() const { return threads_stats(spare_options()); }
+    SharedScene<T> scene;
+    const RenderSettings& settings;
+    AaMode aa;
+    std::shared_ptr<OpenDevices> open;  ///< devices to reuse
+    std::function<void()> loaded;  ///< called when a driver was loaded, which may have replaced
+                                   ///< signal handlers
 
-   private:
-    ThreadsOptions threads_options(int threads) const;
-    ThreadsOptions spare_options() const;
     CrewMember<T> threads_member(const ThreadsOptions& options) const;
     CrewMember<T> device_member(const ClDevice& device, bool is_alone) const;
-    DeviceStats threads_stats(const ThreadsOptions& options) const;
-
-    const SharedScene<T> scene_;
-    const RenderSettings& settings_;
-    const AaMode aa_;
-    const std::shared_ptr<OpenDevices> open_;
-    const std::function<void()> loaded_;
 };
 
 }  // namespace rt

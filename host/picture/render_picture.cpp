@@ -117,8 +117,9 @@ class Job {
             scene_ = flattened_scene<T>(scene, stats_.scene.hash, picture_, options, *cache);
             stats_.phases.flatten = watch.seconds();
         }
-        maker_.emplace(scene_, settings, picture_.aa, cache ? cache->devices : make_open_devices(),
-                       events.driver_loaded);
+        maker_.emplace(CrewMaker<T>{scene_, settings, picture_.aa,
+                                    cache ? cache->devices : make_open_devices(),
+                                    events.driver_loaded});
         stats_.scene.triangles = scene_->triangles.size();
         stats_.scene.smooth_triangles = scene_->vertex_normals.size();
         stats_.scene.bytes = scene_->bytes();
@@ -139,7 +140,7 @@ class Job {
         if (journal_->is_finished()) {
             film_ = journal_->take_film();
             tile_ = final_tile;
-            stats_.device = maker_->stats(devices);
+            stats_.device = stats_of({maker_->members(devices), {}, warn_}, devices);
         } else {
             render_by(devices);
         }
@@ -177,8 +178,15 @@ class Job {
             return;
         }
         stats_.shares = crew.shares();
-        stats_.device = crew.uses_spare() ? maker_->spare_stats() : maker_->stats(devices);
-        if (crew.uses_spare()) stats_.device.fallback_from = stats_.shares.front().name;
+        stats_.device = stats_of(crew, devices);
+    }
+
+    /// Of several devices, only their names.
+    static DeviceStats stats_of(const Crew<T>& crew, const Devices& devices) {
+        if (devices.size() == 1 || crew.uses_spare()) return crew.stats();
+        DeviceStats stats;
+        stats.name = joined_names(devices);
+        return stats;
     }
 
     /// Renders the whole picture on threads, in place of devices that did these shares of it.
@@ -191,7 +199,7 @@ class Job {
         render_with(threads, "threads");
         shares.push_back(threads.shares().front());
         stats_.shares = std::move(shares);
-        stats_.device = maker_->spare_stats();
+        stats_.device = threads.stats();
         stats_.device.fallback_from = devices;
     }
 
