@@ -213,35 +213,52 @@ void find_rare(LinePixel* pixel) {
     }
 }
 
-// Takes in the samples traced: new segments on new lines, or parts of cut ones.
-void take_step(LinePixel* pixel) {
-    const Knot* step = pixel->step;
-    if (!pixel->cuts) find_rare(pixel);
+// Notes where the samples just traced meet the rare signature.
+void note_rare_places(LinePixel* pixel) {
     for (Index i = 0; i < RT_STEP_SAMPLES; ++i) {
-        if (step[i].signature != pixel->rare) continue;
+        Real along = pixel->step[i].along;
+        if (pixel->step[i].signature != pixel->rare) continue;
         Line* line = &pixel->lines[pixel->step_lines[i]];
-        if (step[i].along < line->low) line->low = step[i].along;
-        if (step[i].along > line->high) line->high = step[i].along;
+        if (along < line->low) line->low = along;
+        if (along > line->high) line->high = along;
     }
-    Index count = pixel->segment_count;
-    for (Index i = 0; !pixel->cuts && i < RT_STEP_SAMPLES; ++i) {
+}
+
+// Adds the segments of the lines just traced.
+void add_segments(LinePixel* pixel) {
+    for (Index i = 0; i < RT_STEP_SAMPLES; ++i) {
         if (i % RT_LINE_SAMPLES == 0) continue;
-        Segment* segment = &pixel->segments[count++];
-        segment->from = step[i - 1];
-        segment->to = step[i];
+        Segment* segment = &pixel->segments[pixel->segment_count++];
+        segment->from = pixel->step[i - 1];
+        segment->to = pixel->step[i];
         segment->line = pixel->step_lines[i];
     }
-    Index taken = 0;
-    for (Index i = 0; pixel->cuts && i < pixel->segment_count; ++i) {
+}
+
+// Cuts segments at the samples just traced; the last part of each keeps its place.
+void cut_segments(LinePixel* pixel) {
+    Index count = pixel->segment_count, taken = 0;
+    for (Index i = 0; i < pixel->segment_count; ++i) {
         Segment* segment = &pixel->segments[i];
         for (Index part = 1; part < pixel->parts[i]; ++part, ++taken) {
             Segment* cut = &pixel->segments[count++];
             cut->from = segment->from;
-            cut->to = segment->from = step[taken];
+            cut->to = segment->from = pixel->step[taken];
             cut->line = segment->line;
         }
     }
     pixel->segment_count = count;
+}
+
+// Takes in the samples just traced.
+void take_step(LinePixel* pixel) {
+    if (!pixel->cuts) find_rare(pixel);
+    note_rare_places(pixel);
+    if (pixel->cuts) {
+        cut_segments(pixel);
+    } else {
+        add_segments(pixel);
+    }
 }
 
 // Half the distance between the lines on both sides: its share of the pixel.
@@ -319,7 +336,7 @@ void rate_gaps(const LinePixel* pixel, Errors* rated) {
     }
 }
 
-// Parts for the worst errors, in turn, as if each were divided by the square of its parts.
+// Shares out parts: each goes to the worst error, which is then divided by the square of its parts.
 void deal_parts(const Errors* rated, Index more, Index* parts) {
     Real left[RT_MOST_SEGMENTS];
     for (Index i = 0; i < rated->count; ++i) {
