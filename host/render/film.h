@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "host/base/hash.h"
 #include "host/base/memory.h"
 #include "host/render/rect.h"
 
@@ -33,10 +36,24 @@ std::vector<float> as_floats(Film<T>&& film) {
 
 /// Crops a film that shows `shown` to `part`, which lies in it.
 template <typename T>
-Film<T> part_of(const Film<T>& film, const Rect& shown, const Rect& part);
+Film<T> part_of(const Film<T>& film, const Rect& shown, const Rect& part) {
+    Film<T> cut(part.width, part.height);
+    const auto row_length = 3 * static_cast<std::ptrdiff_t>(part.width);
+    for (int row = 0; row < part.height; ++row) {
+        std::copy_n(&film.rgb[3 * index_in(shown, part.x, part.y + row)], row_length,
+                    cut.rgb.begin() + row * row_length);
+    }
+    return cut;
+}
 
 /// 64 bits over size and every bit of the film (FNV-1a): equal hashes, equal pictures.
 template <typename T>
-std::uint64_t hash_of(const Film<T>& film);
+std::uint64_t hash_of(const Film<T>& film) {
+    Hasher hasher;
+    hasher.add(film.width);
+    hasher.add(film.height);
+    hasher.add_bytes(std::as_bytes(std::span(film.rgb)));
+    return hasher.value();
+}
 
 }  // namespace rt
