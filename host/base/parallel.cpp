@@ -9,9 +9,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <exception>
 #include <fstream>
+#include <iterator>
+#include <thread>
 #include <vector>
 
 #include "host/base/error.h"
@@ -21,15 +22,6 @@ namespace rt {
 namespace {
 
 enum class Gate { closed, open, abandoned };
-
-/// What one thread needs; outlives the thread.
-struct Task {
-    const std::function<void(int)>* work;
-    std::atomic<Gate>* gate;
-    int index;
-    const cpu_set_t* cores;  ///< this process's
-    std::exception_ptr failure = nullptr;
-};
 
 /// The i-th core of a set, as a set; empty if there are fewer.
 cpu_set_t one_core(const cpu_set_t& cores, int i) {
@@ -41,39 +33,19 @@ cpu_set_t one_core(const cpu_set_t& cores, int i) {
     return one;
 }
 
-/// Threads that wake together often share a core for a few milliseconds: each starts on a core of
-/// its own, and may then go anywhere.
-void start_on_own_core(const Task& task) {
-    const cpu_set_t own = one_core(*task.cores, task.index);
+/// Threads that wake together often share a core for a few milliseconds: the i-th starts on a core
+/// of its own among `cores`, and may then go to any of them.
+void start_on_own_core(int i, const cpu_set_t& cores, const std::atomic<Gate>& gate) {
+    const cpu_set_t own = one_core(cores, i);
     const bool is_moved =
         CPU_COUNT(&own) == 1 && pthread_setaffinity_np(pthread_self(), sizeof own, &own) == 0;
-    task.gate->wait(Gate::closed);
-    if (is_moved) pthread_setaffinity_np(pthread_self(), sizeof own, task.cores);
+    gate.wait(Gate::closed);
+    if (is_moved) pthread_setaffinity_np(pthread_self(), sizeof cores, &cores);
 }
 
-void* run_task(void* argument) {
-    Task& task = *static_cast<Task*>(argument);
-    start_on_own_core(task);
-    if (task.gate->load() == Gate::abandoned) return nullptr;
-    try {
-        (*task.work)(task.index);
-    } catch (...) {
-        task.failure = std::current_exception();
-    }
-    return nullptr;
-}
-
-void open_gate(std::atomic<Gate>& gate, Gate state) {
-    gate = state;
-    gate.notify_all();
-}
-
-void join_all(const std::vector<pthread_t>& threads) {
-    for (const pthread_t thread : threads) {
-        const int status = pthread_join(thread, nullptr);
-        if (status != 0) {
-            throw Error(ExitCode::bug, fmt::format("pthread_join: {}", std::strerror(status)));
-        }
+void rethrow_first(const std::vector<std::exception_ptr>& failures) {
+    for (const std::exception_ptr& failure : failures) {
+        if (failure) std::rethrow_exception(failure);
     }
 }
 
@@ -114,30 +86,34 @@ double seconds_since_process_start() {
 
 void run_on_threads(int count, const std::function<void(int)>& work) {
     std::atomic<Gate> gate = Gate::closed;
+    const auto open_gate = [&gate](Gate state) {
+        gate = state;
+        gate.notify_all();
+    };
     cpu_set_t cores;
     if (sched_getaffinity(0, sizeof cores, &cores) != 0) CPU_ZERO(&cores);
-    std::vector<Task> tasks(static_cast<std::size_t>(count));
-    std::vector<pthread_t> threads;
-    threads.reserve(tasks.size());
-    for (int i = 0; i < count; ++i) {
-        Task& task = tasks[static_cast<std::size_t>(i)];
-        task = {&work, &gate, i, &cores};
-        pthread_t thread;
-        const int status = pthread_create(&thread, nullptr, run_task, &task);
-        if (status != 0) {
-            open_gate(gate, Gate::abandoned);
-            join_all(threads);
-            throw Error(ExitCode::limit, fmt::format("cannot start thread {} of {}: {}; use a "
-                                                     "smaller --threads",
-                                                     i + 1, count, std::strerror(status)));
+    std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));
+    std::vector<std::jthread> threads;
+    const auto run = [&](int i) {
+        start_on_own_core(i, cores, gate);
+        if (gate == Gate::abandoned) return;
+        try {
+            work(i);
+        } catch (...) {
+            failures[static_cast<std::size_t>(i)] = std::current_exception();
         }
-        threads.push_back(thread);
+    };
+    try {
+        while (std::ssize(threads) < count) threads.emplace_back(run, std::ssize(threads));
+    } catch (const std::exception& error) {
+        open_gate(Gate::abandoned);
+        throw Error(ExitCode::limit,
+                    fmt::format("cannot start thread {} of {}: {}; use a smaller --threads",
+                                threads.size() + 1, count, error.what()));
     }
-    open_gate(gate, Gate::open);
-    join_all(threads);
-    for (const Task& task : tasks) {
-        if (task.failure) std::rethrow_exception(task.failure);
-    }
+    open_gate(Gate::open);
+    threads.clear();
+    rethrow_first(failures);
 }
 
 void for_each_run(std::size_t count, std::size_t grain, int threads,
@@ -159,9 +135,7 @@ void for_each_run(std::size_t count, std::size_t grain, int threads,
             }
         }
     });
-    for (const std::exception_ptr& failure : failures) {
-        if (failure) std::rethrow_exception(failure);
-    }
+    rethrow_first(failures);
 }
 
 }  // namespace rt
