@@ -6,35 +6,25 @@
 
 #include <algorithm>
 #include <span>
+#include <type_traits>
 
 #include "host/base/error.h"
 #include "native_table.h"
 
-// The entry points of every variant, as native.cl declares them.
-#define RT_DECLARE_NATIVE(T, name)                                                                \
-    extern "C" {                                                                                  \
-    extern const int name##_traits[3];                                                            \
-    void name##_pixels(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                     \
-                       const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index);         \
-    void name##_samples(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                    \
-                        const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index);        \
-    void name##_resolve(T*, const T*, const rt::Flat<T>::LaunchParams*, const rt::Flat<T>::Tile*, \
-                        rt::Flat<T>::Index, rt::Flat<T>::Index);                                  \
-    void name##_list(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                       \
-                     const rt::Flat<T>::Tile*, const std::int32_t*, rt::Flat<T>::Index,           \
-                     rt::Flat<T>::Index);                                                         \
-    void name##_centers(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                    \
-                        const rt::Flat<T>::Tile*, rt::Flat<T>::Index, rt::Flat<T>::Index)         \
-        __attribute__((weak)); /* these and the next are not in all */                            \
-    void name##_adaptive(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                   \
-                         const rt::Flat<T>::Tile*, T*, rt::Flat<T>::Index, rt::Flat<T>::Index,    \
-                         rt::Flat<T>::Index) __attribute__((weak));                               \
-    void name##_edges(T*, rt::Flat<T>::RayCounts*, const rt::NativeView<T>*,                      \
-                      const rt::Flat<T>::Tile*, T*, rt::Flat<T>::Index, rt::Flat<T>::Index,       \
-                      rt::Flat<T>::Index) __attribute__((weak));                                  \
-    void name##_rays(rt::Flat<T>::RayAnswer*, const rt::Flat<T>::RayQuery*,                       \
-                     const rt::NativeView<T>*, rt::Flat<T>::Index, rt::Flat<T>::Index,            \
-                     rt::Flat<T>::Index) __attribute__((weak));                                   \
+// The entry points of every variant, as native.cl declares them; the weak ones are not in all.
+#define RT_DECLARE_ENTRY(T, name, field) \
+    std::remove_pointer_t<decltype(rt::NativeKernels<T>::field)> name
+#define RT_DECLARE_NATIVE(T, name)                                               \
+    extern "C" {                                                                 \
+    extern const int name##_traits[3];                                           \
+    RT_DECLARE_ENTRY(T, name##_pixels, render_pixels);                           \
+    RT_DECLARE_ENTRY(T, name##_samples, render_samples);                         \
+    RT_DECLARE_ENTRY(T, name##_resolve, resolve_samples);                        \
+    RT_DECLARE_ENTRY(T, name##_list, render_list);                               \
+    RT_DECLARE_ENTRY(T, name##_centers, render_centers) __attribute__((weak));   \
+    RT_DECLARE_ENTRY(T, name##_adaptive, render_adaptive) __attribute__((weak)); \
+    RT_DECLARE_ENTRY(T, name##_edges, render_edges) __attribute__((weak));       \
+    RT_DECLARE_ENTRY(T, name##_rays, trace_rays) __attribute__((weak));          \
     }
 #define RT_DECLARE_FLOAT(name, isa, lanes) RT_DECLARE_NATIVE(float, name)
 #define RT_DECLARE_DOUBLE(name, isa, lanes) RT_DECLARE_NATIVE(double, name)
