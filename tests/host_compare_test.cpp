@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "host/image/false_color.h"
 #include "host/image/image_error.h"
-#include "host/measure/heatmap.h"
 
 namespace {
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "host/image/image_error.h"
+
 namespace rt {
 
 namespace {
@@ -18,6 +20,17 @@ constexpr std::array<Color, 5> viridis{{{0.267f, 0.005f, 0.329f},
                                         {0.128f, 0.567f, 0.551f},
                                         {0.369f, 0.789f, 0.383f},
                                         {0.993f, 0.906f, 0.144f}}};
+
+constexpr std::array<std::array<int, 3>, 10> magma{{{0, 0, 4},
+                                                    {24, 15, 61},
+                                                    {68, 15, 118},
+                                                    {114, 31, 129},
+                                                    {158, 47, 127},
+                                                    {205, 64, 113},
+                                                    {241, 96, 93},
+                                                    {253, 150, 104},
+                                                    {254, 202, 141},
+                                                    {252, 253, 191}}};
 
 Color viridis_at(float share) {
     const float place = std::clamp(share, 0.0f, 1.0f) * (viridis.size() - 1);
@@ -82,6 +95,28 @@ Picture color_ids(std::span<const std::int32_t> ids, int width, int height) {
             return 0.25f + 0.75f * static_cast<float>(mixed >> shift & 255u) / 255;
         };
         return Color{part(24), part(14), part(4)};
+    });
+}
+
+std::array<float, 3> heat_color(double share) {
+    const double at = std::clamp(share, 0.0, 1.0) * (magma.size() - 1);
+    const std::size_t low = std::min(static_cast<std::size_t>(at), magma.size() - 2);
+    const double rest = at - static_cast<double>(low);
+    std::array<float, 3> color{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double value = magma[low][c] + rest * (magma[low + 1][c] - magma[low][c]);
+        color[c] = static_cast<float>(value / 255);
+    }
+    return color;
+}
+
+Picture heat_map(const Picture& picture, const Picture& reference, double scale) {
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    return colored(picture.width, picture.height, [&](std::size_t i) {
+        const double difference = pixel_difference(
+            &picture.pixels[channels * i], &reference.pixels[channels * i], picture.channels);
+        return std::isnan(difference) ? non_finite_color
+                                      : heat_color(scale > 0 ? std::sqrt(difference / scale) : 0);
     });
 }
 
