@@ -38,7 +38,8 @@ ErrorEstimate estimate(const Scene& scene, const Film<T>& film, const ThreadsOpt
                        Rect region = {}) {
     const FlatScene<T> flat = flatten<T>(scene);
     if (region.width == 0) region = {0, 0, scene.width, scene.height};
-    return trace_controls(flat, scene.aa, region, film, options, go)->estimate_of(film);
+    const ErrorEstimator<T> estimator{flat, region, options, go};
+    return estimator.trace_controls(scene.aa, film)->estimate_of(film);
 }
 
 /// Far more samples than any picture here, and another seed.

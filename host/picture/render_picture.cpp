@@ -317,14 +317,12 @@ class Job {
         }
         threads.kernels.isa = settings_.kernels.isa;
         const bool is_finer = control_.pixels.has_value();
-        if (!is_finer) {
-            control_.pixels = trace_controls(*scene_, picture_.aa, region_, film_, threads, stop_);
-        }
+        const ErrorEstimator<T> estimator{*scene_, region_, threads, stop_};
+        if (!is_finer) control_.pixels = estimator.trace_controls(picture_.aa, film_);
         if (!control_.pixels) return;
         stats_.estimate = control_.pixels->estimate_of(film_);
         if (target > 0 && !is_finer && !stats_.estimate->reaches(target)) {
-            control_.finer = mode_to_reach(target, *scene_, picture_.aa, region_, *control_.pixels,
-                                           threads, stop_);
+            control_.finer = estimator.mode_to_reach(target, picture_.aa, *control_.pixels);
         }
         stats_.estimate->target = target;
         stats_.estimate->seconds = watch.seconds();

@@ -137,15 +137,47 @@ double product(const double* value, const double* a, const double* b) {
     return std::isfinite(sum) ? sum / 3 : 0;
 }
 
+}  // namespace
+
+ErrorEstimate ControlPixels::estimate(std::span<const double> colors) const {
+    double sum = 0, squares = 0, candidate_squares = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const double part =
+            weights[i] * product(&colors[3 * i], &means[0][3 * i], &means[1][3 * i]);
+        sum += part;
+        squares += part * part;
+        candidate_squares += part * part * candidate_weights[i] / weights[i];
+    }
+    // Of drawing control pixels from the candidates, and of drawing those.
+    const double variance =
+        std::max(squares - sum * sum / static_cast<double>(pixels.size()), 0.0) +
+        std::max(candidate_squares - sum * sum / static_cast<double>(candidates), 0.0);
+    const double margin = 1.645 * std::sqrt(variance);  // 90 % of a normal distribution
+    ErrorEstimate estimate;
+    estimate.rmse = std::sqrt(std::max(sum, 0.0));
+    estimate.low = std::sqrt(std::max(sum - margin, 0.0));
+    estimate.high = std::sqrt(std::max(sum, 0.0) + margin);
+    estimate.pixels = pixels.size();
+    estimate.samples = samples;
+    return estimate;
+}
+
+std::string to_string(const ErrorEstimate& estimate) {
+    if (!estimate.known_rmse()) return "RMSE below " + short_text(estimate.high);
+    return fmt::format("RMSE about {} ({} to {})", short_text(estimate.rmse),
+                       short_text(estimate.low), short_text(estimate.high));
+}
+
 /// The colors, RGB, of pixels sampled so; adds their samples. `seed`: to be combined with the
 /// picture's.
 template <typename T>
-std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
-                          const std::vector<std::int32_t>& pixels, const AaMode& aa, int seed,
-                          ThreadsOptions options, std::uint64_t& samples) {
-    options.kernels.any_samples = true;
-    options.kernels.features.sobol = true;
-    const NativeKernels<T>& kernels = native_kernels_for(scene, options);
+std::vector<double> ErrorEstimator<T>::trace(const std::vector<std::int32_t>& pixels,
+                                             const AaMode& aa, int seed,
+                                             std::uint64_t& samples) const {
+    ThreadsOptions any_samples = options;
+    any_samples.kernels.any_samples = true;
+    any_samples.kernels.features.sobol = true;
+    const NativeKernels<T>& kernels = native_kernels_for(scene, any_samples);
     NativeView<T> view = native_view(scene);
     const bool is_sobol = aa.pattern == AaMode::Pattern::sobol;
     view.params.sampling = is_sobol ? f32::RT_SAMPLES_SOBOL : f32::RT_SAMPLES_GRID;
@@ -182,8 +214,7 @@ std::vector<double> trace(const FlatScene<T>& scene, const Rect& region,
 }
 
 template <typename T>
-ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, const Film<T>& film,
-                              const ThreadsOptions& options) {
+ControlPixels ErrorEstimator<T>::choose_controls(const Film<T>& film) const {
     const std::vector<double> contrasts = contrasts_of(film, thread_count(options, 1));
     const auto even = [](std::size_t) { return 1.0; };
     ControlPixels candidates, controls;
@@ -193,8 +224,7 @@ ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, con
     });
     const std::vector<double> own = colors_of(candidates.pixels, film);
     const std::vector<double> others =
-        trace(scene, region, candidates.pixels, sobol_aa(candidate_samples), candidates_seed,
-              options, controls.samples);
+        trace(candidates.pixels, sobol_aa(candidate_samples), candidates_seed, controls.samples);
     std::vector<double> squares;
     for (std::size_t i = 0; i < candidates.pixels.size(); ++i) {
         squares.push_back(candidates.weights[i] *
@@ -212,64 +242,21 @@ ControlPixels choose_controls(const FlatScene<T>& scene, const Rect& region, con
 
 /// The two means, of so many samples each.
 template <typename T>
-void trace_means(const FlatScene<T>& scene, const Rect& region, int depth,
-                 const ThreadsOptions& options, ControlPixels& controls) {
+void ErrorEstimator<T>::trace_means(int depth, ControlPixels& controls) const {
     for (std::size_t k = 0; k < 2; ++k) {
-        controls.means[k] = trace(scene, region, controls.pixels, sobol_aa(depth), control_seeds[k],
-                                  options, controls.samples);
+        controls.means[k] =
+            trace(controls.pixels, sobol_aa(depth), control_seeds[k], controls.samples);
     }
     controls.depth = depth;
 }
 
-}  // namespace
-
-ErrorEstimate ControlPixels::estimate(std::span<const double> colors) const {
-    double sum = 0, squares = 0, candidate_squares = 0;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const double part =
-            weights[i] * product(&colors[3 * i], &means[0][3 * i], &means[1][3 * i]);
-        sum += part;
-        squares += part * part;
-        candidate_squares += part * part * candidate_weights[i] / weights[i];
-    }
-    // Of drawing control pixels from the candidates, and of drawing those.
-    const double variance =
-        std::max(squares - sum * sum / static_cast<double>(pixels.size()), 0.0) +
-        std::max(candidate_squares - sum * sum / static_cast<double>(candidates), 0.0);
-    const double margin = 1.645 * std::sqrt(variance);  // 90 % of a normal distribution
-    ErrorEstimate estimate;
-    estimate.rmse = std::sqrt(std::max(sum, 0.0));
-    estimate.low = std::sqrt(std::max(sum - margin, 0.0));
-    estimate.high = std::sqrt(std::max(sum, 0.0) + margin);
-    estimate.pixels = pixels.size();
-    estimate.samples = samples;
-    return estimate;
-}
-
-std::string to_string(const ErrorEstimate& estimate) {
-    if (!estimate.known_rmse()) return "RMSE below " + short_text(estimate.high);
-    return fmt::format("RMSE about {} ({} to {})", short_text(estimate.rmse),
-                       short_text(estimate.low), short_text(estimate.high));
-}
-
 template <typename T>
-std::vector<double> colors_of(const std::vector<std::int32_t>& pixels, const Film<T>& film) {
-    std::vector<double> colors;
-    for (const std::int32_t pixel : pixels) {
-        const T* const rgb = &film.rgb[3 * static_cast<std::size_t>(pixel)];
-        colors.insert(colors.end(), rgb, rgb + 3);
-    }
-    return colors;
-}
-
-template <typename T>
-std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaMode& aa,
-                                            const Rect& region, const Film<T>& film,
-                                            const ThreadsOptions& options, const StopFlag& stop) {
-    ControlPixels controls = choose_controls(scene, region, film, options);
+std::optional<ControlPixels> ErrorEstimator<T>::trace_controls(const AaMode& aa,
+                                                               const Film<T>& film) const {
+    ControlPixels controls = choose_controls(film);
     const int most = most_pixel_samples(aa);
     for (int depth = control_samples; stop == 0; depth *= 4) {
-        trace_means(scene, region, depth, options, controls);
+        trace_means(depth, controls);
         const ErrorEstimate estimate = controls.estimate_of(film);
         if (is_clear(estimate) || depth >= most) return controls;
     }
@@ -277,9 +264,8 @@ std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaM
 }
 
 template <typename T>
-std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMode aa,
-                                    const Rect& region, ControlPixels& controls,
-                                    const ThreadsOptions& options, const StopFlag& stop) {
+std::optional<AaMode> ErrorEstimator<T>::mode_to_reach(double rmse, AaMode aa,
+                                                       ControlPixels& controls) const {
     while (stop == 0) {
         // What an edges mode misses it misses at any tolerance.
         const bool gives_up = aa.finds_edges() && aa.threshold < rmse / 8;
@@ -287,28 +273,15 @@ std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMo
         if (next == aa) return aa;
         aa = next;
         if (most_pixel_samples(aa) > controls.depth) {
-            trace_means(scene, region, std::max(most_pixel_samples(aa), 2 * controls.depth),
-                        options, controls);
+            trace_means(std::max(most_pixel_samples(aa), 2 * controls.depth), controls);
         }
-        const auto colors = trace(scene, region, controls.pixels, aa, 0, options, controls.samples);
+        const auto colors = trace(controls.pixels, aa, 0, controls.samples);
         if (controls.estimate(colors).reaches(rmse)) return aa;
     }
     return std::nullopt;
 }
 
-template std::vector<double> colors_of(const std::vector<std::int32_t>&, const Film<float>&);
-template std::vector<double> colors_of(const std::vector<std::int32_t>&, const Film<double>&);
-template std::optional<ControlPixels> trace_controls(const FlatScene<float>&, const AaMode&,
-                                                     const Rect&, const Film<float>&,
-                                                     const ThreadsOptions&, const StopFlag&);
-template std::optional<AaMode> mode_to_reach(double, const FlatScene<float>&, AaMode, const Rect&,
-                                             ControlPixels&, const ThreadsOptions&,
-                                             const StopFlag&);
-template std::optional<ControlPixels> trace_controls(const FlatScene<double>&, const AaMode&,
-                                                     const Rect&, const Film<double>&,
-                                                     const ThreadsOptions&, const StopFlag&);
-template std::optional<AaMode> mode_to_reach(double, const FlatScene<double>&, AaMode, const Rect&,
-                                             ControlPixels&, const ThreadsOptions&,
-                                             const StopFlag&);
+template struct ErrorEstimator<float>;
+template struct ErrorEstimator<double>;
 
 }  // namespace rt

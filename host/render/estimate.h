@@ -54,7 +54,14 @@ void describe(A& a, X& x) {
 
 /// The film's colors, RGB, in these pixels of it.
 template <typename T>
-std::vector<double> colors_of(const std::vector<std::int32_t>& pixels, const Film<T>& film);
+std::vector<double> colors_of(const std::vector<std::int32_t>& pixels, const Film<T>& film) {
+    std::vector<double> colors;
+    for (const std::int32_t pixel : pixels) {
+        const T* const rgb = &film.rgb[3 * static_cast<std::size_t>(pixel)];
+        colors.insert(colors.end(), rgb, rgb + 3);
+    }
+    return colors;
+}
 
 /// Some of a picture's pixels, and what they should be.
 struct ControlPixels {
@@ -75,25 +82,34 @@ struct ControlPixels {
     }
 };
 
-/// Chooses control pixels of a film that shows `region` of the picture sampled with `aa`, and
-/// traces them on threads. First candidates are chosen, half of them evenly and half where
-/// neighbors differ; then control pixels among these, half of them where a few more samples differ
-/// from the film. If the error is below 1e-3 and lost in the noise of the control pixels, these get
-/// four times as many samples, and again, until it is clear or they have as many as the picture's.
-/// Everything depends on the scene and the film alone. Empty if stopped.
+/// Traces single pixels of `region` of a picture, on threads.
 template <typename T>
-std::optional<ControlPixels> trace_controls(const FlatScene<T>& scene, const AaMode& aa,
-                                            const Rect& region, const Film<T>& film,
-                                            const ThreadsOptions& options, const StopFlag& stop);
+struct ErrorEstimator {
+    const FlatScene<T>& scene;
+    Rect region;
+    ThreadsOptions options;
+    const StopFlag& stop;
 
-/// The first AA mode after `aa`, a grid, Sobol or edges, that reaches the RMSE in the control
-/// pixels, with 2, 3, 4, 6, 8, 12, ... samples or rows of them, or two thirds of the
-/// tolerance and again; the finest of all if none does. Edges that do not get there at an eighth of
-/// the RMSE make way for Sobol. Only the control pixels are traced, so it takes little time; their
-/// means get at least as many samples. Empty if stopped.
-template <typename T>
-std::optional<AaMode> mode_to_reach(double rmse, const FlatScene<T>& scene, AaMode aa,
-                                    const Rect& region, ControlPixels& controls,
-                                    const ThreadsOptions& options, const StopFlag& stop);
+    /// Chooses control pixels of a film that shows the region sampled with `aa`, and traces them.
+    /// First candidates are chosen, half of them evenly and half where neighbors differ; then
+    /// control pixels among these, half of them where a few more samples differ from the film. If
+    /// the error is below 1e-3 and lost in the noise of the control pixels, these get four times as
+    /// many samples, and again, until it is clear or they have as many as the picture's. Everything
+    /// depends on the scene and the film alone. Empty if stopped.
+    std::optional<ControlPixels> trace_controls(const AaMode& aa, const Film<T>& film) const;
+
+    /// The first AA mode after `aa`, a grid, Sobol or edges, that reaches the RMSE in the control
+    /// pixels, with 2, 3, 4, 6, 8, 12, ... samples or rows of them, or two thirds of the tolerance
+    /// and again; the finest of all if none does. Edges that do not get there at an eighth of the
+    /// RMSE make way for Sobol. Only the control pixels are traced, so it takes little time; their
+    /// means get at least as many samples. Empty if stopped.
+    std::optional<AaMode> mode_to_reach(double rmse, AaMode aa, ControlPixels& controls) const;
+
+   private:
+    std::vector<double> trace(const std::vector<std::int32_t>& pixels, const AaMode& aa, int seed,
+                              std::uint64_t& samples) const;
+    ControlPixels choose_controls(const Film<T>& film) const;
+    void trace_means(int depth, ControlPixels& controls) const;
+};
 
 }  // namespace rt
