@@ -15,18 +15,16 @@ namespace rt {
 
 namespace {
 
-void settle_journal(RenderOptions& render) {
-    if (render.fresh && render.resume) usage_error("--fresh cannot be combined with --resume");
-    if (render.resume) render.journal_delay = 0;
-    if (!render.shares) return;
-    if (render.is_batch()) usage_error("--shard works only for a single scene");
-    if (!render.reference.empty() || render.expected_hash) {
-        usage_error("--reference and --expect cannot be combined with --shard");
+/// Options that cannot be combined, and what to say then.
+struct Conflict {
+    bool is_there;
+    const char* message;
+};
+
+void refuse_conflicts(const std::vector<Conflict>& conflicts) {
+    for (const Conflict& conflict : conflicts) {
+        if (conflict.is_there) usage_error("{}", conflict.message);
     }
-    if (render.math == Math::fast || render.schedule != Schedule::tiles) {
-        usage_error("--shard requires --math strict and --schedule tiles, so that its parts match");
-    }
-    if (!render.output.ends_with(".mbj")) usage_error("--shard requires -o FILE.mbj");
 }
 
 /// What a target starts with. The error of edges:T is about T.
@@ -38,59 +36,28 @@ AaMode first_aa(double target_rmse, Filter filter) {
     return {AaMode::Pattern::sobol, std::max(fewest_samples(filter), 4), 0};
 }
 
-/// A target starts with a few samples; its journal would be of another picture each time.
-void settle_estimate(RenderOptions& render) {
-    if (render.target_rmse > 0) {
-        if (render.shares || render.resume) {
-            usage_error("--target-rmse cannot be combined with --shard or --resume");
-        }
-        if (!render.aa) render.aa = first_aa(render.target_rmse, render.filter);
-        if (render.aa->refines()) {
-            usage_error("--target-rmse requires --aa edges:T, sobol:N or grid:N");
-        }
-    }
-    if (render.estimate && render.shares) {
-        usage_error("--estimate works only for a whole picture, without --shard");
-    }
-}
-
-/// Threads have no fast math, so every tile would differ.
-void settle_check(const RenderOptions& render) {
-    if (render.check > 0 && render.math == Math::fast)
-        usage_error("--check requires --math strict");
-}
-
-void settle_watch(const RenderOptions& render) {
-    if (!render.watch) return;
-    if (render.is_batch() || render.scene == stdin_scene || render.shares) {
-        usage_error("--watch works only for a single scene file, without --shard");
-    }
-    if (render.output == stdout_path || render.timeout > 0) {
-        usage_error("--watch cannot be combined with -o - or --timeout");
-    }
+bool compares(const RenderOptions& render) {
+    return !render.reference.empty() || render.expected_hash;
 }
 
 /// Rejects two uses of the same standard stream.
 void settle_streams(RenderOptions& render) {
     settle_picture_output(render.output, render.format);
     const bool prints = render.stats != StatsFormat::summary || !render.reference.empty();
-    if (render.output == stdout_path && prints) {
-        usage_error("-o - cannot be combined with --stats or --reference, which print to stdout");
-    }
-    if (render.batch == "-" &&
-        std::ranges::find(render.scenes, stdin_scene) != render.scenes.end()) {
-        usage_error("standard input cannot be both a scene and a list of scenes");
-    }
+    const bool reads_scene = std::ranges::count(render.scenes, stdin_scene) > 0;
+    refuse_conflicts(
+        {{render.output == stdout_path && prints,
+          "-o - cannot be combined with --stats or --reference, which print to stdout"},
+         {render.batch == "-" && reads_scene,
+          "standard input cannot be both a scene and a list of scenes"}});
 }
 
 /// Frames of one scene; with shares, every nth frame.
 void settle_frames(RenderOptions& render) {
-    if (render.scenes.size() != 1 || !render.batch.empty()) {
-        usage_error("--frames requires exactly one scene");
-    }
-    if (!render.reference.empty() || render.expected_hash) {
-        usage_error("--reference and --expect cannot be combined with --frames");
-    }
+    refuse_conflicts(
+        {{render.scenes.size() != 1 || !render.batch.empty(),
+          "--frames requires exactly one scene"},
+         {compares(render), "--reference and --expect cannot be combined with --frames"}});
     render.output = batch_output(render.output, render.scenes.front());
     const bool is_pattern =
         render.frames.size() > 1 || render.output.find('%') != std::string::npos;
@@ -102,9 +69,7 @@ void settle_frames(RenderOptions& render) {
     std::vector<int> own;
     for (std::size_t i = 0; i < render.frames.size(); ++i) {
         const int share = static_cast<int>(i % static_cast<std::size_t>(render.shares->of));
-        if (std::ranges::find(render.shares->numbers, share) != render.shares->numbers.end()) {
-            own.push_back(render.frames[i]);
-        }
+        if (std::ranges::count(render.shares->numbers, share) > 0) own.push_back(render.frames[i]);
     }
     if (own.empty()) usage_error("--shard leaves no frames to render; use fewer shares");
     render.frames = std::move(own);
@@ -126,22 +91,10 @@ void settle_scenes(RenderOptions& render) {
         render.output = batch_output(render.output, render.scene);
         return;
     }
-    if (!render.reference.empty() || render.expected_hash) {
-        usage_error("--reference and --expect work only for a single scene");
-    }
+    if (compares(render)) usage_error("--reference and --expect work only for a single scene");
     if (!render.output.empty() && render.output.find("%s") == std::string::npos) {
         usage_error("-o '{}': with several scenes, use %s for the scene's name, as in out/%s.png",
                     render.output);
-    }
-}
-
-void settle_aovs(const RenderOptions& render) {
-    if (render.aovs.empty()) return;
-    if (render.is_batch() || render.shares) {
-        usage_error("--aov works only for a single, whole picture");
-    }
-    if (render.output.empty() || render.output == stdout_path) {
-        usage_error("--aov requires -o FILE, from which it derives its file names");
     }
 }
 
@@ -150,11 +103,35 @@ void settle_aovs(const RenderOptions& render) {
 void settle_render(RenderOptions& render) {
     settle_streams(render);
     settle_scenes(render);
-    settle_journal(render);
-    settle_estimate(render);
-    settle_check(render);
-    settle_watch(render);
-    settle_aovs(render);
+    const bool has_shares = render.shares.has_value(), is_batch = render.is_batch();
+    const bool has_target = render.target_rmse > 0, is_fast = render.math == Math::fast;
+    if (render.resume) render.journal_delay = 0;
+    if (has_target && !render.aa) render.aa = first_aa(render.target_rmse, render.filter);
+    refuse_conflicts(
+        {{render.fresh && render.resume, "--fresh cannot be combined with --resume"},
+         {has_shares && is_batch, "--shard works only for a single scene"},
+         {has_shares && compares(render),
+          "--reference and --expect cannot be combined with --shard"},
+         {has_shares && (is_fast || render.schedule != Schedule::tiles),
+          "--shard requires --math strict and --schedule tiles, so that its parts match"},
+         {has_shares && !render.output.ends_with(".mbj"), "--shard requires -o FILE.mbj"},
+         // A target starts with a few samples; its journal would be of another picture each time.
+         {has_target && (has_shares || render.resume),
+          "--target-rmse cannot be combined with --shard or --resume"},
+         {has_target && render.aa->refines(),
+          "--target-rmse requires --aa edges:T, sobol:N or grid:N"},
+         {render.estimate && has_shares,
+          "--estimate works only for a whole picture, without --shard"},
+         // Threads have no fast math, so every tile would differ.
+         {render.check > 0 && is_fast, "--check requires --math strict"},
+         {render.watch && (is_batch || render.scene == stdin_scene || has_shares),
+          "--watch works only for a single scene file, without --shard"},
+         {render.watch && (render.output == stdout_path || render.timeout > 0),
+          "--watch cannot be combined with -o - or --timeout"},
+         {!render.aovs.empty() && (is_batch || has_shares),
+          "--aov works only for a single, whole picture"},
+         {!render.aovs.empty() && (render.output.empty() || render.output == stdout_path),
+          "--aov requires -o FILE, from which it derives its file names"}});
 }
 
 }  // namespace rt
