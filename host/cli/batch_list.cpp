@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <regex>
 #include <sstream>
 
 #include "host/base/error.h"
@@ -26,23 +27,15 @@ namespace rt {
 
 namespace {
 
-constexpr int most_digits = 9;
-
 /// Whether a placeholder can end there, rather than being part of a word, as in "50%share".
 bool ends_at(const std::string& name, std::size_t at) {
     return at == name.size() || std::isalnum(static_cast<unsigned char>(name[at])) == 0;
 }
 
-/// The frame number that starts with the '%' at `at`.
-std::optional<FrameNumber> frame_number_at(const std::string& name, std::size_t at) {
-    std::size_t end = at + 1;
-    int digits = 0;
-    while (end < name.size() && name[end] >= '0' && name[end] <= '9' && digits <= most_digits) {
-        digits = 10 * digits + (name[end++] - '0');
-    }
-    if (end == name.size() || name[end] != 'd' || digits > most_digits) return std::nullopt;
-    if (!ends_at(name, end + 1)) return std::nullopt;
-    return FrameNumber{at, end + 1 - at, digits == 0 ? 1 : digits};
+/// The places of a frame's number; [1] is the least number of digits, if it is given.
+std::vector<std::smatch> frame_numbers(const std::string& name) {
+    static const std::regex number("%0*([1-9]?)d(?![[:alnum:]])");
+    return {std::sregex_iterator(name.begin(), name.end(), number), std::sregex_iterator()};
 }
 
 /// The next name; empty at the end of the line.
@@ -58,15 +51,7 @@ std::optional<std::string> next_name(std::istringstream& words) {
 
 }  // namespace
 
-std::optional<FrameNumber> find_frame_number(const std::string& name) {
-    std::optional<FrameNumber> found;
-    for (std::size_t at = name.find('%'); at != std::string::npos; at = name.find('%', at + 1)) {
-        const std::optional<FrameNumber> number = frame_number_at(name, at);
-        if (number && found) return std::nullopt;
-        if (number) found = number;
-    }
-    return found;
-}
+bool has_frame_number(const std::string& name) { return frame_numbers(name).size() == 1; }
 
 std::string batch_output(const std::string& pattern, const std::string& scene) {
     const std::string name = std::filesystem::path(scene).stem().string();
@@ -110,10 +95,11 @@ std::vector<std::string> scenes_of_list(const std::string& path) {
 }
 
 std::string frame_output(const std::string& pattern, int frame) {
-    const std::optional<FrameNumber> number = find_frame_number(pattern);
-    if (!number) return pattern;
-    return pattern.substr(0, number->at) + fmt::format("{:0{}}", frame, number->digits) +
-           pattern.substr(number->at + number->length);
+    const std::vector<std::smatch> numbers = frame_numbers(pattern);
+    if (numbers.size() != 1) return pattern;
+    const std::smatch& number = numbers.front();
+    return fmt::format("{}{:0{}}{}", number.prefix().str(), frame,
+                       parse_number<int>(number[1].str()).value_or(1), number.suffix().str());
 }
 
 BatchPast::BatchPast(const std::vector<std::string>& records) {

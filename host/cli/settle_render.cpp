@@ -61,7 +61,7 @@ void settle_frames(RenderOptions& render) {
     render.output = batch_output(render.output, render.scenes.front());
     const bool is_pattern =
         render.frames.size() > 1 || render.output.find('%') != std::string::npos;
-    if (!render.output.empty() && is_pattern && !find_frame_number(render.output)) {
+    if (!render.output.empty() && is_pattern && !has_frame_number(render.output)) {
         usage_error("-o '{}': with --frames, use %04d for the frame number, as in out.%04d.png",
                     render.output);
     }
@@ -84,7 +84,7 @@ void settle_scenes(RenderOptions& render) {
             usage_error("SCENE is required; see 'mirrorball render --help'");
         }
         render.scene = render.scenes.front();
-        if (find_frame_number(render.output)) {
+        if (has_frame_number(render.output)) {
             usage_error("-o '{}' contains a frame number; add --frames or change the name",
                         render.output);
         }
