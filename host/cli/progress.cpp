@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <mutex>
 
 #include "host/base/console.h"
 #include "host/view/terminal_viewer.h"
@@ -58,23 +60,17 @@ std::string progress_bar(double fraction, const std::string& line, int columns) 
 
 ProgressReporter::ProgressReporter(const TileQueue& queue, ProgressMode mode)
     : queue_(queue), mode_(mode) {
-    if (mode_ != ProgressMode::none) thread_ = std::thread([this] { run(); });
+    if (mode_ == ProgressMode::none) return;
+    thread_ = std::jthread([this](const std::stop_token& ended) { run(ended); });
 }
 
-ProgressReporter::~ProgressReporter() {
-    if (!thread_.joinable()) return;
-    {
-        const std::lock_guard lock(mutex_);
-        done_ = true;
-    }
-    wake_.notify_all();
-    thread_.join();
-}
-
-void ProgressReporter::run() {
+void ProgressReporter::run(const std::stop_token& ended) {
     const auto interval = mode_ == ProgressMode::plain ? line_interval : bar_interval;
-    std::unique_lock lock(mutex_);
-    while (!wake_.wait_for(lock, interval, [this] { return done_; })) show(false);
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any wake;
+    const auto is_over = [&] { return ended.stop_requested(); };
+    while (!wake.wait_for(lock, ended, interval, is_over)) show(false);
     // A picture that finishes before anything is shown needs no bar.
     if (shown_ || mode_ == ProgressMode::json) show(true);
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -26,21 +25,18 @@ std::string progress_bar(double fraction, const std::string& line, int columns);
 class ProgressReporter {
    public:
     ProgressReporter(const TileQueue& queue, ProgressMode mode);
-    ~ProgressReporter();
     ProgressReporter(const ProgressReporter&) = delete;
     ProgressReporter& operator=(const ProgressReporter&) = delete;
 
    private:
-    void run();
+    void run(const std::stop_token& ended);
     void show(bool last);
 
     const TileQueue& queue_;
     const ProgressMode mode_;
     const Stopwatch watch_;
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    bool done_ = false, shown_ = false;
-    std::thread thread_;
+    bool shown_ = false;
+    std::jthread thread_;
 };
 
 }  // namespace rt
