@@ -39,23 +39,14 @@ bool may_take_results(const std::string& word) {
            start.find("\"format\": \"mirrorball") != std::string::npos;
 }
 
-std::optional<double> amount_of(const std::string& text) {
-    const auto number = parse_number<double>(text);
-    return number && *number >= 0 && *number <= 1e30 ? number : std::nullopt;
-}
-
-double parse_light_scale(const std::string& text) {
-    const auto scale = amount_of(text);
-    if (!scale) refuse(text, "expected a number from 0 to 1e30, such as 0.5");
-    return *scale;
-}
+constexpr double brightest = 1e30;
 
 glm::dvec3 parse_ambient(const std::string& text) {
     constexpr const char* expected = "expected R,G,B or one number, from 0 to 1e30, such as 0.2";
     std::vector<double> n;
     for (const std::string& part : split_list(text, expected)) {
-        n.push_back(amount_of(part).value_or(-1));
-        if (n.back() < 0) refuse(text, expected);
+        n.push_back(parse_number<double>(part).value_or(-1));
+        if (!(n.back() >= 0 && n.back() <= brightest)) refuse(text, expected);
     }
     if (n.size() != 1 && n.size() != 3) refuse(text, expected);
     return n.size() == 1 ? glm::dvec3(n[0]) : glm::dvec3(n[0], n[1], n[2]);
@@ -161,14 +152,6 @@ std::string device_from_environment() {
     return "";
 }
 
-std::vector<AaMode> parse_aa_list(const std::string& text) {
-    std::vector<AaMode> modes;
-    for (const AaMode& mode : list_of(parse_aa)(text)) {
-        if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
-    }
-    return modes;
-}
-
 void add_size(const CommandLine& verb, std::optional<PictureSize>& size) {
     verb.value("--size", "WxH|N", size, parse_size,
                "picture size in pixels (default: the scene's)");
@@ -253,7 +236,8 @@ void add_build_extras(const CommandLine& verb) {
 }
 
 void add_light_options(const CommandLine& verb, LightOverrides& light) {
-    verb.value("--light-scale", "X", light.light_scale, parse_light_scale,
+    verb.value("--light-scale", "X", light.light_scale,
+               number_in(0.0, brightest, "a number from 0 to 1e30, such as 0.5"),
                "intensity of lights that have none (default: NFF sqrt(n)/2n, JSON 1, models "
                "0.75 and 0.25)");
     verb.value("--ambient", "R,G,B|X", light.ambient_light, parse_ambient,

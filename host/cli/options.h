@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -39,26 +40,24 @@ inline std::string parse_text(const std::string& text) { return text; }
 /// A device spec, or several separated by commas: the text, once checked. Throws Error.
 std::string parse_device(const std::string& text);
 
+/// A number from `least` to `most`; `expected` says so.
+template <typename N>
+auto number_in(N least, N most, const std::string& expected) {
+    return [=](const std::string& text) {
+        const auto number = parse_number<N>(text);
+        if (!number || !(*number >= least && *number <= most)) refuse(text, "expected " + expected);
+        return *number;
+    };
+}
+
 /// A whole number from `least` to `most`.
 inline auto count_in(int least, int most) {
-    return [least, most](const std::string& text) {
-        const auto count = parse_number<int>(text);
-        if (!count || *count < least || *count > most) {
-            refuse(text, fmt::format("expected a whole number from {} to {}", least, most));
-        }
-        return *count;
-    };
+    return number_in(least, most, fmt::format("a whole number from {} to {}", least, most));
 }
 
 /// Seconds from `least` to 1e8.
 inline auto seconds_from(double least) {
-    return [least](const std::string& text) {
-        const auto seconds = parse_number<double>(text);
-        if (!seconds || !(*seconds >= least && *seconds <= 1e8)) {
-            refuse(text, fmt::format("expected a number of seconds from {:g} to 1e8", least));
-        }
-        return *seconds;
-    };
+    return number_in(least, 1e8, fmt::format("a number of seconds from {:g} to 1e8", least));
 }
 
 /// "5%" or "5": 0.05.
@@ -83,6 +82,18 @@ auto list_of(const Parse& parse) {
     return [parse](const std::string& text) {
         std::vector<std::decay_t<decltype(parse(text))>> values;
         for (const std::string& part : split_list(text)) values.push_back(parse(part));
+        return values;
+    };
+}
+
+/// The same without duplicates.
+template <typename Parse>
+auto set_of(const Parse& parse) {
+    return [parse](const std::string& text) {
+        decltype(list_of(parse)(text)) values;
+        for (const auto& value : list_of(parse)(text)) {
+            if (std::ranges::count(values, value) == 0) values.push_back(value);
+        }
         return values;
     };
 }
@@ -128,7 +139,7 @@ inline constexpr int most_bounces = 100000;
 inline constexpr int most_threads = 4096;
 
 /// Comma-separated AA modes, without duplicates.
-std::vector<AaMode> parse_aa_list(const std::string& text);
+inline std::vector<AaMode> parse_aa_list(const std::string& text) { return set_of(parse_aa)(text); }
 
 // Options that several verbs share.
 /// --light-scale and --ambient, for every verb that reads scenes.

@@ -65,20 +65,6 @@ void add_view_options(const CommandLine& verb, ViewSettings& view) {
         [&view](const std::string& text) { view.tev = parse_tev_address(text); });
 }
 
-void add_aov(const CommandLine& verb, std::vector<Aov>& aovs) {
-    verb.option("--aov", "LIST",
-                "also save per-pixel data (depth, normal, id, rays, samples): next to an .exr "
-                "picture as channels of NAME.aov.exr, otherwise as false-color pictures "
-                "NAME.depth.png, ...",
-                [&](const std::string& text) {
-                    for (const Aov aov : list_of(one_of(aov_names))(text)) {
-                        if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) {
-                            aovs.push_back(aov);
-                        }
-                    }
-                });
-}
-
 constexpr Named<Launch> launches[] = {{"pixel", Launch::pixel}, {"sample", Launch::sample}};
 constexpr Named<int> lane_counts[] = {{"auto", 0}, {"1", 1}, {"2", 2},
                                       {"4", 4},    {"8", 8}, {"16", 16}};
@@ -129,16 +115,8 @@ std::vector<int> parse_frames(const std::string& text) {
 std::string parse_isa(const std::string& text) {
     const std::vector<std::string> isas = native_isas();
     if (text == "auto") return "";
-    if (std::find(isas.begin(), isas.end(), text) == isas.end()) {
-        refuse_choice(text, isas);
-    }
+    if (std::ranges::count(isas, text) == 0) refuse_choice(text, isas);
     return text;
-}
-
-double parse_target(const std::string& text) {
-    const auto rmse = parse_number<double>(text);
-    if (!rmse || !(*rmse >= 1e-5 && *rmse <= 1)) refuse(text, "expected an RMSE from 1e-5 to 1");
-    return *rmse;
 }
 
 std::uint64_t parse_hash(const std::string& text) {
@@ -185,7 +163,8 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
     verb.flag(
         "--estimate", render.estimate,
         "also estimate the picture's RMSE, without a reference, from some pixels traced again");
-    verb.value("--target-rmse", "E", render.target_rmse, parse_target,
+    verb.value("--target-rmse", "E", render.target_rmse,
+               number_in(1e-5, 1.0, "an RMSE from 1e-5 to 1"),
                "as many samples as it takes for an estimated RMSE of at most E, starting with --aa "
                "(default: edges:E; with another --filter than box sobol:4, or sobol:16 with "
                "mitchell); implies --estimate");
@@ -266,7 +245,10 @@ void add_report_options(const CommandLine& verb, RenderOptions& render) {
         [&](const std::string& text) { render.stats = one_of(stats_formats)(text); });
     add_choice(verb, "--progress", render.progress, progress_modes,
                "progress on stderr (default: auto, a bar on a terminal, else lines)");
-    add_aov(verb, render.aovs);
+    verb.value("--aov", "LIST", render.aovs, set_of(one_of(aov_names)),
+               "also save per-pixel data (depth, normal, id, rays, samples): next to an .exr "
+               "picture as channels of NAME.aov.exr, otherwise as false-color pictures "
+               "NAME.depth.png, ...");
     verb.flag("-q,--quiet", render.quiet, "print only errors");
     verb.flag("-v,--verbose", render.verbose, "print more");
 }
