@@ -8,7 +8,6 @@
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_device.h"
 #include "host/opencl/cl_options.h"
-#include "host/render/ray_tracer.h"
 #include "host/render/renderer.h"
 
 namespace rt {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <span>
 
 #include "host/flatten/flat_types.h"
 #include "host/render/film.h"
@@ -44,6 +46,13 @@ class Renderer {
 
     virtual RendererTimes times() const = 0;
 };
+
+/// Traces rays outside a picture, with all features compiled in: one answer per query
+/// (kernels/rays.cl). Throws Error (ExitCode::device) if the device fails. For one thread at a
+/// time; the scene must outlive it.
+template <typename T>
+using RayTracer = std::function<void(std::span<const typename Flat<T>::RayQuery> queries,
+                                     std::span<typename Flat<T>::RayAnswer> answers)>;
 
 /// The shared launch descriptor of a tile, in a film that shows `region`.
 template <typename T>

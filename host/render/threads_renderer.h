@@ -5,7 +5,6 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/render/native_kernels.h"
-#include "host/render/ray_tracer.h"
 #include "host/render/renderer.h"
 
 namespace rt {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "host/base/parallel.h"
-#include "host/render/ray_tracer.h"
+#include "host/render/renderer.h"
 #include "host/stress/stress_case.h"
 
 // Helpers for trials with many random rays.

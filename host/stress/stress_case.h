@@ -13,7 +13,7 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/record/describe.h"
-#include "host/render/ray_tracer.h"
+#include "host/render/renderer.h"
 #include "host/scene/scene.h"
 
 namespace rt {
