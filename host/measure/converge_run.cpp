@@ -167,9 +167,7 @@ TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
                      const std::vector<ListedDevice>& devices) {
     TimedCase timed;
     timed.path = options.scene;
-    const ListedDevice& device =
-        *std::find_if(devices.begin(), devices.end(),
-                      [&](const ListedDevice& one) { return one.spec == asked.device; });
+    const ListedDevice& device = *std::ranges::find(devices, asked.device, &ListedDevice::spec);
     timed.device = device.choice;
     timed.settings = timed_settings(settings_for(asked.picture));
     if (device.is_scalar) timed.settings.kernels.lanes = 1;
@@ -178,45 +176,33 @@ TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
     return timed;
 }
 
-/// A scene's pictures as threads compute them: every device must give these bits.
-class ThreadsPictures {
-   public:
-    explicit ThreadsPictures(const Scene& scene) : scene_(scene) {}
-
-    /// With an estimate of the error; empty if the render was stopped.
-    const std::optional<RenderStats>& of(RenderSettings settings) {
-        const auto [place, is_new] = pictures_.try_emplace(
-            Key{settings.precision, settings.max_bounces, to_string(*settings.aa)});
-        if (is_new) {
-            settings.kernels.lanes = 0;
-            settings.estimate = true;
-            Scene scene = scene_;
-            apply_overrides(scene, settings);
-            RenderStats stats = render_quietly(scene, settings, threads_choice()).stats;
-            if (stats.complete()) place->second = std::move(stats);
-        }
-        return place->second;
-    }
-
-   private:
-    using Key = std::tuple<Precision, std::optional<int>, std::string>;
-    const Scene& scene_;
-    std::map<Key, std::optional<RenderStats>> pictures_;
-};
+/// A picture as threads compute it, with an estimate of its error; empty if the render was stopped.
+std::optional<RenderStats> picture_of_threads(Scene scene, RenderSettings settings) {
+    settings.kernels.lanes = 0;
+    settings.estimate = true;
+    apply_overrides(scene, settings);
+    RenderStats stats = render_quietly(scene, settings, threads_choice()).stats;
+    return stats.complete() ? std::optional(std::move(stats)) : std::nullopt;
+}
 
 /// Times the points of the result against the converged picture.
 void time_points(const Scene& scene, double load_seconds, const ConvergedPicture& converged,
                  const ConvergeOptions& options, const std::vector<ListedDevice>& devices,
                  ConvergeResult& result) {
     std::vector<TimedCase> cases;
-    ThreadsPictures pictures(scene);
+    using Key = std::tuple<Precision, int, std::string>;
+    std::map<Key, std::optional<RenderStats>> pictures;  ///< every device must give these bits
     for (ConvergePoint& point : result.points) {
         TimedCase timed = timed_case(point.asked, options, devices);
         timed.scene = &scene;
         timed.reference = &converged.picture;
         timed.load_seconds = load_seconds;
         if (point.asked.picture.math == Math::strict) {
-            if (const auto& picture = pictures.of(timed.settings)) {
+            const PictureSpec& asked = point.asked.picture;
+            const auto [place, is_new] =
+                pictures.try_emplace({asked.precision, asked.max_bounces, to_string(asked.aa)});
+            if (is_new) place->second = picture_of_threads(scene, timed.settings);
+            if (const auto& picture = place->second) {
                 timed.expected_hash = picture->image_hash;
                 point.estimate = picture->estimate;
             }
@@ -254,7 +240,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
             "nothing to measure: no device supports this combination of --precision and --math");
     }
     bounces.push_back(scene.max_bounces);
-    scene.max_bounces = *std::max_element(bounces.begin(), bounces.end());
+    scene.max_bounces = std::ranges::max(bounces);
     const ConvergedPicture converged = converged_picture(scene, options);
     result.reference = converged.about;
     result.interrupted = !converged.complete;
