@@ -13,28 +13,23 @@ namespace rt {
 
 namespace {
 
-ListedDevice list_entry(const ClDevice& device) {
-    ListedDevice entry{std::to_string(device.index), {}, device.name};
-    entry.choice.device = device;
-    return entry;
-}
-
-ListedDevice threads_entry(const std::string& spec, int threads) {
-    return {spec, threads_choice(threads), "threads"};
-}
-
 void add_once(std::vector<ListedDevice>& list, const ListedDevice& device) {
-    const bool known = std::any_of(list.begin(), list.end(), [&](const ListedDevice& other) {
-        return other.spec == device.spec;
-    });
-    if (!known) list.push_back(device);
+    if (std::ranges::count(list, device.spec, &ListedDevice::spec) == 0) list.push_back(device);
+}
+
+void add_device(std::vector<ListedDevice>& list, const ClDevice& device) {
+    add_once(list, {std::to_string(device.index), {.device = device}, device.name});
+}
+
+void add_threads(std::vector<ListedDevice>& list, const std::string& spec, int threads) {
+    add_once(list, {spec, threads_choice(threads), "threads"});
 }
 
 void add_all(std::vector<ListedDevice>& list, const ClDeviceList& all) {
-    add_once(list, threads_entry("threads", 0));
+    add_threads(list, "threads", 0);
     for (const ClDevice& device : all.devices) {
         if (device.unusable.empty()) {
-            add_once(list, list_entry(device));
+            add_device(list, device);
         } else {
             print_note("skipping " + device.name + ": " + device.unusable);
         }
@@ -58,11 +53,10 @@ std::vector<ListedDevice> listed_devices(const std::vector<std::string>& specs) 
         if (spec.kind == DeviceSpec::Kind::all) {
             add_all(list, listed());
         } else if (spec.kind == DeviceSpec::Kind::threads) {
-            add_once(list, threads_entry(text, spec.threads));
+            add_threads(list, text, spec.threads);
         } else {
             const DeviceChoice choice = choose_device(text, listed());
-            add_once(list,
-                     choice.use_threads ? threads_entry("threads", 0) : list_entry(choice.device));
+            choice.use_threads ? add_threads(list, "threads", 0) : add_device(list, choice.device);
         }
     }
     return list;
