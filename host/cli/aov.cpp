@@ -20,10 +20,6 @@ namespace rt {
 
 namespace {
 
-bool asks_for(const RenderOptions& options, Aov aov) {
-    return std::find(options.aovs.begin(), options.aovs.end(), aov) != options.aovs.end();
-}
-
 bool is_exr(const RenderOptions& options) {
     return picture_format_of_name(options.output) == PictureFormat::exr;
 }
@@ -46,16 +42,14 @@ class Aovs {
    public:
     Aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options)
         : width_(stats.picture.region.width), height_(stats.picture.region.height) {
-        const auto needs = [&](Aov aov) { return asks_for(options, aov); };
+        const auto needs = [&](Aov aov) { return std::ranges::count(options.aovs, aov) > 0; };
         if (needs(Aov::depth) || needs(Aov::normal) || needs(Aov::id)) {
             hits_ = pixel_hits(scene, stats.picture.region, stop_flag());
         }
         if (!needs(Aov::rays) && !needs(Aov::samples)) return;
-        const PixelWork work = stats.picture.precision == Precision::float64
-                                   ? pixel_work<double>(scene, stats.picture.region, stop_flag())
-                                   : pixel_work<float>(scene, stats.picture.region, stop_flag());
-        samples_.assign(work.samples.begin(), work.samples.end());
-        rays_.assign(work.rays.begin(), work.rays.end());
+        work_ = stats.picture.precision == Precision::float64
+                    ? pixel_work<double>(scene, stats.picture.region, stop_flag())
+                    : pixel_work<float>(scene, stats.picture.region, stop_flag());
     }
 
     Picture in_false_colors(Aov aov) const {
@@ -105,12 +99,13 @@ class Aovs {
     std::vector<float> plane(Aov aov) const {
         if (aov == Aov::depth) return hits_.depth;
         if (aov == Aov::id) return {hits_.id.begin(), hits_.id.end()};
-        return aov == Aov::rays ? rays_ : samples_;
+        if (aov == Aov::rays) return {work_.rays.begin(), work_.rays.end()};
+        return {work_.samples.begin(), work_.samples.end()};
     }
 
     const int width_, height_;
     PixelHits hits_;
-    std::vector<float> samples_, rays_;
+    PixelWork work_;
 };
 
 }  // namespace
