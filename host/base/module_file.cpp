@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <filesystem>
+#include <ranges>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -23,17 +24,13 @@ namespace fs = std::filesystem;
 /// Paths to try for a module, in order.
 std::vector<fs::path> candidates(const char* name) {
     const fs::path home = program_file().parent_path();
-    std::vector<fs::path> directories;
-    if (!home.empty()) directories.push_back(home);
-    std::string_view rest = MIRRORBALL_MODULE_DIR;
-    while (!rest.empty()) {
-        const std::size_t colon = rest.find(':');
-        const fs::path directory = rest.substr(0, colon);
-        rest = colon == rest.npos ? std::string_view() : rest.substr(colon + 1);
-        if (!directory.empty()) directories.push_back(home / directory);
+    std::vector<fs::path> files;
+    if (!home.empty()) files.push_back(home / name);
+    for (const auto& part : std::views::split(std::string_view(MIRRORBALL_MODULE_DIR), ':')) {
+        const std::string_view directory(part.begin(), part.end());
+        if (!directory.empty()) files.push_back(home / directory / name);
     }
-    for (fs::path& directory : directories) directory /= name;
-    return directories;
+    return files;
 }
 
 /// Blocks all signals of this thread for its lifetime. The libraries start idle threads of their

@@ -80,8 +80,8 @@ std::string help_text(const VerbText& verb, const std::string& name) {
             usage += option.is_required ? " " + option.word() : " [" + option.word() + "]";
             continue;
         }
-        auto at = std::find_if(groups.begin(), groups.end(),
-                               [&](const auto& one) { return one.first == option.group; });
+        auto at =
+            std::ranges::find(groups, option.group, &std::pair<std::string, std::string>::first);
         if (at == groups.end()) at = groups.insert(at, {option.group, ""});
         at->second += help_entry(fmt::format("{}{}{}", fmt::join(option.names, ","),
                                              option.type.empty() ? "" : " ", option.type),
@@ -134,7 +134,7 @@ struct CommandLineParser {
         while (at < words.size() && !words[at].starts_with("-") && !verbs_of(*verb).empty()) {
             std::vector<std::string> names;
             for (const CLI::App* one : verbs_of(*verb)) names.push_back(one->get_name());
-            if (std::find(names.begin(), names.end(), words[at]) == names.end()) {
+            if (std::ranges::count(names, words[at]) == 0) {
                 refuse_line(fmt::format("unknown verb '{}'; available: {}{}", words[at],
                                         fmt::join(names, ", "), guess_text(words[at], names)));
             }
@@ -163,9 +163,9 @@ struct CommandLineParser {
     }
 
     const OptionalValue* optional_value(const CLI::App& verb, const std::string& word) const {
-        const auto found =
-            std::find_if(optional_values.begin(), optional_values.end(),
-                         [&](const auto& one) { return one.verb == &verb && one.name == word; });
+        const auto found = std::ranges::find_if(optional_values, [&](const auto& one) {
+            return one.verb == &verb && one.name == word;
+        });
         return found == optional_values.end() ? nullptr : &*found;
     }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 
 #include "host/cli/verb_texts.h"
 
@@ -45,18 +44,16 @@ complete -c mirrorball -f -a '(__mirrorball)'
 std::vector<std::string> values_of(const std::string& type) {
     std::vector<std::string> values{""};
     for (const char c : type) {
-        if (c == '[' || c == ']') continue;
         if (c == '|') {
             values.emplace_back();
-        } else {
+        } else if (c != '[' && c != ']') {
             values.back() += c;
         }
     }
     std::erase(values, "..");  // and so on
-    const bool are_words = std::all_of(values.begin(), values.end(), [](const std::string& value) {
-        return !value.empty() && std::none_of(value.begin(), value.end(), [](char c) {
-            return std::isupper(static_cast<unsigned char>(c)) != 0 || c == '%' || c == ',';
-        });
+    const bool are_words = std::ranges::all_of(values, [](const std::string& value) {
+        return !value.empty() &&
+               value.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ%,") == std::string::npos;
     });
     return are_words && values.size() > 1 ? values : std::vector<std::string>{};
 }

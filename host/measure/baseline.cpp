@@ -56,13 +56,10 @@ std::string to_string(const Regression& regression) {
 }
 
 void check_baseline(const std::vector<BenchCase>& rows, const Baseline& baseline) {
-    const bool any_in_common = std::any_of(rows.begin(), rows.end(), [&](const BenchCase& row) {
-        return baseline.contains(key_of(row));
-    });
-    if (any_in_common) return;
+    const auto is_known = [&](const BenchCase& row) { return baseline.contains(key_of(row)); };
+    if (std::ranges::any_of(rows, is_known)) return;
     throw Error(ExitCode::input,
-                "no row matches the baseline; use the same scenes, sizes, AA modes and "
-                "devices");
+                "no row matches the baseline; use the same scenes, sizes, AA modes and devices");
 }
 
 std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,

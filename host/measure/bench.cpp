@@ -15,7 +15,7 @@ bool same_picture(const BenchCase& a, const BenchCase& b) {
 
 const BenchRow* one_thread_row(const BenchResult& result, const BenchCase& asked,
                                const std::string& schedule) {
-    const auto row = std::find_if(result.rows.begin(), result.rows.end(), [&](const BenchRow& r) {
+    const auto row = std::ranges::find_if(result.rows, [&](const BenchRow& r) {
         return r.has_figures() && r.asked.uses_threads() && r.asked.threads == 1 &&
                r.asked.schedule == schedule && same_picture(r.asked, asked);
     });
@@ -81,9 +81,8 @@ void BenchResult::judge() {
 }
 
 bool BenchResult::has_any(Verdict verdict) const {
-    const auto has_it = [&](const TimedRuns& row) { return row.verdict == verdict; };
-    return std::any_of(rows.begin(), rows.end(), has_it) ||
-           std::any_of(ablation.begin(), ablation.end(), has_it);
+    return std::ranges::count(rows, verdict, &BenchRow::verdict) > 0 ||
+           std::ranges::count(ablation, verdict, &AblationRow::verdict) > 0;
 }
 
 std::string key_of(const BenchCase& asked) {

@@ -150,15 +150,10 @@ class Plan {
         scenes_.push_back({id, std::move(scene), seconds});
     }
 
-    bool wants_double() const {
-        return std::find(options_.precisions.begin(), options_.precisions.end(),
-                         Precision::float64) != options_.precisions.end();
-    }
-
     void say_devices_without_double() const {
+        if (std::ranges::count(options_.precisions, Precision::float64) == 0) return;
         for (const ListedDevice& device : devices_) {
-            if (wants_double() && !device.has_double())
-                say(device.name + " has no double precision");
+            if (!device.has_double()) say(device.name + " has no double precision");
         }
     }
 

@@ -63,7 +63,7 @@ std::vector<Curve> curves_of(const ConvergeResult& result) {
     for (const std::size_t i : measured_points(result)) {
         const ConvergeCase& asked = result.points[i].asked;
         const std::string family = family_of(asked.picture.aa);
-        auto curve = std::find_if(curves.begin(), curves.end(), [&](const Curve& c) {
+        auto curve = std::ranges::find_if(curves, [&](const Curve& c) {
             return same_build(c.of, asked) &&
                    c.of.picture.max_bounces == asked.picture.max_bounces && c.family == family;
         });
@@ -77,10 +77,8 @@ std::vector<Curve> curves_of(const ConvergeResult& result) {
 std::vector<BuildOffset> build_offsets(const ConvergeResult& result) {
     std::vector<BuildOffset> offsets;
     for (const ConvergePoint& first : result.points) {
-        const bool known = std::any_of(offsets.begin(), offsets.end(), [&](const BuildOffset& o) {
-            return same_build(o.of, first.asked);
-        });
-        if (known || first.warm_up.empty()) continue;
+        const auto is_same = [&](const BuildOffset& o) { return same_build(o.of, first.asked); };
+        if (std::ranges::any_of(offsets, is_same) || first.warm_up.empty()) continue;
         std::vector<TimedRun> repeats;
         for (const ConvergePoint& point : result.points) {
             if (!same_build(point.asked, first.asked)) continue;
@@ -108,10 +106,7 @@ TargetTime target_time(const ConvergeResult& result, const ConvergeCase& of, dou
 std::vector<TargetTime> target_times(const ConvergeResult& result) {
     std::vector<TargetTime> times;
     for (const ConvergePoint& point : result.points) {
-        const bool known = std::any_of(times.begin(), times.end(), [&](const TargetTime& t) {
-            return t.device == point.asked.device;
-        });
-        if (known) continue;
+        if (std::ranges::count(times, point.asked.device, &TargetTime::device) > 0) continue;
         for (const double target : rmse_targets) {
             times.push_back(target_time(result, point.asked, target));
         }
@@ -136,9 +131,8 @@ void ConvergeResult::summarize() {
 std::vector<std::size_t> pareto_front(std::span<const Cost> costs) {
     std::vector<std::size_t> order(costs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        const double seconds_a = shown(costs[a].seconds), seconds_b = shown(costs[b].seconds);
-        return seconds_a != seconds_b ? seconds_a < seconds_b : costs[a].rmse < costs[b].rmse;
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+        return std::pair(shown(costs[i].seconds), costs[i].rmse);
     });
     std::vector<std::size_t> front;
     double best = std::numeric_limits<double>::infinity();

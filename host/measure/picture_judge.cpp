@@ -19,8 +19,7 @@ constexpr double most_off_anyway = 2;         // pixels, even in a small picture
 constexpr double largest_rounding_rmse = 2e-4;
 
 bool is_black(const Picture& picture) {
-    return std::all_of(picture.pixels.begin(), picture.pixels.end(),
-                       [](float value) { return value == 0; });
+    return std::ranges::all_of(picture.pixels, [](float value) { return value == 0; });
 }
 
 float value_at(const Picture& picture, int x, int y, int c) {

@@ -52,7 +52,7 @@ std::string points_text(const ConvergeResult& result) {
                                 "seconds", "+-%", "slowest", "RMSE", "estimate");
             group = next;
         }
-        const bool on_front = std::count(result.front.begin(), result.front.end(), i) > 0;
+        const bool on_front = std::ranges::count(result.front, i) > 0;
         text += point_text(result.points[i], on_front);
     }
     return text +

@@ -120,9 +120,7 @@ std::string family_lines(const StressFamilyResult& family, bool verbose) {
 }  // namespace
 
 std::string stress_text(const StressResult& result, bool verbose) {
-    const auto passed =
-        std::count_if(result.families.begin(), result.families.end(),
-                      [](const StressFamilyResult& family) { return family.passed(); });
+    const auto passed = std::ranges::count_if(result.families, &StressFamilyResult::passed);
     std::string text =
         fmt::format("{}: {} of {} families, {:.0f} s{}\n", result.passed() ? "PASS" : "FAIL",
                     passed, result.families.size() + result.unfinished, result.seconds,
