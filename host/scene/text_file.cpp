@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -102,6 +103,14 @@ constexpr Foreign foreign_starts[] = {
     {"\x89PNG", "is a picture; use a scene or a model"},
     {"\xff\xd8\xff", "is a picture; use a scene or a model"}};
 
+std::mutex asked_mutex;
+std::map<std::string, FileState> asked_files;
+
+void note_asked(const std::string& path) {
+    const std::scoped_lock lock(asked_mutex);
+    asked_files.try_emplace(path, state_of(path));
+}
+
 struct stat status_of(const FileDescriptor& file, const std::string& path) {
     struct stat status {};
     if (fstat(file.number(), &status) != 0) refuse_read(path, errno);
@@ -146,7 +155,19 @@ FileDescriptor open_steps(const fs::path& root, const fs::path& steps) {
 
 }  // namespace
 
+FileState state_of(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return {};
+    return {status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+std::map<std::string, FileState> take_asked_files() {
+    const std::scoped_lock lock(asked_mutex);
+    return std::exchange(asked_files, {});
+}
+
 FileDescriptor open_text_file(const std::string& path) {
+    note_asked(path);
     FileDescriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     if (!file) refuse_open(path, errno);
     const mode_t mode = status_of(file, path).st_mode;
@@ -231,6 +252,7 @@ OpenedFile open_beneath(const SceneFolder& folder, const std::string& name) {
     if (name.empty()) return problem("is not a file name; write one");
     if (climbs(name)) return problem(outside);
     const fs::path path = folder.base / name;
+    note_asked(path.string());
     std::error_code error;
     const fs::path real = name.find('\0') == name.npos ? fs::canonical(path, error) : fs::path();
     if (error || real.empty()) return problem(unreachable);

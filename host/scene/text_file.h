@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "host/base/files.h"
 
@@ -24,6 +29,15 @@ class FileText {
     std::unique_ptr<char[]> bytes_;
     std::size_t size_ = 0;
 };
+
+/// What changes when a file is written in place or replaced: inode, size and time; zeros if it does
+/// not exist.
+using FileState = std::tuple<ino_t, off_t, std::int64_t, std::int64_t>;
+FileState state_of(const std::string& path);
+
+/// The files that open_text_file and open_beneath were asked for since the last call, there or not,
+/// and their states just before that.
+std::map<std::string, FileState> take_asked_files();
 
 /// Opens a regular file. Throws Error, ExitCode::input with "path: what is wrong; what to do", when
 /// it is missing, unreadable or not a regular file: a pipe or a device never hangs the program.
