@@ -17,37 +17,6 @@ StressCase seen_from(glm::dvec3 from, glm::dvec3 at, bool has_tube = false) {
 /// The same with a tube of radius 0.5 about (3, y, 2), from the floor to y = 2.
 StressCase with_tube(glm::dvec3 from, glm::dvec3 at) { return seen_from(from, at, true); }
 
-/// The red ball is about (-1.5, 1, 0) with radius 1, the floor at y = 0.
-StressFamily eyes_in_and_between() {
-    return listed(
-        {"eye-place", "where the eye is", "the near root, or its rounding, is behind the eye"},
-        {{"in-a-ball", InQuick::yes, seen_from({-1.5, 1.25, 0.25}, {0, 0.5, 1})},
-         {"just-in-a-ball", InQuick::no, seen_from({-1.5, 2 - 0x1p-20, 0}, {0, 0.5, 1})},
-         {"just-off-a-ball", InQuick::yes, seen_from({-1.5, 2 + 0x1p-20, 0}, {1, 1, 4})},
-         {"between-ball-and-floor", InQuick::no, seen_from({-1.5, 0x1p-12, 0.25}, {0, 0.5, 4})},
-         {"just-above-the-floor", InQuick::no, seen_from({0, 0x1p-20, 6}, {0, 0.5, 0})},
-         {"below-the-floor", InQuick::no, seen_from({0, -1, 6}, {0, 0.5, 0})},
-         {"in-a-tube", InQuick::yes, with_tube({3, 1, 2.25}, {1, 0.5, 1})},
-         {"just-off-a-tube", InQuick::no, with_tube({3.5 + 0x1p-20, 1, 2}, {4, 1, 6})},
-         {"1e-9-off-a-tube", InQuick::yes, with_tube({3.5 + 1e-9, 1, 2}, {0, 0.5, 2.5})},
-         {"1e-9-off-a-tube-looking-away", InQuick::no, with_tube({3.5 + 1e-9, 1, 2}, {4, 1, 6})},
-         {"1e-9-in-a-tube", InQuick::yes, with_tube({3.5 - 1e-9, 1, 2}, {4, 1, 6})},
-         {"1e-9-in-a-tube-looking-in", InQuick::no, with_tube({3.5 - 1e-9, 1, 2}, {0, 0.5, 2.5})},
-         {"1e-9-off-a-ball", InQuick::no, seen_from({-1.5, 2 + 1e-9, 0}, {-1.25, 0, 0.5})}});
-}
-
-/// Rays from such an eye start with the surface's primitive index.
-StressFamily eyes_on_surfaces() {
-    return listed({"eye-on-surface", "what the eye is on",
-                   "rounding decides whether the surface hides everything else"},
-                  {{"top-of-a-ball", InQuick::yes, seen_from({-1.5, 2, 0}, {1, 1, 4})},
-                   {"side-of-a-ball", InQuick::no, seen_from({-0.5, 1, 0}, {2, 1, 1})},
-                   {"ball-looking-in", InQuick::no, seen_from({-1.5, 2, 0}, {-1.25, 0, 0.5})},
-                   {"floor-looking-up", InQuick::no, seen_from({0, 0, 6}, {0, 3, 2})},
-                   {"tube-looking-away", InQuick::yes, with_tube({3.5, 1, 2}, {4, 1, 6})},
-                   {"tube-looking-in", InQuick::no, with_tube({3.5, 1, 2}, {0, 0.5, 2.5})}});
-}
-
 /// Narrow views aim at the red ball's outline, so that they contain an edge.
 Scene narrow_or_wide(double degrees) {
     Scene scene = still_life();
@@ -57,64 +26,77 @@ Scene narrow_or_wide(double degrees) {
     return scene;
 }
 
-StressFamily fields_of_view() {
-    return sweep(
-        {"field-of-view", "degrees",
-         "neighboring rays differ in their last bits, or the view plane runs off to infinity"},
-        {1e-4, 1e-3, 1e-2, 1e-1, 1.0, 90.0, 170.0, 179.0, 179.99}, {1e-3, 1e-2, 179.99},
-        [](double degrees) {
-            StressTolerance tolerance;
-            tolerance.in_float = degrees >= 1e-3;
-            if (degrees < 1) tolerance.max_error = std::max(1e-4, 1e-6 / degrees);
-            return picture_case([=] { return narrow_or_wide(degrees); }, tolerance);
-        });
-}
+}  // namespace
 
-StressFamily parallel_views() {
+StressFamilies eye_families() {
     const auto view = [](glm::dvec3 from, glm::dvec3 up) {
         return picture_case(still_life_with([=](Scene& scene) {
             scene.camera.up = up;
             set_orthographic(scene, from, {0, 0.75, 0}, 6);
         }));
     };
-    return listed({"parallel-view", "direction", "0 times infinity where rays run along the axes"},
-                  {{"slanted", InQuick::no, view({3, 4, 8}, {0, 1, 0})},
-                   {"along-z", InQuick::yes, view({0, 0.75, 8}, {0, 1, 0})},
-                   {"along-x", InQuick::no, view({8, 0.75, 0}, {0, 1, 0})},
-                   {"along-y", InQuick::no, view({0, 8.75, 0}, {0, 0, -1})}});
-}
-
-/// Up vectors of any length, and nearly parallel to the view.
-StressFamily ups() {
     const auto with_up = [](glm::dvec3 up) {
         return picture_case(still_life_with([=](Scene& scene) { scene.camera.up = up; }));
     };
-    return listed({"up", "the camera's up", "axes lose precision, or their length"},
-                  {{"1e-30", InQuick::yes, with_up({0, 1e-30, 0})},
-                   {"1e30", InQuick::no, with_up({0, 1e30, 0})},
-                   {"1e-300", InQuick::no, with_up({0, 1e-300, 0})},
-                   {"1e-6-off-the-view", InQuick::yes, with_up({1e-6, -1.25, -8})},
-                   {"1e-8-off-the-view", InQuick::no, with_up({1e-8, -1.25, -8})}});
-}
-
-StressFamily picture_shapes() {
     using Size = std::pair<int, int>;
     const std::vector<Size> sizes{{1, 1}, {1, 2}, {3, 5}, {1, 1024}, {1, 65536}, {65536, 1}};
-    return sweep({"picture-shape", "pixels", "one pixel, one column, one row: degenerate sizes"},
-                 sizes, {{1, 1}, {1, 1024}}, [](const Size& size) {
-                     const auto [width, height] = size;
-                     return labeled(fmt::format("{}x{}", width, height), width * height,
-                                    picture_case(still_life_with([size](Scene& scene) {
-                                        set_image_size(scene, size.first, size.second);
-                                    })));
-                 });
-}
-
-}  // namespace
-
-StressFamilies eye_families() {
-    return {eyes_in_and_between(), eyes_on_surfaces(), fields_of_view(), parallel_views(), ups(),
-            picture_shapes()};
+    return {
+        // The red ball is about (-1.5, 1, 0) with radius 1, the floor at y = 0.
+        listed(
+            {"eye-place", "where the eye is", "the near root, or its rounding, is behind the eye"},
+            {{"in-a-ball", InQuick::yes, seen_from({-1.5, 1.25, 0.25}, {0, 0.5, 1})},
+             {"just-in-a-ball", InQuick::no, seen_from({-1.5, 2 - 0x1p-20, 0}, {0, 0.5, 1})},
+             {"just-off-a-ball", InQuick::yes, seen_from({-1.5, 2 + 0x1p-20, 0}, {1, 1, 4})},
+             {"between-ball-and-floor", InQuick::no, seen_from({-1.5, 0x1p-12, 0.25}, {0, 0.5, 4})},
+             {"just-above-the-floor", InQuick::no, seen_from({0, 0x1p-20, 6}, {0, 0.5, 0})},
+             {"below-the-floor", InQuick::no, seen_from({0, -1, 6}, {0, 0.5, 0})},
+             {"in-a-tube", InQuick::yes, with_tube({3, 1, 2.25}, {1, 0.5, 1})},
+             {"just-off-a-tube", InQuick::no, with_tube({3.5 + 0x1p-20, 1, 2}, {4, 1, 6})},
+             {"1e-9-off-a-tube", InQuick::yes, with_tube({3.5 + 1e-9, 1, 2}, {0, 0.5, 2.5})},
+             {"1e-9-off-a-tube-looking-away", InQuick::no,
+              with_tube({3.5 + 1e-9, 1, 2}, {4, 1, 6})},
+             {"1e-9-in-a-tube", InQuick::yes, with_tube({3.5 - 1e-9, 1, 2}, {4, 1, 6})},
+             {"1e-9-in-a-tube-looking-in", InQuick::no,
+              with_tube({3.5 - 1e-9, 1, 2}, {0, 0.5, 2.5})},
+             {"1e-9-off-a-ball", InQuick::no, seen_from({-1.5, 2 + 1e-9, 0}, {-1.25, 0, 0.5})}}),
+        // Rays from such an eye start with the surface's primitive index.
+        listed({"eye-on-surface", "what the eye is on",
+                "rounding decides whether the surface hides everything else"},
+               {{"top-of-a-ball", InQuick::yes, seen_from({-1.5, 2, 0}, {1, 1, 4})},
+                {"side-of-a-ball", InQuick::no, seen_from({-0.5, 1, 0}, {2, 1, 1})},
+                {"ball-looking-in", InQuick::no, seen_from({-1.5, 2, 0}, {-1.25, 0, 0.5})},
+                {"floor-looking-up", InQuick::no, seen_from({0, 0, 6}, {0, 3, 2})},
+                {"tube-looking-away", InQuick::yes, with_tube({3.5, 1, 2}, {4, 1, 6})},
+                {"tube-looking-in", InQuick::no, with_tube({3.5, 1, 2}, {0, 0.5, 2.5})}}),
+        sweep(
+            {"field-of-view", "degrees",
+             "neighboring rays differ in their last bits, or the view plane runs off to infinity"},
+            {1e-4, 1e-3, 1e-2, 1e-1, 1.0, 90.0, 170.0, 179.0, 179.99}, {1e-3, 1e-2, 179.99},
+            [](double degrees) {
+                const double error = degrees < 1 ? std::max(1e-4, 1e-6 / degrees) : usual_error;
+                return picture_case([=] { return narrow_or_wide(degrees); },
+                                    {.max_error = error, .in_float = degrees >= 1e-3});
+            }),
+        listed({"parallel-view", "direction", "0 times infinity where rays run along the axes"},
+               {{"slanted", InQuick::no, view({3, 4, 8}, {0, 1, 0})},
+                {"along-z", InQuick::yes, view({0, 0.75, 8}, {0, 1, 0})},
+                {"along-x", InQuick::no, view({8, 0.75, 0}, {0, 1, 0})},
+                {"along-y", InQuick::no, view({0, 8.75, 0}, {0, 0, -1})}}),
+        // Up vectors of any length, and nearly parallel to the view.
+        listed({"up", "the camera's up", "axes lose precision, or their length"},
+               {{"1e-30", InQuick::yes, with_up({0, 1e-30, 0})},
+                {"1e30", InQuick::no, with_up({0, 1e30, 0})},
+                {"1e-300", InQuick::no, with_up({0, 1e-300, 0})},
+                {"1e-6-off-the-view", InQuick::yes, with_up({1e-6, -1.25, -8})},
+                {"1e-8-off-the-view", InQuick::no, with_up({1e-8, -1.25, -8})}}),
+        sweep({"picture-shape", "pixels", "one pixel, one column, one row: degenerate sizes"},
+              sizes, {{1, 1}, {1, 1024}}, [](const Size& size) {
+                  const auto [width, height] = size;
+                  return labeled(fmt::format("{}x{}", width, height), width * height,
+                                 picture_case(still_life_with([size](Scene& scene) {
+                                     set_image_size(scene, size.first, size.second);
+                                 })));
+              })};
 }
 
 }  // namespace rt

@@ -121,15 +121,13 @@ using TrialOfRadius = std::function<RayTrial(double radius)>;
 /// Rays that leave a shape: radii from 1e-6 to 1e6.
 inline StressFamily leaving_family(const char* name, const char* why, double max_error,
                                    const TrialOfRadius& trial_of) {
-    StressTolerance tolerance;
-    tolerance.max_error = max_error;
     return sweep({name, "radius", why},
                  {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6},
                  {1e-6, 1e-3, 1e0, 1e3, 1e6}, [=](double radius) {
                      RayTrial trial = trial_of(radius);
                      trial.rays = 1'000'000;
                      trial.quick_rays = 50'000;
-                     return ray_case(trial, tolerance);
+                     return ray_case(trial, {.max_error = max_error});
                  });
 }
 
@@ -143,10 +141,9 @@ inline StressFamily outline_family(const char* name, const TrialOfRadius& trial_
                  radii, radii, [=](double radius) {
                      RayTrial trial = trial_of(radius);
                      trial.rays = trial.quick_rays = 100'000;
-                     StressTolerance tolerance;
-                     tolerance.most_wrong =
+                     const std::size_t most_wrong =
                          radius >= 1e-3 ? 4 : (radius == 1e-4 ? 50 : (radius == 1e-5 ? 400 : 4000));
-                     return ray_case(trial, tolerance);
+                     return ray_case(trial, {.most_wrong = most_wrong});
                  });
 }
 

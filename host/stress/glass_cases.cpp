@@ -25,17 +25,6 @@ Scene facing_mirrors(double mirror, double ambient, int bounces, int width, int 
     return scene;
 }
 
-StressFamily mirror_walls() {
-    return sweep({"facing-mirrors", "mirror rays", "every bounce adds its rounding to the next"},
-                 {8, 64, 1000}, {64}, [](int bounces) {
-                     StressTolerance tolerance;
-                     if (bounces == 1000) tolerance.max_error = 2e-4;
-                     return picture_case(
-                         [=] { return facing_mirrors(1, 0, bounces, 80, 60); }, tolerance,
-                         bounces == 8 ? ReferenceKind::quad : ReferenceKind::extended);
-                 });
-}
-
 /// The eye inside a mirror ball, off its center, with a lit ball next to it.
 Scene mirror_ball(int bounces) {
     Scene scene = bare_scene();
@@ -50,29 +39,10 @@ Scene mirror_ball(int bounces) {
     return scene;
 }
 
-/// A mirror ball spreads rays by a factor per bounce; where it does, the reference changes too.
-StressFamily mirror_balls() {
-    return sweep({"in-mirror-ball", "mirror rays",
-                  "the enclosing ball is missed, and repeated reflections jitter"},
-                 {4, 16, 64}, {4}, mirror_ball);
-}
-
 Scene bright_walls(double mirror) {
     Scene scene = facing_mirrors(mirror, 0x1p-10, 1000, 32, 24);
     scene.background = {0, 0.5, 0};
     return scene;
-}
-
-StressFamily bright_mirrors() {
-    return sweep({"bright-mirrors", "reflectance",
-                  "light that grows at each bounce overflows, and infinity times 0 is NaN"},
-                 {1.0, 1.5, 1e3, 1e30}, {1.0, 1.5, 1e30}, [](double mirror) {
-                     StressTolerance tolerance;
-                     tolerance.may_overflow = true;
-                     tolerance.max_error = 1e-3;
-                     return picture_case([=] { return bright_walls(mirror); }, tolerance,
-                                         ReferenceKind::extended);
-                 });
 }
 
 /// A wall of 4 x 4 squares in two colors, 4 behind the origin.
@@ -105,19 +75,6 @@ Scene of_index(double ior) {
     return scene;
 }
 
-/// A ray leaving glass of index n has n times the sine of the angle inside: rounding grows n-fold.
-StressFamily indices() {
-    return sweep({"index", "index of refraction",
-                  "eta (cos i) - cos t cancels near 1, and large indices magnify rounding"},
-                 {1.0, 1 - 1e-7, 1 + 1e-7, 1 + 1e-3, 1.5, 2.4, 1e3, 0.5, 1e-3}, {1, 1 + 1e-7, 1.5},
-                 [](double ior) {
-                     StressCase one = picture_case([=] { return of_index(ior); });
-                     if (ior == 1) one = seen_as(glass_scene, one);
-                     if (ior == 1e3) one.tolerance.max_error = 1e-3;
-                     return labeled(fmt::format("{:.8g}", ior), ior, one);
-                 });
-}
-
 /// The eye inside a glass object, where beyond the critical angle everything is reflected.
 Scene inside_glass(double ior, bool ball) {
     Scene scene = glass_scene();
@@ -131,22 +88,6 @@ Scene inside_glass(double ior, bool ball) {
     add_sphere(scene, {-0.5, -0.5, -1}, 0.5, add_matt(scene, {0.875, 0.25, 0.125}));
     set_view(scene, {0.25, 0.5, 1}, {0, 0, -1}, 110);
     return scene;
-}
-
-StressFamily inside_of_glass() {
-    const auto ball = [](double ior) {
-        return picture_case([=] { return inside_glass(ior, true); });
-    };
-    const auto box = [](double ior) {
-        return picture_case([=] { return inside_glass(ior, false); });
-    };
-    return listed({"inside-glass", "body and index",
-                   "1 - eta^2 sin^2 is negative by rounding, or not where it should be"},
-                  {{"ball-1.5", InQuick::yes, ball(1.5)},
-                   {"ball-2.4", InQuick::no, ball(2.4)},
-                   {"box-1.5", InQuick::yes, box(1.5)},
-                   {"box-2.4", InQuick::no, box(2.4)},
-                   {"ball-1.0001", InQuick::no, ball(1.0001)}});
 }
 
 /// A prism whose slope every ray of the picture hits from inside at the critical angle of index 1.5
@@ -167,20 +108,6 @@ Scene prism(double beyond) {
     return scene;
 }
 
-/// At the critical angle to within rounding, both answers are right; only NaN and differences
-/// between devices are wrong.
-StressFamily critical_angles() {
-    return sweep(
-        {"critical-angle", "radians beyond it", "the square root of what should be 0 is NaN"},
-        {-0.1, -1e-3, -1e-5, -1e-7, 0.0, 1e-7, 1e-5, 1e-3, 0.1}, {0, 1e-5}, [](double beyond) {
-            StressTolerance tolerance;
-            tolerance.in_float = std::fabs(beyond) >= 1e-5;
-            if (std::fabs(beyond) < 1e-3) tolerance.max_error = 1e-2;
-            return picture_case([=] { return prism(beyond); }, tolerance,
-                                beyond == 0 ? ReferenceKind::none : ReferenceKind::quad);
-        });
-}
-
 /// Nested glass balls; each surface refracts as if air were outside.
 Scene nested_glass(int bounces, double mirror) {
     Scene scene = glass_scene();
@@ -193,27 +120,6 @@ Scene nested_glass(int bounces, double mirror) {
     return scene;
 }
 
-/// Every ball magnifies the rounding errors of the ones before it.
-StressFamily glass_depths() {
-    return sweep({"glass-depth", "bounces",
-                  "each surface magnifies the rounding errors of the previous ones"},
-                 {2, 4, 8, 16, 64}, {8}, [](int bounces) {
-                     StressTolerance tolerance;
-                     if (bounces > 8) tolerance.max_error = 1e-3;
-                     return picture_case([=] { return nested_glass(bounces, 0); }, tolerance);
-                 });
-}
-
-/// The ray tree: every surface reflects and transmits. In the deepest tree, few branches matter.
-StressFamily glass_trees() {
-    return sweep({"glass-tree", "bounces", "ray trees overflow their stack or lose branches"},
-                 {4, 8, 16}, {4}, [](int bounces) {
-                     Scene scene = nested_glass(bounces, bounces > 8 ? 1e-5 : 0.125);
-                     set_image_size(scene, 32, 24);
-                     return scene;
-                 });
-}
-
 /// A bar of glass that carries the view along by total reflection.
 Scene light_pipe(int bounces) {
     Scene scene = glass_scene();
@@ -224,16 +130,6 @@ Scene light_pipe(int bounces) {
     scene.lights = {{{0, 0.5, 1}, glm::dvec3(0.625)}};
     set_view(scene, {-0.25, 0.5, 1.5}, {1, 0.125, -0.5}, 90);
     return scene;
-}
-
-StressFamily light_pipes() {
-    return sweep({"light-pipe", "bounces",
-                  "total reflection that loses a little light at each bounce, or leaks"},
-                 {8, 64, 1000}, {8}, [](int bounces) {
-                     return picture_case(
-                         [=] { return light_pipe(bounces); }, {},
-                         bounces == 8 ? ReferenceKind::quad : ReferenceKind::extended);
-                 });
 }
 
 /// All light comes from the background, and glass whose weights add up to 1 must not add to it.
@@ -252,17 +148,95 @@ Scene lit_by_background(double mirror) {
     return scene;
 }
 
-StressFamily glass_energy() {
-    return sweep({"glass-energy", "share that is mirrored",
-                  "light counted twice where it splits or is totally reflected"},
-                 {0.0, 0.01, 0.25, 0.5, 0.99}, {0.25}, lit_by_background);
-}
-
 }  // namespace
 
 StressFamilies glass_families() {
-    return {mirror_walls(),    mirror_balls(), bright_mirrors(), indices(),     inside_of_glass(),
-            critical_angles(), glass_depths(), glass_trees(),    light_pipes(), glass_energy()};
+    const auto in_ball = [](double ior) {
+        return picture_case([=] { return inside_glass(ior, true); });
+    };
+    const auto in_box = [](double ior) {
+        return picture_case([=] { return inside_glass(ior, false); });
+    };
+    const auto for_bounces = [](int bounces) {
+        return bounces == 8 ? ReferenceKind::quad : ReferenceKind::extended;
+    };
+    return {
+        sweep({"facing-mirrors", "mirror rays", "every bounce adds its rounding to the next"},
+              {8, 64, 1000}, {64},
+              [=](int bounces) {
+                  return picture_case([=] { return facing_mirrors(1, 0, bounces, 80, 60); },
+                                      {.max_error = bounces == 1000 ? 2e-4 : usual_error},
+                                      for_bounces(bounces));
+              }),
+        // A mirror ball spreads rays by a factor per bounce; where it does, the reference changes
+        // too.
+        sweep({"in-mirror-ball", "mirror rays",
+               "the enclosing ball is missed, and repeated reflections jitter"},
+              {4, 16, 64}, {4}, mirror_ball),
+        sweep({"bright-mirrors", "reflectance",
+               "light that grows at each bounce overflows, and infinity times 0 is NaN"},
+              {1.0, 1.5, 1e3, 1e30}, {1.0, 1.5, 1e30},
+              [](double mirror) {
+                  return picture_case([=] { return bright_walls(mirror); },
+                                      {.max_error = 1e-3, .may_overflow = true},
+                                      ReferenceKind::extended);
+              }),
+        // A ray leaving glass of index n has n times the sine of the angle inside: rounding grows
+        // n-fold.
+        sweep({"index", "index of refraction",
+               "eta (cos i) - cos t cancels near 1, and large indices magnify rounding"},
+              {1.0, 1 - 1e-7, 1 + 1e-7, 1 + 1e-3, 1.5, 2.4, 1e3, 0.5, 1e-3}, {1, 1 + 1e-7, 1.5},
+              [](double ior) {
+                  StressCase one = picture_case([=] { return of_index(ior); });
+                  if (ior == 1) one = seen_as(glass_scene, one);
+                  if (ior == 1e3) one.tolerance.max_error = 1e-3;
+                  return labeled(fmt::format("{:.8g}", ior), ior, one);
+              }),
+        listed({"inside-glass", "body and index",
+                "1 - eta^2 sin^2 is negative by rounding, or not where it should be"},
+               {{"ball-1.5", InQuick::yes, in_ball(1.5)},
+                {"ball-2.4", InQuick::no, in_ball(2.4)},
+                {"box-1.5", InQuick::yes, in_box(1.5)},
+                {"box-2.4", InQuick::no, in_box(2.4)},
+                {"ball-1.0001", InQuick::no, in_ball(1.0001)}}),
+        // At the critical angle to within rounding, both answers are right; only NaN and
+        // differences between devices are wrong.
+        sweep({"critical-angle", "radians beyond it", "the square root of what should be 0 is NaN"},
+              {-0.1, -1e-3, -1e-5, -1e-7, 0.0, 1e-7, 1e-5, 1e-3, 0.1}, {0, 1e-5},
+              [](double beyond) {
+                  const double off = std::fabs(beyond);
+                  return picture_case(
+                      [=] { return prism(beyond); },
+                      {.max_error = off < 1e-3 ? 1e-2 : usual_error, .in_float = off >= 1e-5},
+                      off == 0 ? ReferenceKind::none : ReferenceKind::quad);
+              }),
+        // Every ball magnifies the rounding errors of the ones before it.
+        sweep({"glass-depth", "bounces",
+               "each surface magnifies the rounding errors of the previous ones"},
+              {2, 4, 8, 16, 64}, {8},
+              [](int bounces) {
+                  return picture_case([=] { return nested_glass(bounces, 0); },
+                                      {.max_error = bounces > 8 ? 1e-3 : usual_error});
+              }),
+        // The ray tree: every surface reflects and transmits. In the deepest tree, few branches
+        // matter.
+        sweep({"glass-tree", "bounces", "ray trees overflow their stack or lose branches"},
+              {4, 8, 16}, {4},
+              [](int bounces) {
+                  Scene scene = nested_glass(bounces, bounces > 8 ? 1e-5 : 0.125);
+                  set_image_size(scene, 32, 24);
+                  return scene;
+              }),
+        sweep({"light-pipe", "bounces",
+               "total reflection that loses a little light at each bounce, or leaks"},
+              {8, 64, 1000}, {8},
+              [=](int bounces) {
+                  return picture_case([=] { return light_pipe(bounces); }, {},
+                                      for_bounces(bounces));
+              }),
+        sweep({"glass-energy", "share that is mirrored",
+               "light counted twice where it splits or is totally reflected"},
+              {0.0, 0.01, 0.25, 0.5, 0.99}, {0.25}, lit_by_background)};
 }
 
 }  // namespace rt

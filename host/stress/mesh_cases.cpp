@@ -66,33 +66,6 @@ Scene triangle_with_normals(const char* normals) {
     return parse_json_scene(text, "normals.json");
 }
 
-StressFamily vertex_normals() {
-    const auto with = [](const char* normals) {
-        return picture_case([=] { return triangle_with_normals(normals); });
-    };
-    return listed(
-        {"vertex-normals", "normals", "normals that cancel, oppose or lack length divide 0 by 0"},
-        {{"ordinary", InQuick::no, with("[[-0.3, 0, 1], [0.3, 0, 1], [0, 0.3, 1]]")},
-         {"sum-to-zero", InQuick::yes,
-          with("[[1, 0, 0], [-0.5, 0.8660254037844386, 0], [-0.5, -0.8660254037844386, 0]]")},
-         {"opposing", InQuick::yes, with("[[0, 0, 1], [0, 0, -1], [0, 0, 1]]")},
-         {"scaled-1e-3", InQuick::no, with("[[-3e-4, 0, 1e-3], [3e-4, 0, 1e-3], [0, 3e-4, 1e-3]]")},
-         {"scaled-1e3", InQuick::no, with("[[-300, 0, 1e3], [300, 0, 1e3], [0, 300, 1e3]]")},
-         {"scaled-1e-30-and-1e30", InQuick::yes,
-          with("[[-3e-31, 0, 1e-30], [3e29, 0, 1e30], [0, 0.3, 1]]")},
-         {"in-the-plane", InQuick::no, with("[[1, 0, 0], [1, 0, 0], [1, 0, 0]]")},
-         {"behind", InQuick::no, with("[[0.1, 0, -1], [0, 0.1, -1], [0, 0, -1]]")}});
-}
-
-StressFamily smooth_meshes() {
-    return listed(
-        {"smooth-mesh", "mesh", "mirror rays about blended normals dive under the face they leave"},
-        {{"ball", InQuick::no, picture_case([] { return smooth_ball(0); })},
-         {"mirror-ball", InQuick::yes, picture_case([] { return smooth_ball(0.5); })},
-         {"leaning-mirror", InQuick::yes, picture_case(leaning_mirror)}},
-        1);
-}
-
 /// Everything is the same gray, in front of a glaring blue background. A leak is a wrong pixel.
 Scene gray_scene(int width, int height, int grid) {
     Scene scene = bare_scene();
@@ -113,13 +86,11 @@ Scene all_gray(int width, int height, int grid) {
 }
 
 StressCase leak_case(const MakeScene& scene) {
-    StressTolerance tolerance;
-    tolerance.most_wrong_at_edges = 0;
     const auto filled = [=] {
         const Scene of = scene();
         return all_gray(of.width, of.height, 1);
     };
-    return seen_as(filled, picture_case(scene, tolerance));
+    return seen_as(filled, picture_case(scene, {.most_wrong_at_edges = 0}));
 }
 
 StressCase inside_mesh(const StressMesh& mesh, glm::dvec3 eye, glm::dvec3 at) {
@@ -129,21 +100,6 @@ StressCase inside_mesh(const StressMesh& mesh, glm::dvec3 eye, glm::dvec3 at) {
         set_view(scene, eye, at, 100);
         return scene;
     });
-}
-
-StressFamily inside_meshes() {
-    const glm::dvec3 far(148376, 1234, -223423);
-    return listed(
-        {"mesh-from-inside", "mesh", "rays slip between two triangles that share an edge"},
-        {{"bumpy-ball", InQuick::yes,
-          inside_mesh(bumpy_mesh(2), {0.125, 0.0625, 0.25}, {0, 0, -1})},
-         {"fan", InQuick::no, inside_mesh(fan_mesh(250), {0.0625, 0.125, 0.0625}, {0, 1, 0.001})},
-         {"needles", InQuick::yes,
-          inside_mesh(needle_mesh(12, 4, 1e-6), {0.0625, 0.125, 0.0625}, {0.25, 0.25, -1})},
-         {"tiny-ball", InQuick::no,
-          inside_mesh(placed(bumpy_mesh(2), 1e-6, {3, 2, 1}), {3, 2, 1}, {3 + 1e-6, 2 + 2e-7, 1})},
-         {"far-ball", InQuick::no,
-          inside_mesh(placed(bumpy_mesh(2), 1, far), far, far + glm::dvec3(1, 0.25, 0))}});
 }
 
 /// A bumpy sheet over a lattice whose vertices and diagonals lie exactly on pixel rays.
@@ -179,19 +135,6 @@ Scene lattice_scene(int cells, bool perspective, double height, unsigned seed) {
     return scene;
 }
 
-StressFamily lattices() {
-    const auto lattice = [](int cells, bool perspective, double height, unsigned seed) {
-        return leak_case([=] { return lattice_scene(cells, perspective, height, seed); });
-    };
-    return listed({"on-pixel-rays", "lattice",
-                   "edge functions are 0 on vertices that lie on the rays themselves"},
-                  {{"parallel-flat", InQuick::yes, lattice(16, false, 0, 1)},
-                   {"parallel-bumpy", InQuick::no, lattice(16, false, 2, 2)},
-                   {"perspective-flat", InQuick::no, lattice(16, true, 0, 3)},
-                   {"perspective-bumpy", InQuick::yes, lattice(16, true, 2, 4)},
-                   {"perspective-128x128", InQuick::no, lattice(64, true, 2, 5)}});
-}
-
 /// A wall of squares at several depths seen along an axis; rays run along the sides of BVH boxes.
 Scene box_wall(int axis, bool rounded) {
     Scene scene = gray_scene(64, 64, 1);
@@ -216,23 +159,66 @@ Scene box_wall(int axis, bool rounded) {
     return scene;
 }
 
-/// Pixel centers lie at multiples of a quarter of a square: every fourth exactly on a side.
-StressFamily axis_parallel() {
-    const auto along = [](int axis, bool rounded) {
-        return leak_case([=] { return box_wall(axis, rounded); });
-    };
-    return listed({"axis-parallel", "axis",
-                   "0 times infinity in the test of a box whose side the ray runs in"},
-                  {{"z", InQuick::yes, along(2, false)},
-                   {"x", InQuick::no, along(0, false)},
-                   {"y", InQuick::no, along(1, false)},
-                   {"z-thirds", InQuick::no, along(2, true)}});
-}
-
 }  // namespace
 
 StressFamilies mesh_families() {
-    return {vertex_normals(), smooth_meshes(), inside_meshes(), lattices(), axis_parallel()};
+    const auto with = [](const char* normals) {
+        return picture_case([=] { return triangle_with_normals(normals); });
+    };
+    const auto lattice = [](int cells, bool perspective, double height, unsigned seed) {
+        return leak_case([=] { return lattice_scene(cells, perspective, height, seed); });
+    };
+    const auto along = [](int axis, bool rounded) {
+        return leak_case([=] { return box_wall(axis, rounded); });
+    };
+    const glm::dvec3 far(148376, 1234, -223423);
+    return {
+        listed(
+            {"vertex-normals", "normals",
+             "normals that cancel, oppose or lack length divide 0 by 0"},
+            {{"ordinary", InQuick::no, with("[[-0.3, 0, 1], [0.3, 0, 1], [0, 0.3, 1]]")},
+             {"sum-to-zero", InQuick::yes,
+              with("[[1, 0, 0], [-0.5, 0.8660254037844386, 0], [-0.5, -0.8660254037844386, 0]]")},
+             {"opposing", InQuick::yes, with("[[0, 0, 1], [0, 0, -1], [0, 0, 1]]")},
+             {"scaled-1e-3", InQuick::no,
+              with("[[-3e-4, 0, 1e-3], [3e-4, 0, 1e-3], [0, 3e-4, 1e-3]]")},
+             {"scaled-1e3", InQuick::no, with("[[-300, 0, 1e3], [300, 0, 1e3], [0, 300, 1e3]]")},
+             {"scaled-1e-30-and-1e30", InQuick::yes,
+              with("[[-3e-31, 0, 1e-30], [3e29, 0, 1e30], [0, 0.3, 1]]")},
+             {"in-the-plane", InQuick::no, with("[[1, 0, 0], [1, 0, 0], [1, 0, 0]]")},
+             {"behind", InQuick::no, with("[[0.1, 0, -1], [0, 0.1, -1], [0, 0, -1]]")}}),
+        listed({"smooth-mesh", "mesh",
+                "mirror rays about blended normals dive under the face they leave"},
+               {{"ball", InQuick::no, picture_case([] { return smooth_ball(0); })},
+                {"mirror-ball", InQuick::yes, picture_case([] { return smooth_ball(0.5); })},
+                {"leaning-mirror", InQuick::yes, picture_case(leaning_mirror)}},
+               1),
+        listed({"mesh-from-inside", "mesh", "rays slip between two triangles that share an edge"},
+               {{"bumpy-ball", InQuick::yes,
+                 inside_mesh(bumpy_mesh(2), {0.125, 0.0625, 0.25}, {0, 0, -1})},
+                {"fan", InQuick::no,
+                 inside_mesh(fan_mesh(250), {0.0625, 0.125, 0.0625}, {0, 1, 0.001})},
+                {"needles", InQuick::yes,
+                 inside_mesh(needle_mesh(12, 4, 1e-6), {0.0625, 0.125, 0.0625}, {0.25, 0.25, -1})},
+                {"tiny-ball", InQuick::no,
+                 inside_mesh(placed(bumpy_mesh(2), 1e-6, {3, 2, 1}), {3, 2, 1},
+                             {3 + 1e-6, 2 + 2e-7, 1})},
+                {"far-ball", InQuick::no,
+                 inside_mesh(placed(bumpy_mesh(2), 1, far), far, far + glm::dvec3(1, 0.25, 0))}}),
+        listed({"on-pixel-rays", "lattice",
+                "edge functions are 0 on vertices that lie on the rays themselves"},
+               {{"parallel-flat", InQuick::yes, lattice(16, false, 0, 1)},
+                {"parallel-bumpy", InQuick::no, lattice(16, false, 2, 2)},
+                {"perspective-flat", InQuick::no, lattice(16, true, 0, 3)},
+                {"perspective-bumpy", InQuick::yes, lattice(16, true, 2, 4)},
+                {"perspective-128x128", InQuick::no, lattice(64, true, 2, 5)}}),
+        // Pixel centers lie at multiples of a quarter of a square: every fourth exactly on a side.
+        listed({"axis-parallel", "axis",
+                "0 times infinity in the test of a box whose side the ray runs in"},
+               {{"z", InQuick::yes, along(2, false)},
+                {"x", InQuick::no, along(0, false)},
+                {"y", InQuick::no, along(1, false)},
+                {"z-thirds", InQuick::no, along(2, true)}})};
 }
 
 }  // namespace rt

@@ -43,8 +43,7 @@ StressFamily t_junctions() {
     mesh.faces[0] = {a, b, middle};
     mesh.faces.push_back({a, middle, c});
     const Scene scene = mesh_scene(mesh, {0.125, 0.125, 0});
-    StressTolerance any;
-    any.most_wrong = std::numeric_limits<std::size_t>::max();
+    const StressTolerance any{.most_wrong = std::numeric_limits<std::size_t>::max()};
     return listed({"t-junctions", "aim", "never watertight; counted, not judged"},
                   {{"edges", InQuick::yes, ray_case(leaks(scene, RayAim::edges), any)},
                    {"vertices", InQuick::no, ray_case(leaks(scene, RayAim::vertices), any)}});
@@ -97,11 +96,6 @@ StressFamily leaving_spheres(const char* name, double distances, const char* why
     });
 }
 
-StressFamily sphere_rays() {
-    return outline_family("sphere-rays",
-                          [](double radius) { return past_sphere(sphere_scene(radius, 1)); });
-}
-
 }  // namespace
 
 StressFamilies ray_families() {
@@ -114,7 +108,8 @@ StressFamilies ray_families() {
         leaving_spheres("leaving-sphere", 3,
                         "an absolute epsilon causes acne on large balls and holes in small ones"),
         leaving_spheres("leaving-far-sphere", 1000, "the same with the ball a thousand radii away"),
-        sphere_rays()};
+        outline_family("sphere-rays",
+                       [](double radius) { return past_sphere(sphere_scene(radius, 1)); })};
 }
 
 }  // namespace rt

@@ -13,10 +13,8 @@ namespace {
 /// Rounding coordinates to float alone moves a small object by 2^-24 of its distance, which is 1.
 /// Float is not judged where that is too much; double must be right there.
 StressTolerance small_tolerance(double size) {
-    StressTolerance tolerance;
-    tolerance.in_float = size >= 1e-4;
-    if (tolerance.in_float && size < 1) tolerance.max_error = 1e-4 + 16 * 0x1p-24 / size;
-    return tolerance;
+    if (size < 1e-4) return {.in_float = false};
+    return {.max_error = size < 1 ? 1e-4 + 16 * 0x1p-24 / size : usual_error};
 }
 
 /// Pictures of a shape at distance 1: radii from 1e-6 to 1e6, with `middle` in place of 1.
@@ -52,46 +50,6 @@ Scene ball_floor(double radius) {
     return scene;
 }
 
-StressFamily sphere_sizes() {
-    return size_family("sphere-size", "b^2 - 4 a c cancels for small and for large balls", 0.75,
-                       sized_ball);
-}
-
-StressFamily floors() {
-    return sweep(
-        {"ball-floor", "radius of the ground", "a ground ball somewhat larger than the scene"},
-        {4, 16, 64, 100}, {64}, ball_floor);
-}
-
-StressFamily huge_floors() {
-    const StressFamily floors =
-        sweep({"huge-ball-floor", "radius of the ground",
-               "r^2 - l^2 loses all precision where the ground ball is huge"},
-              {1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, {1e5}, ball_floor);
-    return sweep(floors, {1e6}, {1e6}, [](double radius) {
-        return labeled("1e+06-among-far-balls", radius, picture_case([=] {
-                           Scene scene = ball_floor(radius);
-                           for (int i = 0; i < 8; ++i) {
-                               const glm::dvec3 way{i % 3 - 1, 0.25, i % 2 == 0 ? -1 : 1};
-                               add_sphere(scene, 0.125 * radius * way, 0.005 * radius, 1);
-                           }
-                           return scene;
-                       }));
-    });
-}
-
-/// A light this high above the top of the ground, 1e8 in radius.
-StressFamily ground_lights() {
-    return sweep({"ground-light", "height of the light",
-                  "rounding at the ground decides whether it hides a light behind it"},
-                 {-5.0, -0.5, -1e-3, 1e-3, 0.5, 5.0}, {-5.0, 0.5}, [](double height) {
-                     Scene scene = ball_floor(1e8);
-                     for (auto& material : scene.materials) material.two_sided = true;
-                     scene.lights = {{{0, height, 2}, glm::dvec3(0.75)}};
-                     return scene;
-                 });
-}
-
 /// A frustum as long as it is wide, 1 away, half as high as the picture; or the eye inside it.
 Scene sized_cone(double radius) {
     const double half_angle = radius < 1 ? 2 * std::atan(radius) : 0.5;
@@ -122,30 +80,11 @@ Scene long_cones(double length, bool from_afar = false) {
     return scene;
 }
 
-StressFamily long_cone_family() {
-    const StressFamily away = sweep(
-        {"long-cone", "length over radius", "the far end's magnitudes swamp the near end's"},
-        {4e1, 4e2, 4e4, 4e6, 4e8}, {4e2, 4e6}, [](double ratio) { return long_cones(ratio / 4); });
-    return sweep(away, {4e2, 4e6}, {4e6}, [](double ratio) {
-        return labeled(fmt::format("{:g}-from-afar", ratio), ratio,
-                       picture_case([=] { return long_cones(ratio / 4, true); }));
-    });
-}
-
 /// A needle of length 2 across a narrow view, taking up about a fifth of its height.
 Scene cone_needle(double radius) {
     Scene scene = shape_scene(degrees(8 * radius));
     add_cone(scene, {-1, -0.25 * radius, -0.125}, radius, {1, 0.5 * radius, 0.25}, 0.5 * radius, 0);
     return scene;
-}
-
-StressFamily cone_needles() {
-    return sweep(
-        {"cone-needle", "length over radius", "thin cones lose their outline and their normals"},
-        {2e1, 2e2, 2e3, 2e4, 2e6}, {2e1, 2e3}, [](double ratio) {
-            const double radius = 2 / ratio;
-            return picture_case([=] { return cone_needle(radius); }, small_tolerance(radius));
-        });
 }
 
 /// A ring of almost no height.
@@ -154,12 +93,6 @@ Scene flat_cone(double height) {
     const glm::dvec3 axis(0.28, 0.576, 0.768);
     add_cone(scene, {0, 0, 0}, 0.5, height * axis, 0.125, 0);
     return scene;
-}
-
-StressFamily flat_cones() {
-    return sweep({"flat-cone", "height over radius", "all hits lie within rounding of both rims"},
-                 {2e-1, 2e-2, 2e-3, 2e-4, 2e-6, 2e-8, 2e-12}, {2e-2, 2e-8},
-                 [](double ratio) { return flat_cone(ratio / 2); });
 }
 
 /// Intersecting tubes, two of them mirrors, one seen end-on, over a floor.
@@ -210,24 +143,60 @@ StressFamily leaving_cones(const char* name, double distances, const char* why) 
     });
 }
 
-StressFamily cone_rays() {
-    return outline_family("cone-rays",
-                          [](double radius) { return past_cone(cone_to_aim_at(radius, 1)); });
-}
-
 }  // namespace
 
 StressFamilies shape_families() {
+    const StressFamily huge_floors =
+        sweep({"huge-ball-floor", "radius of the ground",
+               "r^2 - l^2 loses all precision where the ground ball is huge"},
+              {1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, {1e5}, ball_floor);
+    const StressFamily long_cones_away = sweep(
+        {"long-cone", "length over radius", "the far end's magnitudes swamp the near end's"},
+        {4e1, 4e2, 4e4, 4e6, 4e8}, {4e2, 4e6}, [](double ratio) { return long_cones(ratio / 4); });
     return {
-        sphere_sizes(),
-        floors(),
-        huge_floors(),
-        ground_lights(),
+        size_family("sphere-size", "b^2 - 4 a c cancels for small and for large balls", 0.75,
+                    sized_ball),
+        sweep(
+            {"ball-floor", "radius of the ground", "a ground ball somewhat larger than the scene"},
+            {4, 16, 64, 100}, {64}, ball_floor),
+        sweep(huge_floors, {1e6}, {1e6},
+              [](double radius) {
+                  return labeled("1e+06-among-far-balls", radius, picture_case([=] {
+                                     Scene scene = ball_floor(radius);
+                                     for (int i = 0; i < 8; ++i) {
+                                         const glm::dvec3 way{i % 3 - 1, 0.25, i % 2 == 0 ? -1 : 1};
+                                         add_sphere(scene, 0.125 * radius * way, 0.005 * radius, 1);
+                                     }
+                                     return scene;
+                                 }));
+              }),
+        // A light this high above the top of the ground, 1e8 in radius.
+        sweep({"ground-light", "height of the light",
+               "rounding at the ground decides whether it hides a light behind it"},
+              {-5.0, -0.5, -1e-3, 1e-3, 0.5, 5.0}, {-5.0, 0.5},
+              [](double height) {
+                  Scene scene = ball_floor(1e8);
+                  for (auto& material : scene.materials) material.two_sided = true;
+                  scene.lights = {{{0, height, 2}, glm::dvec3(0.75)}};
+                  return scene;
+              }),
         size_family("cone-size", "the quadratic's terms cancel for small and for large cones", 0.5,
                     sized_cone),
-        long_cone_family(),
-        cone_needles(),
-        flat_cones(),
+        sweep(long_cones_away, {4e2, 4e6}, {4e6},
+              [](double ratio) {
+                  return labeled(fmt::format("{:g}-from-afar", ratio), ratio,
+                                 picture_case([=] { return long_cones(ratio / 4, true); }));
+              }),
+        sweep({"cone-needle", "length over radius",
+               "thin cones lose their outline and their normals"},
+              {2e1, 2e2, 2e3, 2e4, 2e6}, {2e1, 2e3},
+              [](double ratio) {
+                  const double radius = 2 / ratio;
+                  return picture_case([=] { return cone_needle(radius); }, small_tolerance(radius));
+              }),
+        sweep({"flat-cone", "height over radius", "all hits lie within rounding of both rims"},
+              {2e-1, 2e-2, 2e-3, 2e-4, 2e-6, 2e-8, 2e-12}, {2e-2, 2e-8},
+              [](double ratio) { return flat_cone(ratio / 2); }),
         scaled_and_moved("cylinder-scale",
                          "absolute epsilons fill small tubes and leave holes in large ones", tubes),
         scaled_and_moved("glass-scale", "absolute epsilons skip the far side of small glass",
@@ -235,7 +204,8 @@ StressFamilies shape_families() {
         leaving_cones("leaving-cone", 3,
                       "an absolute epsilon causes acne on large cones and holes in small ones"),
         leaving_cones("leaving-far-cone", 1000, "the same with the cone a thousand radii away"),
-        cone_rays()};
+        outline_family("cone-rays",
+                       [](double radius) { return past_cone(cone_to_aim_at(radius, 1)); })};
 }
 
 }  // namespace rt

@@ -36,15 +36,17 @@ struct RayCaster {
 /// Native kernels on all cores, in packets of `lanes` rays (0: the vector width).
 RayCaster threads_ray_caster(int lanes = 0);
 
+inline constexpr double usual_error = 1e-4;
+
 /// The errors allowed in a picture. A pixel is wrong when a channel, clamped to [0, 1], is off by
 /// more than 1/255 or is NaN; it lies at an edge when the reference itself changes there by more
 /// than 0.5/255 as the sample moves by 0.02 pixel.
 struct StressTolerance {
     std::size_t most_wrong = 0;  ///< pixels, away from edges
     std::size_t most_wrong_at_edges = std::numeric_limits<std::size_t>::max();
-    double max_error = 1e-4;    ///< away from edges
-    bool may_overflow = false;  ///< infinities count as saturated; NaN never does
-    bool in_float = true;       ///< false: float is measured but not judged
+    double max_error = usual_error;  ///< away from edges
+    bool may_overflow = false;       ///< infinities count as saturated; NaN never does
+    bool in_float = true;            ///< false: float is measured but not judged
 };
 
 template <typename A, Of<StressTolerance> X>

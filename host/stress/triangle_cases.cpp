@@ -105,28 +105,6 @@ Scene two_sheets() {
     return scene;
 }
 
-StressFamily ties() {
-    const auto square = [](Copy copy) {
-        return seen_as(single_square, picture_case([=] { return duplicate_square(copy); }));
-    };
-    const auto overlap = [](bool cut) { return [=] { return overlapping_squares(cut); }; };
-    const auto ball = [](double moved, ReferenceKind reference) {
-        return picture_case([=] { return duplicate_ball(moved); }, {}, reference);
-    };
-    return listed(
-        {"ties", "what is duplicated",
-         "where surfaces coincide, rounding or the order of tests picks the color"},
-        {{"same", InQuick::no, square(Copy::same)},
-         {"other-diagonal", InQuick::yes, square(Copy::other_diagonal)},
-         {"turned", InQuick::no, square(Copy::turned)},
-         {"reversed", InQuick::no, square(Copy::reversed_order)},
-         {"overlapping", InQuick::yes, seen_as(overlap(true), picture_case(overlap(false)))},
-         {"tube", InQuick::yes, seen_as(single_tube, picture_case(duplicate_tube))},
-         {"ball", InQuick::no, ball(0, ReferenceKind::quad)},
-         {"two-sheets", InQuick::yes, picture_case(two_sheets)},
-         {"ball-moved-1e-7", InQuick::yes, ball(1e-7, ReferenceKind::none)}});
-}
-
 /// Many copies of one triangle and one ball: one of each is visible, and the others do no harm.
 Scene pile(int count) {
     Scene scene = bare_scene();
@@ -140,15 +118,6 @@ Scene pile(int count) {
         add_sphere(scene, {0, 1, -2}, 1.5, material);
     }
     return scene;
-}
-
-StressFamily coincident() {
-    return sweep(
-        {"coincident", "primitives",
-         "a million primitives in one place: ties everywhere, a hierarchy without a split"},
-        {1000, 1'000'000}, {1000}, [](int count) {
-            return seen_as([] { return pile(2); }, picture_case([=] { return pile(count); }));
-        });
 }
 
 /// Triangles that cross each other and balls, with edges in faces.
@@ -183,24 +152,6 @@ Scene needle_fan(double aspect) {
     return scene;
 }
 
-StressFamily needles() {
-    return sweep({"needles", "length over width",
-                  "distances to thin triangles are inaccurate, and gaps open next to them"},
-                 {1e2, 1e3, 1e4, 1e6, 1e8}, {1e4, 1e6}, needle_fan);
-}
-
-/// A floor triangle so large that its barycentric weights barely determine a point.
-StressFamily huge_triangles() {
-    return sweep({"huge-triangle", "half side of the floor",
-                  "weights of far-away vertices lift points off the floor"},
-                 {1e2, 1e4, 1e6, 1e8, 1e13, 1e17}, {1e6, 1e17}, [](double side) {
-                     Scene scene = still_life();
-                     scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
-                     add_floor(scene, {0, 0, 0}, side, 2);
-                     return scene;
-                 });
-}
-
 /// A prism with 12 sides, one end near the eye and the other far away in a slanted direction.
 Scene long_prism(double length) {
     Scene scene = bare_scene();
@@ -216,25 +167,6 @@ Scene long_prism(double length) {
     }
     set_view(scene, {-1, 2, 6}, {0.5, 0, 0}, 50);
     return scene;
-}
-
-StressFamily long_triangles() {
-    return sweep({"long-triangle", "length of a prism",
-                  "rounding tilts the planes of long, thin triangles, along all their length"},
-                 {1e2, 1e4, 1e6, 1e8, 1e10}, {1e8}, long_prism);
-}
-
-/// A triangle whose size is half its distance.
-StressFamily far_triangles() {
-    return sweep({"far-triangle", "distance of a triangle",
-                  "products of three coordinates leave the range of float"},
-                 {1e6, 1e12, 1e14, 1e17}, {1e14}, [](double distance) {
-                     Scene scene = still_life();
-                     const double size = 0.25 * distance;
-                     add_triangle(scene, {-size, -size, -distance}, {size, -size, -distance},
-                                  {0, size, -distance}, 0);
-                     return scene;
-                 });
 }
 
 /// Sees the square from -1 to 1 so that samples fall on its diagonal.
@@ -286,33 +218,76 @@ Scene box_on_floor(double height) {
     return scene;
 }
 
-/// Glass that touches glass or something else looks as if it were a hair away.
-StressFamily touching() {
+}  // namespace
+
+StressFamilies triangle_families() {
+    const auto square = [](Copy copy) {
+        return seen_as(single_square, picture_case([=] { return duplicate_square(copy); }));
+    };
+    const auto overlap = [](bool cut) { return [=] { return overlapping_squares(cut); }; };
+    const auto ball = [](double moved, ReferenceKind reference) {
+        return picture_case([=] { return duplicate_ball(moved); }, {}, reference);
+    };
     const auto near = [](auto scene) {
         return seen_as([=] { return scene(1e-9); }, picture_case([=] { return scene(0); }));
     };
     const auto same = [](double apart) { return blocks(apart, 1.5); };
     const auto other = [](double apart) { return blocks(apart, 1.25); };
-    return listed({"touching", "what touches",
-                   "refracted rays are caught between surfaces that share an edge or a place"},
-                  {{"halves-of-a-pane", InQuick::yes, picture_case(pane)},
-                   {"halves-lit-from-behind", InQuick::yes, picture_case(sheet_from_behind)},
-                   {"blocks", InQuick::yes, near(same)},
-                   {"blocks-of-two-kinds", InQuick::no, near(other)},
-                   {"box-on-a-floor", InQuick::yes, near(box_on_floor)}});
-}
-
-StressFamily crossing() {
-    return listed({"crossing", "scene",
-                   "faces through faces and balls: points within rounding of a neighbor"},
-                  {{"crossing", InQuick::yes, picture_case(crossing_scene)}}, 1);
-}
-
-}  // namespace
-
-StressFamilies triangle_families() {
-    return {ties(),    coincident(),     touching(),       crossing(),
-            needles(), huge_triangles(), long_triangles(), far_triangles()};
+    return {
+        listed({"ties", "what is duplicated",
+                "where surfaces coincide, rounding or the order of tests picks the color"},
+               {{"same", InQuick::no, square(Copy::same)},
+                {"other-diagonal", InQuick::yes, square(Copy::other_diagonal)},
+                {"turned", InQuick::no, square(Copy::turned)},
+                {"reversed", InQuick::no, square(Copy::reversed_order)},
+                {"overlapping", InQuick::yes, seen_as(overlap(true), picture_case(overlap(false)))},
+                {"tube", InQuick::yes, seen_as(single_tube, picture_case(duplicate_tube))},
+                {"ball", InQuick::no, ball(0, ReferenceKind::quad)},
+                {"two-sheets", InQuick::yes, picture_case(two_sheets)},
+                {"ball-moved-1e-7", InQuick::yes, ball(1e-7, ReferenceKind::none)}}),
+        sweep({"coincident", "primitives",
+               "a million primitives in one place: ties everywhere, a hierarchy without a split"},
+              {1000, 1'000'000}, {1000},
+              [](int count) {
+                  return seen_as([] { return pile(2); }, picture_case([=] { return pile(count); }));
+              }),
+        // Glass that touches glass or something else looks as if it were a hair away.
+        listed({"touching", "what touches",
+                "refracted rays are caught between surfaces that share an edge or a place"},
+               {{"halves-of-a-pane", InQuick::yes, picture_case(pane)},
+                {"halves-lit-from-behind", InQuick::yes, picture_case(sheet_from_behind)},
+                {"blocks", InQuick::yes, near(same)},
+                {"blocks-of-two-kinds", InQuick::no, near(other)},
+                {"box-on-a-floor", InQuick::yes, near(box_on_floor)}}),
+        listed({"crossing", "scene",
+                "faces through faces and balls: points within rounding of a neighbor"},
+               {{"crossing", InQuick::yes, picture_case(crossing_scene)}}, 1),
+        sweep({"needles", "length over width",
+               "distances to thin triangles are inaccurate, and gaps open next to them"},
+              {1e2, 1e3, 1e4, 1e6, 1e8}, {1e4, 1e6}, needle_fan),
+        // A floor triangle so large that its barycentric weights barely determine a point.
+        sweep({"huge-triangle", "half side of the floor",
+               "weights of far-away vertices lift points off the floor"},
+              {1e2, 1e4, 1e6, 1e8, 1e13, 1e17}, {1e6, 1e17},
+              [](double side) {
+                  Scene scene = still_life();
+                  scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
+                  add_floor(scene, {0, 0, 0}, side, 2);
+                  return scene;
+              }),
+        sweep({"long-triangle", "length of a prism",
+               "rounding tilts the planes of long, thin triangles, along all their length"},
+              {1e2, 1e4, 1e6, 1e8, 1e10}, {1e8}, long_prism),
+        // A triangle whose size is half its distance.
+        sweep({"far-triangle", "distance of a triangle",
+               "products of three coordinates leave the range of float"},
+              {1e6, 1e12, 1e14, 1e17}, {1e14}, [](double distance) {
+                  Scene scene = still_life();
+                  const double size = 0.25 * distance;
+                  add_triangle(scene, {-size, -size, -distance}, {size, -size, -distance},
+                               {0, size, -distance}, 0);
+                  return scene;
+              })};
 }
 
 }  // namespace rt
