@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -15,8 +14,8 @@
 #include "host/base/error.h"
 #include "host/opencl/device_spec.h"
 #include "host/opencl/pocl.h"
-#include "host/selftest/probes.h"
-#include "tests/native_bits.h"
+#include "host/selftest/selftest.h"
+#include "tests/native_probes.h"
 
 namespace rt {
 
@@ -66,30 +65,52 @@ std::string recorded_file() {
     return file == nullptr ? "" : file;
 }
 
+/// The first items of a launch. A list of another length than theirs is the same for all items.
+ProbeRecord first_items(ProbeRecord launch, std::size_t most) {
+    const std::size_t all = launch.count, count = std::min(all, most);
+    for (ProbeArray& input : launch.inputs) {
+        const bool is_shared = input.bytes.size() != all * input.item_bytes;
+        if (is_shared) input.item_bytes = 0;
+        if (!is_shared) input.bytes.resize(count * input.item_bytes);
+    }
+    for (ProbeArray& output : launch.outputs) output.bytes.resize(count * output.item_bytes);
+    launch.count = static_cast<std::uint32_t>(count);
+    return launch;
+}
+
+/// Runs the native probe instead of a device's, in packets of `lanes`.
+void launch_native(ProbeRecord& launch, int lanes) {
+    std::vector<void*> arrays;
+    for (auto* list : {&launch.inputs, &launch.outputs}) {
+        for (ProbeArray& array : *list) arrays.push_back(array.bytes.data());
+    }
+    run_native_probe(launch.is_double, lanes, launch.function, launch.count, arrays);
+}
+
+/// Fails the test unless native probes of every width give the same bits.
+void expect_native_bits(const ProbeRecord& launch) {
+    for (const int lanes : native_probe_lanes) {
+        ProbeRecord native = launch;
+        launch_native(native, lanes);
+        EXPECT_EQ(difference(launch, native), "")
+            << fmt::format("probe_{} in {} with {} lanes on pthreads", launch.function,
+                           precision_name(launch), lanes);
+    }
+}
+
 /// Collects the launches of strict probes, the first items of each, for `mirrorball selftest`.
 class Recorder {
    public:
-    void add(bool is_double, const std::string& function, std::size_t all,
-             std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
-        const bool has_scene = inputs.size() >= scene_inputs;
+    void add(const ProbeRecord& launch) {
+        const bool has_scene = launch.inputs.size() >= scene_inputs;
         const std::size_t most = has_scene ? 24 : 64;
-        const auto count = function == "layout" ? all : std::min(all, most);
-        auto& [items, records] = launches_[{has_scene, function, is_double}];
-        ProbeRecord record{function, is_double, static_cast<std::uint32_t>(count), {}, {}};
+        ProbeRecord record = first_items(launch, launch.function == "layout" ? launch.count : most);
+        auto& [items, records] = launches_[{has_scene, launch.function, launch.is_double}];
         std::size_t bytes = 0;
-        for (const ProbeInput& input : inputs) {
-            record.inputs.push_back(cut(input, count, all));
-            bytes += record.inputs.back().bytes.size();
-        }
-        if (items + count > 3 * most || bytes > most_bytes) return;
-        for (const ProbeOutput& output : outputs) {
-            const auto* begin = static_cast<const std::byte*>(output.data);
-            record.outputs.push_back({{begin, begin + count * output.item_bytes},
-                                      static_cast<std::uint32_t>(output.item_bytes),
-                                      output.holds_numbers});
-        }
-        items += count;
-        check(record, outputs);
+        for (const ProbeArray& input : record.inputs) bytes += input.bytes.size();
+        if (items + record.count > 3 * most || bytes > most_bytes) return;
+        items += record.count;
+        expect_native_bits(record);
         records.push_back(std::move(record));
     }
 
@@ -103,24 +124,6 @@ class Recorder {
 
    private:
     static constexpr std::size_t most_bytes = 20000;
-
-    /// The input for the first `count` of `all` items. A list of another length than theirs is the
-    /// same for all items.
-    static ProbeArray cut(const ProbeInput& input, std::size_t count, std::size_t all) {
-        const auto* begin = static_cast<const std::byte*>(input.data);
-        const bool is_shared = input.item_bytes == 0 || input.bytes != all * input.item_bytes;
-        return {{begin, begin + (is_shared ? input.bytes : count * input.item_bytes)},
-                is_shared ? 0 : static_cast<std::uint32_t>(input.item_bytes)};
-    }
-
-    /// Whether these inputs give these results.
-    static void check(const ProbeRecord& record, std::span<const ProbeOutput> outputs) {
-        std::vector<ProbeInput> inputs;
-        for (const ProbeArray& input : record.inputs) {
-            inputs.push_back({input.bytes.data(), input.bytes.size(), input.item_bytes});
-        }
-        expect_native_bits(record.is_double, record.function, record.count, inputs, outputs);
-    }
 
     /// Items and launches of each function and precision, those that take scenes last.
     std::map<std::tuple<bool, std::string, bool>, std::pair<std::size_t, std::vector<ProbeRecord>>>
@@ -150,29 +153,18 @@ class ProbeEnvironment : public testing::Environment {
 ProbeEnvironment* const environment = new ProbeEnvironment;
 [[maybe_unused]] const auto* const registered = testing::AddGlobalTestEnvironment(environment);
 
-/// Runs the one-lane native probe instead of a device's.
-void launch_native(bool double_precision, const std::string& function, std::size_t count,
-                   std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
-    const auto results = native_results(double_precision, 1, function, count, inputs, outputs);
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        std::memcpy(outputs[i].data, results[i].data(), results[i].size());
-    }
-}
-
-void launch_on_device(bool double_precision, const std::string& function, std::size_t count,
-                      std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
+void launch_on_device(ProbeRecord& launch) {
     ProbeDevice& probes = environment->open();
     const auto failed = [&](const std::string& what) {
-        return Error(ExitCode::device, fmt::format("probe_{} in {} on {}: {}", function,
-                                                   double_precision ? "double" : "float",
-                                                   probes.device().name, what));
+        return Error(ExitCode::device,
+                     fmt::format("probe_{} in {} on {}: {}", launch.function,
+                                 precision_name(launch), probes.device().name, what));
     };
     try {
         ProgramOptions build;
-        build.precision = double_precision ? Precision::float64 : Precision::float32;
         build.math = fast_math ? Math::fast : Math::strict;
         build.warnings_are_errors = probes.device().platform == pocl_platform;
-        probes.launch(build, function, count, inputs, outputs);
+        probes.launch(build, launch);
     } catch (const cl::Error& error) {
         throw failed(fmt::format("{}: {}", error.what(), cl_status_text(error.err())));
     } catch (const Error& error) {
@@ -180,17 +172,22 @@ void launch_on_device(bool double_precision, const std::string& function, std::s
     }
 }
 
+/// The most items of a launch that are compared with the native probes.
+constexpr std::size_t compared_items = 65536;
+
 }  // namespace
 
-void launch_probe(bool double_precision, const std::string& function, std::size_t count,
-                  std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs) {
-    const auto launch = is_native_alone() ? launch_native : launch_on_device;
-    launch(double_precision, function, count, inputs, outputs);
+void launch_probe(ProbeRecord& launch) {
+    if (is_native_alone()) {
+        launch_native(launch, 1);
+    } else {
+        launch_on_device(launch);
+    }
     if (fast_math) return;
     if (!recorded_file().empty()) {
-        recorder.add(double_precision, function, count, inputs, outputs);
+        recorder.add(launch);
     } else {
-        expect_native_bits(double_precision, function, count, inputs, outputs);
+        expect_native_bits(first_items(launch, compared_items));
     }
 }
 

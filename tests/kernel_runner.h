@@ -26,14 +26,12 @@
 // device, else the first that can render; `none` takes the native probes for it, without OpenCL.
 namespace rt {
 
-/// Runs probe_FUNCTION over `count` items; the kernel's arguments are first, count, the inputs and
-/// the outputs. Builds the probes on first use, once per precision and arithmetic, on PoCL with
-/// warnings as errors. In strict arithmetic the same probe also runs on this processor, in packets
-/// of every width, and the test fails if any bit differs; all NaNs are equal, since IEEE 754 leaves
-/// sign and payload to the machine. Throws Error (ExitCode::device) that names the device, the
-/// probe and the OpenCL status.
-void launch_probe(bool double_precision, const std::string& function, std::size_t count,
-                  std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs);
+/// Runs a probe as ProbeDevice::launch does. Builds the probes on first use, once per precision and
+/// arithmetic, on PoCL with warnings as errors. In strict arithmetic the same probe also runs on
+/// this processor, in packets of every width, and the test fails if any bit differs; all NaNs are
+/// equal, since IEEE 754 leaves sign and payload to the machine. Throws Error (ExitCode::device)
+/// that names the device, the probe and the OpenCL status.
+void launch_probe(ProbeRecord& launch);
 
 /// During its lifetime, probes are built for `--math fast`: the compiler may contract.
 class FastMath {
@@ -57,34 +55,39 @@ template <>
 inline constexpr bool is_integers<f64::RayCounts> = true;
 
 template <typename X, typename Allocator>
-void add_inputs(std::vector<ProbeInput>& inputs, const std::vector<X, Allocator>& values) {
-    inputs.push_back({values.data(), values.size() * sizeof(X), sizeof(X)});
+void add_inputs(std::vector<ProbeArray>& inputs, const std::vector<X, Allocator>& values,
+                std::uint32_t item_bytes = sizeof(X)) {
+    const auto bytes = std::as_bytes(std::span(values));
+    inputs.push_back({{bytes.begin(), bytes.end()}, item_bytes});
 }
 
 /// A scene is ten arguments, the PROBE_SCENE of probes.cl.
 template <typename T>
-void add_inputs(std::vector<ProbeInput>& inputs, const FlatScene<T>& scene) {
-#define RT_PROBE_ARRAY(type, name, what) \
-    inputs.push_back({scene.name.data(), scene.name.size() * sizeof(scene.name[0])});
+void add_inputs(std::vector<ProbeArray>& inputs, const FlatScene<T>& scene) {
+#define RT_PROBE_ARRAY(type, name, what) add_inputs(inputs, scene.name, 0);
     RT_SCENE_ARRAYS(RT_PROBE_ARRAY)
 #undef RT_PROBE_ARRAY
-    inputs.push_back({&scene.params, sizeof(scene.params)});
+    add_inputs(inputs, std::vector{scene.params}, 0);
 }
 
 /// Runs probe_FUNCTION in the precision of T over `count` items. Inputs are vectors and scenes; the
 /// results are a vector for each type in Outs, in a tuple if there are several.
 template <typename T, typename... Outs, typename... Ins>
 auto run(const std::string& function, std::size_t count, const Ins&... ins) {
-    std::vector<ProbeInput> inputs;
-    (add_inputs(inputs, ins), ...);
+    ProbeRecord launch{
+        function, std::is_same_v<T, double>, static_cast<std::uint32_t>(count), {}, {}};
+    (add_inputs(launch.inputs, ins), ...);
+    (launch.outputs.push_back(
+         {std::vector<std::byte>(count * sizeof(Outs)), sizeof(Outs), !is_integers<Outs>}),
+     ...);
+    launch_probe(launch);
     std::tuple<std::vector<Outs>...> results{std::vector<Outs>(count)...};
-    std::vector<ProbeOutput> outputs;
+    auto output = launch.outputs.begin();
     std::apply(
         [&](auto&... out) {
-            (outputs.push_back({out.data(), count, sizeof(Outs), !is_integers<Outs>}), ...);
+            ((std::memcpy(out.data(), output->bytes.data(), output->bytes.size()), ++output), ...);
         },
         results);
-    launch_probe(std::is_same_v<T, double>, function, count, inputs, outputs);
     if constexpr (sizeof...(Outs) == 1) {
         return std::get<0>(std::move(results));
     } else {

@@ -129,10 +129,9 @@ class FunctionBlame {
         const ProbeRecord& record = *wrong.record;
         ProgramOptions options;
         options.lanes = wrong.lanes;
-        options.precision = record.is_double ? Precision::float64 : Precision::float32;
         KernelLaunch launch;
         launch.kernel = "probe_" + record.function;
-        launch.options = build_options(device_, probe_program(options, record.inputs.size()));
+        launch.options = build_options(device_, probe_program(options, record));
         launch.numbers = record.outputs[0].holds_numbers ? precision_name(record) : "int";
         const auto lanes = static_cast<std::size_t>(wrong.lanes);
         launch.items = (record.count + lanes - 1) / lanes;

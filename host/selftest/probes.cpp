@@ -45,25 +45,7 @@ std::vector<ProbeArray> arrays_of(const Json& list) {
     return arrays;
 }
 
-template <typename T>
-bool is_same_number(const std::byte* a, const std::byte* b) {
-    T x, y;
-    std::memcpy(&x, a, sizeof(T));
-    std::memcpy(&y, b, sizeof(T));
-    return (x != x && y != y) || std::memcmp(a, b, sizeof(T)) == 0;
-}
-
 }  // namespace
-
-bool is_same_item(bool is_double, const std::byte* a, const std::byte* b, std::size_t bytes,
-                  bool holds_numbers) {
-    if (std::memcmp(a, b, bytes) == 0) return true;
-    const auto is_same = is_double ? is_same_number<double> : is_same_number<float>;
-    for (std::size_t at = 0; at < bytes && holds_numbers; at += is_double ? 8 : 4) {
-        if (!is_same(a + at, b + at)) return false;
-    }
-    return holds_numbers;
-}
 
 std::vector<ProbeRecord> recorded_probes() {
     uLongf size = 0;
@@ -99,44 +81,47 @@ std::string encoded(const std::vector<ProbeRecord>& records) {
 ProbeDevice::ProbeDevice(const ClDevice& device)
     : device_(device), queue_(programs_.context(device_), handle_of(device_)) {}
 
-ProgramOptions probe_program(ProgramOptions build, std::size_t inputs) {
+ProgramOptions probe_program(ProgramOptions build, const ProbeRecord& launch) {
+    build.precision = launch.is_double ? Precision::float64 : Precision::float32;
     build.entries = {false, false, false};
-    if (inputs < scene_inputs) build.more += " -DRT_SCENE_PROBES=0";
+    if (launch.inputs.size() < scene_inputs) build.more += " -DRT_SCENE_PROBES=0";
     return build;
 }
 
-void ProbeDevice::launch(const ProgramOptions& build, const std::string& function,
-                         std::size_t count, std::span<const ProbeInput> inputs,
-                         std::span<const ProbeOutput> outputs, std::size_t most_items) {
-    const ProgramOptions program = probe_program(build, inputs.size());
-    cl::Kernel kernel(programs_.program(device_, probe_kernels, program),
-                      ("probe_" + function).c_str());
-    const std::size_t given = 2 + inputs.size() + outputs.size();
+void ProbeDevice::launch(const ProgramOptions& build, ProbeRecord& record, std::size_t most_items) {
+    cl::Kernel kernel(programs_.program(device_, probe_kernels, probe_program(build, record)),
+                      ("probe_" + record.function).c_str());
+    const std::size_t given = 2 + record.inputs.size() + record.outputs.size();
     if (const auto wanted = kernel.getInfo<CL_KERNEL_NUM_ARGS>(); wanted != given) {
         usage_error("the probe takes {} arguments (first, count, ...) and was given {}", wanted,
                     given);
     }
     const cl::Context context = programs_.context(device_);
     std::vector<cl::Buffer> buffers;
-    const auto add = [&](const void* data, std::size_t bytes) {  // OpenCL has no empty buffers
-        buffers.emplace_back(context, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 1));
-        if (bytes != 0) queue_.enqueueWriteBuffer(buffers.back(), CL_TRUE, 0, bytes, data);
-        kernel.setArg(static_cast<cl_uint>(1 + buffers.size()), buffers.back());
-    };
-    for (const ProbeInput& input : inputs) add(input.data, input.bytes);
-    for (const ProbeOutput& output : outputs) add(output.data, output.bytes());
-    kernel.setArg(1, static_cast<cl_uint>(count));
+    for (const auto* arrays : {&record.inputs, &record.outputs}) {
+        for (const auto& [bytes, item_bytes, holds_numbers] : *arrays) {
+            // OpenCL has no empty buffers.
+            buffers.emplace_back(context, CL_MEM_READ_WRITE,
+                                 std::max<std::size_t>(bytes.size(), 1));
+            if (!bytes.empty()) {
+                queue_.enqueueWriteBuffer(buffers.back(), CL_TRUE, 0, bytes.size(), bytes.data());
+            }
+            kernel.setArg(static_cast<cl_uint>(1 + buffers.size()), buffers.back());
+        }
+    }
+    kernel.setArg(1, static_cast<cl_uint>(record.count));
     const std::size_t lanes = static_cast<std::size_t>(build.lanes);
-    const std::size_t packets = (count + lanes - 1) / lanes;
+    const std::size_t packets = (record.count + lanes - 1) / lanes;
     for (std::size_t first = 0; first < packets; first += most_items) {
         kernel.setArg(0, static_cast<cl_uint>(first));
         const std::size_t items = std::min(packets - first, most_items);
         queue_.enqueueNDRangeKernel(kernel, cl::NullRange, (items + group - 1) / group * group,
                                     group);
     }
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        queue_.enqueueReadBuffer(buffers[inputs.size() + i], CL_TRUE, 0, outputs[i].bytes(),
-                                 outputs[i].data);
+    for (std::size_t i = 0; i < record.outputs.size(); ++i) {
+        auto& bytes = record.outputs[i].bytes;
+        queue_.enqueueReadBuffer(buffers[record.inputs.size() + i], CL_TRUE, 0, bytes.size(),
+                                 bytes.data());
     }
 }
 

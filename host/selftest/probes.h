@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -29,11 +28,6 @@ struct ProbeRecord {
     std::vector<ProbeArray> inputs, outputs;
 };
 
-/// Whether two items of a result hold the same bits; all NaNs are equal, since IEEE 754 leaves sign
-/// and payload to the machine.
-bool is_same_item(bool is_double, const std::byte* a, const std::byte* b, std::size_t bytes,
-                  bool holds_numbers);
-
 /// A function's one after the other, those that take scenes last.
 std::vector<ProbeRecord> recorded_probes();
 
@@ -47,24 +41,8 @@ extern const char* const probe_kernels;
 /// the tracer, and take long to compile.
 inline constexpr std::size_t scene_inputs = 10;
 
-/// Arguments of a launch that others own.
-struct ProbeInput {
-    const void* data;
-    std::size_t bytes;
-    std::size_t item_bytes = 0;  ///< 0: the same for all items
-};
-
-/// Room for `count` items.
-struct ProbeOutput {
-    void* data;
-    std::size_t count, item_bytes;
-    bool holds_numbers;  ///< possibly among integers; else integers only
-
-    std::size_t bytes() const { return count * item_bytes; }
-};
-
-/// The options of a launch with so many inputs.
-ProgramOptions probe_program(ProgramOptions build, std::size_t inputs);
+/// The options of a launch, in its precision.
+ProgramOptions probe_program(ProgramOptions build, const ProbeRecord& launch);
 
 /// A device with the probes, each build of them made on first use.
 class ProbeDevice {
@@ -74,10 +52,9 @@ class ProbeDevice {
     const ClDevice& device() const { return device_; }
 
     /// Runs probe_FUNCTION over `count` items in packets of build.lanes; its arguments are first,
-    /// count, the inputs and the outputs, which are uploaded before. `most_items`: work items of a
-    /// launch. Throws cl::Error, and Error as build_program does.
-    void launch(const ProgramOptions& build, const std::string& function, std::size_t count,
-                std::span<const ProbeInput> inputs, std::span<const ProbeOutput> outputs,
+    /// count, the inputs and the outputs, which are uploaded before and get the results.
+    /// `most_items`: work items of a launch. Throws cl::Error, and Error as build_program does.
+    void launch(const ProgramOptions& build, ProbeRecord& record,
                 std::size_t most_items = 65536 - 64);
 
    private:

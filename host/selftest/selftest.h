@@ -60,8 +60,10 @@ class Checks {
 /// The names in a file of --expect, one a line; # starts a comment. Throws Error (input).
 std::set<std::string> known_failures(const std::string& file);
 
-/// Runs a record's probe and compares; empty if all is right, NaNs being equal. `most_items`: in
-/// one launch. Throws as ProbeDevice::launch.
+/// How the results of a launch differ from the right ones, NaNs being equal; empty if in nothing.
+std::string difference(const ProbeRecord& right, const ProbeRecord& got);
+
+/// Runs a record's probe and compares. `most_items`: in one launch. Throws as ProbeDevice::launch.
 std::string what_is_wrong(ProbeDevice& device, const ProbeRecord& record, int lanes,
                           const std::string& more_options = "",
                           std::size_t most_items = 65536 - 64);
