@@ -46,28 +46,19 @@ class WideCamera {
     /// The window's sides; a field of view gives square pixels.
     void set_window(const Scene::Camera& camera) {
         using Fixed = Scene::FieldOfView::Fixed;
-        const double amount = camera.field_of_view.amount;
-        const long double angle = amount * (std::numbers::pi_v<long double> / 360);
-        const R half_angle = std::tan(angle);
-        switch (camera.field_of_view.fixed) {
-            case Fixed::window:
-                left_ = camera.window.left, right_side_ = camera.window.right;
-                bottom_ = camera.window.bottom, top_ = camera.window.top;
-                return;
-            case Fixed::horizontal:
-                return span(half_angle, half_angle * height_ / width_);
-            case Fixed::vertical:
-                return span(half_angle * width_ / height_, half_angle);
-            case Fixed::view_width:
-                return span(R(amount) / 2, R(amount) / 2 * height_ / width_);
-            case Fixed::view_height:
-                return span(R(amount) / 2 * width_ / height_, R(amount) / 2);
+        const auto [fixed, amount] = camera.field_of_view;
+        if (fixed == Fixed::window) {
+            left_ = camera.window.left, right_side_ = camera.window.right;
+            bottom_ = camera.window.bottom, top_ = camera.window.top;
+            return;
         }
-    }
-
-    void span(R half_width, R half_height) {
-        left_ = -half_width, right_side_ = half_width;
-        bottom_ = -half_height, top_ = half_height;
+        const bool is_angle = fixed == Fixed::horizontal || fixed == Fixed::vertical;
+        const bool is_width = fixed == Fixed::horizontal || fixed == Fixed::view_width;
+        const long double angle = amount * (std::numbers::pi_v<long double> / 360);
+        const R half = is_angle ? R(std::tan(angle)) : R(amount) / 2;
+        right_side_ = is_width ? half : half * width_ / height_;
+        top_ = is_width ? half * height_ / width_ : half;
+        left_ = -right_side_, bottom_ = -top_;
     }
 
     R width_, height_;
