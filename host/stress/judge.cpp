@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "host/base/text.h"
 
@@ -33,9 +34,9 @@ double pixel_error(const float* pixel, const std::array<double, 3>& reference) {
 PictureFigures count_non_numbers(const Picture& picture) {
     PictureFigures figures;
     for (std::size_t i = 0; i + 2 < picture.pixels.size(); i += 3) {
-        const auto first = picture.pixels.begin() + static_cast<std::ptrdiff_t>(i);
-        figures.nans += std::any_of(first, first + 3, [](float v) { return std::isnan(v); });
-        figures.infinities += std::any_of(first, first + 3, [](float v) { return std::isinf(v); });
+        const auto pixel = std::span(picture.pixels).subspan(i, 3);
+        figures.nans += std::ranges::any_of(pixel, [](float v) { return std::isnan(v); });
+        figures.infinities += std::ranges::any_of(pixel, [](float v) { return std::isinf(v); });
     }
     return figures;
 }
@@ -94,19 +95,16 @@ std::string exceeded_tolerance(const RayFigures& rays, const StressTolerance& to
 }
 
 bool StressCaseResult::passed() const {
-    return disagreement.empty() && !rows.empty() &&
-           std::all_of(rows.begin(), rows.end(), [](const StressRow& row) { return row.passed(); });
+    return disagreement.empty() && !rows.empty() && std::ranges::all_of(rows, &StressRow::passed);
 }
 
 bool StressFamilyResult::passed() const {
-    return !cases.empty() && std::all_of(cases.begin(), cases.end(),
-                                         [](const StressCaseResult& one) { return one.passed(); });
+    return !cases.empty() && std::ranges::all_of(cases, &StressCaseResult::passed);
 }
 
 bool StressResult::passed() const {
     return !families.empty() && !interrupted &&
-           std::all_of(families.begin(), families.end(),
-                       [](const StressFamilyResult& family) { return family.passed(); });
+           std::ranges::all_of(families, &StressFamilyResult::passed);
 }
 
 PictureFigures worst_figures(const StressFamilyResult& family) {
