@@ -21,6 +21,7 @@ struct PictureFigures {
     std::size_t wrong_at_edges = 0;        ///< ... and at edges
     double max_error = 0;                  ///< away from edges
     std::size_t nans = 0, infinities = 0;  ///< pixels with one
+    std::uint64_t hash = 0;                ///< over every bit; 0: not known
 };
 
 template <typename A, Of<PictureFigures> X>
@@ -30,6 +31,7 @@ void describe(A& a, X& x) {
     a("max_error", finite_or_null(x.max_error), "away from edges");
     a("nan", x.nans, "pixels with a NaN");
     a("infinite", x.infinities, "pixels with an infinity");
+    a("hash", hash_text(x.hash), "of every bit");
 }
 
 /// Edges are looked up only for pixels off by more than 2e-5; all others count as away from edges.
@@ -50,25 +52,12 @@ struct StressRow {
     bool judged = true;      ///< whether the tolerance applies to it
     PictureFigures figures;  ///< of the picture
     std::optional<RayFigures> rays;
-    std::uint64_t hash = 0;  ///< over every bit of the picture
-    double seconds = 0;      ///< of tracing (a picture's `seconds.trace`), or of the whole trial
-    std::string why;         ///< what failed; empty if nothing did
+    double seconds = 0;  ///< of tracing (a picture's `seconds.trace`), or of the whole trial
+    std::string why;     ///< what failed; empty if nothing did
 
     bool passed() const { return !judged || why.empty(); }
     const char* verdict() const { return !judged ? "not judged" : why.empty() ? "pass" : "fail"; }
 };
-
-/// A row's picture.
-struct StressPicture {
-    PictureFigures figures;
-    std::uint64_t hash = 0;
-};
-
-template <typename A, Of<StressPicture> X>
-void describe(A& a, X& x) {
-    describe(a, x.figures);
-    a("hash", hash_text(x.hash), "of every bit");
-}
 
 template <typename A, Of<StressRow> X>
 void describe(A& a, X& x) {
@@ -79,8 +68,7 @@ void describe(A& a, X& x) {
     a("why", x.why, "what failed");
     a("seconds", x.seconds, "to trace the picture, or of the whole trial");
     a("rays", x.rays, "of a trial without a picture");
-    a("picture", x.rays ? std::nullopt : std::optional(StressPicture{x.figures, x.hash}),
-      "of a trial with one");
+    a("picture", x.rays ? std::nullopt : std::optional(x.figures), "of a trial with one");
 }
 
 struct StressCaseResult {

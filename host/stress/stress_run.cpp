@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/stress/stress_run.h"
-
 #include <fmt/format.h>
 
 #include <map>
@@ -21,6 +19,7 @@
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
+#include "host/stress/stress_run.h"
 
 namespace rt {
 
@@ -139,10 +138,10 @@ class Runner {
                 const RenderedPicture rendered =
                     render_quietly(scene, row_settings(row, options_), device, &cache_);
                 if (!rendered.stats.complete()) return false;
-                row.hash = rendered.stats.image_hash;
                 row.seconds = rendered.stats.phases.renderer.trace;
                 row.figures = reference ? judge_stress_picture(rendered.picture, *reference)
                                         : count_non_numbers(rendered.picture);
+                row.figures.hash = rendered.stats.image_hash;
                 row.why = exceeded_tolerance(row.figures, one.tolerance);
                 if (!options_.output.empty()) pictures.keep_worst(rendered.picture, row.figures);
             } catch (const Error& error) {
@@ -159,8 +158,8 @@ class Runner {
         if (trial.same_bits.empty() || !row.why.empty()) return;
         const std::string key =
             fmt::format("{} {} {}", trial.same_bits, row.device, to_string(row.precision));
-        const auto [first, is_new] = first_hashes_.try_emplace(key, row.hash);
-        if (!is_new && first->second != row.hash) {
+        const auto [first, is_new] = first_hashes_.try_emplace(key, row.figures.hash);
+        if (!is_new && first->second != row.figures.hash) {
             row.why = "bits differ from " + trial.same_bits;
         }
     }
@@ -189,8 +188,8 @@ class Runner {
         for (const Precision precision : {Precision::float32, Precision::float64}) {
             std::set<std::uint64_t> hashes;
             for (const StressRow& row : result.rows) {
-                if (row.hash == 0 || row.precision != precision) continue;
-                hashes.insert(row.hash);
+                if (row.figures.hash == 0 || row.precision != precision) continue;
+                hashes.insert(row.figures.hash);
             }
             if (hashes.size() < 2) continue;
             result.disagreement = fmt::format("devices give {} different pictures in {}",

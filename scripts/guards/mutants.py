@@ -156,8 +156,8 @@ MUTANTS = [
          "if (hashes.size() < 200) continue;"),
     ], driver("Stress.test_devices_that_disagree_in_a_bit_fail")),
     Mutant("stress ignores same_bits", [
-        ("host/stress/stress_run.cpp", "if (!is_new && first->second != row.hash) {",
-         "if (is_new && first->second != row.hash) {"),
+        ("host/stress/stress_run.cpp", "if (!is_new && first->second != row.figures.hash) {",
+         "if (is_new && first->second != row.figures.hash) {"),
     ], [("host_stress_test", "StressRun.CasesThatShouldHaveTheSameBits*")]),
     Mutant("kernel seconds times 7", [
         ("host/opencl/cl_renderer.cpp", "times_.kernel += kernel;", "times_.kernel += 7 * kernel;"),
