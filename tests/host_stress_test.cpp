@@ -8,9 +8,8 @@
 #include "host/picture/crew_members.h"
 #include "host/print/print_run.h"
 #include "host/record/record.h"
+#include "host/stress/families.h"
 #include "host/stress/judge.h"
-#include "host/stress/ray_trials.h"
-#include "host/stress/stress_run.h"
 #include "host/stress/stress_scenes.h"
 #include "tests/refusals.h"
 

@@ -7,8 +7,7 @@
 #include "host/picture/crew_members.h"
 #include "host/print/print_run.h"
 #include "host/process/stop_signal.h"
-#include "host/stress/families.h"
-#include "host/stress/stress_run.h"
+#include "host/stress/judge.h"
 
 namespace rt {
 

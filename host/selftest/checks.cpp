@@ -15,8 +15,7 @@
 #include "host/scene/line_scanner.h"
 #include "host/scene/text_file.h"
 #include "host/selftest/selftest.h"
-#include "host/stress/families.h"
-#include "host/stress/stress_run.h"
+#include "host/stress/judge.h"
 
 namespace rt {
 

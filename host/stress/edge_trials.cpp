@@ -4,8 +4,8 @@
 #include <map>
 
 #include "host/flatten/flat_scene.h"
+#include "host/stress/families.h"
 #include "host/stress/many_rays.h"
-#include "host/stress/ray_trials.h"
 
 namespace rt {
 

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "host/stress/families.h"
-#include "host/stress/ray_trials.h"
 #include "host/stress/stress_scenes.h"
 
 namespace rt {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/stress/ray_trials.h"
-
 #include <array>
 #include <optional>
 
 #include "host/flatten/flat_scene.h"
 #include "host/render/threads_renderer.h"
+#include "host/stress/families.h"
 #include "host/stress/many_rays.h"
 #include "host/stress/wide_shapes.h"
 

@@ -19,7 +19,7 @@
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
-#include "host/stress/stress_run.h"
+#include "host/stress/judge.h"
 
 namespace rt {
 
