@@ -16,15 +16,6 @@ namespace rt::f32 {
 #include "kernels/shared.h"
 #undef RT_REAL
 #undef RT_INDEX
-static_assert(offsetof(Sphere, center_low) == 32);
-static_assert(offsetof(Cone, material) == 36);
-static_assert(offsetof(Triangle, plane) == 60);
-static_assert(offsetof(VertexNormals, n2) == 32);
-static_assert(offsetof(Material, transmission) == 64);
-static_assert(offsetof(Light, caster_count) == 28);
-static_assert(offsetof(BvhNode, count) == 28);
-static_assert(offsetof(LaunchParams, threshold) == 188);
-static_assert(offsetof(Tile, film_width) == 20);
 static_assert(offsetof(RayQuery, self_hit) == 44);
 static_assert(offsetof(RayAnswer, next_t) == 48);
 }  // namespace rt::f32
