@@ -79,7 +79,7 @@ GUARDS = [
          "ray.origin_low = ray.dir_low;"),
     ], [("kernel_surface_test", "SpawnRay.*")]),
     Guard("a huge sphere by its power", [
-        (F + "flat_shapes.cpp", "flat.is_huge = is_huge(radius, distance) ? 1 : 0;",
+        (F + "flat_shapes.h", "flat.is_huge = is_huge(radius, distance) ? 1 : 0;",
          "flat.is_huge = 0;"),
     ], [("stress", "huge-ball-floor")]),
     Guard("the point of a huge sphere is not put back", [
@@ -141,7 +141,7 @@ GUARDS = [
         (K + "cone.cl", "roots.is_far_outwards, is_tip | leaving", "roots.is_far_outwards, leaving"),
     ], [("stress", "light-place")]),
     Guard("an eye next to a cone is on its own side", [
-        (F + "flat_shapes.cpp", "constexpr double eye_ulps = 8;", "constexpr double eye_ulps = 0;"),
+        (F + "flat_shapes.h", "constexpr double eye_ulps = 8;", "constexpr double eye_ulps = 0;"),
     ], [("stress", "eye-place")]),
     Guard("an eye on a surface starts by leaving it", [
         (F + "flat_scene.cpp", "eye_is_on_surface() ? 1 : 0", "0"),
@@ -150,7 +150,7 @@ GUARDS = [
         (K + "math.cl", "return make3(limited(v.x), limited(v.y), limited(v.z));", "return v;"),
     ], [("stress", "bright-mirrors")]),
     Guard("boxes are enlarged", [
-        (F + "flat_shapes.cpp", "T(box_slack) * Flat<T>::roundoff", "T(0) * Flat<T>::roundoff"),
+        (F + "flat_shapes.h", "T(box_slack) * Flat<T>::roundoff", "T(0) * Flat<T>::roundoff"),
     ], [("geometry_hits_test", "Hits.*"), ("kernel_hits_test", "DeviceHits.*")]),
     Guard("and by the origin's share", [
         (K + "bvh.cl", "(Reals)((Real)16 * (Real)RT_ROUNDOFF) * max_of", "(Reals)0 * max_of"),
@@ -213,7 +213,7 @@ GUARDS = [
         (K + "whitted.cl", "Mask moved = (glassy | inside) &", "Mask moved = glassy &"),
     ], [("geometry_touching_test", "Touching*SmallerThanRounding*")]),
     Guard("a tiny index of refraction is not 0", [
-        (F + "flat_shapes.cpp", "std::numeric_limits<T>::min()", "T(0)"),
+        (F + "flat_shapes.h", "std::numeric_limits<T>::min()", "T(0)"),
     ], [("geometry_touching_test", "Touching*HeadOn*")]),
     Guard("hierarchies are no deeper than a traversal's stack", [
         (F + "bvh_split.cpp", "range.depth + halvings >= max_bvh_depth",
