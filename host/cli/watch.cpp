@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
-#include <map>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -17,8 +16,6 @@ namespace rt {
 namespace {
 
 constexpr std::chrono::milliseconds look_interval(100);
-
-using FileStates = std::map<std::string, FileState>;
 
 FileStates states_of(FileStates files) {
     for (auto& [file, state] : files) state = state_of(file);

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -104,11 +105,11 @@ constexpr Foreign foreign_starts[] = {
     {"\xff\xd8\xff", "is a picture; use a scene or a model"}};
 
 std::mutex asked_mutex;
-std::map<std::string, FileState> asked_files;
+std::optional<FileStates> asked_files;  // none before they are first taken
 
 void note_asked(const std::string& path) {
     const std::scoped_lock lock(asked_mutex);
-    asked_files.try_emplace(path, state_of(path));
+    if (asked_files) asked_files->try_emplace(path, state_of(path));
 }
 
 struct stat status_of(const FileDescriptor& file, const std::string& path) {
@@ -161,9 +162,9 @@ FileState state_of(const std::string& path) {
     return {status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
-std::map<std::string, FileState> take_asked_files() {
+FileStates take_asked_files() {
     const std::scoped_lock lock(asked_mutex);
-    return std::exchange(asked_files, {});
+    return std::exchange(asked_files, FileStates()).value_or(FileStates());
 }
 
 FileDescriptor open_text_file(const std::string& path) {

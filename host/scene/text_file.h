@@ -33,11 +33,12 @@ class FileText {
 /// What changes when a file is written in place or replaced: inode, size and time; zeros if it does
 /// not exist.
 using FileState = std::tuple<ino_t, off_t, std::int64_t, std::int64_t>;
+using FileStates = std::map<std::string, FileState>;
 FileState state_of(const std::string& path);
 
 /// The files that open_text_file and open_beneath were asked for since the last call, there or not,
-/// and their states just before that.
-std::map<std::string, FileState> take_asked_files();
+/// and their states just before that; none by the first call, from which on they are noted.
+FileStates take_asked_files();
 
 /// Opens a regular file. Throws Error, ExitCode::input with "path: what is wrong; what to do", when
 /// it is missing, unreadable or not a regular file: a pipe or a device never hangs the program.
