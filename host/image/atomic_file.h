@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/stat.h>
-
-#include <atomic>
 #include <cstddef>
-#include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -15,38 +10,10 @@
 
 namespace rt {
 
-/// A new file ".mirrorball-PID-SERIAL.tmp" in a directory, with the mode of an ordinary new file;
-/// it is deleted unless renamed. While it is open, its process holds a lock on it (flock) to mark
-/// it as in use.
-class TemporaryFile {
-   public:
-    /// Throws Error(ExitCode::output) naming `path`, the file it will become.
-    TemporaryFile(const std::string& path, const std::filesystem::path& directory);
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile();
-
-    const FileDescriptor& file() const { return file_; }
-
-    /// Closes it and renames it; false with errno when either fails.
-    bool rename_to(const std::filesystem::path& name);
-
-   private:
-    std::string name_;
-    FileDescriptor file_;
-    std::atomic<const char*>* listed_ = nullptr;  ///< its slot for unlink_temporaries()
-};
-
-/// Removes this process's open temporary files. For signal handlers that end the process.
-void unlink_temporaries();
-
-/// Removes temporary files that killed processes left in a directory, never one that a living
-/// process holds. Scans each directory only once; ignores what cannot be read or removed.
-void remove_abandoned_temporaries(const std::filesystem::path& directory);
-
-/// Writes a file whole or not at all: to a temporary file next to it, then fsync and rename. A
-/// reader sees the old bytes or the new ones; without commit() the old ones stay and no temporary
-/// is left (those of killed processes are removed the next time a file is written there).
+/// Writes a file whole or not at all: to a temporary file in its directory, then fsync and rename.
+/// A reader sees the old bytes or the new ones; without commit() the old ones stay. The temporary
+/// file has no name until it is complete, so a killed process leaves none, except on file systems
+/// that must name it (NFS).
 ///
 /// A symlink is written through, never replaced. An existing file keeps its permissions and must
 /// be writable; a new one gets 0666 less the umask. A hard link to the old file keeps the old
@@ -57,15 +24,21 @@ void remove_abandoned_temporaries(const std::filesystem::path& directory);
 class AtomicFile {
    public:
     explicit AtomicFile(const std::string& path);
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+    ~AtomicFile();
 
     void write(std::span<const std::byte> bytes);
     void commit();
 
    private:
+    template <typename Create>
+    void name_temporary(Create create);
+
     const std::string path_;
     const OutputDestination destination_;
-    std::optional<TemporaryFile> temporary_;
-    FileDescriptor file_;  ///< the temporary one, or the destination itself
+    FileDescriptor file_;         ///< the temporary file, or the destination itself
+    std::string temporary_name_;  ///< empty while it has none
 };
 
 /// Writes the whole file in one call.

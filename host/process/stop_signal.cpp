@@ -14,7 +14,6 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/image/atomic_file.h"
 
 namespace rt {
 
@@ -68,7 +67,6 @@ void write_line(std::string_view a, std::string_view b) {
 
 /// Ends as if unhandled; batch and time-limit signals exit instead (SIGXCPU would dump core).
 [[noreturn]] void end_by(const StopSignal& signal) {
-    unlink_temporaries();
     if (!signal.by_hand) {
         const int status = exit_code_of_stop(signal.number);
         if (exit_listener != nullptr) exit_listener(status);

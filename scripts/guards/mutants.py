@@ -225,13 +225,8 @@ MUTANTS = [
          "destination.in_place = true;"),
     ], [("host_atomic_file_test", "WriteFileAtomically.*")]),
     Mutant("replaced pictures lose their mode", [
-        (I + "atomic_file.cpp", "if (destination_.existing) {", "if (false) {"),
+        (I + "atomic_file.cpp", "&& destination_.existing) {", "&& false) {"),
     ], [("host_atomic_file_test", "WriteFileAtomically.*")]),
-    Mutant("temporary files of living processes are removed", [
-        (I + "atomic_file.cpp", "return ::kill(process, 0) == 0 || errno != ESRCH;",
-         "return process == 0;"),
-        (I + "atomic_file.cpp", "::flock(open.number(), LOCK_EX | LOCK_NB) == 0", "true"),
-    ], [("host_atomic_file_test", "AbandonedTemporaries.*")]),
     Mutant("an output may be an input", [
         (I + "output_path.cpp", "names_.find({status.st_dev, status.st_ino})",
          "names_.find({status.st_dev, 0})"),
@@ -240,10 +235,6 @@ MUTANTS = [
         (I + "built_in_formats.cpp", "check_stored_size(path_, stored, 1032, file_size);",
          "check_stored_size(path_, 0, 1032, file_size);"),
     ], [("host_picture_read_test", "ReadPicture.PngThatPromises*")]),
-    Mutant("EXR channels may share a name", [
-        (I + "modules/exr_module.cpp", "if (!header.channels.insert(name).second)",
-         "if (!header.channels.insert(name).second && false)"),
-    ], [("host_picture_read_test", "ReadPicture.ExrWith*")]),
     Mutant("PLY indices past the end pass", [
         (S + "ply_file.cpp", "index < static_cast<double>(all.size())",
          "index <= static_cast<double>(all.size())"),
