@@ -27,4 +27,5 @@ add_fuzz_target(fuzz_nff_scene mirrorball_threads
 add_fuzz_target(fuzz_png_picture mirrorball_image ${CMAKE_SOURCE_DIR}/tests/pictures)
 add_fuzz_target(fuzz_journal mirrorball_journal ${CMAKE_SOURCE_DIR}/tests/journals)
 add_fuzz_target(fuzz_exr_picture OpenEXR::OpenEXR ${CMAKE_SOURCE_DIR}/tests/pictures)
+target_link_libraries(fuzz_exr_picture PRIVATE OpenEXR::OpenEXRCore)
 target_sources(fuzz_exr_picture PRIVATE ${CMAKE_SOURCE_DIR}/host/image/modules/exr_module.cpp)
