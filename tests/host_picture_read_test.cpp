@@ -41,19 +41,14 @@ TEST_F(ReadPicture, RefusesUnreadableFiles) {
     EXPECT_EQ(refusal_of([&] { read_picture(path("a.png")); }).exit_code, ExitCode::input);
 }
 
-TEST_F(ReadPicture, TheFirstBytesTellTheFormatAndANameMayNotDenyIt) {
+TEST_F(ReadPicture, TheExtensionTellsTheFormat) {
     write_picture(path("a.exr"), difficult_picture(), Encoding::display);
-    fs::copy_file(path("a.exr"), path("picture"));
-    EXPECT_EQ(bits(read_picture(path("picture"))), bits(difficult_picture()));
-    for (const char* name : {"b.png", "b.tif", "b.tga", "b.pfm"}) {
+    for (const char* name : {"a.png", "a.tif", "a.tga", "a.pfm", "a.jpg", "a", "a.text"}) {
         fs::copy_file(path("a.exr"), path(name));
         const auto [code, message] = refusal_of([&] { read_picture(path(name)); });
         EXPECT_EQ(code, ExitCode::input) << name;
-        EXPECT_EQ(message, path(name) + ": contains EXR data; correct its extension");
+        EXPECT_EQ(message.find(path(name) + ": "), 0u) << message;
     }
-    put(path("c.png"), "no picture at all");
-    EXPECT_EQ(refusal_of([&] { read_picture(path("c.png")); }).message,
-              path("c.png") + ": is not a valid PNG file; save it again");
 }
 
 TEST_F(ReadPicture, AHeaderHasSizeAndMetadata) {
@@ -276,7 +271,8 @@ TEST_F(ReadPicture, TiffThatPromisesTooMuchTakesNoMemory) {
 }
 
 TEST_F(ReadPicture, ExrThatPromisesTooMuchTakesNoMemory) {
-    const std::string wide("\xff\xff\0\0", 4), narrow("\x0f\0\0\0", 4), most("\xff\xff\xff\x7f", 4);
+    const std::string wide("\xff\xff\0\0", 4), narrow("\x0f\0\0\0", 4), half("\xff\x7f\0\0", 4),
+        most("\xff\xff\xff\x7f", 4);
     const std::string tiles("tiles\0tiledesc\0\x09\0\0\0", 19);
     const char zip = 3, dwab = 9, tiled = 2;
     const std::string files[] = {
@@ -288,6 +284,8 @@ TEST_F(ReadPicture, ExrThatPromisesTooMuchTakesNoMemory) {
         exr_start(exr_window(narrow, narrow) + tiles + most + most + '\0', zip, tiled),
         exr_start(exr_window(wide, narrow) + tiles + std::string("\1\0\0\0\1\0\0\0\0", 9), zip,
                   tiled),
+        exr_start(exr_window(half, half) + tiles + std::string("\1\0\0\0\1\0\0\0\0", 9), zip,
+                  tiled),
         exr_start(exr_window(narrow, narrow), zip),  // no rows follow
         exr_start("", zip),
     };
@@ -297,23 +295,12 @@ TEST_F(ReadPicture, ExrThatPromisesTooMuchTakesNoMemory) {
     }
 }
 
-// OpenEXR reads one of them; the second channel's values would be missing.
-TEST_F(ReadPicture, ExrWithTwoChannelsOfOneNameIsRefused) {
-    const std::string file = std::string(MIRRORBALL_PICTURES_DIR) + "/channel-twice.exr";
-    expect_cheap_refusal(file, "two channels have the same name");
-}
-
-// Found by fuzzing: OpenEXR reads the one, and our limits looked at the other.
-TEST_F(ReadPicture, ExrWhoseHeaderGivesTwoSizesIsRefused) {
-    const std::string file = std::string(MIRRORBALL_PICTURES_DIR) + "/two-sizes.exr";
-    expect_cheap_refusal(file, "disagree on the size");
-}
-
-// OpenEXR takes the union of all lists of channels.
-TEST_F(ReadPicture, ExrWithAChannelInTwoListsIsRefused) {
-    const std::string list("channels\0chlist\0\x13\0\0\0G\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0\0", 39);
-    put(path("a.exr"), exr_start(exr_window(std::string(4, '\0'), std::string(4, '\0')) + list, 0));
-    expect_cheap_refusal(path("a.exr"), "two channels have the same name");
+// OpenEXR reads one of them, and the other's values would be missing; found by fuzzing.
+TEST_F(ReadPicture, ExrThatSaysAThingTwiceIsRefused) {
+    const std::string folder = std::string(MIRRORBALL_PICTURES_DIR) + "/";
+    for (const char* name : {"channel-twice.exr", "two-sizes.exr"}) {
+        expect_cheap_refusal(folder + name, "in part header");
+    }
 }
 
 /// 11x7 pixels as other programs write them, and what OpenImageIO reads (22 Nov 2026).

@@ -52,39 +52,4 @@ PictureFormat picture_format_of_name(const std::string& path) {
                                   : "unknown extension '" + extension + "'");
 }
 
-std::optional<PictureFormat> picture_format_of_bytes(std::string_view first_bytes) {
-    struct Signature {
-        std::string_view bytes;
-        PictureFormat format;
-    };
-    using namespace std::string_view_literals;
-    static constexpr Signature signatures[] = {
-        {"\x89PNG\r\n\x1a\n"sv, PictureFormat::png},
-        {"\x76\x2f\x31\x01"sv, PictureFormat::exr},
-        {"PF"sv, PictureFormat::pfm},
-        {"Pf"sv, PictureFormat::pfm},
-        {"\xff\xd8\xff"sv, PictureFormat::jpeg},
-        {"II*\0"sv, PictureFormat::tiff},
-        {"MM\0*"sv, PictureFormat::tiff},
-        {"II+\0"sv, PictureFormat::tiff},
-        {"MM\0+"sv, PictureFormat::tiff},
-        {"#?RADIANCE"sv, PictureFormat::hdr},
-        {"#?RGBE"sv, PictureFormat::hdr},
-        {"BM"sv, PictureFormat::bmp},
-        {"SDPX"sv, PictureFormat::dpx},
-        {"XPDS"sv, PictureFormat::dpx},
-    };
-    for (const Signature& signature : signatures) {
-        if (first_bytes.starts_with(signature.bytes)) return signature.format;
-    }
-    if (first_bytes.starts_with("RIFF") &&
-        first_bytes.substr(std::min(8ul, first_bytes.size())).starts_with("WEBP")) {
-        return PictureFormat::webp;
-    }
-    const bool is_pnm = first_bytes.size() > 1 && first_bytes[0] == 'P' && first_bytes[1] >= '1' &&
-                        first_bytes[1] <= '6';
-    if (is_pnm) return PictureFormat::pnm;
-    return std::nullopt;
-}
-
 }  // namespace rt

@@ -31,7 +31,4 @@ std::optional<PictureFormat> known_picture_format(const std::string& path);
 /// The same; throws Error(ExitCode::usage) with the list of formats if unknown.
 PictureFormat picture_format_of_name(const std::string& path);
 
-/// The format that a file's first 16 bytes identify; empty if they do not, as in TGA.
-std::optional<PictureFormat> picture_format_of_bytes(std::string_view first_bytes);
-
 }  // namespace rt

@@ -50,29 +50,6 @@ const PictureModule& picture_module(PictureFormat format, ExitCode failure) {
 
 namespace {
 
-/// The format by first bytes, unless the extension contradicts it; TGA has no magic number.
-PictureFormat find_format(const std::string& path, InputFile& file) {
-    char first_bytes[16] = {};
-    file.stream.read(first_bytes, sizeof first_bytes);
-    const auto count = static_cast<std::size_t>(file.stream.gcount());
-    file.stream.clear();
-    file.stream.seekg(0);
-    if (count == 0) refuse_picture(path, "is empty", "save it again");
-    const auto named = known_picture_format(path);
-    const auto held = picture_format_of_bytes({first_bytes, count});
-    if (held && (!named || named == held)) return *held;
-    if (held) {
-        refuse_picture(path, fmt::format("contains {} data", facts_of(*held).name),
-                       "correct its extension");
-    }
-    if (named == PictureFormat::tga) return *named;
-    if (named)
-        refuse_picture(path, fmt::format("is not a valid {} file", facts_of(*named).name),
-                       "save it again");
-    refuse_picture(path, "is not in a supported format",
-                   "use a PNG, EXR, PFM, TIFF, JPEG, WebP, HDR, TGA, BMP, PNM or DPX file");
-}
-
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && text.back() == ' ') text.pop_back();
@@ -113,10 +90,15 @@ PictureFile read_with_module(const std::string& path, PictureFormat format, Inpu
 
 PictureFile read(const std::string& path, bool with_pixels) try {
     InputFile file = open_input_file(path);
-    const PictureFormat format = find_format(path, file);
+    const auto format = known_picture_format(path);
+    if (!format) {
+        refuse_picture(path, "has no extension of a picture format",
+                       "use a .png, .exr, .pfm, .tif, .jpg, .webp, .hdr, .tga, .bmp, .ppm or .dpx");
+    }
+    if (file.size == 0) refuse_picture(path, "is empty", "save it again");
     if (format == PictureFormat::png) return read_png(path, file.stream, file.size, with_pixels);
     if (format == PictureFormat::pfm) return {read_pfm(path, std::move(file), with_pixels), {}};
-    return read_with_module(path, format, std::move(file), with_pixels);
+    return read_with_module(path, *format, std::move(file), with_pixels);
 } catch (const std::bad_alloc&) {
     throw Error(ExitCode::limit, path + ": not enough memory for its pixels; scale it down first");
 }

@@ -41,11 +41,10 @@ void check_picture_path(const std::string& path, std::optional<PictureFormat> fo
 void check_picture_fits(const std::string& path, int width, int height,
                         std::optional<PictureFormat> format = {});
 
-/// Reads a picture of any format in picture_format.h, recognized by its first bytes; refuses a name
-/// with another format's extension. Integers become exactly v / 255 or v / 65535, floats are
-/// unchanged; no color conversion, alpha as stored. Regular files only; checks the size
-/// (check_picture_size) and free memory before allocating. Throws Error(ExitCode::input), or limit
-/// when memory is short.
+/// Reads a picture in the format of its extension, any in picture_format.h. Integers become exactly
+/// v / 255 or v / 65535, floats are unchanged; no color conversion, alpha as stored. Regular files
+/// only; checks the size (check_picture_size) and free memory before allocating. Throws
+/// Error(ExitCode::input), or limit when memory is short.
 Picture read_picture(const std::string& path);
 
 /// The same with the file's metadata, in file order. Names other than "mirrorball:..." come from
