@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <cstdint>
-#include <initializer_list>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -20,17 +19,6 @@ using Fixed = Scene::FieldOfView::Fixed;
 
 constexpr int max_max_bounces = 100000;
 
-constexpr std::string_view scene_keys[] = {
-    "$schema",     "description", "name",          "camera", "image",
-    "max_bounces", "background",  "ambient_light", "lights", "materials",
-    "spheres",     "cones",       "triangles",     "meshes", "path"};
-constexpr std::string_view image_keys[] = {"width", "height", "aa"};
-constexpr std::string_view camera_keys[] = {"type",     "from",   "at",     "up",   "fov_degrees",
-                                            "fov_axis", "window", "height", "width"};
-constexpr std::string_view path_keys[] = {"interpolation", "keys", "turntable"};
-constexpr std::string_view key_keys[] = {"frame",       "from",   "at",   "up",
-                                         "fov_degrees", "height", "width"};
-
 std::optional<AaMode> read_aa(const JsonField& field) {
     const auto text = read_string(field);
     if (!text) return std::nullopt;
@@ -44,10 +32,11 @@ std::optional<int> read_side(const JsonField& field) {
 }
 
 void read_image(const JsonValue& value, Scene& scene, Mistakes& mistakes) {
-    const ObjectReader reader(value, "the image", image_keys, mistakes);
+    ObjectReader reader(value, "the image", mistakes);
     reader.optional("width", scene.width, read_side);
     reader.optional("height", scene.height, read_side);
     reader.optional("aa", scene.aa, read_aa);
+    reader.refuse_others();
     const auto pixels = static_cast<std::int64_t>(scene.width) * scene.height;
     if (pixels <= max_image_pixels) return;
     mistakes.add(value.offset, "the image has {} pixels; make it {} at most", pixels,
@@ -70,18 +59,8 @@ std::optional<Scene::Window> read_window(const JsonField& field) {
         "bottom < top");
 }
 
-/// Notes every key that does not apply; `why` continues "is not allowed".
-void refuse_keys(const ObjectReader& camera, std::initializer_list<std::string_view> unwanted,
-                 std::string_view why) {
-    for (const std::string_view key : unwanted) {
-        if (const JsonMember* member = camera.find_member(key)) {
-            camera.mistakes().add(member->key_offset, "{} is not allowed {}", in_quotes(key), why);
-        }
-    }
-}
-
 /// The one of the keys that is present; notes it if there is none, or more.
-std::optional<std::string_view> find_only(const ObjectReader& camera, const JsonValue& value,
+std::optional<std::string_view> find_only(ObjectReader& camera, const JsonValue& value,
                                           std::span<const std::string_view> wanted) {
     std::optional<std::string_view> only;
     int count = 0;
@@ -96,27 +75,17 @@ std::optional<std::string_view> find_only(const ObjectReader& camera, const Json
     return std::nullopt;
 }
 
-void read_perspective(const ObjectReader& reader, const JsonValue& value, Scene::Camera& camera) {
-    refuse_keys(reader, {"width", "height"},
-                "in a perspective camera; use fov_degrees or window, or \"type\": "
-                "\"orthographic\"");
+void read_perspective(ObjectReader& reader, const JsonValue& value, Scene::Camera& camera) {
     const auto key = find_only(reader, value, {{"fov_degrees", "window"}});
-    if (key == "window") {
-        refuse_keys(reader, {"fov_axis"},
-                    "in a camera with a window; remove it or use fov_degrees");
-    } else if (key) {
-        camera.field_of_view.fixed = Fixed::vertical;
-        reader.optional("fov_axis", camera.field_of_view.fixed, [](const JsonField& field) {
-            return read_choice(field, field.name, fov_axes);
-        });
-        reader.optional("fov_degrees", camera.field_of_view.amount, read_angle);
-    }
+    if (key == "window") return;
+    camera.field_of_view.fixed = Fixed::vertical;
+    reader.optional("fov_axis", camera.field_of_view.fixed, [](const JsonField& field) {
+        return read_choice(field, field.name, fov_axes);
+    });
+    if (key) reader.optional("fov_degrees", camera.field_of_view.amount, read_angle);
 }
 
-void read_orthographic(const ObjectReader& reader, const JsonValue& value, Scene::Camera& camera) {
-    refuse_keys(reader, {"fov_degrees", "fov_axis"},
-                "in an orthographic camera; use height, width or window, or \"type\": "
-                "\"perspective\"");
+void read_orthographic(ObjectReader& reader, const JsonValue& value, Scene::Camera& camera) {
     const auto key = find_only(reader, value, {{"height", "width", "window"}});
     if (!key || key == "window") return;
     camera.field_of_view.fixed = key == "height" ? Fixed::view_height : Fixed::view_width;
@@ -126,7 +95,7 @@ void read_orthographic(const ObjectReader& reader, const JsonValue& value, Scene
 /// Reads the "camera" object; camera_window computes the window unless the file gives one.
 Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes) {
     Scene::Camera camera;
-    const ObjectReader reader(value, "the camera", camera_keys, mistakes);
+    ObjectReader reader(value, "the camera", mistakes);
     if (!reader.is_object()) return camera;
     const std::size_t before = mistakes.count();
     reader.required("from", "\"from\": [x, y, z], where the eye is", camera.from, read_vec3);
@@ -149,6 +118,7 @@ Scene::Camera read_camera(const JsonValue& value, Mistakes& mistakes) {
     } else {
         read_orthographic(reader, value, camera);
     }
+    reader.refuse_others();
     return camera;
 }
 
@@ -158,27 +128,20 @@ constexpr Named<Fixed> extents[] = {{"fov_degrees", Fixed::horizontal},
                                     {"width", Fixed::view_width},
                                     {"height", Fixed::view_height}};
 
-void read_extent(const ObjectReader& reader, Scene::Camera& camera) {
-    const std::string_view own = name_of(extents, camera.field_of_view.fixed);
-    const std::string why =
-        fmt::format("here: the scene's camera gives {}", own.empty() ? "a window" : in_quotes(own));
-    for (const std::string_view key : {"fov_degrees", "width", "height"}) {
-        if (key != own) refuse_keys(reader, {key}, why);
-    }
-    if (own.empty()) return;
-    reader.optional(own, camera.field_of_view.amount,
-                    own == "fov_degrees" ? read_angle : read_positive);
-}
-
 Scene::CameraPath::Key read_key(const JsonField& item, const Scene::Camera& camera) {
     Scene::CameraPath::Key key{0, camera};
-    const ObjectReader reader(item.value, "a key of the path", key_keys, item.mistakes);
+    ObjectReader reader(item.value, "a key of the path", item.mistakes);
     const std::size_t before = item.mistakes.count();
     reader.required("frame", "\"frame\": 1", key.frame, read_number);
     reader.optional("from", key.camera.from, read_vec3);
     reader.optional("at", key.camera.at, read_vec3);
     reader.optional("up", key.camera.up, read_vec3);
-    read_extent(reader, key.camera);
+    const std::string_view extent = name_of(extents, camera.field_of_view.fixed);
+    if (!extent.empty()) {
+        reader.optional(extent, key.camera.field_of_view.amount,
+                        extent == "fov_degrees" ? read_angle : read_positive);
+    }
+    reader.refuse_others();
     if (item.mistakes.count() != before) return key;
     if (const auto mistake = find_axes_mistake(key.camera.from, key.camera.at, key.camera.up)) {
         item.refuse("{}", mistake->message);
@@ -202,22 +165,23 @@ std::vector<Scene::CameraPath::Key> turntable(const Scene::Camera& camera, int f
 Scene::CameraPath read_camera_path(const JsonValue& value, const Scene::Camera& camera,
                                    Mistakes& mistakes) {
     Scene::CameraPath path;
-    const ObjectReader reader(value, "the path", path_keys, mistakes);
+    ObjectReader reader(value, "the path", mistakes);
     reader.optional("interpolation", path.is_smooth, [](const JsonField& field) {
         return read_choice(field, field.name, interpolations);
     });
     int frames = 0;
     reader.optional("turntable", frames,
                     [](const JsonField& field) { return read_integer(field, 2, 100000); });
-    if (const JsonValue* whole = reader.find("turntable")) {
-        if (reader.find("keys")) {
+    const JsonValue* whole = reader.find("turntable");
+    const JsonValue* keys = reader.find("keys");
+    reader.refuse_others();
+    if (whole) {
+        if (keys)
             mistakes.add(whole->offset, "a path has either 'turntable' or 'keys'; remove one");
-        }
         path.keys = turntable(camera, frames);
         return path;
     }
-    const JsonValue* keys =
-        reader.require("keys", "\"keys\": [{\"frame\": 1, \"from\": [0, 0, 5]}]");
+    keys = reader.require("keys", "\"keys\": [{\"frame\": 1, \"from\": [0, 0, 5]}]");
     const auto* items = keys ? read_array({*keys, "keys", mistakes}) : nullptr;
     if (!items) return path;
     if (items->empty()) mistakes.add(keys->offset, "the path has no keys; give one or more");
@@ -243,7 +207,7 @@ std::optional<std::string> read_name(const JsonField& field) {
 }
 
 /// Reads all but the objects.
-void read_settings(const ObjectReader& reader, Scene& scene) {
+void read_settings(ObjectReader& reader, Scene& scene) {
     Mistakes& mistakes = reader.mistakes();
     std::string ignored;  // for editors and people
     reader.optional("$schema", ignored, read_string);
@@ -251,10 +215,11 @@ void read_settings(const ObjectReader& reader, Scene& scene) {
     reader.optional("name", scene.name, read_name);
     constexpr std::string_view example =
         "\"camera\": {\"from\": [0, 0, 5], \"at\": [0, 0, 0], \"fov_degrees\": 60}";
-    if (const JsonValue* camera = reader.require("camera", example)) {
+    const JsonValue* camera = reader.require("camera", example);
+    const JsonValue* path = reader.find("path");
+    if (camera) {
         const std::size_t before = mistakes.count();
         scene.camera = read_camera(*camera, mistakes);
-        const JsonValue* path = reader.find("path");
         if (path && mistakes.count() == before) {
             scene.path = read_camera_path(*path, scene.camera, mistakes);
         }
@@ -309,10 +274,11 @@ Scene parse_json_scene(std::string_view text, const std::string& file_name) {
     Mistakes mistakes(text, file_name);
     const JsonValue root = parse_json(mistakes);
     const SceneFolder folder = SceneFolder::of(file_name);
-    const ObjectReader reader(root, "the scene", scene_keys, mistakes);
+    ObjectReader reader(root, "the scene", mistakes);
     Scene scene;
     read_settings(reader, scene);
     const std::vector<MeshRequest> meshes = read_objects(reader, folder, scene);
+    reader.refuse_others();
     mistakes.throw_if_any();
     load_meshes(meshes, folder, scene, mistakes);
     mistakes.throw_if_any();

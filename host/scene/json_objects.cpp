@@ -48,54 +48,12 @@ std::optional<glm::dvec3> read_reflectance(const JsonField& field) {
     return refuse_number(field, brightest, fmt::format("{} at most", max_reflectance));
 }
 
-/// A key, and what other programs call it, where that is not spelled much like it.
-struct Synonyms {
-    std::string_view key;
-    std::string_view others[5];
-};
-
-constexpr Synonyms synonyms[] = {{"position", {"pos", "location"}},
-                                 {"from", {"pos", "position", "location", "origin", "eye"}},
-                                 {"center", {"pos", "position"}},
-                                 {"translate", {"position"}},
-                                 {"at", {"look_at", "lookat", "target"}},
-                                 {"diffuse", {"color", "colour"}},
-                                 {"intensity", {"color", "colour", "power", "brightness"}},
-                                 {"mirror", {"reflection", "reflectivity"}},
-                                 {"ior", {"refraction"}},
-                                 {"transmission", {"opacity"}},
-                                 {"shininess", {"exponent"}},
-                                 {"aa", {"samples", "antialiasing"}},
-                                 {"width", {"size", "resolution"}},
-                                 {"vertices", {"points"}},
-                                 {"file", {"path"}},
-                                 {"rotate_degrees", {"rotation"}},
-                                 {"max_bounces", {"depth"}}};
-
-std::string guess(std::string_view key, std::span<const std::string_view> known) {
-    for (const auto& [meant, others] : synonyms) {
-        const bool fits = !key.empty() && std::ranges::find(others, key) != std::end(others) &&
-                          std::ranges::find(known, meant) != known.end();
-        if (fits) return fmt::format("did you mean {}?", in_quotes(meant));
-    }
-    return suggestion(key, known, "known keys are");
-}
-
-constexpr std::string_view material_keys[] = {"ambient",      "diffuse",   "specular", "mirror",
-                                              "transmission", "shininess", "ior",      "two_sided"};
-constexpr std::string_view light_keys[] = {"position", "intensity"};
-constexpr std::string_view sphere_keys[] = {"center", "radius", "material"};
-constexpr std::string_view cone_keys[] = {"base", "base_radius", "apex", "apex_radius", "material"};
-constexpr std::string_view triangle_keys[] = {"vertices", "normals", "material"};
-constexpr std::string_view mesh_keys[] = {"file", "material", "transform"};
-constexpr std::string_view transform_keys[] = {"scale", "rotate_degrees", "translate"};
-
 using Corners = std::array<glm::dvec3, 3>;
 
 Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
     Scene::Material material;
     material.name = printable(member.key);
-    const ObjectReader reader(member.value, "a material", material_keys, mistakes);
+    ObjectReader reader(member.value, "a material", mistakes);
     reader.optional("ambient", material.ambient, read_reflectance);
     reader.optional("diffuse", material.diffuse, read_reflectance);
     reader.optional("specular", material.specular, read_reflectance);
@@ -104,6 +62,7 @@ Scene::Material read_material(const JsonMember& member, Mistakes& mistakes) {
     reader.optional("ior", material.ior, read_positive);
     reader.optional("shininess", material.shininess, read_not_negative);
     reader.optional("two_sided", material.two_sided, read_bool);
+    reader.refuse_others();
     return material;
 }
 
@@ -152,7 +111,7 @@ class MaterialTable {
     bool readable_ = true;  ///< false: names are unknown, so all are accepted
 };
 
-void read_material_of(const ObjectReader& reader, const MaterialTable& materials, int& target) {
+void read_material_of(ObjectReader& reader, const MaterialTable& materials, int& target) {
     reader.required("material", "\"material\": \"name\"", target,
                     [&](const JsonField& field) { return materials.read_reference(field); });
 }
@@ -194,10 +153,11 @@ std::optional<glm::dvec3> read_scale(const JsonField& field) {
 
 std::optional<Affine> read_steps(const JsonField& field) {
     glm::dvec3 scale(1), degrees(0), translation(0);
-    const ObjectReader reader(field.value, "the transform", transform_keys, field.mistakes);
+    ObjectReader reader(field.value, "the transform", field.mistakes);
     reader.optional("scale", scale, read_scale);
     reader.optional("rotate_degrees", degrees, read_vec3);
     reader.optional("translate", translation, read_vec3);
+    reader.refuse_others();
     return make_affine(scale, degrees, translation);
 }
 
@@ -238,26 +198,28 @@ std::optional<std::string> read_file_name(const JsonField& field, const SceneFol
 
 Scene::Light read_light(const JsonField& item) {
     Scene::Light light;
-    const ObjectReader reader(item.value, "a light", light_keys, item.mistakes);
+    ObjectReader reader(item.value, "a light", item.mistakes);
     reader.required("position", "\"position\": [x, y, z]", light.position, read_vec3);
     reader.optional("intensity", light.intensity, read_color);
     light.has_own_intensity = reader.find("intensity") != nullptr;
+    reader.refuse_others();
     return light;
 }
 
 Scene::Sphere read_sphere(const JsonField& item, const MaterialTable& materials) {
     Scene::Sphere sphere;
-    const ObjectReader reader(item.value, "a sphere", sphere_keys, item.mistakes);
+    ObjectReader reader(item.value, "a sphere", item.mistakes);
     reader.required("center", "\"center\": [x, y, z]", sphere.center, read_vec3);
     reader.required("radius", "\"radius\": 1", sphere.radius, read_positive);
     read_material_of(reader, materials, sphere.material);
+    reader.refuse_others();
     return sphere;
 }
 
 Scene::Cone read_cone(const JsonField& item, const MaterialTable& materials) {
     Scene::Cone cone;
     Mistakes& mistakes = item.mistakes;
-    const ObjectReader reader(item.value, "a cone", cone_keys, mistakes);
+    ObjectReader reader(item.value, "a cone", mistakes);
     const std::size_t before = mistakes.count();
     reader.required("base", "\"base\": [x, y, z]", cone.base, read_vec3);
     reader.required("base_radius", "\"base_radius\": 1", cone.base_radius, read_not_negative);
@@ -272,16 +234,18 @@ Scene::Cone read_cone(const JsonField& item, const MaterialTable& materials) {
         }
     }
     read_material_of(reader, materials, cone.material);
+    reader.refuse_others();
     return cone;
 }
 
 Scene::Triangle read_triangle(const JsonField& item, const MaterialTable& materials) {
     Scene::Triangle triangle;
-    const ObjectReader reader(item.value, "a triangle", triangle_keys, item.mistakes);
+    ObjectReader reader(item.value, "a triangle", item.mistakes);
     reader.required("vertices", "\"vertices\": [[x, y, z], [x, y, z], [x, y, z]]",
                     triangle.vertices, read_vertices);
     reader.optional("normals", triangle.normals, read_normals);
     read_material_of(reader, materials, triangle.material);
+    reader.refuse_others();
     return triangle;
 }
 
@@ -289,7 +253,7 @@ MeshRequest read_mesh(const JsonField& item, const MaterialTable& materials,
                       const SceneFolder& folder) {
     MeshRequest request;
     request.offset = item.value.offset;
-    const ObjectReader reader(item.value, "a mesh", mesh_keys, item.mistakes);
+    ObjectReader reader(item.value, "a mesh", item.mistakes);
     reader.required("file", "\"file\": \"model.ply\"", request.file,
                     [&](const JsonField& field) { return read_file_name(field, folder); });
     reader.optional("material", request.material,
@@ -298,13 +262,13 @@ MeshRequest read_mesh(const JsonField& item, const MaterialTable& materials,
         reader.require("material", "\"material\": \"name\": PLY files have none");
     }
     reader.optional("transform", request.transform, read_transform);
+    reader.refuse_others();
     return request;
 }
 
 /// Appends read(item) for every item of the array under `key`, if it is there.
 template <class T, class Read>
-void read_list(const ObjectReader& reader, std::string_view key, std::vector<T>& target,
-               Read read) {
+void read_list(ObjectReader& reader, std::string_view key, std::vector<T>& target, Read read) {
     const JsonValue* value = reader.find(key);
     const auto* items = value ? read_array({*value, key, reader.mistakes()}) : nullptr;
     if (!items) return;
@@ -366,32 +330,30 @@ const JsonValue::Array* read_array(const JsonField& field, std::string_view want
     return items;
 }
 
-ObjectReader::ObjectReader(const JsonValue& value, std::string_view what,
-                           std::span<const std::string_view> known_keys, Mistakes& mistakes)
+ObjectReader::ObjectReader(const JsonValue& value, std::string_view what, Mistakes& mistakes)
     : members_(value.as<JsonValue::Object>()), field_{value, what, mistakes} {
-    if (!members_) {
-        refuse_kind(field_, "an object, {...}");
-        return;
-    }
-    for (const JsonMember& member : *members_) {
-        if (std::ranges::find(known_keys, member.key) != known_keys.end()) continue;
-        mistakes.add(member.key_offset, "unknown key {} in {}; {}", in_quotes(member.key), what,
-                     guess(member.key, known_keys));
-    }
+    if (!members_) refuse_kind(field_, "an object, {...}");
 }
 
-const JsonMember* ObjectReader::find_member(std::string_view key) const {
+const JsonValue* ObjectReader::find(std::string_view key) {
+    const auto asked = std::span(asked_).first(asked_count_);
+    if (std::ranges::find(asked, key) == asked.end()) asked_.at(asked_count_++) = key;
     if (!members_) return nullptr;
     const auto found = std::ranges::find(*members_, key, &JsonMember::key);
-    return found == members_->end() ? nullptr : &*found;
+    return found == members_->end() ? nullptr : &found->value;
 }
 
-const JsonValue* ObjectReader::find(std::string_view key) const {
-    const JsonMember* member = find_member(key);
-    return member ? &member->value : nullptr;
+void ObjectReader::refuse_others() const {
+    if (!members_) return;
+    const auto asked = std::span(asked_).first(asked_count_);
+    for (const JsonMember& member : *members_) {
+        if (std::ranges::find(asked, member.key) != asked.end()) continue;
+        mistakes().add(member.key_offset, "unknown key {} in {}; {}", in_quotes(member.key),
+                       field_.name, suggestion(member.key, asked, "known keys are"));
+    }
 }
 
-const JsonValue* ObjectReader::require(std::string_view key, std::string_view example) const {
+const JsonValue* ObjectReader::require(std::string_view key, std::string_view example) {
     const JsonValue* value = find(key);
     if (!value && members_) {
         field_.refuse("{} has no {}; add {}", field_.name, in_quotes(key), example);
@@ -399,7 +361,7 @@ const JsonValue* ObjectReader::require(std::string_view key, std::string_view ex
     return value;
 }
 
-std::vector<MeshRequest> read_objects(const ObjectReader& reader, const SceneFolder& folder,
+std::vector<MeshRequest> read_objects(ObjectReader& reader, const SceneFolder& folder,
                                       Scene& scene) {
     std::vector<MeshRequest> meshes;
     MaterialTable materials(reader.find("materials"), reader.mistakes());

@@ -85,29 +85,29 @@ auto read_items(const JsonField& field, std::string_view wanted_kind, std::strin
     return good ? values : nothing;
 }
 
-/// An object with a fixed set of keys. The constructor notes unknown keys, and a value that is no
-/// object, which then has no members.
+/// An object, whose known keys are those that were asked for. The constructor notes a value that is
+/// no object, which then has no members.
 class ObjectReader {
    public:
     /// `what` names the object in messages: "a sphere".
-    ObjectReader(const JsonValue& value, std::string_view what,
-                 std::span<const std::string_view> known_keys, Mistakes& mistakes);
+    ObjectReader(const JsonValue& value, std::string_view what, Mistakes& mistakes);
 
     bool is_object() const { return members_ != nullptr; }
     Mistakes& mistakes() const { return field_.mistakes; }
-    const JsonMember* find_member(std::string_view key) const;
-    const JsonValue* find(std::string_view key) const;
+    const JsonValue* find(std::string_view key);
     /// Like find, but notes a missing key. `example` shows what to add.
-    const JsonValue* require(std::string_view key, std::string_view example) const;
+    const JsonValue* require(std::string_view key, std::string_view example);
+    /// Notes the keys that were not asked for.
+    void refuse_others() const;
 
     /// Assigns `read(field)` to `target` if the key exists and its value is valid.
     template <class T, class Read>
-    void optional(std::string_view key, T& target, Read read) const {
+    void optional(std::string_view key, T& target, Read read) {
         assign(find(key), key, target, read);
     }
 
     template <class T, class Read>
-    void required(std::string_view key, std::string_view example, T& target, Read read) const {
+    void required(std::string_view key, std::string_view example, T& target, Read read) {
         assign(require(key, example), key, target, read);
     }
 
@@ -120,6 +120,8 @@ class ObjectReader {
 
     const JsonValue::Object* members_;
     JsonField field_;
+    std::array<std::string_view, 16> asked_;  ///< at most: no object has more keys
+    std::size_t asked_count_ = 0;
 };
 
 /// An item of "meshes" without the model itself, which is loaded only if the scene has no other
@@ -132,7 +134,7 @@ struct MeshRequest {
 };
 
 /// Reads a scene's lights, materials and shapes.
-std::vector<MeshRequest> read_objects(const ObjectReader& reader, const SceneFolder& folder,
+std::vector<MeshRequest> read_objects(ObjectReader& reader, const SceneFolder& folder,
                                       Scene& scene);
 
 }  // namespace rt
