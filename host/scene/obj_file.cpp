@@ -32,9 +32,6 @@ constexpr Remedy not_drawn = obj_ignored;
 constexpr std::string_view ignored_words[] = {
     "vt",       "g",      "o",      "s",          "mg",        "lod",   "bevel", "c_interp",
     "d_interp", "usemap", "maplib", "shadow_obj", "trace_obj", "stech", "ctech"};
-constexpr std::string_view free_form_words[] = {
-    "vp",   "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim",
-    "hole", "scrv",   "sp",  "end",  "con",  "bsp",  "bzp",   "cdc",  "cdp",  "res"};
 constexpr std::string_view known_words[] = {"v", "vn", "vt", "f",      "g",     "o",
                                             "s", "l",  "p",  "usemtl", "mtllib"};
 
@@ -181,23 +178,14 @@ class FaceReader {
         } else if (word == "l" || word == "p") {
             notes_.note(not_drawn, offset, "points and lines (p, l) are not drawn");
         } else if (!is_one_of(word, ignored_words)) {
-            notes_.note(obj_ignored, offset, unknown_text(word));
+            notes_.note(obj_ignored, offset, "unknown statement {}; {}", in_quotes(word),
+                        suggestion(word, known_words, "known statements are"));
         }
     }
 
     ObjMaterials::Use rest() {
         const std::size_t offset = scanner_.word_offset();
         return {std::string(scanner_.rest()), offset};
-    }
-
-    static std::string unknown_text(std::string_view word) {
-        std::string advice = suggestion(word, known_words, "known statements are");
-        if (is_one_of(word, free_form_words)) {
-            advice = "curves and surfaces are not supported; export polygons";
-        } else if (word == "call" || word == "csh") {
-            advice = "including files and running commands is not supported";
-        }
-        return fmt::format("unknown statement {}; {}", in_quotes(word), advice);
     }
 
     /// Converts an index from 1, or from -1 backward, to one from 0, and appends it; notes one that
