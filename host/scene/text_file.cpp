@@ -63,20 +63,6 @@ std::size_t read_at(const FileDescriptor& file, const std::string& path, char* t
     return done;
 }
 
-/// Reads a file whose size the system does not report, as in /proc.
-FileText read_unsized(const FileDescriptor& file, const std::string& path, std::size_t max_bytes) {
-    std::vector<char> text;
-    std::size_t size = 0;
-    do {
-        text.resize(size + piece);
-        size += read_at(file, path, text.data() + size, piece, size);
-        require_size(path, size, max_bytes);
-    } while (size == text.size());
-    auto bytes = std::make_unique_for_overwrite<char[]>(size);
-    std::copy_n(text.begin(), size, bytes.get());
-    return {std::move(bytes), size};
-}
-
 struct Foreign {
     std::string_view start, message;
 };
@@ -182,7 +168,6 @@ FileText read_text_file(const FileDescriptor& file, const std::string& path,
                         std::size_t max_bytes) {
     const auto size = static_cast<std::size_t>(status_of(file, path).st_size);
     require_size(path, size, max_bytes);
-    if (size == 0) return read_unsized(file, path, max_bytes);
     auto bytes = std::make_unique_for_overwrite<char[]>(size);
     std::vector<std::size_t> got((size + piece - 1) / piece);
     for_each_run(size, piece, available_cores(), [&](std::size_t first, std::size_t last) {
