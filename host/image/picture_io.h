@@ -22,12 +22,11 @@ namespace rt {
 /// no program name.
 ///
 /// Metadata goes to .png as text chunks and to .exr as string attributes, under its own names; the
-/// other formats drop it. Each name must be "mirrorball:" and then 1 to 20 of [A-Za-z0-9_]. Texts
+/// other formats drop it. Each name is "mirrorball:" and then 1 to 20 of [A-Za-z0-9_]. Texts
 /// are UTF-8 without NUL; an empty one is left out.
 ///
 /// Throws Error: usage for the extension, output when it cannot be written, limit when the format
-/// cannot hold its size, bug for a picture whose size does not match its pixels or an invalid
-/// metadata name.
+/// cannot hold its size.
 void write_picture(const std::string& path, const Picture& picture, Encoding encoding,
                    std::span<const std::pair<std::string, std::string>> metadata = {},
                    std::optional<PictureFormat> format = {});
