@@ -10,7 +10,6 @@
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
 #include "host/measure/machine_load.h"
-#include "host/measure/picture_judge.h"
 #include "host/print/print_run.h"
 
 namespace rt {
@@ -78,103 +77,6 @@ TEST(Pareto, SlopeIsExactWhereTimesAreNearlyEqual) {
         const double expected = std::log(0.25) / std::log1p((later - seconds) / seconds);
         EXPECT_NEAR(log_log_slope(costs).value() / expected, 1, 1e-6) << step;
     }
-}
-
-/// A bright disc on a gradient: smooth, with an edge.
-Picture test_picture(int width = 40, int height = 30) {
-    Picture picture{width, height, 3, {}};
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const bool inside = (x - 20) * (x - 20) + (y - 14) * (y - 14) < 60;
-            for (int c = 0; c < 3; ++c) {
-                const float ramp = 0.2F + 0.001F * static_cast<float>(x + 2 * y + c);
-                picture.pixels.push_back(inside ? 0.9F : ramp);
-            }
-        }
-    }
-    return picture;
-}
-
-TEST(JudgePicture, RoundingsAreRight) {
-    Picture picture = test_picture();
-    for (float& value : picture.pixels) value *= 1 + 2e-7F;
-    const Judgement judgment = judge_picture(picture, test_picture());
-    EXPECT_EQ(judgment.why_wrong, "");
-    EXPECT_GT(judgment.error.rmse, 0);
-    EXPECT_LT(judgment.error.rmse, 1e-6);
-}
-
-TEST(JudgePicture, OnePixelThatARoundingDecidedIsRight) {
-    Picture picture = test_picture();
-    picture.pixels[300] = 0.7F;
-    EXPECT_EQ(judge_picture(picture, test_picture()).why_wrong, "");
-}
-
-TEST(JudgePicture, ATenthOfAnEdgeMayBeRounded) {
-    Picture picture = test_picture(100, 100);
-    const auto change = [&](int pixels) {
-        for (int i = 0; i < pixels; ++i) picture.pixels[static_cast<std::size_t>(303 * i)] += 0.1F;
-        return judge_picture(picture, test_picture(100, 100)).why_wrong;
-    };
-    EXPECT_EQ(change(20), "");
-    EXPECT_NE(change(21), "");
-}
-
-TEST(JudgePicture, NaNPixelIsWrong) {
-    Picture picture = test_picture();
-    picture.pixels[100] = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(judge_picture(picture, test_picture()).why_wrong, "1 pixel is not finite");
-    EXPECT_NE(judge_estimate(picture, test_picture()).why_wrong, "");
-}
-
-TEST(JudgePicture, InfinityIsWrongThoughItWouldClampToOne) {
-    Picture picture = test_picture(), reference = test_picture();
-    reference.pixels[100] = 1;
-    picture.pixels[100] = std::numeric_limits<float>::infinity();
-    EXPECT_NE(judge_picture(picture, reference).why_wrong, "");
-}
-
-TEST(JudgePicture, AllBlackIsWrongUnlessItShouldBe) {
-    Picture black = test_picture();
-    for (float& value : black.pixels) value = 0;
-    EXPECT_EQ(judge_picture(black, test_picture()).why_wrong, "the picture is all black");
-    EXPECT_EQ(judge_picture(black, black).why_wrong, "");
-}
-
-TEST(JudgePicture, ShiftByOnePixelIsWrong) {
-    const Picture reference = test_picture();
-    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}}) {
-        Picture shifted = reference;
-        for (int y = 1; y < 29; ++y) {
-            for (int x = 1; x < 39; ++x) {
-                for (int c = 0; c < 3; ++c) {
-                    shifted.pixels[static_cast<std::size_t>((y * 40 + x) * 3 + c)] =
-                        reference
-                            .pixels[static_cast<std::size_t>(((y - dy) * 40 + x - dx) * 3 + c)];
-                }
-            }
-        }
-        EXPECT_NE(judge_picture(shifted, reference).why_wrong.find("shifted"), std::string::npos)
-            << dx << "," << dy;
-    }
-}
-
-TEST(JudgePicture, SmoothPictureShiftedByOneIsWrongToo) {
-    Picture reference{64, 8, 3, {}}, shifted{64, 8, 3, {}};
-    for (int i = 0; i < 64 * 8; ++i) {
-        for (int c = 0; c < 3; ++c) {
-            reference.pixels.push_back(0.0005F * static_cast<float>(i % 64));
-            shifted.pixels.push_back(0.0005F * static_cast<float>(i % 64 + 1));
-        }
-    }
-    EXPECT_NE(judge_picture(shifted, reference).why_wrong.find("shifted"), std::string::npos);
-}
-
-TEST(JudgePicture, OtherSizeAndAGeneralDarkeningAreWrong) {
-    EXPECT_NE(judge_picture(test_picture(40, 29), test_picture()).why_wrong, "");
-    Picture darker = test_picture();
-    for (float& value : darker.pixels) value -= 0.001F;
-    EXPECT_NE(judge_picture(darker, test_picture()).why_wrong, "");
 }
 
 TEST(Baseline, SlowerMeansBeyondTheShareAndBeyondTheNoise) {

@@ -68,6 +68,11 @@ TEST(ImageError, InfinitiesThatAgreeAreNotFiniteAllTheSame) {
     EXPECT_EQ(error.max_x, 1);
 }
 
+TEST(Clamped, KeepsInfinitiesToBeCounted) {
+    const Picture shown = clamped(row(1, {-1, 0.5f, 2, infinity}));
+    EXPECT_EQ(shown.pixels, (std::vector<float>{0, 0.5f, 1, infinity}));
+}
+
 double lightness(const std::array<float, 3>& color) {
     return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
 }

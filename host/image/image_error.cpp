@@ -107,4 +107,11 @@ ImageError image_error(const Picture& picture, const Picture& reference) {
     return error;
 }
 
+Picture clamped(Picture picture) {
+    for (float& value : picture.pixels) {
+        if (std::isfinite(value)) value = std::clamp(value, 0.0F, 1.0F);
+    }
+    return picture;
+}
+
 }  // namespace rt

@@ -53,4 +53,8 @@ double pixel_difference(const float* a, const float* b, int channels);
 /// Throws Error (ExitCode::bug) when sizes or channels differ.
 ImageError image_error(const Picture& picture, const Picture& reference);
 
+/// The picture with its finite values clamped to [0,1], what a screen can show. NaN and infinity
+/// stay, to be counted.
+Picture clamped(Picture picture);
+
 }  // namespace rt

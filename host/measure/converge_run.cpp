@@ -16,7 +16,6 @@
 #include "host/measure/converge.h"
 #include "host/measure/device_list.h"
 #include "host/measure/machine_load.h"
-#include "host/measure/picture_judge.h"
 #include "host/measure/timing.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene.h"
@@ -172,7 +171,6 @@ TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
     timed.settings = timed_settings(settings_for(asked.picture));
     if (device.is_scalar) timed.settings.kernels.lanes = 1;
     if (device.is_threads() && device.choice.threads == 0) timed.settings.threads = options.threads;
-    timed.judge = judge_estimate;
     return timed;
 }
 

@@ -5,10 +5,12 @@
 #include <stdlib.h>
 
 #include <cmath>
+#include <utility>
 
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/base/text.h"
+#include "host/image/image_error.h"
 #include "host/measure/machine_load.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
@@ -18,8 +20,12 @@ namespace rt {
 
 namespace {
 
-/// How the bits of a case's newest run differ from those of its earlier runs or of threads.
-std::string what_differs(const TimedCase& timed, const RenderStats& run) {
+/// Why a case's newest picture is wrong: values that are not finite, or other bits than its earlier
+/// runs or threads gave. Empty if it is right.
+std::string what_is_wrong(const TimedCase& timed, const RenderStats& run) {
+    if (const std::size_t count = run.error->non_finite; count > 0) {
+        return counted(count, "pixel is", "pixels are") + " not finite";
+    }
     for (const std::vector<TimedRun>* runs : {&timed.warm_up, &timed.repeats}) {
         if (runs->empty() || runs->front().image_hash == run.image_hash) continue;
         return fmt::format("the picture changes from run to run: {}, then {}",
@@ -43,9 +49,8 @@ void render_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     run.scene.path = timed.path;
     run.phases.load = timed.load_seconds;
     run.phases.total = timed_total(run);
-    const Judgement judgment = timed.judge(rendered.picture, *timed.reference);
-    run.error = judgment.error;
-    timed.why = judgment.why_wrong.empty() ? what_differs(timed, run) : judgment.why_wrong;
+    run.error = image_error(clamped(std::move(rendered.picture)), clamped(*timed.reference));
+    timed.why = what_is_wrong(timed, run);
     (warm_up ? timed.warm_up : timed.repeats).push_back(std::move(run));
     if (!timed.why.empty()) {
         timed.verdict = Verdict::wrong;

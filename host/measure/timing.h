@@ -8,7 +8,6 @@
 
 #include "host/base/files.h"
 #include "host/image/picture.h"
-#include "host/measure/picture_judge.h"
 #include "host/measure/runs.h"
 #include "host/picture/render_picture.h"
 #include "host/scene/scene.h"
@@ -18,11 +17,10 @@ namespace rt {
 /// One way to render one picture, to be timed, and the runs once it is.
 struct TimedCase : TimedRuns {
     const Scene* scene = nullptr;        ///< as loaded; options override
-    const Picture* reference = nullptr;  ///< what `judge` compares with
+    const Picture* reference = nullptr;  ///< of the same size; errors are relative to it
     std::string path;                    ///< of the scene's file
     DeviceChoice device;
     RenderSettings settings;
-    Judgement (*judge)(const Picture& picture, const Picture& reference) = judge_picture;
     std::optional<std::uint64_t> expected_hash;  ///< of the picture, in strict arithmetic
     double load_seconds = 0;                     ///< of the scene file, noted in every run
 };

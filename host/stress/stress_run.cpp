@@ -11,7 +11,6 @@
 #include "host/image/picture_io.h"
 #include "host/measure/device_list.h"
 #include "host/measure/machine_load.h"
-#include "host/measure/picture_judge.h"
 #include "host/measure/timing.h"
 #include "host/opencl/cl_renderer.h"
 #include "host/opencl/device_spec.h"
