@@ -26,7 +26,7 @@ void print_json(const Drivers& drivers) {
                     {"version", 1},
                     {"devices", json_of(drivers.devices)},
                     {"threads", {{"cores", available_cores()}, {"isas", native_isas()}}},
-                    {"machine", machine_load_json(load_of(other_load()))},
+                    {"machine", machine_load_json(other_load())},
                     {"problems", drivers.problems}};
     print_result(json_text(json));
 }

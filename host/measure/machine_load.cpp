@@ -29,9 +29,9 @@ CoreTimes core_times() {
     return {watch.seconds(), used_seconds(stat, ours), processor_seconds()};
 }
 
-}  // namespace
+bool is_busy(double load) { return load / available_cores() >= 0.25; }
 
-MachineLoad load_of(double average) { return {average, available_cores()}; }
+}  // namespace
 
 double used_seconds(std::istream& stat, const cpu_set_t& which) {
     double ticks = 0;
@@ -63,18 +63,18 @@ double other_load() {
     return std::max(before, load_between(first, core_times()));
 }
 
-std::string busy_text(const MachineLoad& load) {
-    if (!load.busy()) return "";
+std::string busy_text(double load) {
+    if (!is_busy(load)) return "";
     return fmt::format(
-        "busy machine (others use {:.1f} of {}, {:.2f} per core): do not quote timings",
-        load.average, counted(static_cast<std::size_t>(load.cores), "core"), load.per_core());
+        "busy machine (others use {:.1f} of {}, {:.2f} per core): do not quote timings", load,
+        counted(static_cast<std::size_t>(available_cores()), "core"), load / available_cores());
 }
 
-Json machine_load_json(const MachineLoad& load) {
-    if (load.average < 0)
-        return {{"load_before", nullptr}, {"load_per_core", nullptr}, {"busy", nullptr}};
-    return {
-        {"load_before", load.average}, {"load_per_core", load.per_core()}, {"busy", load.busy()}};
+Json machine_load_json(double load) {
+    if (load < 0) return {{"load_before", nullptr}, {"load_per_core", nullptr}, {"busy", nullptr}};
+    return {{"load_before", load},
+            {"load_per_core", load / available_cores()},
+            {"busy", is_busy(load)}};
 }
 
 }  // namespace rt

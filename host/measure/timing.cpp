@@ -113,7 +113,7 @@ bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {
 
 void say_busy(bool quiet) {
     static bool said = false;
-    const std::string text = busy_text(load_of(other_load()));
+    const std::string text = busy_text(other_load());
     if (quiet || said || text.empty()) return;
     said = true;
     print_note(text);

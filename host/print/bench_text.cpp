@@ -128,7 +128,7 @@ constexpr const char* legend =
 }  // namespace
 
 std::string bench_text(const BenchResult& result) {
-    std::string text = busy_text(load_of(result.load_before)), group;
+    std::string text = busy_text(result.load_before), group;
     if (!text.empty()) text += "\n\n";
     std::map<std::string, std::vector<std::string>> images;
     for (const BenchRow& row : result.rows) {

@@ -116,7 +116,7 @@ std::string converge_text(const ConvergeResult& result) {
         rounds_text(result.points, result.repeats_asked, result.interrupted), result.load_before,
         reference.aa_a, reference.aa_b, reference.max_bounces, reference.halves_rmse,
         reference.floor());
-    if (const std::string busy = busy_text(load_of(result.load_before)); !busy.empty()) {
+    if (const std::string busy = busy_text(result.load_before); !busy.empty()) {
         text.insert(0, busy + "\n\n");
     }
     return text + points_text(result) + curves_text(result) + builds_text(result) +

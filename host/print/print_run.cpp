@@ -95,7 +95,7 @@ std::string json_start(const std::string& format) {
 
 Json bench_environment_json(double load_before) {
     Json json = environment_json();
-    json.update(machine_load_json(load_of(load_before)));
+    json.update(machine_load_json(load_before));
     return json;
 }
 
