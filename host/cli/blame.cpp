@@ -5,7 +5,7 @@
 #include "host/base/error.h"
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
-#include "host/measure/device_list.h"
+#include "host/measure/timing.h"
 #include "host/process/worker.h"
 #include "host/selftest/selftest.h"
 
@@ -14,12 +14,12 @@ namespace rt {
 namespace {
 
 int run_blame(const std::string& spec, const std::string& folder) {
-    const std::vector<ListedDevice> devices = listed_devices({spec});
-    if (devices.size() != 1 || devices[0].is_threads()) {
+    const std::vector<DeviceChoice> devices = listed_devices({spec});
+    if (devices.size() != 1 || devices[0].use_threads) {
         usage_error("--device {}: blame takes one OpenCL device", spec);
     }
-    const DriverTask task(devices[0].name);
-    const Blame blame = blame_device(devices[0].choice.device, folder);
+    const DriverTask task(devices[0].name());
+    const Blame blame = blame_device(devices[0].device, folder);
     print_result(blame.text);
     if (blame.verdict.empty()) {
         print_result("nothing is wrong\n");

@@ -9,7 +9,7 @@
 #include "host/base/error.h"
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
-#include "host/measure/device_list.h"
+#include "host/measure/timing.h"
 #include "host/print/print_run.h"
 #include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
@@ -30,11 +30,11 @@ struct SelftestOptions {
 };
 
 /// Throws Error (ExitCode::device) where there is none.
-std::vector<ListedDevice> chosen_devices(const std::vector<std::string>& specs) {
+std::vector<DeviceChoice> chosen_devices(const std::vector<std::string>& specs) {
     try {
         if (!specs.empty()) return listed_devices(specs);
-        std::vector<ListedDevice> devices = listed_devices({"all"});
-        std::erase_if(devices, [](const ListedDevice& device) { return device.is_threads(); });
+        std::vector<DeviceChoice> devices = listed_devices({"all"});
+        std::erase_if(devices, [](const DeviceChoice& device) { return device.use_threads; });
         if (!devices.empty()) return devices;
     } catch (const Error& error) {
         throw Error(ExitCode::device, error.what());
@@ -52,16 +52,16 @@ int run_selftest(const SelftestOptions& options) {
     check_outputs_differ({options.json, options.junit});
     const Stopwatch watch;
     Checks checks(options.filters, known_failures(options.expect));
-    const std::vector<ListedDevice> devices = chosen_devices(options.devices);
+    const std::vector<DeviceChoice> devices = chosen_devices(options.devices);
     install_stop_signals();
-    for (const ListedDevice& device : devices) {
-        const std::string prefix = devices.size() > 1 ? device.spec + ":" : "";
-        if (!options.quiet) print_note("checking " + device.name);
-        if (!device.is_threads()) {
-            check_functions(checks, device.choice.device, prefix, options.quick);
+    for (const DeviceChoice& device : devices) {
+        const std::string prefix = devices.size() > 1 ? device.spec() + ":" : "";
+        if (!options.quiet) print_note("checking " + device.name());
+        if (!device.use_threads) {
+            check_functions(checks, device.device, prefix, options.quick);
         }
-        check_pictures(checks, device.choice, prefix, options.quick);
-        if (!options.quick) check_stress(checks, device.spec, prefix);
+        check_pictures(checks, device, prefix, options.quick);
+        if (!options.quick) check_stress(checks, device.spec(), prefix);
     }
     if (stop_flag() != 0) return 128 + stop_flag();
     if (checks.list().empty()) usage_error("--filter fits no check");

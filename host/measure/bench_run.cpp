@@ -10,7 +10,6 @@
 #include "host/base/console.h"
 #include "host/base/parallel.h"
 #include "host/measure/bench.h"
-#include "host/measure/device_list.h"
 #include "host/measure/machine_load.h"
 #include "host/measure/timing.h"
 #include "host/opencl/cl_tiles.h"
@@ -69,18 +68,18 @@ void add_hierarchies(const FlatScene<float>& flat, Changes& changes) {
 
 /// The changes that `bench --ablate` tries on this scene and device. Hierarchies are removed only
 /// where testing all primitives one by one does not take too long.
-std::vector<Change> changes_to_measure(const Scene& scene, const ListedDevice& device,
+std::vector<Change> changes_to_measure(const Scene& scene, const DeviceChoice& device,
                                        Precision precision) {
     const FlatScene<float> flat = flatten<float>(scene);
     Changes changes;
-    if (!device.is_threads()) add_features(flat.features, changes);
+    if (!device.use_threads) add_features(flat.features, changes);
     if (flat.stats.casters < flat.stats.lit_triangles) {
         changes.push_back(
             {"no caster lists", [](RenderSettings& settings) { settings.caster_lists = false; }});
     }
     add_hierarchies(flat, changes);
-    const ClDevice& cl = device.choice.device;
-    const int lanes = device.is_threads()               ? 0
+    const ClDevice& cl = device.device;
+    const int lanes = device.use_threads                ? 0
                       : precision == Precision::float32 ? packet_lanes<float>(0, cl)
                                                         : packet_lanes<double>(0, cl);
     if (lanes > 1) {
@@ -152,10 +151,12 @@ class Plan {
 
     void say_devices_without_double() const {
         if (std::ranges::count(options_.precisions, Precision::float64) == 0) return;
-        for (const ListedDevice& device : devices_) {
-            if (!device.has_double()) say(device.name + " has no double precision");
+        for (const DeviceChoice& device : devices_) {
+            if (!device.has_double()) say(device.name() + " has no double precision");
         }
     }
+
+    int most_threads() const { return options_.threads > 0 ? options_.threads : available_cores(); }
 
     bool add_reference(const LoadedScene& loaded, RenderSettings picture, BenchResult& result) {
         picture.precision = Precision::float64;
@@ -181,11 +182,11 @@ class Plan {
     void add_rows(const LoadedScene& loaded, RenderSettings picture) {
         for (const Precision precision : options_.precisions) {
             picture.precision = precision;
-            for (const ListedDevice& device : devices_) {
+            for (const DeviceChoice& device : devices_) {
                 if (precision == Precision::float64 && !device.has_double()) continue;
                 if (options_.ablate) {
                     add_ablation(loaded, picture, device);
-                } else if (device.is_threads()) {
+                } else if (device.use_threads) {
                     add_threads_rows(loaded, picture, device);
                 } else {
                     add_row(loaded, picture, device);
@@ -197,40 +198,30 @@ class Plan {
     /// threads: 1 to N threads with every schedule; threads:K: only K. Then scalar threads, to show
     /// what vectors gain. The buffers schedule runs at most one thread per sample of a pixel.
     void add_threads_rows(const LoadedScene& loaded, RenderSettings picture,
-                          const ListedDevice& device) {
-        const int most = options_.threads > 0 ? options_.threads : available_cores();
-        const int first = device.choice.threads > 0 ? device.choice.threads : 1;
-        const int last = device.choice.threads > 0 ? device.choice.threads : most;
+                          const DeviceChoice& device) {
+        const int first = device.threads > 0 ? device.threads : 1;
+        const int last = device.threads > 0 ? device.threads : most_threads();
         for (const Schedule schedule : options_.schedules) {
             for (int threads = first; threads <= last; ++threads) {
                 const int running = thread_count({threads, schedule}, picture.aa->samples());
                 if (running < threads) break;
                 picture.schedule = schedule;
-                add_row(loaded, picture, with_threads(device, threads));
+                add_row(loaded, picture, threads_choice(threads));
             }
         }
         if (!options_.scalar) return;
         picture.schedule = Schedule::tiles;
         picture.kernels.lanes = 1;
         for (const int threads : std::set{first, last}) {
-            add_row(loaded, picture, with_threads(device, threads));
+            add_row(loaded, picture, threads_choice(threads));
         }
-    }
-
-    static ListedDevice with_threads(ListedDevice device, int threads) {
-        device.spec = fmt::format("threads:{}", threads);
-        device.choice.threads = threads;
-        return device;
     }
 
     /// The picture with default settings, then with each change.
     void add_ablation(const LoadedScene& loaded, const RenderSettings& picture,
-                      const ListedDevice& device) {
-        ListedDevice used = device;
-        if (device.is_threads() && device.choice.threads == 0) {
-            used =
-                with_threads(device, options_.threads > 0 ? options_.threads : available_cores());
-        }
+                      const DeviceChoice& device) {
+        DeviceChoice used = device;
+        if (device.use_threads && device.threads == 0) used.threads = most_threads();
         add_row(loaded, picture, used);
         Scene scene = loaded.scene;
         apply_overrides(scene, picture);
@@ -242,30 +233,30 @@ class Plan {
     }
 
     void add_row(const LoadedScene& loaded, const RenderSettings& picture,
-                 const ListedDevice& device, const std::string& change = "") {
+                 const DeviceChoice& device, const std::string& change = "") {
         BenchCase& row = asked.emplace_back();
         row.scene = loaded.id;
         row.picture = spec_;
         row.picture.precision = picture.precision;
-        row.device = device.spec;
-        row.device_name = device.name;
-        row.threads = device.choice.threads;
+        row.device = device.spec();
+        row.device_name = device.name();
+        row.threads = device.threads;
         row.change = change;
-        if (device.is_threads()) {
+        if (device.use_threads) {
             row.schedule = picture.kernels.lanes == 1 ? "scalar" : to_string(picture.schedule);
         }
         TimedCase& timed = cases.emplace_back();
         timed.scene = &loaded.scene;
         timed.reference = &references_.back();
         timed.path = loaded.id.path;
-        timed.device = device.choice;
+        timed.device = device;
         timed.settings = picture;
         timed.expected_hash = hashes_.at(picture.precision);
         timed.load_seconds = loaded.load_seconds;
     }
 
     const BenchOptions& options_;
-    const std::vector<ListedDevice> devices_;
+    const std::vector<DeviceChoice> devices_;
     std::deque<LoadedScene> scenes_;  // deques: rows point into them
     std::deque<Picture> references_;
     PictureSpec spec_;                           ///< of the latest reference

@@ -14,7 +14,6 @@
 #include "host/image/image_error.h"
 #include "host/image/picture_io.h"
 #include "host/measure/converge.h"
-#include "host/measure/device_list.h"
 #include "host/measure/machine_load.h"
 #include "host/measure/timing.h"
 #include "host/render/stopwatch.h"
@@ -114,28 +113,32 @@ ConvergedPicture converged_picture(const Scene& scene, const ConvergeOptions& op
     return converged;
 }
 
+struct SweptDevice {
+    DeviceChoice choice;
+    bool is_scalar = false;  ///< threads that trace one ray at a time
+
+    std::string spec() const { return choice.spec() + (is_scalar ? " scalar" : ""); }
+};
+
 /// The devices named, plus scalar threads if requested.
-std::vector<ListedDevice> swept_devices(const ConvergeOptions& options) {
-    std::vector<ListedDevice> devices = listed_devices(options.devices);
-    for (std::size_t i = options.scalar ? devices.size() : 0; i-- > 0;) {
-        if (!devices[i].is_threads()) continue;
-        ListedDevice scalar = devices[i];
-        scalar.spec += " scalar";
-        scalar.is_scalar = true;
-        devices.insert(devices.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(scalar));
+std::vector<SweptDevice> swept_devices(const ConvergeOptions& options) {
+    std::vector<SweptDevice> devices;
+    for (const DeviceChoice& choice : listed_devices(options.devices)) {
+        devices.push_back({choice});
+        if (options.scalar && choice.use_threads) devices.push_back({choice, true});
     }
     return devices;
 }
 
 /// The points of one device at the precision and math of `picture`, in the order of the sweep.
 void add_points(const ConvergeOptions& options, const std::vector<int>& bounces,
-                const ListedDevice& device, PictureSpec picture,
+                const SweptDevice& device, PictureSpec picture,
                 std::vector<ConvergePoint>& points) {
     for (const int max_bounces : bounces) {
         for (const AaMode& aa : options.aa) {
             picture.max_bounces = max_bounces;
             picture.aa = aa;
-            points.emplace_back().asked = {device.spec, device.name, picture};
+            points.emplace_back().asked = {device.spec(), device.choice.name(), picture};
         }
     }
 }
@@ -144,14 +147,15 @@ void add_points(const ConvergeOptions& options, const std::vector<int>& bounces,
 /// fast math on threads: it is an OpenCL compiler option.
 std::vector<ConvergePoint> planned_points(const ConvergeOptions& options, const Scene& scene,
                                           const std::vector<int>& bounces,
-                                          const std::vector<ListedDevice>& devices) {
+                                          const std::vector<SweptDevice>& devices) {
     std::vector<ConvergePoint> points;
-    for (const ListedDevice& device : devices) {
+    for (const SweptDevice& device : devices) {
         for (const Precision precision : options.precisions) {
-            if (precision == Precision::float64 && (!device.has_double() || device.is_scalar))
+            if (precision == Precision::float64 &&
+                (!device.choice.has_double() || device.is_scalar))
                 continue;
             for (const Math math : options.math) {
-                if (math == Math::fast && device.is_threads()) continue;
+                if (math == Math::fast && device.choice.use_threads) continue;
                 PictureSpec picture = picture_spec(scene, {});
                 picture.precision = precision;
                 picture.math = math;
@@ -163,14 +167,15 @@ std::vector<ConvergePoint> planned_points(const ConvergeOptions& options, const 
 }
 
 TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
-                     const std::vector<ListedDevice>& devices) {
+                     const std::vector<SweptDevice>& devices) {
     TimedCase timed;
     timed.path = options.scene;
-    const ListedDevice& device = *std::ranges::find(devices, asked.device, &ListedDevice::spec);
+    const SweptDevice& device = *std::ranges::find(devices, asked.device, &SweptDevice::spec);
     timed.device = device.choice;
     timed.settings = timed_settings(settings_for(asked.picture));
     if (device.is_scalar) timed.settings.kernels.lanes = 1;
-    if (device.is_threads() && device.choice.threads == 0) timed.settings.threads = options.threads;
+    if (device.choice.use_threads && device.choice.threads == 0)
+        timed.settings.threads = options.threads;
     return timed;
 }
 
@@ -185,7 +190,7 @@ std::optional<RenderStats> picture_of_threads(Scene scene, RenderSettings settin
 
 /// Times the points of the result against the converged picture.
 void time_points(const Scene& scene, double load_seconds, const ConvergedPicture& converged,
-                 const ConvergeOptions& options, const std::vector<ListedDevice>& devices,
+                 const ConvergeOptions& options, const std::vector<SweptDevice>& devices,
                  ConvergeResult& result) {
     std::vector<TimedCase> cases;
     using Key = std::tuple<Precision, int, std::string>;
@@ -230,7 +235,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     result.height = scene.height;
     std::vector<int> bounces = options.max_bounces;
     if (bounces.empty()) bounces.push_back(scene.max_bounces);
-    const std::vector<ListedDevice> devices = swept_devices(options);
+    const std::vector<SweptDevice> devices = swept_devices(options);
     result.points = planned_points(options, scene, bounces, devices);
     if (result.points.empty()) {
         throw Error(

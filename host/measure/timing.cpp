@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,8 @@
 #include "host/base/text.h"
 #include "host/image/image_error.h"
 #include "host/measure/machine_load.h"
+#include "host/opencl/pocl.h"
+#include "host/process/drivers.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/render/stopwatch.h"
@@ -80,6 +83,40 @@ void say_round(int round, int rounds, std::size_t pictures, double seconds_befor
 }
 
 }  // namespace
+
+std::vector<DeviceChoice> listed_devices(const std::vector<std::string>& specs) {
+    std::vector<DeviceChoice> devices;
+    const auto add = [&](const DeviceChoice& choice) {
+        if (std::ranges::count(devices, choice.spec(), &DeviceChoice::spec) > 0) return;
+        devices.push_back(choice);
+    };
+    std::optional<ClDeviceList> all;
+    const auto listed = [&]() -> const ClDeviceList& {
+        if (all) return *all;
+        prepare_pocl(0);
+        const DriverTask task(listing_devices);
+        return all.emplace(list_cl_devices());
+    };
+    for (const std::string& text : specs) {
+        const DeviceSpec spec = parse_device_specs(text).front();
+        if (spec.kind == DeviceSpec::Kind::threads) {
+            add(threads_choice(spec.threads));
+        } else if (spec.kind != DeviceSpec::Kind::all) {
+            add(choose_device(text, listed()));
+        } else {
+            add(threads_choice());
+            for (const ClDevice& device : listed().devices) {
+                if (device.unusable.empty()) {
+                    add({.device = device});
+                } else {
+                    print_note("skipping " + device.name + ": " + device.unusable);
+                }
+            }
+            print_notes(listed().problems);
+        }
+    }
+    return devices;
+}
 
 RenderSettings timed_settings(RenderSettings settings) {
     settings.no_fallback = true;

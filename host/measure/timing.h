@@ -9,6 +9,7 @@
 #include "host/base/files.h"
 #include "host/image/picture.h"
 #include "host/measure/runs.h"
+#include "host/opencl/device_spec.h"
 #include "host/picture/render_picture.h"
 #include "host/scene/scene.h"
 
@@ -24,6 +25,11 @@ struct TimedCase : TimedRuns {
     std::optional<std::uint64_t> expected_hash;  ///< of the picture, in strict arithmetic
     double load_seconds = 0;                     ///< of the scene file, noted in every run
 };
+
+/// The devices that specs name, without duplicates; "all" means threads and every usable OpenCL
+/// device, with a line on stderr for each unusable one. Throws Error (usage or device) like
+/// choose_device. OpenCL is not loaded if only threads are named.
+std::vector<DeviceChoice> listed_devices(const std::vector<std::string>& specs);
 
 /// The settings for a benchmark's renders, which fail if their device fails and are judged by the
 /// benchmark itself.

@@ -200,6 +200,11 @@ std::vector<DeviceSpec> parse_device_specs(const std::string& list) {
     return specs;
 }
 
+std::string DeviceChoice::spec() const {
+    if (!use_threads) return std::to_string(device.index);
+    return threads > 0 ? fmt::format("threads:{}", threads) : "threads";
+}
+
 DeviceChoice threads_choice(int threads) { return {.use_threads = true, .threads = threads}; }
 
 bool needs_opencl(const std::string& list) {

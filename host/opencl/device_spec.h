@@ -41,6 +41,14 @@ struct DeviceChoice {
 
     /// Whether strict arithmetic gives the same bits as elsewhere, as far as its driver promises.
     bool is_exact() const { return use_threads || device.rounds_correctly || !failure.empty(); }
+
+    bool has_double() const { return use_threads || device.has_double; }
+
+    /// "threads", or the OpenCL device's own name.
+    std::string name() const { return use_threads ? "threads" : device.name; }
+
+    /// For --device: "threads", "threads:2", "0".
+    std::string spec() const;
 };
 
 DeviceChoice threads_choice(int threads = 0);

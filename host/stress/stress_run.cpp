@@ -9,7 +9,6 @@
 #include "host/base/text.h"
 #include "host/image/false_color.h"
 #include "host/image/picture_io.h"
-#include "host/measure/device_list.h"
 #include "host/measure/machine_load.h"
 #include "host/measure/timing.h"
 #include "host/opencl/cl_renderer.h"
@@ -106,16 +105,16 @@ class Runner {
     /// false if a signal stopped it.
     template <typename Measure>
     void add_rows(const StressCase& one, std::vector<StressRow>& rows, const Measure& measure) {
-        for (const ListedDevice& device : devices_) {
+        for (const DeviceChoice& device : devices_) {
             for (const Precision precision : {Precision::float32, Precision::float64}) {
                 const bool is_double = precision == Precision::float64;
                 if (is_double && !device.has_double()) continue;
                 StressRow row;
-                row.renderer = device.name;
-                row.device = device.spec;
+                row.renderer = device.name();
+                row.device = device.spec();
                 row.precision = precision;
                 row.judged = is_double || one.tolerance.in_float;
-                if (stop_flag() != 0 || !measure(device.choice, row)) return;
+                if (stop_flag() != 0 || !measure(device, row)) return;
                 rows.push_back(std::move(row));
             }
         }
@@ -198,7 +197,7 @@ class Runner {
 
     const StressOptions& options_;
     RenderCache& cache_;
-    const std::vector<ListedDevice> devices_;
+    const std::vector<DeviceChoice> devices_;
     /// The first of each group of pictures that must agree in every bit.
     std::map<std::string, std::uint64_t> first_hashes_;
 };
