@@ -12,6 +12,68 @@
 namespace rt {
 namespace {
 
+using namespace record;
+
+/// A JSON Schema (draft 2020-12) of a record, from a sample of it.
+class Schema {
+   public:
+    template <typename T>
+    static Json schema_of(const T& x) {
+        if constexpr (Record<const T>) {
+            Schema schema;
+            describe(schema, x);
+            return std::move(schema).object();
+        } else if constexpr (NamedEnum<T>) {
+            Json names = Json::array();
+            for (const auto& one : enum_names(x)) names.push_back(one.name);
+            return {{"enum", names}};
+        } else if constexpr (is_or_null<T>) {
+            using Value = typename decltype(x.value)::value_type;
+            return {{"anyOf", Json::array({schema_of(Value{}), {{"type", "null"}}})}};
+        } else if constexpr (is_vector<T>) {
+            return {{"type", "array"}, {"items", schema_of(typename T::value_type{})}};
+        } else {
+            return type_of(Writer::json_of(x));
+        }
+    }
+
+    template <typename T>
+    void operator()(const char* name, const T& x, const char* what) {
+        if constexpr (is_optional<T>) {
+            properties_[name] = schema_of(typename T::value_type{});
+        } else {
+            properties_[name] = schema_of(x);
+            required_.push_back(name);
+        }
+        if (*what != '\0') properties_[name]["description"] = what;
+    }
+
+    template <typename Fields>
+    void group(const char* name, const Fields& fields) {
+        Schema inner;
+        fields(inner);
+        properties_[name] = std::move(inner).object();
+        required_.push_back(name);
+    }
+
+   private:
+    Json object() && {
+        return {{"type", "object"},
+                {"properties", std::move(properties_)},
+                {"required", std::move(required_)},
+                {"additionalProperties", false}};
+    }
+
+    static Json type_of(const Json& json) {
+        if (json.is_null() || json.is_object()) return Json::object();  // anything
+        if (json.is_array()) return {{"type", "array"}, {"items", type_of(json.at(0))}};
+        if (json.is_number_integer()) return {{"type", "integer"}};
+        return {{"type", json.type_name()}};
+    }
+
+    Json properties_ = Json::object(), required_ = Json::array();
+};
+
 /// The JSON Schema of a result with this format, environment and fields.
 template <typename T>
 std::string schema_text(const std::string& format, const char* title, const Json& environment,
@@ -19,7 +81,7 @@ std::string schema_text(const std::string& format, const char* title, const Json
     Json keys = Json::array();
     for (const auto& [key, value] : environment.items()) keys.push_back(key);
     Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
-    Json record = json_schema(sample);
+    Json record = Schema::schema_of(sample);
     Json properties{{"format", {{"const", format}}},
                     {"version", {{"const", 1}}},
                     {"environment",

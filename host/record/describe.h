@@ -14,11 +14,11 @@
 //         a("width", x.width, "pixels");
 //         a.group("image", [&](auto& a) { a("hash", x.hash, "of its bits"); });
 //     }
-// from which the archives of record.h make and read JSON, rows of CSV and JSON Schemas. A field is
-// a number, a string, a bool, a record, a vector of these, an enum whose names enum_names returns
-// (found by argument-dependent lookup), or what the JSON library
-// converts. Empty optionals are left
-// out; or_null writes null for them. A temporary is a computed field: it is written but not read.
+// from which record.h makes and reads JSON and makes rows of CSV, and a test the JSON Schemas in
+// docs. A field is a number, a string, a bool, a record, a vector of these, an enum whose names
+// enum_names returns (found by argument-dependent lookup), or what the JSON library converts. Empty
+// optionals are left out; or_null writes null for them. A temporary is a computed field: it is
+// written but not read.
 namespace rt {
 
 /// X is T or const T.

@@ -12,7 +12,7 @@
 #include "host/base/text.h"
 #include "host/record/describe.h"
 
-// What is made of a record's fields (describe.h): json_of, read_json, csv_row, json_schema.
+// What is made of a record's fields (describe.h): json_of, read_json, csv_row.
 namespace rt {
 
 using Json = nlohmann::ordered_json;
@@ -203,66 +203,6 @@ class Row {
     }
 };
 
-/// A JSON Schema (draft 2020-12) of a record, from a sample of it.
-class Schema {
-   public:
-    template <typename T>
-    static Json schema_of(const T& x) {
-        if constexpr (Record<const T>) {
-            Schema schema;
-            describe(schema, x);
-            return std::move(schema).object();
-        } else if constexpr (NamedEnum<T>) {
-            Json names = Json::array();
-            for (const auto& one : enum_names(x)) names.push_back(one.name);
-            return {{"enum", names}};
-        } else if constexpr (is_or_null<T>) {
-            using Value = typename decltype(x.value)::value_type;
-            return {{"anyOf", Json::array({schema_of(Value{}), {{"type", "null"}}})}};
-        } else if constexpr (is_vector<T>) {
-            return {{"type", "array"}, {"items", schema_of(typename T::value_type{})}};
-        } else {
-            return type_of(Writer::json_of(x));
-        }
-    }
-
-    template <typename T>
-    void operator()(const char* name, const T& x, const char* what) {
-        if constexpr (is_optional<T>) {
-            properties_[name] = schema_of(typename T::value_type{});
-        } else {
-            properties_[name] = schema_of(x);
-            required_.push_back(name);
-        }
-        if (*what != '\0') properties_[name]["description"] = what;
-    }
-
-    template <typename Fields>
-    void group(const char* name, const Fields& fields) {
-        Schema inner;
-        fields(inner);
-        properties_[name] = std::move(inner).object();
-        required_.push_back(name);
-    }
-
-   private:
-    Json object() && {
-        return {{"type", "object"},
-                {"properties", std::move(properties_)},
-                {"required", std::move(required_)},
-                {"additionalProperties", false}};
-    }
-
-    static Json type_of(const Json& json) {
-        if (json.is_null() || json.is_object()) return Json::object();  // anything
-        if (json.is_array()) return {{"type", "array"}, {"items", type_of(json.at(0))}};
-        if (json.is_number_integer()) return {{"type", "integer"}};
-        return {{"type", json.type_name()}};
-    }
-
-    Json properties_ = Json::object(), required_ = Json::array();
-};
-
 }  // namespace record
 
 /// As JSON, fields in their order.
@@ -289,12 +229,6 @@ record::Row csv_row(const T& x) {
     record::Row row;
     describe(row, x);
     return row;
-}
-
-/// A JSON Schema (draft 2020-12); lists and optionals are described by a T by default.
-template <typename T>
-Json json_schema(const T& sample) {
-    return record::Schema::schema_of(sample);
 }
 
 }  // namespace rt
