@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,7 +17,6 @@
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
 #include "host/image/picture_io.h"
-#include "host/picture/tile_check.h"
 #include "host/process/drivers.h"
 #include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
@@ -53,54 +51,6 @@ std::optional<Picture> load_reference(const RenderOptions& options, const Scene&
                             counted(reference.channels, "channel"), width, height));
 }
 
-/// Its index; bits are compared.
-std::optional<std::size_t> first_difference(const Picture& a, const Picture& b) {
-    for (std::size_t at = 0; at < a.pixels.size(); at += 3) {
-        if (std::memcmp(&a.pixels[at], &b.pixels[at], 3 * sizeof(float)) != 0) return at / 3;
-    }
-    return std::nullopt;
-}
-
-std::string save(const Picture& picture, const RenderOptions& options, const char* kind) {
-    std::filesystem::path path = options.output;
-    path.replace_extension(kind + path.extension().string());
-    if (std::filesystem::exists(path)) throw Error(ExitCode::output, path.string() + " exists");
-    write_picture(path.string(), picture, options.encoding);
-    return path.string();
-}
-
-/// After a device's picture was found to be wrong, for whoever fixes the driver: renders the scene
-/// on the device again, whatever it gives, and on threads. Saves both next to the output, as
-/// NAME.wrong.png and NAME.right.png. Returns, for a message, the first pixel that differs and
-/// where they are.
-std::string keep_wrong_picture(const Scene& scene, RenderOptions options) try {
-    options.self_test = false;
-    options.check = 0;
-    options.journal.clear();
-    options.estimate = false;
-    options.target_rmse = 0;
-    options.quiet = true;
-    options.progress = ProgressMode::none;
-    const RenderConsole console(options, nullptr);
-    const auto render = [&](const std::vector<DeviceChoice>& devices) {
-        return render_picture(scene, options, devices, console.events(), stop_flag());
-    };
-    const RenderedPicture wrong = render(start_finding_devices(options).get());
-    const RenderedPicture right = render({threads_choice()});
-    const auto first = first_difference(wrong.picture, right.picture);
-    if (!first) return "; rendered again, it is the picture of threads";
-    const Rect& region = wrong.stats.picture.region;
-    const auto width = static_cast<std::size_t>(region.width);
-    const std::string text = fmt::format("; the first wrong pixel is {},{}",
-                                         static_cast<std::size_t>(region.x) + *first % width,
-                                         static_cast<std::size_t>(region.y) + *first / width);
-    if (options.output.empty() || options.output == stdout_path || options.shares) return text;
-    const std::string kept = save(wrong.picture, options, ".wrong");
-    return text + "; compare " + kept + " with " + save(right.picture, options, ".right");
-} catch (const Error& error) {
-    return std::string("; cannot keep its picture: ") + error.what();
-}
-
 /// `kept`: viewers that stay open for the next picture; null: they wait to be closed.
 int render_scene(RenderOptions options, double seconds_before_main, LivePicture* kept) {
     const Stopwatch total;
@@ -121,13 +71,8 @@ int render_scene(RenderOptions options, double seconds_before_main, LivePicture*
     const auto own = kept == nullptr ? make_live_picture(options) : nullptr;
     LivePicture* const live = kept == nullptr ? own.get() : kept;
     RenderConsole console(options, live);
-    RenderedPicture rendered;
-    try {
-        rendered =
-            render_picture(scene, options, std::move(devices), console.events(), stop_flag());
-    } catch (const WrongPicture& wrong) {
-        throw Error(wrong.exit_code(), wrong.what() + keep_wrong_picture(scene, options));
-    }
+    RenderedPicture rendered =
+        render_picture(scene, options, std::move(devices), console.events(), stop_flag());
     RenderStats& stats = rendered.stats;
     note_failed_device(stats, options);
     stats.scene.path = options.scene;

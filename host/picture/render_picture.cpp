@@ -298,7 +298,7 @@ class Job {
         const std::string what = by + ": " + wrong;
         if (settings_.no_fallback) {
             journal_->discard();
-            throw WrongPicture(what);
+            throw Error(ExitCode::device, what);
         }
         warn_(what + "; rendering on threads instead");
         std::vector<DeviceShare> shares = stats_.shares;

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "host/base/error.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_rounds.h"
 
@@ -90,10 +91,12 @@ void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>&
         pixels += static_cast<std::size_t>(strip.pixels());
     }
     if (wrong == 0) return;
-    throw WrongPicture(fmt::format(
-        "{} fails its self-test: {} of {} pixels differ from those of threads; clear its "
-        "kernel cache, update its driver, or use --device threads",
-        name, wrong, pixels));
+    throw Error(
+        ExitCode::device,
+        fmt::format(
+            "{} fails its self-test: {} of {} pixels differ from those of threads; clear its "
+            "kernel cache, update its driver, or use --device threads",
+            name, wrong, pixels));
 }
 
 template <typename T>

@@ -4,18 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "host/base/error.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/renderer.h"
 
 namespace rt {
 
-/// What a device computed is not what threads compute: its picture is wrong.
-struct WrongPicture : Error {
-    explicit WrongPicture(const std::string& message) : Error(ExitCode::device, message) {}
-};
-
-/// Renders four strips across the picture on the device and on threads. Throws WrongPicture unless
+/// Renders four strips across the picture on the device and on threads. Throws Error (ExitCode::device) unless
 /// the bits are the same: the driver, or the kernel it keeps in its cache, is broken. Strict
 /// arithmetic only. About 33,000 samples, a millisecond or two.
 template <typename T>
