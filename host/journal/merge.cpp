@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/hash.h"
 #include "host/base/text.h"
 #include "host/image/built_in_formats.h"
 #include "host/journal/journal_format.h"
@@ -101,15 +100,6 @@ class Merger {
             static_cast<std::size_t>(std::count(owner_.begin(), owner_.end(), -1));
         if (merged.missing_pixels > 0) merged.missing = missing(shares_of(header).of);
         merged.image_hash = hash_of(film_);
-        Hasher seed;
-        seed.add(merged.image_hash);
-        for (const Part& part : parts_) {
-            for (const JournalWriterInfo& writer : part.writers) {
-                seed.add(std::string_view(writer.host));
-                seed.add(writer.process);
-            }
-        }
-        merged.seed = seed.value();
         merged.picture.width = film_.width;
         merged.picture.height = film_.height;
         merged.picture.pixels = as_floats(std::move(film_));

@@ -18,7 +18,6 @@ struct MergedPicture {
     JournalHeader header;  ///< of the first part
     Picture picture;       ///< black where a part is missing
     std::uint64_t image_hash = 0;
-    std::uint64_t seed = 0;  ///< differs when shares are rendered again
     std::size_t missing_pixels = 0;
     std::optional<Shares> missing;   ///< the shares to render again, numbered as in the first part
     std::vector<std::string> notes;  ///< about incomplete parts
