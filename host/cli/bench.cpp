@@ -19,7 +19,6 @@ namespace {
 /// `mirrorball bench`
 struct BenchCall : BenchOptions {
     ResultFiles results;
-    std::string smaller;        ///< where smaller_is_better_json goes, as in ResultFiles
     std::string baseline;       ///< an earlier --json file; empty: none
     double max_regress = 0.05;  ///< allowed loss of a row, as a share of the old median
 };
@@ -49,20 +48,16 @@ int run_bench(const BenchCall& options) {
     const auto& [json, csv] = options.results;
     check_result_path(json, json_start("bench"));
     check_result_path(csv, run_csv_header());
-    check_result_path(options.smaller, "[\n  {\n    \"name\"");
-    check_outputs_differ({json, csv, options.smaller});
-    for (const auto& file : {json, csv, options.smaller}) {
-        check_output_is_no_input(file, {options.baseline});
-    }
+    check_outputs_differ({json, csv});
+    for (const auto& file : {json, csv}) check_output_is_no_input(file, {options.baseline});
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
     const FreshKernelCache kernels;
     const BenchResult result =
         measure_bench(options, options.baseline.empty() ? nullptr : &baseline);
-    if (!options.results.take_stdout() && options.smaller != "-") print_result(bench_text(result));
+    if (!options.results.take_stdout()) print_result(bench_text(result));
     write_result(json, [&] { return result_json("bench", result); });
     write_result(csv, [&] { return bench_csv(result); });
-    write_result(options.smaller, [&] { return smaller_is_better_json(result); });
     say_bad_rows(result.rows);
     say_bad_rows(result.ablation);
     if (result.interrupted) return 128 + stop_flag();
@@ -122,8 +117,6 @@ void add_bench(const CommandLine& program, Invocation& call) {
     verb.value("--max-regress", "P%", bench.max_regress, percent_to(1e6),
                "how much slower a row may become; changes within noise also pass (default: 5%)");
     add_result_files(verb, bench.results);
-    verb.value("--smaller-is-better", "FILE", bench.smaller,
-               "write the medians as JSON of name, unit and value, for trackers of benchmarks");
     verb.flag("--ablate", bench.ablate,
               "measure what leaving out each feature saves, with and without it in alternation "
               "(default: --sizes 500 --aa grid:2 --precision float)");

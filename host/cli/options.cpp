@@ -197,8 +197,8 @@ void check_result_path(const std::string& path, const std::string& first_bytes) 
 }
 
 void write_result(const std::string& path, const std::function<std::string()>& text) {
-    const std::string result = path.empty() ? "" : text();
-    if (result.empty()) return;
+    if (path.empty()) return;
+    const std::string result = text();
     if (path == "-") return print_result(result);
     write_file_atomically(path, std::as_bytes(std::span(result)));
 }

@@ -165,8 +165,8 @@ struct ResultFiles {
 /// Accepts "" and "-".
 void check_result_path(const std::string& path, const std::string& first_bytes);
 
-/// Writes the text, unless it is empty, to stdout ("-") or atomically to a file; for "" it does not
-/// ask for it. Throws Error (output).
+/// Writes the text to stdout ("-") or atomically to a file; for "" it does not ask for it. Throws
+/// Error (output).
 void write_result(const std::string& path, const std::function<std::string()>& text);
 
 /// Rejects several results that go to stdout. `results`: pairs of an option and its path.

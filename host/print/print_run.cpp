@@ -99,24 +99,6 @@ Json bench_environment_json(double load_before) {
     return json;
 }
 
-std::string smaller_is_better_json(const BenchResult& result) {
-    Json list = Json::array();
-    for (const BenchRow& row : result.rows) {
-        if (!row.figures) continue;
-        const BenchCase& asked = row.asked;
-        const std::string where = fmt::format(
-            "{} {}x{} {} {} {}", asked.scene.name, asked.picture.width, asked.picture.height,
-            to_string(asked.picture.aa), to_string(asked.picture.precision),
-            asked.uses_threads() ? asked.device + " " + asked.schedule
-                                 : short_device_name(asked.device_name));
-        list.push_back(
-            {{"name", where + ", trace"}, {"unit", "s"}, {"value", row.figures->trace.median}});
-        list.push_back(
-            {{"name", where + ", total"}, {"unit", "s"}, {"value", row.figures->total.median}});
-    }
-    return list.empty() ? "" : json_text(list);
-}
-
 std::string run_csv_header() {
     const TimedRun none;
     return fmt::format("{}", fmt::join(csv_row(RunRow{none, "", Verdict::right, 0}).names, ","));

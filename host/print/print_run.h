@@ -55,10 +55,6 @@ std::string stress_text(const StressResult& result, bool verbose);
 /// The names of the families and their cases; those of --quick are marked.
 std::string stress_list(const std::vector<StressFamily>& families);
 
-/// [{"name", "unit", "value"}, ...], the form of github-action-benchmark's "customSmallerIsBetter":
-/// the median seconds of each right row; "" if there is none.
-std::string smaller_is_better_json(const BenchResult& result);
-
 /// The first line of the CSV of bench and converge, without its newline.
 std::string run_csv_header();
 

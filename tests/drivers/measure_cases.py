@@ -38,12 +38,6 @@ class Bench(WrongDriver):
         self.assertEqual((threads, verdict), ({"right"}, "wrong"))
         self.assertIn("changes from run to run", why)
 
-    def test_without_a_right_row_there_are_no_medians(self):
-        medians = self.folder / "medians.json"
-        self.run_with(brighter("1.5"), *self.ARGUMENTS[:8], "--devices", "pocl", "--repeats", "1", "-q",
-                      "--smaller-is-better", str(medians), code=1)
-        self.assertFalse(medians.exists())
-
 
 class Converge(WrongDriver):
     ARGUMENTS = ["converge", SCENE, "--size", "24", "--aa", "none,grid:2", "--precision", "float",
