@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <future>
+#include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "host/picture/crew_members.h"
 #include "host/print/print_stats.h"
 #include "host/process/stop_signal.h"
+#include "host/process/worker.h"
 #include "host/render/stopwatch.h"
 #include "host/scene/scene.h"
 
@@ -81,54 +84,51 @@ int finish_picture(RenderedPicture rendered, const RenderOptions& options, const
 class Batch {
    public:
     explicit Batch(const RenderOptions& options)
-        : options_(options),
-          past_(options.batch_past),
-          list_(options, past_),
-          devices_(start_finding_devices(options).get()) {
+        : options_(options), devices_(start_finding_devices(options).get()) {
         if (!options.output.empty()) {
             check_picture_path(batch_output(options.output, "scene"), options.format);
         }
         inputs_.add(options.batch);
-        for (const std::string& scene : options.scenes) inputs_.add(scene);
-        for (const std::string& scene : scenes_of_list(options.batch)) inputs_.add(scene);
+        for (const BatchItem& item : options.items) inputs_.add(item.scene);
+        for (const std::string& record : options.batch_past) {
+            std::istringstream fields(record);
+            std::size_t at = 0;
+            int status = 0;
+            fields >> at >> status;
+            past_[at] = status;
+        }
     }
 
     int run() {
-        while (stop_flag() == 0) {
-            BatchItem item;
-            bool is_there = true;
-            const bool is_right = attempt(item, [&] { is_there = list_.next(item); });
-            if (!is_there) break;
-            if (!is_right) continue;
-            if (const std::optional<int> status = past_.status_of(item.number)) {
-                count(item, *status);
-                continue;
+        for (std::size_t at = 0; at < options_.items.size() && stop_flag() == 0; ++at) {
+            if (const auto past = past_.find(at); past != past_.end()) {
+                count(at, past->second);
+            } else {
+                attempt(at, [&] { start(at); });
             }
-            attempt(item, [&] { start(item); });
         }
         settle();
         return sum_up();
     }
 
    private:
-    /// Whether it succeeded; other errors than BatchEnds are noted.
+    /// Other errors than BatchEnds are noted.
     template <typename Work>
-    bool attempt(const BatchItem& item, const Work& work) {
+    void attempt(std::size_t at, const Work& work) {
         try {
             work();
-            return true;
         } catch (const BatchEnds&) {
             throw;
         } catch (const Error& error) {
-            note(item, error);
+            note(at, error);
         } catch (const std::bad_alloc&) {
-            note(item, Error(ExitCode::limit, out_of_memory));
+            note(at, Error(ExitCode::limit, out_of_memory));
         }
-        return false;
     }
 
-    void start(const BatchItem& item) {
+    void start(std::size_t at) {
         const Stopwatch total;
+        const BatchItem& item = options_.items[at];
         RenderOptions options = options_;
         options.scene = item.scene;
         options.output = item.output;
@@ -139,7 +139,6 @@ class Batch {
         }
         check_output(options);
         if (!has_said_unsaved_) has_said_unsaved_ = say_unsaved(options);
-        inputs_.add(options.scene);
         inputs_.check(options.output);
         choose_journal(options);
         Stopwatch watch;
@@ -155,12 +154,12 @@ class Batch {
         rendered.stats.scene.path = options.scene;
         rendered.stats.phases.load = load_seconds;
         settle();
-        written_ = item;
-        writing_ = std::async(std::launch::async, [this, rendered = std::move(rendered), options,
-                                                   total, number = item.number]() mutable {
-            return finish_picture(std::move(rendered), options, total,
-                                  [&](int status) { BatchPast::tell_finished(number, status); });
-        });
+        written_ = at;
+        writing_ = std::async(
+            std::launch::async, [rendered = std::move(rendered), options, total, at]() mutable {
+                return finish_picture(std::move(rendered), options, total,
+                                      [at](int status) { tell_finished(at, status); });
+            });
         if (live) wait_for_viewers(*live);
     }
 
@@ -195,26 +194,25 @@ class Batch {
         attempt(written_, [&] { count(written_, writing_.get()); });
     }
 
-    void note(const BatchItem& item, const Error& error) {
-        const int status = static_cast<int>(error.exit_code());
-        if (!past_.status_of(item.number)) {
-            print_note(item.where + error.what());
-            BatchPast::tell_finished(item.number, status);
-        }
-        count(item, status);
+    /// A worker's parent renders what is left if the driver ends the worker.
+    static void tell_finished(std::size_t at, int status) {
+        tell_parent(fmt::format("{} {}", at, status));
     }
 
-    void count(const BatchItem& item, int status) {
+    void note(std::size_t at, const Error& error) {
+        const int status = static_cast<int>(error.exit_code());
+        print_note(options_.items[at].where + error.what());
+        tell_finished(at, status);
+        count(at, status);
+    }
+
+    void count(std::size_t at, int status) {
         ++pictures_;
         if (status == 0) return;
+        const BatchItem& item = options_.items[at];
         worst_ = std::max(worst_, status);
-        failed_.push_back(fmt::format("{} ({})", name_of(item), status));
-    }
-
-    static std::string name_of(const BatchItem& item) {
-        if (item.frame) return fmt::format("frame {}", *item.frame);
-        if (!item.scene.empty()) return item.scene;
-        return item.where.substr(0, item.where.rfind(": "));
+        failed_.push_back(item.frame ? fmt::format("frame {} ({})", *item.frame, status)
+                                     : fmt::format("{} ({})", item.scene, status));
     }
 
     int sum_up() const {
@@ -225,7 +223,6 @@ class Batch {
             print_note(fmt::format("{} after {}", stop_reason(), counted(pictures_, "picture")));
             return exit_code_of_stop(stop_flag());
         }
-        if (pictures_ == 0 && there_ == 0) usage_error("the list contains no scenes");
         if (failed_.empty()) return 0;
         std::string text = fmt::format("{} of {} failed, with exit codes:", failed_.size(),
                                        counted(pictures_, "picture"));
@@ -238,8 +235,7 @@ class Batch {
     }
 
     const RenderOptions& options_;
-    BatchPast past_;
-    BatchList list_;
+    std::map<std::size_t, int> past_;  ///< the statuses of pictures that a worker has finished
     std::vector<DeviceChoice> devices_;
     RenderCache cache_;
     InputFiles inputs_;  ///< as far as they are known
@@ -248,7 +244,7 @@ class Batch {
     bool has_said_unsaved_ = false;
     std::size_t there_ = 0;  ///< frames skipped since their pictures existed
     std::future<int> writing_;
-    BatchItem written_;
+    std::size_t written_ = 0;
     std::size_t pictures_ = 0;
     std::vector<std::string> failed_;
     int worst_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,14 @@ inline const char* to_string(Aov aov) { return name_of(aov_names, aov); }
 enum class StatsFormat { summary, text, json };
 enum class ProgressMode { automatic, bar, plain, json, none };
 
+/// A picture of a batch.
+struct BatchItem {
+    std::string where;  ///< "list.txt:3: ", for messages; empty: the command line
+    std::string scene;
+    std::string output;  ///< empty: none
+    std::optional<int> frame;
+};
+
 /// `mirrorball render`; defaults are the scene's.
 struct RenderOptions : RenderSettings {
     std::string scene;
@@ -34,6 +43,7 @@ struct RenderOptions : RenderSettings {
     std::vector<std::string> scenes;      ///< all of them, if there are several
     std::string batch;                    ///< a file that names scenes, "-": stdin; empty: none
     std::vector<int> frames;              ///< of the scene's camera path; empty: the scene as it is
+    std::vector<BatchItem> items;         ///< the pictures that these name, if they are several
     std::string device;                   ///< comma-separated list; empty: the best available
     std::string reference;                ///< empty: none
     std::optional<std::uint64_t> expected_hash;  ///< of the picture
@@ -50,8 +60,8 @@ struct RenderOptions : RenderSettings {
     std::string failed_device;   ///< that threads replace
     std::string device_failure;  ///< how it failed
     std::string drivers;         ///< where OpenCL finds its .icd files
-    std::vector<std::string>
-        batch_past;                    ///< what the worker did whose driver failed; see BatchPast
+    /// "N STATUS" for each picture that a worker had finished when its driver failed.
+    std::vector<std::string> batch_past;
     std::vector<std::string> command;  ///< the program's own, to start workers
     bool quiet = false, verbose = false;
     bool dumb_terminal = false;  ///< TERM=dumb: no bar

@@ -132,6 +132,7 @@ void settle_render(RenderOptions& render) {
           "--aov works only for a single, whole picture"},
          {!render.aovs.empty() && (render.output.empty() || render.output == stdout_path),
           "--aov requires -o FILE, from which it derives its file names"}});
+    if (is_batch) render.items = batch_items(render);
 }
 
 }  // namespace rt

@@ -87,19 +87,14 @@ class SeveralScenes(CliTest):
     def test_two_scenes_of_one_name_do_not_overwrite(self):
         result = self.run_cli("render", scene_path("cones"), scene_path("cones"), "-o", "%s.png",
                               *SMALL)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("cones.png: is already the output of another scene", result.stderr)
-        self.assertEqual(self.files(), ["cones.png"])
+        self.assert_refused(result, 2, "cones.png: is already the output of another scene")
+        self.assertEqual(self.files(), [])
 
 
 class List(CliTest):
     def test_lines_name_scenes_and_pictures(self):
-        text = (f"# two\n\n{scene_path('cones')}\n  {scene_path('cones')}  \"with blank.png\"\n"
-                f"{scene_path('cones')} a.png b.png")
-        result = self.run_cli("render", "--batch", self.write_text("list", text), "-o", "%s.png",
-                              *SMALL)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("list:5: unexpected 'b.png' after SCENE and OUTPUT", result.stderr)
+        text = f"# two\n\n{scene_path('cones')}\n  {scene_path('cones')}  \"with blank.png\""
+        self.succeed("render", "--batch", self.write_text("list", text), "-o", "%s.png", *SMALL)
         self.assertEqual(self.files(), ["cones.png", "list", "with blank.png"])
         self.assertEqual(self.bytes_of("cones.png"), self.bytes_of("with blank.png"))
 
@@ -108,19 +103,14 @@ class List(CliTest):
         self.succeed("render", "--batch", "list", *SMALL)
         self.assertEqual(self.files(), ["1.png", "2.png", "list"])
 
-    def test_lines_that_cannot_be_read_are_named(self):
+    def test_a_line_that_cannot_be_read_is_refused_before_any_work(self):
         scene = scene_path("cones")
-        text = f'{scene} 1.png\n"{scene} 2.png\n""\n{scene} "3.png\n{scene} ""\n'
-        self.write_text("list", text)
-        result = self.run_cli("render", "--batch", "list", *SMALL)
-        self.assertEqual(result.returncode, 2)
-        for line, word in [(2, "missing closing quote"), (3, "empty name"), (4, "missing closing quote"),
-                           (5, "empty name")]:
-            self.assertRegex(result.stderr, f"mirrorball: list:{line}: .*{word}")
-        self.assertEqual(result.stderr.splitlines()[-1],
-                         "mirrorball: 4 of 5 pictures failed, with exit codes: list:2 (2), "
-                         "list:3 (2), list:4 (2), list:5 (2)")
-        self.assertEqual(self.files(), ["1.png", "list"])
+        for line, word in [(f'"{scene} 2.png', "missing closing quote"), ('""', "empty name"),
+                           (f'{scene} "3.png', "missing closing quote"), (f'{scene} ""', "empty name"),
+                           (f"{scene} a.png b.png", "unexpected 'b.png' after SCENE and OUTPUT")]:
+            self.write_text("list", f"{scene} 1.png\n{line}\n")
+            self.assert_refused(self.run_cli("render", "--batch", "list", *SMALL), 2, "list:2: " + word)
+        self.assertEqual(self.files(), ["list"])
 
     def test_the_list_is_not_overwritten(self):
         text = f"{scene_path('cones')} list.png"
@@ -149,11 +139,10 @@ class List(CliTest):
         (self.folder / "b.png").symlink_to("a.png")
         (self.folder / "folder").symlink_to(".")
         scene = scene_path("cones")
-        self.write_text("list", f"{scene} a.png\n{scene} b.png\n{scene} folder/a.png\n")
-        result = self.run_cli("render", "--batch", "list", *SMALL)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("list:2: b.png: is already the output of another scene", result.stderr)
-        self.assertIn("list:3: folder/a.png: is already the output of another scene", result.stderr)
+        for other in ["b.png", "folder/a.png"]:
+            self.write_text("list", f"{scene} a.png\n{scene} {other}\n")
+            self.assert_refused(self.run_cli("render", "--batch", "list", *SMALL), 2,
+                                f"list:2: {other}: is already the output of another scene")
 
     def test_that_has_no_scene(self):
         for name, code, words in [(self.write_text("list", "# none\n"), 2, "no scene"), ("nowhere", 3, "nowhere"),
@@ -165,19 +154,16 @@ class List(CliTest):
                              stdin=subprocess.PIPE)
         for scene in ["cones", "glass"]:
             process.stdin.write(scene_path(scene) + "\n")
-            process.stdin.flush()
-            self.assertEqual(json.loads(process.stdout.readline())["scene"]["path"],
-                             scene_path(scene))
         process.stdin.close()
         process.stdin = None
+        for scene in ["cones", "glass"]:
+            self.assertEqual(json.loads(process.stdout.readline())["scene"]["path"],
+                             scene_path(scene))
         self.assertEqual(process.wait(timeout=HANG_LIMIT), 0)
 
-    def test_a_signal_ends_the_wait_for_the_next_scene(self):
-        process = self.start("render", "--batch", "-", "--stats=json", *SMALL,
-                             stdin=subprocess.PIPE)
+    def test_a_signal_ends_the_wait_for_the_list(self):
+        process = self.start("render", "--batch", "-", *SMALL, stdin=subprocess.PIPE)
         process.stdin.write(scene_path("cones") + "\n")
         process.stdin.flush()
-        process.stdout.readline()
         process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(timeout=HANG_LIMIT), 143)
-        self.assertIn("terminated (SIGTERM) after 1 picture", process.stderr.read())
+        self.assertIn(process.wait(timeout=HANG_LIMIT), [143, -signal.SIGTERM])

@@ -42,14 +42,13 @@ class DiesInABatch(WrongDriver):
 
     def test_of_a_list(self):
         scenes = [f"{scene}\n" for scene in self.scenes]
-        scenes[2:2] = ["# a comment\n", "nowhere.json\n", "a b c\n"]
-        last = "mirrorball: 2 of 8 pictures failed, with exit codes: nowhere.json (3), stdin:5 (2)"
+        scenes[2:2] = ["# a comment\n", "nowhere.json\n"]
+        last = "mirrorball: 1 of 7 pictures failed, with exit codes: nowhere.json (3)"
         said = self.check(3, "".join(scenes), "--batch", "-", *self.SMALL)
         self.assertEqual(said.count("nowhere.json: "), 1)
         self.assertIn(last, said.splitlines()[-1])
         (self.folder / "list").write_text("".join(scenes))
-        self.assertIn(last.replace("stdin", "list"), self.check(
-            3, "", "--batch", "list", *self.SMALL, by="hang").splitlines()[-1])
+        self.assertIn(last, self.check(3, "", "--batch", "list", *self.SMALL, by="hang").splitlines()[-1])
 
     def test_of_frames(self):
         (self.folder / "path.json").write_text(json.dumps({
