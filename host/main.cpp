@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -47,17 +48,16 @@ int run_in_worker(const Invocation& call) {
 }
 
 int run(int argc, char** argv, double seconds_before_main) {
-    const CommandLineTexts texts{
-        "mirrorball", "a headless OpenCL ray tracer that measures its own speed and error",
-        fmt::format("mirrorball {} ({})", version, git_revision)};
+    Verb program("mirrorball",
+                 "a headless OpenCL ray tracer that measures its own speed and error");
     Invocation call;
     call.command.assign(argv, argv + argc);
     call.drivers = icd_place();
     call.seconds_before_main = seconds_before_main;
-    const auto add_verbs = [&call](const CommandLine& program) {
-        for (AddVerb* const add : verbs) add(program, call);
-    };
-    const std::string text = read_command_line(texts, add_verbs, argc, argv);
+    for (AddVerb* const add : verbs) add(program, call);
+    const std::string text =
+        read_command_line(program, fmt::format("mirrorball {} ({})", version, git_revision),
+                          {argv + 1, argv + std::max(argc, 1)});
     become_worker();
     call.seconds_before_main += seconds_before_worker();
     if (call.quiet) stop_quietly();

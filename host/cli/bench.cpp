@@ -82,10 +82,8 @@ void parse_schedules(const std::string& text, BenchOptions& bench) {
 }
 
 /// Defaults of an ablation: one picture on every device.
-void settle_ablation(const CommandLine& verb, BenchCall& bench) {
-    if (!bench.baseline.empty() || !bench.smaller.empty()) {
-        usage_error("--ablate cannot be combined with --baseline or --smaller-is-better");
-    }
+void settle_ablation(Verb& verb, BenchCall& bench) {
+    if (!bench.baseline.empty()) usage_error("--ablate cannot be combined with --baseline");
     if (!verb.given("--sizes")) bench.sizes = {{500, 500}};
     if (!verb.given("--aa")) bench.aa = parse_aa_list("grid:2");
     if (!verb.given("--precision")) bench.precisions = {Precision::float32};
@@ -93,11 +91,11 @@ void settle_ablation(const CommandLine& verb, BenchCall& bench) {
 
 }  // namespace
 
-void add_bench(const CommandLine& program, Invocation& call) {
+void add_bench(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<BenchCall>();
     BenchCall& bench = *asked;
     bench.aa = parse_aa_list("none,grid:2");
-    const CommandLine verb = program.verb("bench", "benchmark OpenCL devices against pthreads");
+    Verb& verb = program.verb("bench", "benchmark OpenCL devices against pthreads");
     verb.arguments("SCENE", bench.scenes, "scene files (default: the built-in cornell-box)", false);
     verb.value("--sizes", "LIST", bench.sizes, list_of(parse_size),
                "picture sizes in pixels, N or WxH (default: 100,200,300,400,500)");
@@ -122,13 +120,11 @@ void add_bench(const CommandLine& program, Invocation& call) {
               "(default: --sizes 500 --aa grid:2 --precision float)");
     add_build_extras(verb);
     verb.flag("-q,--quiet", bench.quiet, quiet_help);
-    verb.when_chosen([asked, verb, &call] {
-        check_stdout_has_one_use({{"--json", asked->results.json},
-                                  {"--csv", asked->results.csv},
-                                  {"--smaller-is-better", asked->smaller}});
+    verb.chosen = [asked, &verb, &call] {
+        check_stdout_has_one_use({{"--json", asked->results.json}, {"--csv", asked->results.csv}});
         if (asked->ablate) settle_ablation(verb, *asked);
         call.in_worker([asked] { return run_bench(*asked); }, asked->quiet);
-    });
+    };
 }
 
 }  // namespace rt

@@ -35,21 +35,21 @@ int run_blame(const std::string& spec, const std::string& folder) {
 
 }  // namespace
 
-void add_blame(const CommandLine& program, Invocation& call) {
+void add_blame(Verb& program, Invocation& call) {
     struct Asked {
         std::string device, folder = "blame";
     };
     const auto asked = std::make_shared<Asked>();
-    const CommandLine verb = program.verb(
+    Verb& verb = program.verb(
         "blame", "find which function, option, pixel or ray a device gets wrong, and reproduce it");
     verb.value("--device", "SPEC", asked->device, parse_device, "the OpenCL device", true);
     verb.value("-o,--output", "FOLDER", asked->folder,
                "folder for a C program that shows the fault (default: blame)");
     add_build_extras(verb);
-    verb.when_chosen([asked, &call] {
+    verb.chosen = [asked, &call] {
         call.in_worker([asked] { return run_blame(asked->device, asked->folder); }, false);
         call.crash = ExitCode::different;
-    });
+    };
 }
 
 }  // namespace rt

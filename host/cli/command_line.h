@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <list>
 #include <string>
 #include <vector>
 
@@ -9,77 +10,102 @@
 
 namespace rt {
 
-/// Why the value of an option, or a part of it, is refused. CommandLine adds the option's name.
+/// Why the value of an option, or a part of it, is refused; its reader adds the option's name.
 struct BadValue {
     std::string value, reason;
     ExitCode exit_code = ExitCode::usage;
 };
 
+/// Takes an option's value; throws BadValue to reject it.
 using TakeText = std::function<void(const std::string&)>;
 using AcceptsText = std::function<bool(const std::string&)>;
 
-struct CommandLineParser;
+/// An option, a flag or a positional argument.
+struct Option {
+    std::vector<std::string> names;  ///< "-o", "--output"; of an argument: "SCENE"
+    std::string type;  ///< of its value: "FILE", "float|double"; in brackets if it may be left out;
+                       ///< empty: no value
+    std::string help;
+    std::string group;  ///< its heading in --help
+    TakeText take;
+    bool is_word = false, is_required = false, may_repeat = false;
+    std::string bare;     ///< what it means without a value
+    AcceptsText accepts;  ///< whether the next word is its value, which may be left out
+    int given = 0;        ///< so many times
 
-/// The program's command line, or one verb of it, under construction; a copyable handle. Hides
-/// CLI11, whose header takes ten seconds to compile: only command_line.cpp includes it.
-class CommandLine {
-   public:
-    CommandLine verb(const std::string& name, const std::string& help) const;
+    /// Of an argument, as the command line shows it.
+    std::string word() const { return names.front() + (may_repeat ? "..." : ""); }
+};
 
-    /// An option that takes a value; `take` throws BadValue to reject it.
-    void option(const std::string& name, const std::string& type, const std::string& help,
-                const TakeText& take, bool required = false) const;
+/// The program, or one of its verbs: what its command line may hold.
+struct Verb {
+    std::string path;  ///< "mirrorball render"
+    std::string about;
+    std::vector<Option> options;
+    std::list<Verb> verbs;
+    std::function<void()> chosen;   ///< called after the whole command line was read
+    std::string group = "Options";  ///< of the options that are added next
+    bool wants_help = false;
+
+    Verb(const std::string& path, const std::string& about);
+    Verb(const Verb&) = delete;  // an option refers to it
+    Verb& operator=(const Verb&) = delete;
+
+    std::string name() const { return path.substr(path.rfind(' ') + 1); }
+
+    Verb& verb(const std::string& name, const std::string& help) {
+        return verbs.emplace_back(path + " " + name, help);
+    }
+
+    /// An option that takes a value. `names`: "--size", or "-o,--output".
+    Option& option(const std::string& names, const std::string& type, const std::string& help,
+                   const TakeText& take, bool required = false);
 
     /// An option whose value `parse` turns into the target's.
     template <typename T, typename Parse>
-    void value(const std::string& name, const std::string& type, T& target, const Parse& parse,
-               const std::string& help, bool required = false) const {
+    void value(const std::string& names, const std::string& type, T& target, const Parse& parse,
+               const std::string& help, bool required = false) {
         const auto take = [&target, parse](const std::string& text) { target = parse(text); };
-        option(name, type, help, take, required);
+        option(names, type, help, take, required);
     }
 
     /// An option whose value is a name: any text but an empty one, as from a script's unset
     /// variable.
-    void value(const std::string& name, const std::string& type, std::string& target,
-               const std::string& help) const;
+    void value(const std::string& names, const std::string& type, std::string& target,
+               const std::string& help);
 
     /// An option that may stand alone and then means `bare`. The next word is its value if
     /// `accepts` returns true for it; in `--name=VALUE` it always is.
     void optional_value(const std::string& name, const std::string& type, const std::string& help,
-                        const std::string& bare, const AcceptsText& accepts,
-                        const TakeText& take) const;
+                        const std::string& bare, const AcceptsText& accepts, const TakeText& take);
 
-    /// The heading in --help of the options that are added next.
-    void group(const std::string& name) const;
-
-    void flag(const std::string& names, bool& value, const std::string& help) const;
+    void flag(const std::string& names, bool& value, const std::string& help);
 
     /// A positional argument.
-    void argument(const std::string& name, std::string& value, const std::string& help) const;
+    void argument(const std::string& name, std::string& value, const std::string& help);
     void arguments(const std::string& name, std::vector<std::string>& values,
-                   const std::string& help, bool required) const;
+                   const std::string& help, bool required);
 
-    /// Called after this verb's whole command line has been read.
-    void when_chosen(const std::function<void()>& action) const;
+    /// The option or flag of that name; null if there is none.
+    Option* find(const std::string& name);
 
-    bool given(const std::string& option) const;
-
-   private:
-    friend struct CommandLineParser;
-    CommandLine(CommandLineParser& parser, void* app) : parser_(&parser), app_(app) {}
-
-    CommandLineParser* parser_;
-    void* app_;  ///< CLI::App
+    bool given(const std::string& name) { return find(name)->given > 0; }
 };
 
-struct CommandLineTexts {
-    std::string program, about, version;
-};
+/// Reads the words after the program's name. Returns the text to print if help, the version, the
+/// manual page or completions were requested, else "". Throws Error (ExitCode::usage).
+std::string read_command_line(Verb& program, const std::string& version,
+                              std::vector<std::string> words);
 
-/// Lets `describe` add the verbs, then reads the command line. Returns the help or version text to
-/// print if it was requested, else "". Throws Error (ExitCode::usage).
-std::string read_command_line(const CommandLineTexts& texts,
-                              const std::function<void(const CommandLine&)>& describe, int argc,
-                              const char* const* argv);
+/// The manual page of section 1, in roff. `version` begins with the program's name.
+std::string man_page(const Verb& program, const std::string& version);
+
+/// What the last of these words, which may be empty, can become: a verb, an option or its value; a
+/// line each, with its help after a tab. Empty where it is the name of a file.
+std::string completions_of(Verb& program, std::vector<std::string> words);
+
+/// The script that completes command lines in a shell, by `mirrorball --complete WORD...`. Throws
+/// BadValue for any other than "bash", "zsh" and "fish".
+std::string completion_script(const std::string& shell);
 
 }  // namespace rt

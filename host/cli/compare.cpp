@@ -182,10 +182,10 @@ std::string parse_heatmap(const std::string& text) {
 
 }  // namespace
 
-void add_compare(const CommandLine& program, Invocation& call) {
+void add_compare(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<CompareOptions>();
     CompareOptions& compare = *asked;
-    const CommandLine verb = program.verb("compare", "measure the difference between two pictures");
+    Verb& verb = program.verb("compare", "measure the difference between two pictures");
     verb.argument("A", compare.picture, "picture: PNG, EXR, PFM, JPEG, TIFF, HDR, PNM");
     verb.argument("B", compare.reference,
                   "reference picture, of the same size and number of channels");
@@ -202,7 +202,7 @@ void add_compare(const CommandLine& program, Invocation& call) {
     verb.flag("--clamp", compare.clamp, "first clamp values to 0..1, as 8-bit files do");
     add_result_file(verb, "--json", compare.json,
                     "write JSON, to FILE or to stdout instead of the text");
-    verb.when_chosen([asked, &call] { call.here([asked] { return run_compare(*asked); }); });
+    verb.chosen = [asked, &call] { call.here([asked] { return run_compare(*asked); }); };
 }
 
 }  // namespace rt

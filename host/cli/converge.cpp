@@ -58,7 +58,7 @@ constexpr const char* default_sweep =
 const Named<std::vector<Math>> math_choices[] = {
     {"strict", {Math::strict}}, {"fast", {Math::fast}}, {"both", {Math::strict, Math::fast}}};
 
-void add_sweep(const CommandLine& verb, ConvergeCall& converge) {
+void add_sweep(Verb& verb, ConvergeCall& converge) {
     add_size(verb, converge.size);
     verb.value("--aa", "LIST", converge.aa, parse_aa_list,
                "AA modes (default: " + std::string(default_sweep) + ")");
@@ -76,11 +76,11 @@ void add_sweep(const CommandLine& verb, ConvergeCall& converge) {
 
 }  // namespace
 
-void add_converge(const CommandLine& program, Invocation& call) {
+void add_converge(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<ConvergeCall>();
     ConvergeCall& converge = *asked;
     converge.aa = parse_aa_list(default_sweep);
-    const CommandLine verb = program.verb("converge", "measure error against run time");
+    Verb& verb = program.verb("converge", "measure error against run time");
     verb.argument("SCENE", converge.scene, scene_help);
     add_sweep(verb, converge);
     add_light_options(verb, converge.light);
@@ -92,10 +92,10 @@ void add_converge(const CommandLine& program, Invocation& call) {
     add_result_files(verb, converge.results);
     add_build_extras(verb);
     verb.flag("-q,--quiet", converge.quiet, quiet_help);
-    verb.when_chosen([asked, &call] {
+    verb.chosen = [asked, &call] {
         check_stdout_has_one_use({{"--json", asked->results.json}, {"--csv", asked->results.csv}});
         call.in_worker([asked] { return run_converge(*asked); }, asked->quiet);
-    });
+    };
 }
 
 }  // namespace rt

@@ -84,12 +84,13 @@ int run_devices(const std::string& place, bool json) {
 
 }  // namespace
 
-void add_devices(const CommandLine& program, Invocation& call) {
+void add_devices(Verb& program, Invocation& call) {
     const auto json = std::make_shared<bool>(false);
-    const CommandLine verb = program.verb("devices", "list devices; for unusable ones, say why");
+    Verb& verb = program.verb("devices", "list devices; for unusable ones, say why");
     verb.flag("--json", *json, json_help);
-    verb.when_chosen(
-        [json, &call] { call.here([json, &call] { return run_devices(call.drivers, *json); }); });
+    verb.chosen = [json, &call] {
+        call.here([json, &call] { return run_devices(call.drivers, *json); });
+    };
 }
 
 }  // namespace rt

@@ -250,10 +250,10 @@ int run_doctor(const DoctorOptions& options) {
 
 }  // namespace
 
-void add_doctor(const CommandLine& program, Invocation& call) {
+void add_doctor(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<DoctorOptions>();
     DoctorOptions& doctor = *asked;
-    const CommandLine verb = program.verb(
+    Verb& verb = program.verb(
         "doctor",
         "check the installation (drivers, devices, caches, formats) and suggest how to fix it");
     doctor.library_folders = environment("LD_LIBRARY_PATH");
@@ -264,10 +264,10 @@ void add_doctor(const CommandLine& program, Invocation& call) {
                "seconds without progress after which a device counts as hung; its test may take "
                "ten times as long (default: 30)");
     add_build_extras(verb);
-    verb.when_chosen([asked, &call] {
+    verb.chosen = [asked, &call] {
         asked->drivers = call.drivers;
         call.here([asked] { return run_doctor(*asked); });
-    });
+    };
 }
 
 }  // namespace rt

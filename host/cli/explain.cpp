@@ -91,12 +91,11 @@ AaMode parse_explained_aa(const std::string& text) {
 
 }  // namespace
 
-void add_explain(const CommandLine& program, Invocation& call) {
+void add_explain(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<ExplainOptions>();
     ExplainOptions& explain = *asked;
     explain.settings.aa = grid_aa(1);
-    const CommandLine verb =
-        program.verb("explain", "show how a pixel got its color: the tree of its rays");
+    Verb& verb = program.verb("explain", "show how a pixel got its color: the tree of its rays");
     verb.argument("SCENE", explain.scene, scene_help);
     verb.option(
         "--pixel", "X,Y", "the pixel, counted from 0 at the top left",
@@ -117,7 +116,7 @@ void add_explain(const CommandLine& program, Invocation& call) {
     add_light_options(verb, explain.light);
     verb.flag("-v,--verbose", explain.verbose, "also show rays of weight below 0.004");
     verb.flag("--json", explain.json, json_help);
-    verb.when_chosen([asked, &call] { call.here([asked] { return run_explain(*asked); }); });
+    verb.chosen = [asked, &call] { call.here([asked] { return run_explain(*asked); }); };
 }
 
 }  // namespace rt

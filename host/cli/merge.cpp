@@ -84,11 +84,10 @@ int run_merge(const MergeOptions& options) {
 
 }  // namespace
 
-void add_merge(const CommandLine& program, Invocation& call) {
+void add_merge(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<MergeOptions>();
     MergeOptions& merge = *asked;
-    const CommandLine verb =
-        program.verb("merge", "merge the parts of a picture written by render --shard");
+    Verb& verb = program.verb("merge", "merge the parts of a picture written by render --shard");
     verb.arguments("PART", merge.parts,
                    "parts (.mbj) of one picture, in any order; or a whole one (.pfm)", true);
     add_picture_output(verb, merge.output, merge.format,
@@ -98,10 +97,10 @@ void add_merge(const CommandLine& program, Invocation& call) {
     verb.flag("--allow-missing", merge.allow_missing,
               "write the picture even if parts are missing, which are left black");
     verb.flag("-q,--quiet", merge.quiet, "print only errors");
-    verb.when_chosen([asked, &call] {
+    verb.chosen = [asked, &call] {
         settle_picture_output(asked->output, asked->format);
         call.here([asked] { return run_merge(*asked); }, asked->quiet);
-    });
+    };
 }
 
 }  // namespace rt

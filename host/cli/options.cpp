@@ -152,24 +152,23 @@ std::string device_from_environment() {
     return "";
 }
 
-void add_size(const CommandLine& verb, std::optional<PictureSize>& size) {
+void add_size(Verb& verb, std::optional<PictureSize>& size) {
     verb.value("--size", "WxH|N", size, parse_size,
                "picture size in pixels (default: the scene's)");
 }
 
-void add_encoding(const CommandLine& verb, Encoding& encoding) {
+void add_encoding(Verb& verb, Encoding& encoding) {
     add_choice(verb, "--encoding", encoding, encoding_names,
                "how 8-bit files store linear light (default: display, value x 255)");
 }
 
-void add_device_list(const CommandLine& verb, const std::string& option,
-                     std::vector<std::string>& devices) {
+void add_device_list(Verb& verb, const std::string& option, std::vector<std::string>& devices) {
     verb.value(option, "LIST", devices, list_of(parse_device),
                "devices as for render --device, separated by commas (default: all, which is "
                "pthreads and every OpenCL device)");
 }
 
-void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions) {
+void add_precisions(Verb& verb, std::vector<Precision>& precisions) {
     static const Named<std::vector<Precision>> choices[] = {
         {"float", {Precision::float32}},
         {"double", {Precision::float64}},
@@ -177,7 +176,7 @@ void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions)
     add_choice(verb, "--precision", precisions, choices, "arithmetic precision (default: both)");
 }
 
-void add_repeats(const CommandLine& verb, int& repeats, int least) {
+void add_repeats(Verb& verb, int& repeats, int least) {
     verb.value(
         "--repeats", "N", repeats, count_in(least, 1000),
         fmt::format("number of timed rounds after the warm-up, at least {} (default: 5)", least));
@@ -214,7 +213,7 @@ void check_stdout_has_one_use(const std::vector<std::array<std::string, 2>>& res
     }
 }
 
-void add_result_file(const CommandLine& verb, const std::string& option, std::string& file,
+void add_result_file(Verb& verb, const std::string& option, std::string& file,
                      const std::string& help) {
     verb.optional_value(option, "FILE|-", help, "-", may_take_results,
                         [&file](const std::string& text) {
@@ -223,19 +222,19 @@ void add_result_file(const CommandLine& verb, const std::string& option, std::st
                         });
 }
 
-void add_result_files(const CommandLine& verb, ResultFiles& files) {
+void add_result_files(Verb& verb, ResultFiles& files) {
     add_result_file(verb, "--json", files.json, "write all measurements as JSON");
     add_result_file(verb, "--csv", files.csv, "write one row per run as CSV");
 }
 
-void add_build_extras(const CommandLine& verb) {
+void add_build_extras(Verb& verb) {
     verb.option("--cl-options", "TEXT", "further options for the compilers of OpenCL drivers",
                 [](const std::string& text) { build_extras().options = text; });
     verb.value("--save-kernels", "FOLDER", build_extras().folder,
                "save source, options, log and binary of every program that a driver builds");
 }
 
-void add_light_options(const CommandLine& verb, LightOverrides& light) {
+void add_light_options(Verb& verb, LightOverrides& light) {
     verb.value("--light-scale", "X", light.light_scale,
                number_in(0.0, brightest, "a number from 0 to 1e30, such as 0.5"),
                "intensity of lights that have none (default: NFF sqrt(n)/2n, JSON 1, models "
@@ -244,8 +243,8 @@ void add_light_options(const CommandLine& verb, LightOverrides& light) {
                "ambient light (default: the scene's)");
 }
 
-void add_picture_output(const CommandLine& verb, std::string& output,
-                        std::optional<PictureFormat>& format, const std::string& help) {
+void add_picture_output(Verb& verb, std::string& output, std::optional<PictureFormat>& format,
+                        const std::string& help) {
     const auto parse_output = [](const std::string& text) {
         if (text.empty()) refuse(text, "expected the name of a picture file");
         return text;

@@ -129,8 +129,8 @@ auto one_of(const Named<T> (&choices)[n]) {
 
 /// An option that takes a name from a table.
 template <typename T, typename N, std::size_t n>
-void add_choice(const CommandLine& verb, const std::string& option, T& target,
-                const Named<N> (&choices)[n], const std::string& help) {
+void add_choice(Verb& verb, const std::string& option, T& target, const Named<N> (&choices)[n],
+                const std::string& help) {
     verb.value(option, fmt::format("{}", fmt::join(names_of(choices), "|")), target,
                one_of(choices), help);
 }
@@ -143,14 +143,13 @@ inline std::vector<AaMode> parse_aa_list(const std::string& text) { return set_o
 
 // Options that several verbs share.
 /// --light-scale and --ambient, for every verb that reads scenes.
-void add_light_options(const CommandLine& verb, LightOverrides& light);
+void add_light_options(Verb& verb, LightOverrides& light);
 
-void add_size(const CommandLine& verb, std::optional<PictureSize>& size);
-void add_encoding(const CommandLine& verb, Encoding& encoding);
-void add_device_list(const CommandLine& verb, const std::string& option,
-                     std::vector<std::string>& devices);
-void add_precisions(const CommandLine& verb, std::vector<Precision>& precisions);
-void add_repeats(const CommandLine& verb, int& repeats, int least);
+void add_size(Verb& verb, std::optional<PictureSize>& size);
+void add_encoding(Verb& verb, Encoding& encoding);
+void add_device_list(Verb& verb, const std::string& option, std::vector<std::string>& devices);
+void add_precisions(Verb& verb, std::vector<Precision>& precisions);
+void add_repeats(Verb& verb, int& repeats, int least);
 
 /// Where results go in addition to the table: a file, "-" for stdout, or empty for nowhere.
 struct ResultFiles {
@@ -174,12 +173,12 @@ void check_stdout_has_one_use(const std::vector<std::array<std::string, 2>>& res
 
 /// --json or --csv: alone, the results go to stdout ("-"). The next word is the file unless that
 /// exists and is not a result file: a scene or a picture.
-void add_result_file(const CommandLine& verb, const std::string& option, std::string& file,
+void add_result_file(Verb& verb, const std::string& option, std::string& file,
                      const std::string& help);
-void add_result_files(const CommandLine& verb, ResultFiles& files);
+void add_result_files(Verb& verb, ResultFiles& files);
 
 /// --cl-options and --save-kernels, for every verb that builds kernels.
-void add_build_extras(const CommandLine& verb);
+void add_build_extras(Verb& verb);
 
 inline constexpr const char* bounces_help =
     "maximum number of mirror and refracted rays after the eye ray (default: the scene's)";
@@ -188,8 +187,8 @@ inline constexpr const char* scene_help = "scene file (.json, .nff, .obj, .ply)"
 inline constexpr const char* json_help = "print JSON to stdout";
 
 /// Adds -o, with the given help, and --format, the format of "-".
-void add_picture_output(const CommandLine& verb, std::string& output,
-                        std::optional<PictureFormat>& format, const std::string& help);
+void add_picture_output(Verb& verb, std::string& output, std::optional<PictureFormat>& format,
+                        const std::string& help);
 
 /// Sets the format of standard output. Throws Error (ExitCode::usage) if it is a terminal, and if
 /// --format is given for a file, whose extension sets its format.

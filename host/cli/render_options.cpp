@@ -49,7 +49,7 @@ bool is_tev_address(const std::string& text) {
            std::ranges::find(extensions, lower_extension(text)) == std::end(extensions);
 }
 
-void add_view_options(const CommandLine& verb, ViewSettings& view) {
+void add_view_options(Verb& verb, ViewSettings& view) {
     view.terminal.kind = environment("TERM");
     view.terminal.colors = environment("COLORTERM");
     view.terminal.without_colors = !environment("NO_COLOR").empty();
@@ -148,7 +148,7 @@ void parse_features(const std::string& text, RenderOptions& render) {
     }
 }
 
-void add_picture_options(const CommandLine& verb, RenderOptions& render) {
+void add_picture_options(Verb& verb, RenderOptions& render) {
     add_size(verb, render.size);
     verb.value("--aa", "MODE", render.aa, parse_aa,
                std::string("samples per pixel: ") + aa_mode_help + " (default: the scene's)");
@@ -172,7 +172,7 @@ void add_picture_options(const CommandLine& verb, RenderOptions& render) {
                "exit 1 if the picture has another hash");
 }
 
-void add_series_options(const CommandLine& verb, RenderOptions& render) {
+void add_series_options(Verb& verb, RenderOptions& render) {
     verb.value("--batch", "FILE|-", render.batch,
                "also render the scenes listed in a file or on stdin, one per line: SCENE or SCENE "
                "OUTPUT");
@@ -195,7 +195,7 @@ void add_series_options(const CommandLine& verb, RenderOptions& render) {
               "save finished tiles in FILE.mbj from the start, not only after 2 s");
 }
 
-void add_device_options(const CommandLine& verb, RenderOptions& render) {
+void add_device_options(Verb& verb, RenderOptions& render) {
     verb.value(
         "--device", "SPEC", render.device, parse_device,
         "index, platform:device, pocl, name:TEXT, cpu, gpu, threads[:N] or all; several, separated "
@@ -237,7 +237,7 @@ void add_device_options(const CommandLine& verb, RenderOptions& render) {
                "trace P% of the tiles from a device or journal again on threads and compare");
 }
 
-void add_report_options(const CommandLine& verb, RenderOptions& render) {
+void add_report_options(Verb& verb, RenderOptions& render) {
     verb.optional_value(
         "--stats", fmt::format("{}", fmt::join(names_of(stats_formats), "|")),
         "print phases, rays, and features used and left out to stdout", "text",
@@ -255,37 +255,37 @@ void add_report_options(const CommandLine& verb, RenderOptions& render) {
 
 }  // namespace
 
-void add_render(const CommandLine& program, Invocation& call) {
+void add_render(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<RenderOptions>();
     RenderOptions& render = *asked;
     render.dumb_terminal = environment("TERM") == "dumb";
-    const CommandLine verb = program.verb("render", "render one or more pictures");
+    Verb& verb = program.verb("render", "render one or more pictures");
     verb.arguments("SCENE", render.scenes,
                    "scene files (.json, .nff, .obj, .ply), or - for JSON from standard input",
                    false);
-    verb.group("Picture");
+    verb.group = "Picture";
     add_picture_output(verb, render.output, render.format,
                        "picture file: .png, .exr, .pfm, .tif, .jpg, ..., or - for standard output "
                        "(default: none); for several scenes, %s stands for the scene's name, as in "
                        "out/%s.png");
     add_picture_options(verb, render);
     add_light_options(verb, render.light);
-    verb.group("Several pictures, and parts of one");
+    verb.group = "Several pictures, and parts of one";
     add_series_options(verb, render);
-    verb.group("Devices");
+    verb.group = "Devices";
     add_device_options(verb, render);
-    verb.group("Messages and figures");
+    verb.group = "Messages and figures";
     add_report_options(verb, render);
-    verb.group("Watching");
+    verb.group = "Watching";
     add_view_options(verb, render.view);
-    verb.when_chosen([asked, verb, &call] {
+    verb.chosen = [asked, &verb, &call] {
         if (!verb.given("--device")) asked->device = device_from_environment();
         settle_render(*asked);
         asked->drivers = call.drivers;
         asked->command = call.command;
         call.here([asked, &call] { return run_render(*asked, call.seconds_before_main); },
                   asked->quiet);
-    });
+    };
 }
 
 }  // namespace rt

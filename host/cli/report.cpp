@@ -111,10 +111,10 @@ int run_report(const ReportOptions& options) {
 
 }  // namespace
 
-void add_report(const CommandLine& program, Invocation& call) {
+void add_report(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<ReportOptions>();
     ReportOptions& report = *asked;
-    const CommandLine verb =
+    Verb& verb =
         program.verb("report", "write an HTML page: pictures, timings, error against run time");
     verb.arguments("SCENE", report.scenes, scene_help, true);
     const auto parse_page = [](const std::string& text) {
@@ -132,8 +132,7 @@ void add_report(const CommandLine& program, Invocation& call) {
     verb.flag("--stress", report.stress,
               "also run the stress suite, which takes minutes (with --quick, its quick part)");
     verb.flag("-q,--quiet", report.quiet, quiet_help);
-    verb.when_chosen(
-        [asked, &call] { call.here([asked] { return run_report(*asked); }, asked->quiet); });
+    verb.chosen = [asked, &call] { call.here([asked] { return run_report(*asked); }, asked->quiet); };
 }
 
 }  // namespace rt

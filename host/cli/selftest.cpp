@@ -74,10 +74,10 @@ int run_selftest(const SelftestOptions& options) {
 
 }  // namespace
 
-void add_selftest(const CommandLine& program, Invocation& call) {
+void add_selftest(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<SelftestOptions>();
     SelftestOptions& selftest = *asked;
-    const CommandLine verb = program.verb(
+    Verb& verb = program.verb(
         "selftest", "check every device function, the golden pictures and quick stress cases");
     verb.value("--device", "SPEC,..", selftest.devices, list_of(parse_device),
                "devices as for render --device (default: as the environment says, else every "
@@ -93,7 +93,7 @@ void add_selftest(const CommandLine& program, Invocation& call) {
               "render the golden pictures on threads and write scenes/golden.json (maintainers)");
     add_build_extras(verb);
     verb.flag("-q,--quiet", selftest.quiet, quiet_help);
-    verb.when_chosen([asked, &call] {
+    verb.chosen = [asked, &call] {
         check_stdout_has_one_use({{"--json", asked->json}, {"--junit", asked->junit}});
         if (asked->devices.empty()) {
             const std::string device = device_from_environment();
@@ -101,7 +101,7 @@ void add_selftest(const CommandLine& program, Invocation& call) {
         }
         call.in_worker([asked] { return run_selftest(*asked); }, asked->quiet);
         call.crash = ExitCode::different;
-    });
+    };
 }
 
 }  // namespace rt

@@ -42,10 +42,10 @@ int run_stress(const StressCall& options) {
 
 }  // namespace
 
-void add_stress(const CommandLine& program, Invocation& call) {
+void add_stress(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<StressCall>();
     StressCall& stress = *asked;
-    const CommandLine verb = program.verb(
+    Verb& verb = program.verb(
         "stress", "test numerical stability: extreme cases, each with a pass/fail verdict");
     verb.value("--case", "GLOB,...", stress.cases, list_of(parse_text),
                "families (scale-*) or cases (shift/1e9) to run (default: all)");
@@ -63,12 +63,12 @@ void add_stress(const CommandLine& program, Invocation& call) {
     verb.flag("-v,--verbose", stress.verbose, "print a line per case and renderer");
     add_build_extras(verb);
     verb.flag("-q,--quiet", stress.quiet, quiet_help);
-    verb.when_chosen([asked, &call] {
+    verb.chosen = [asked, &call] {
         if (asked->list && !(asked->json.empty() && asked->output.empty())) {
             usage_error("--list cannot be combined with --json or -o");
         }
         call.in_worker([asked] { return run_stress(*asked); }, asked->quiet);
-    });
+    };
 }
 
 }  // namespace rt

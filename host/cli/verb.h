@@ -33,7 +33,7 @@ struct Invocation {
 };
 
 /// Adds a verb to the command line; when it is chosen, sets `call.run`. One file per verb.
-using AddVerb = void(const CommandLine& program, Invocation& call);
+using AddVerb = void(Verb& program, Invocation& call);
 
 AddVerb add_render, add_merge, add_compare, add_bench, add_converge, add_stress, add_report,
     add_devices, add_doctor, add_explain, add_scene, add_selftest, add_blame;
