@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cstdlib>
-#include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "host/base/error.h"
@@ -16,7 +15,7 @@ namespace rt {
 
 namespace {
 
-/// `mirrorball report`
+/// `mirrorball report`; most is only checked here, and used by Python.
 struct ReportOptions {
     std::vector<std::string> scenes;
     std::string output;               ///< the page
@@ -72,26 +71,8 @@ std::string package_folder() {
                                       program_file().string() + "; install mirrorball again");
 }
 
-std::vector<std::string> command(const std::string& python, const ReportOptions& options) {
-    std::vector<std::string> words{python, "-m", "mirrorball.report", "-o", options.output};
-    const auto add = [&](std::initializer_list<std::string> more) {
-        words.insert(words.end(), more);
-    };
-    add({fmt::format("--devices={}", fmt::join(options.devices, ",")), "--repeats",
-         std::to_string(options.repeats)});
-    if (!options.plots.empty()) add({"--plots=" + options.plots});
-    if (options.size) {
-        add({"--size", fmt::format("{}x{}", options.size->width, options.size->height)});
-    }
-    if (options.quick) add({"--quick"});
-    if (options.stress) add({"--stress"});
-    if (options.quiet) add({"--quiet"});
-    add({"--"});
-    words.insert(words.end(), options.scenes.begin(), options.scenes.end());
-    return words;
-}
-
-int run_report(const ReportOptions& options) {
+/// `arguments`: of the verb, which Python reads in the same way.
+int run_report(const ReportOptions& options, std::span<const std::string> arguments) {
     check_result_path(options.output, page_start);
     std::string path = package_folder();
     ::setenv("PYTHONSAFEPATH", "1", 1);  // no modules from the working folder
@@ -101,7 +82,8 @@ int run_report(const ReportOptions& options) {
     ::setenv("PYTHONPATH", path.c_str(), 1);
     ::setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
     ::setenv("MIRRORBALL", program_file().c_str(), 1);
-    std::vector<std::string> words = command(python, options);
+    std::vector<std::string> words{python, "-m", "mirrorball.report"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
@@ -132,7 +114,10 @@ void add_report(Verb& program, Invocation& call) {
     verb.flag("--stress", report.stress,
               "also run the stress suite, which takes minutes (with --quick, its quick part)");
     verb.flag("-q,--quiet", report.quiet, quiet_help);
-    verb.chosen = [asked, &call] { call.here([asked] { return run_report(*asked); }, asked->quiet); };
+    verb.chosen = [asked, &call] {
+        const auto arguments = std::span<const std::string>(call.command).subspan(2);
+        call.here([asked, arguments] { return run_report(*asked, arguments); }, asked->quiet);
+    };
 }
 
 }  // namespace rt

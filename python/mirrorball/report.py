@@ -285,7 +285,7 @@ def main() -> int:
     for number in _SIGNALS:
         signal.signal(number, _stop)
     try:
-        return make_report(_parser().parse_args())
+        return make_report(_parser().parse_intermixed_args())
     except Stopped as stopped:
         print(f"mirrorball: {_SIGNALS[signal.Signals(stopped.number)]}; no page written", file=sys.stderr)
         return 128 + stopped.number
