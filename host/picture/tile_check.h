@@ -9,9 +9,9 @@
 
 namespace rt {
 
-/// Renders four strips across the picture on the device and on threads. Throws Error (ExitCode::device) unless
-/// the bits are the same: the driver, or the kernel it keeps in its cache, is broken. Strict
-/// arithmetic only. About 33,000 samples, a millisecond or two.
+/// Renders four strips across the picture on the device and on threads. Throws Error
+/// (ExitCode::device) unless the bits are the same: the driver, or the kernel it keeps in its
+/// cache, is broken. Strict arithmetic only. About 33,000 samples, a millisecond or two.
 template <typename T>
 void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
                const std::string& isa);
