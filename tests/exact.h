@@ -16,9 +16,13 @@
 // Independent of the renderer.
 namespace rt {
 
+using stress::cross;
+using stress::dot;
+using stress::length;
 using stress::magnitude;
 using stress::Quad;
 using stress::square_root;
+using stress::unit;
 using Quad3 = stress::Wide3<Quad>;
 
 template <typename P>

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "host/base/text.h"
@@ -16,18 +15,6 @@ namespace {
 
 constexpr double wrong_error = 1.0 / 255;
 constexpr double edge_matters = 2e-5;
-
-/// The largest difference in any channel; infinite if a channel is NaN.
-double pixel_error(const float* pixel, const std::array<double, 3>& reference) {
-    double largest = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        if (std::isnan(pixel[c])) return std::numeric_limits<double>::infinity();
-        const double difference =
-            std::clamp(double{pixel[c]}, 0.0, 1.0) - std::clamp(reference[c], 0.0, 1.0);
-        largest = std::max(largest, std::fabs(difference));
-    }
-    return largest;
-}
 
 }  // namespace
 
@@ -46,7 +33,8 @@ PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& re
     std::vector<std::size_t> doubtful;
     std::vector<double> errors;
     for (std::size_t i = 0; i < picture.pixels.size() / 3; ++i) {
-        const double error = pixel_error(&picture.pixels[3 * i], reference.color(i));
+        const float* const pixel = &picture.pixels[3 * i];
+        const double error = color_difference({pixel[0], pixel[1], pixel[2]}, reference.color(i));
         if (error > edge_matters) {
             doubtful.push_back(i);
             errors.push_back(error);

@@ -12,7 +12,9 @@ namespace rt {
 
 namespace {
 
+using stress::dot;
 using stress::Quad;
+using stress::unit;
 using stress::Wide3;
 
 template <typename V>
@@ -47,13 +49,6 @@ void leave_primitive(RandomNumbers& random, typename Flat<T>::RayQuery& query,
     query.next = rounded_unit<T>(at_angle(random, normal, angle));
 }
 
-/// Whether to the normal's side.
-template <typename T>
-bool is_outwards(const typename Flat<T>::RayQuery& query,
-                 const typename Flat<T>::RayAnswer& answer) {
-    return glm::dot(in_double(query.next), in_double(answer.normal)) > 0;
-}
-
 /// Center and smallest half extent of the flat triangles.
 struct Bounds {
     glm::dvec3 middle;
@@ -73,63 +68,121 @@ Bounds bounds_of(const FlatScene<T>& flat) {
     return {low + half, std::min({half.x, half.y, half.z})};
 }
 
-/// The ray's exact distance to the sphere, by the quadratic formula; negative for a miss.
+/// The scene's first sphere, as the tracer sees it.
 template <typename T>
-Quad exact_distance(const typename Flat<T>::RayQuery& ray, const typename Flat<T>::Sphere& sphere) {
-    const Wide3<Quad> f = in_quad(ray.origin) - in_quad(sphere.center), d = in_quad(ray.dir);
-    const Quad radius = sphere.radius;
-    const Quad a = dot(d, d), b = dot(f, d);
-    const Quad discriminant = b * b - a * (dot(f, f) - radius * radius);
-    if (!(discriminant >= 0)) return -1;
-    const Quad root = stress::square_root(discriminant);
-    const Quad near = (-b - root) / a;
-    return near > 0 ? near : (-b + root) / a;
+struct FirstSphere {
+    typename Flat<T>::Sphere flat;
+    typename Flat<T>::Index prim = 0;
+    stress::WideSphere<Quad> exact{in_quad(flat.center), Quad(flat.radius), 0};
+
+    explicit FirstSphere(const FlatScene<T>& scene) : flat(scene.spheres[0]) {}
+
+    glm::dvec3 point_on(RandomNumbers& random) const {
+        return in_double(flat.center) + double(flat.radius) * random.direction();
+    }
+
+    glm::dvec3 point_near(RandomNumbers& random) const {
+        const double reach = 1.5 * double(flat.radius) * random.uniform(0, 1);
+        return in_double(flat.center) + reach * random.direction();
+    }
+
+    /// Distance to the far side, for a ray from the exact point with the answer's normal.
+    std::optional<Quad> way_back(const typename Flat<T>::RayAnswer& start,
+                                 const typename Flat<T>::Packed3& dir) const {
+        return Quad(-2) * exact.radius * dot(unit(in_quad(start.normal)), unit(in_quad(dir)));
+    }
+};
+
+/// The scene's first cone; likewise.
+template <typename T>
+struct FirstCone {
+    typename Flat<T>::Cone flat;
+    typename Flat<T>::Index prim;
+    stress::WideCone<Quad> exact{in_quad(flat.base), unit(in_quad(flat.axis)),
+                                 Quad(flat.length),  Quad(flat.base_radius),
+                                 Quad(flat.slope),   0};
+
+    explicit FirstCone(const FlatScene<T>& scene)
+        : flat(scene.cones[0]), prim(scene.params.sphere_count) {}
+
+    glm::dvec3 point_on(RandomNumbers& random) const { return point_near(random); }
+
+    /// Within 1.5 times the cone's extent.
+    glm::dvec3 point_near(RandomNumbers& random) const {
+        const double length = flat.length, wide = std::fabs(double(flat.slope)) * length;
+        const double at = random.uniform(-0.25, 1.25) * length;
+        const double reach = 1.5 * (double(flat.base_radius) + wide) * random.uniform(0, 1);
+        return in_double(flat.base) + at * in_double(flat.axis) + reach * random.direction();
+    }
+
+    /// Distance at which an exact ray from the answer's point hits the cone again, negative if it
+    /// does not; empty if that is within a thousandth of the length of a rim.
+    std::optional<Quad> way_back(const typename Flat<T>::RayAnswer& start,
+                                 const typename Flat<T>::Packed3& dir) const {
+        const Wide3<Quad> along = in_quad(start.point) - exact.base;
+        const Quad height = dot(along, exact.axis);
+        const Wide3<Quad> outwards = unit(along - height * exact.axis);
+        stress::WideRay<Quad> ray;
+        ray.origin =
+            exact.base + height * exact.axis + (exact.radius + exact.slope * height) * outwards;
+        ray.dir = unit(in_quad(dir));
+        stress::WideCone<Quad> endless = exact;  // extended beyond both rims
+        endless.base = exact.base - exact.length * exact.axis;
+        endless.radius = exact.radius - exact.length * exact.slope;
+        endless.length = 3 * exact.length;
+        const Quad t = hit_shape(ray, endless, true).t;
+        const auto share =
+            static_cast<double>((height + t * dot(ray.dir, exact.axis)) / exact.length);
+        constexpr double clear = 1e-3;
+        if (!(t > 0) || share <= -clear || share >= 1 + clear) return Quad(-1);
+        if (share <= clear || share >= 1 - clear) return {};
+        return t;
+    }
+};
+
+/// Rays that leave a shape: outwards, nothing must be hit; inwards, the way back.
+template <template <typename> typename Shape>
+RayTrial leaving(const Scene& scene, double shallowest, double tolerance) {
+    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+        const FlatScene<T> flat = flatten<T>(scene);
+        const Shape<T> shape(flat);
+        const auto make = [&](RandomNumbers& random) {
+            return ray_query<T>(glm::dvec3(0), shape.point_on(random));
+        };
+        const auto continue_ray = [&](RandomNumbers& random, auto& query, const auto& answer) {
+            leave_primitive<T>(random, query, answer, shape.prim, shallowest);
+        };
+        return many_rays<T>(caster.tracer(flat), rays, make, continue_ray,
+                            [&](const auto& query, const auto& answer, RayFigures& figures) {
+                                if (!has_left<T>(query)) return;
+                                const bool is_outwards =
+                                    glm::dot(in_double(query.next), in_double(answer.normal)) > 0;
+                                const std::optional<Quad> exact =
+                                    is_outwards ? Quad(-1) : shape.way_back(answer, query.next);
+                                if (!exact) return;
+                                note_hit(figures, answer.next_prim == shape.prim,
+                                         double(answer.next_t), *exact, tolerance);
+                            });
+    });
 }
 
-/// Distance to the far side, for a ray from the exact point of the sphere with this normal.
-template <typename P, typename Sphere>
-Quad far_side(const P& normal, const P& dir, const Sphere& sphere) {
-    return Quad(-2) * Quad(sphere.radius) * dot(unit(in_quad(normal)), unit(in_quad(dir)));
-}
-
-/// The rounded cone that the tracer sees.
-template <typename T>
-stress::WideCone<Quad> exact_cone(const typename Flat<T>::Cone& cone) {
-    return {in_quad(cone.base),     unit(in_quad(cone.axis)), Quad(cone.length),
-            Quad(cone.base_radius), Quad(cone.slope),         0};
-}
-
-/// A random direction past the cone: to a point within 1.5 times its extent.
-template <typename T>
-glm::dvec3 way_to(const typename Flat<T>::Cone& cone, RandomNumbers& random) {
-    const double length = cone.length, wide = std::fabs(double(cone.slope)) * length;
-    const double at = random.uniform(-0.25, 1.25) * length;
-    const double reach = 1.5 * (double(cone.base_radius) + wide) * random.uniform(0, 1);
-    return in_double(cone.base) + at * in_double(cone.axis) + reach * random.direction();
-}
-
-/// Distance at which an exact ray from this point of the cone hits it again, negative if it does
-/// not; empty if that is within a thousandth of the length of a rim.
-template <typename T>
-std::optional<Quad> exact_return(const typename Flat<T>::Packed3& start,
-                                 const typename Flat<T>::Packed3& dir,
-                                 const stress::WideCone<Quad>& cone) {
-    const Wide3<Quad> along = in_quad(start) - cone.base;
-    const Quad height = dot(along, cone.axis);
-    const Wide3<Quad> outwards = unit(along - height * cone.axis);
-    stress::WideRay<Quad> ray;
-    ray.origin = cone.base + height * cone.axis + (cone.radius + cone.slope * height) * outwards;
-    ray.dir = unit(in_quad(dir));
-    stress::WideCone<Quad> endless = cone;  // extended beyond both rims
-    endless.base = cone.base - cone.length * cone.axis;
-    endless.radius = cone.radius - cone.length * cone.slope;
-    endless.length = 3 * cone.length;
-    const Quad t = stress::hit_cone(ray, endless, true);
-    const auto share = static_cast<double>((height + t * dot(ray.dir, cone.axis)) / cone.length);
-    constexpr double clear = 1e-3;
-    if (!(t > 0) || share <= -clear || share >= 1 + clear) return Quad(-1);
-    if (share <= clear || share >= 1 - clear) return {};
-    return t;
+/// Rays past a shape.
+template <template <typename> typename Shape>
+RayTrial past(const Scene& scene) {
+    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
+        const FlatScene<T> flat = flatten<T>(scene);
+        const Shape<T> shape(flat);
+        const auto make = [&](RandomNumbers& random) {
+            return ray_query<T>(glm::dvec3(0), shape.point_near(random));
+        };
+        return many_rays<T>(
+            caster.tracer(flat), rays, make, nullptr,
+            [&](const auto& query, const auto& answer, RayFigures& figures) {
+                const stress::WideRay<Quad> ray{in_quad(query.origin), in_quad(query.dir)};
+                note_hit(figures, answer.prim == shape.prim, double(answer.t),
+                         hit_shape(ray, shape.exact, false).t);
+            });
+    });
 }
 
 }  // namespace
@@ -166,87 +219,16 @@ RayTrial leaks(const Scene& mesh, RayAim aim) {
     });
 }
 
-/// Outwards, nothing must be hit; inwards, the far side.
 RayTrial leaving_sphere(const Scene& scene, double shallowest) {
-    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-        const FlatScene<T> flat = flatten<T>(scene);
-        const auto& sphere = flat.spheres[0];
-        const auto make = [&](RandomNumbers& random) {
-            return ray_query<T>(glm::dvec3(0), in_double(sphere.center) +
-                                                   double(sphere.radius) * random.direction());
-        };
-        const auto continue_ray = [=](RandomNumbers& random, auto& query, const auto& answer) {
-            leave_primitive<T>(random, query, answer, 0, shallowest);
-        };
-        return many_rays<T>(
-            caster.tracer(flat), rays, make, continue_ray,
-            [&](const auto& query, const auto& answer, RayFigures& figures) {
-                if (!has_left<T>(query)) return;
-                const Quad exact = is_outwards<T>(query, answer)
-                                       ? Quad(-1)
-                                       : far_side(answer.normal, query.next, sphere);
-                note_hit(figures, answer.next_prim == 0, double(answer.next_t), exact, 1e-3);
-            });
-    });
+    return leaving<FirstSphere>(scene, shallowest, 1e-3);
 }
 
-RayTrial past_sphere(const Scene& scene) {
-    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-        const FlatScene<T> flat = flatten<T>(scene);
-        const auto& sphere = flat.spheres[0];
-        const auto make = [&](RandomNumbers& random) {
-            const double reach = 1.5 * double(sphere.radius) * random.uniform(0, 1);
-            return ray_query<T>(glm::dvec3(0),
-                                in_double(sphere.center) + reach * random.direction());
-        };
-        return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
-                            [&](const auto& query, const auto& answer, RayFigures& figures) {
-                                note_hit(figures, answer.prim == 0, double(answer.t),
-                                         exact_distance<T>(query, sphere));
-                            });
-    });
-}
-
-/// Outwards, nothing must be hit; inwards, the exact far side if it is clear of the rims.
 RayTrial leaving_cone(const Scene& scene, double shallowest) {
-    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-        const FlatScene<T> flat = flatten<T>(scene);
-        const stress::WideCone<Quad> cone = exact_cone<T>(flat.cones[0]);
-        const auto prim = flat.params.sphere_count;
-        const auto make = [&](RandomNumbers& random) {
-            return ray_query<T>(glm::dvec3(0), way_to<T>(flat.cones[0], random));
-        };
-        const auto continue_ray = [=](RandomNumbers& random, auto& query, const auto& answer) {
-            leave_primitive<T>(random, query, answer, prim, shallowest);
-        };
-        return many_rays<T>(
-            caster.tracer(flat), rays, make, continue_ray,
-            [&](const auto& query, const auto& answer, RayFigures& figures) {
-                if (!has_left<T>(query)) return;
-                const std::optional<Quad> exact =
-                    is_outwards<T>(query, answer) ? Quad(-1)
-                                                  : exact_return<T>(answer.point, query.next, cone);
-                if (!exact) return;
-                note_hit(figures, answer.next_prim == prim, double(answer.next_t), *exact, 1e-2);
-            });
-    });
+    return leaving<FirstCone>(scene, shallowest, 1e-2);
 }
 
-RayTrial past_cone(const Scene& scene) {
-    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-        const FlatScene<T> flat = flatten<T>(scene);
-        const stress::WideCone<Quad> cone = exact_cone<T>(flat.cones[0]);
-        const auto make = [&](RandomNumbers& random) {
-            return ray_query<T>(glm::dvec3(0), way_to<T>(flat.cones[0], random));
-        };
-        return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
-                            [&](const auto& query, const auto& answer, RayFigures& figures) {
-                                const Quad exact = stress::hit_cone<Quad>(
-                                    {in_quad(query.origin), in_quad(query.dir)}, cone, false);
-                                note_hit(figures, answer.prim == flat.params.sphere_count,
-                                         double(answer.t), exact);
-                            });
-    });
-}
+RayTrial past_sphere(const Scene& scene) { return past<FirstSphere>(scene); }
+
+RayTrial past_cone(const Scene& scene) { return past<FirstCone>(scene); }
 
 }  // namespace rt

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -14,6 +16,8 @@ namespace rt {
 
 namespace stress {
 
+namespace {
+
 /// The scene's camera for the reference, in wide reals.
 template <typename R>
 class WideCamera {
@@ -23,9 +27,9 @@ class WideCamera {
           height_(scene.height),
           parallel_(scene.camera.projection == Scene::Projection::orthographic) {
         const Scene::Camera& camera = scene.camera;
-        from_ = widened<R>(camera.from);
-        forward_ = unit(widened<R>(camera.at) - from_);
-        right_ = unit(cross(forward_, widened<R>(camera.up)));
+        from_ = Wide3<R>(camera.from);
+        forward_ = unit(Wide3<R>(camera.at) - from_);
+        right_ = unit(cross(forward_, Wide3<R>(camera.up)));
         up_ = cross(right_, forward_);
         set_window(camera);
     }
@@ -67,16 +71,6 @@ class WideCamera {
     R left_ = -1, right_side_ = 1, bottom_ = -1, top_ = 1;
 };
 
-}  // namespace stress
-
-namespace {
-
-using stress::Wide3;
-using stress::WideHit;
-using stress::widened;
-using stress::WideRay;
-using stress::WideSurface;
-
 /// Surfaces this close together, relative to the distance, count as one. Far above the rounding of
 /// either wide type.
 template <typename R>
@@ -99,73 +93,54 @@ struct Branch {
     int bounce = 0;
 };
 
+/// A ReferenceTracer.
 template <typename R>
-class Tracer final : public ReferenceTracer {
+class Tracer {
    public:
     explicit Tracer(const Scene& scene) : scene_(scene), camera_(scene) {
-        for (const auto& sphere : scene.spheres) spheres_.push_back(stress::wide_sphere<R>(sphere));
-        for (const auto& cone : scene.cones) cones_.push_back(stress::wide_cone<R>(cone));
-        for (const auto& triangle : scene.triangles) {
-            triangles_.push_back(stress::wide_triangle<R>(triangle));
-        }
-        for (const auto& sphere : spheres_) bounds_.push_back(stress::bound_of(sphere));
-        for (const auto& cone : cones_) bounds_.push_back(stress::bound_of(cone));
-        for (const auto& triangle : triangles_) bounds_.push_back(stress::bound_of(triangle));
+        for (const auto& sphere : scene.spheres) add(wide_sphere<R>(sphere));
+        for (const auto& cone : scene.cones) add(wide_cone<R>(cone));
+        for (const auto& triangle : scene.triangles) add(wide_triangle<R>(triangle));
         for (const auto& light : scene.lights) {
-            lights_.push_back({widened<R>(light.position), widened<R>(light.intensity)});
+            lights_.push_back({Wide3<R>(light.position), Wide3<R>(light.intensity)});
         }
         if (camera_.has_one_eye()) eye_surface_ = surface_at_eye();
     }
 
-    std::array<double, 3> color_at(double x, double y, double dx, double dy) const override {
+    glm::dvec3 operator()(double x, double y, double dx, double dy) const {
         WideRay<R> ray = camera_.eye_ray(R(x) + R(dx), R(y) + R(dy));
         ray.from = eye_surface_;
-        const Wide3<R> color = trace(ray);
-        return {static_cast<double>(color.x), static_cast<double>(color.y),
-                static_cast<double>(color.z)};
+        return glm::dvec3(trace(ray));
     }
 
    private:
-    /// The sphere or cone on whose surface the eye lies, to the last bits of a double, or -1. Eye
-    /// rays leave it.
+    template <typename Shape>
+    void add(const Shape& shape) {
+        shapes_.emplace_back(shape);
+        bounds_.push_back(bound_of(shape));
+    }
+
+    /// The shape on whose surface the eye lies, to the last bits of a double, or -1. Eye rays
+    /// leave it.
     int surface_at_eye() const {
-        const Wide3<R> eye = widened<R>(scene_.camera.from);
-        for (std::size_t prim = 0; prim < first_triangle(); ++prim) {
-            const bool is_sphere = prim < spheres_.size();
-            const bool touches = is_sphere ? stress::lies_on(eye, spheres_[prim])
-                                           : stress::lies_on(eye, cones_[prim - spheres_.size()]);
-            if (touches) return static_cast<int>(prim);
-        }
-        return -1;
+        const Wide3<R> eye(scene_.camera.from);
+        const auto found = std::ranges::find_if(shapes_, [&](const WideShape<R>& any) {
+            return std::visit([&](const auto& shape) { return lies_on(eye, shape); }, any);
+        });
+        return found == shapes_.end() ? -1 : static_cast<int>(found - shapes_.begin());
     }
 
-    /// Spheres come first, then cones, then triangles.
-    WideHit<R> hit_primitive(const WideRay<R>& ray, std::size_t prim) const {
-        WideHit<R> hit;
-        const bool leaving = static_cast<int>(prim) == ray.from;
-        if (prim < spheres_.size()) {
-            hit.t = stress::hit_sphere(ray, spheres_[prim], leaving);
-        } else if (prim < first_triangle()) {
-            hit.t = stress::hit_cone(ray, cones_[prim - spheres_.size()], leaving);
-        } else if (!leaving) {
-            hit.t = stress::hit_triangle(ray, triangles_[prim - first_triangle()], hit.u, hit.v);
-        }
-        if (hit.t > ray.least) hit.prim = static_cast<int>(prim);
-        return hit;
-    }
-
-    std::size_t first_triangle() const { return spheres_.size() + cones_.size(); }
-    std::size_t primitives() const { return first_triangle() + triangles_.size(); }
-
-    /// Calls take(hit) for each primitive that the ray hits, until it returns true.
+    /// Calls take(hit) for each shape that the ray hits, until it returns true.
     template <typename Take>
     void for_each_hit(const WideRay<R>& ray, const Take& take) const {
-        const Wide3<long double> dir = stress::narrowed(ray.dir);
-        for (std::size_t prim = 0; prim < primitives(); ++prim) {
-            const bool leaving = static_cast<int>(prim) == ray.from;
-            if (!leaving && stress::passes_by(ray.origin, dir, bounds_[prim])) continue;
-            const WideHit<R> hit = hit_primitive(ray, prim);
-            if (hit.prim >= 0 && take(hit)) return;
+        const Wide3<long double> dir(ray.dir);
+        for (std::size_t i = 0; i < shapes_.size(); ++i) {
+            const bool leaving = static_cast<int>(i) == ray.from;
+            if (!leaving && passes_by(ray.origin, dir, bounds_[i])) continue;
+            WideHit<R> hit = std::visit(
+                [&](const auto& shape) { return hit_shape(ray, shape, leaving); }, shapes_[i]);
+            hit.prim = static_cast<int>(i);
+            if (hit.t > ray.least && take(hit)) return;
         }
     }
 
@@ -187,12 +162,8 @@ class Tracer final : public ReferenceTracer {
     }
 
     WideSurface<R> surface_of(const WideRay<R>& ray, const WideHit<R>& hit) const {
-        const auto prim = static_cast<std::size_t>(hit.prim);
-        if (prim < spheres_.size()) return stress::sphere_surface(ray, hit.t, spheres_[prim]);
-        if (prim < first_triangle()) {
-            return stress::cone_surface(ray, hit.t, cones_[prim - spheres_.size()]);
-        }
-        return stress::triangle_surface(hit, triangles_[prim - first_triangle()]);
+        return std::visit([&](const auto& shape) { return surface_at(ray, hit, shape); },
+                          shapes_[static_cast<std::size_t>(hit.prim)]);
     }
 
     static R lobe(const Wide3<R>& normal, const Wide3<R>& half_vector, double exponent) {
@@ -215,10 +186,10 @@ class Tracer final : public ReferenceTracer {
         const R cosine = dot(surface.normal, shadow.dir);
         if (!(cosine > 0) || blocked(shadow, distance)) return {};
         const Wide3<R> sum = shadow.dir + to_eye;
-        Wide3<R> reflected = cosine * widened<R>(material.diffuse);
+        Wide3<R> reflected = cosine * Wide3<R>(material.diffuse);
         if (dot(sum, sum) > 0) {
             reflected = reflected + lobe(surface.normal, unit(sum), material.shininess) *
-                                        widened<R>(material.specular);
+                                        Wide3<R>(material.specular);
         }
         return light.intensity * reflected;
     }
@@ -242,7 +213,7 @@ class Tracer final : public ReferenceTracer {
             const R squared = 1 - eta * eta * (1 - cosine * cosine);
             if (squared < 0) return std::nullopt;
             const Wide3<R> through =
-                unit(eta * dir + (eta * cosine - stress::square_root(squared)) * normal);
+                unit(eta * dir + (eta * cosine - square_root(squared)) * normal);
             if (dot(through, surface.geometric) * dot(dir, surface.geometric) > 0) return through;
         }
         return std::nullopt;
@@ -265,9 +236,9 @@ class Tracer final : public ReferenceTracer {
                        std::vector<Branch<R>>& branches) {
         const Wide3<R>& dir = arriving.ray.dir;
         const int bounce = arriving.bounce + 1;
-        Wide3<R> mirror = arriving.throughput * widened<R>(material.mirror);
-        const Wide3<R> glass = arriving.throughput * widened<R>(material.transmission);
-        const bool is_glass = exceeds(widened<R>(material.transmission), 0);
+        Wide3<R> mirror = arriving.throughput * Wide3<R>(material.mirror);
+        const Wide3<R> glass = arriving.throughput * Wide3<R>(material.transmission);
+        const bool is_glass = exceeds(Wide3<R>(material.transmission), 0);
         const R least = is_glass ? least_throughput<R> : R(0);
         if (is_glass) {
             const R eta = inside ? R(material.ior) : 1 / R(material.ior);
@@ -288,7 +259,7 @@ class Tracer final : public ReferenceTracer {
     Wide3<R> follow(const Branch<R>& arriving, std::vector<Branch<R>>& branches) const {
         const WideRay<R>& ray = arriving.ray;
         const WideHit<R> hit = nearest(ray);
-        if (hit.prim < 0) return widened<R>(scene_.background);
+        if (hit.prim < 0) return Wide3<R>(scene_.background);
         WideSurface<R> surface = surface_of(ray, hit);
         const auto& material = scene_.materials[static_cast<std::size_t>(surface.material)];
         const bool inside = dot(surface.geometric, ray.dir) > 0;
@@ -297,7 +268,7 @@ class Tracer final : public ReferenceTracer {
             surface.geometric = -surface.geometric;
         }
         const WideRay<R> start{surface.point, {}, hit.prim, same_distance<R> / 16 * hit.t};
-        Wide3<R> here = widened<R>(material.ambient) * widened<R>(scene_.ambient_light);
+        Wide3<R> here = Wide3<R>(material.ambient) * Wide3<R>(scene_.ambient_light);
         for (const WideLight<R>& light : lights_) {
             here = here + lit_by(light, surface, material, -ray.dir, start);
         }
@@ -308,7 +279,7 @@ class Tracer final : public ReferenceTracer {
     }
 
     Wide3<R> trace(const WideRay<R>& eye_ray) const {
-        Wide3<R> color;
+        Wide3<R> color(0);
         std::vector<Branch<R>> branches{{eye_ray}};
         while (!branches.empty()) {
             const Branch<R> next = branches.back();
@@ -319,11 +290,9 @@ class Tracer final : public ReferenceTracer {
     }
 
     const Scene scene_;
-    const stress::WideCamera<R> camera_;
-    std::vector<stress::WideSphere<R>> spheres_;
-    std::vector<stress::WideCone<R>> cones_;
-    std::vector<stress::WideTriangle<R>> triangles_;
-    std::vector<stress::Bound<R>> bounds_;  ///< around each primitive
+    const WideCamera<R> camera_;
+    std::vector<WideShape<R>> shapes_;  ///< spheres, then cones, then triangles
+    std::vector<Bound<R>> bounds_;      ///< around each
     std::vector<WideLight<R>> lights_;
     int eye_surface_ = -1;
 };
@@ -334,28 +303,23 @@ constexpr std::size_t pixel_run = 16;
 
 /// The eight moves of a sample: along the axes and the diagonals.
 constexpr double diagonal = 0.70710678 * nearby;
-constexpr std::array<std::array<double, 2>, 8> moves{{{nearby, 0},
-                                                      {-nearby, 0},
-                                                      {0, nearby},
-                                                      {0, -nearby},
-                                                      {diagonal, diagonal},
-                                                      {-diagonal, diagonal},
-                                                      {diagonal, -diagonal},
-                                                      {-diagonal, -diagonal}}};
-
-bool differ(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double change = std::clamp(a[c], 0.0, 1.0) - std::clamp(b[c], 0.0, 1.0);
-        if (!(std::fabs(change) <= least_change)) return true;
-    }
-    return false;
-}
+constexpr glm::dvec2 moves[] = {{nearby, 0},           {-nearby, 0},          {0, nearby},
+                                {0, -nearby},          {diagonal, diagonal},  {-diagonal, diagonal},
+                                {diagonal, -diagonal}, {-diagonal, -diagonal}};
 
 }  // namespace
 
-std::unique_ptr<ReferenceTracer> make_reference_tracer(const Scene& scene, ReferenceKind kind) {
-    if (kind == ReferenceKind::extended) return std::make_unique<Tracer<long double>>(scene);
-    return std::make_unique<Tracer<stress::Quad>>(scene);
+}  // namespace stress
+
+double color_difference(const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 change = glm::abs(glm::clamp(a, 0.0, 1.0) - glm::clamp(b, 0.0, 1.0));
+    return std::isnan(change.x + change.y + change.z) ? std::numeric_limits<double>::infinity()
+                                                      : std::max({change.x, change.y, change.z});
+}
+
+ReferenceTracer make_reference_tracer(const Scene& scene, ReferenceKind kind) {
+    if (kind == ReferenceKind::extended) return stress::Tracer<long double>(scene);
+    return stress::Tracer<stress::Quad>(scene);
 }
 
 ReferencePicture::ReferencePicture(const Scene& scene, ReferenceKind kind)
@@ -365,32 +329,31 @@ ReferencePicture::ReferencePicture(const Scene& scene, ReferenceKind kind)
       tracer_(make_reference_tracer(scene, kind)),
       colors_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)),
       edges_(colors_.size(), -1) {
-    for_each_run(colors_.size(), pixel_run, available_cores(),
+    for_each_run(colors_.size(), stress::pixel_run, available_cores(),
                  [&](std::size_t first, std::size_t last) {
-                     for (std::size_t i = first; i < last; ++i) colors_[i] = pixel_color(i, 0, 0);
+                     for (std::size_t i = first; i < last; ++i) colors_[i] = pixel_color(i, {0, 0});
                  });
 }
 
-std::array<double, 3> ReferencePicture::pixel_color(std::size_t pixel, double dx, double dy) const {
+glm::dvec3 ReferencePicture::pixel_color(std::size_t pixel, glm::dvec2 move) const {
     const auto width = static_cast<std::size_t>(width_);
-    std::array<double, 3> sum{};
+    glm::dvec3 sum(0);
     for (int i = 0; i < grid_ * grid_; ++i) {
         const double x = static_cast<double>(pixel % width) + (i % grid_ + 0.5) / grid_;
         const double y = static_cast<double>(pixel / width) + (i / grid_ + 0.5) / grid_;
-        const std::array<double, 3> color = tracer_->color_at(x, y, dx, dy);
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c] / (grid_ * grid_);
+        sum += tracer_(x, y, move.x, move.y) / static_cast<double>(grid_ * grid_);
     }
     return sum;
 }
 
 bool ReferencePicture::changes_nearby(std::size_t pixel) const {
-    return std::any_of(moves.begin(), moves.end(), [&](const std::array<double, 2>& move) {
-        return differ(colors_[pixel], pixel_color(pixel, move[0], move[1]));
+    return std::ranges::any_of(stress::moves, [&](glm::dvec2 move) {
+        return color_difference(colors_[pixel], pixel_color(pixel, move)) > stress::least_change;
     });
 }
 
 std::vector<bool> ReferencePicture::at_edges(std::span<const std::size_t> pixels) {
-    for_each_run(pixels.size(), pixel_run, available_cores(),
+    for_each_run(pixels.size(), stress::pixel_run, available_cores(),
                  [&](std::size_t first, std::size_t last) {
                      for (std::size_t i = first; i < last; ++i) {
                          std::int8_t& edge = edges_[pixels[i]];
@@ -404,8 +367,10 @@ std::vector<bool> ReferencePicture::at_edges(std::span<const std::size_t> pixels
 
 Picture ReferencePicture::as_picture() const {
     Picture picture{width_, height_, 3, {}};
-    for (const auto& color : colors_) {
-        for (const double value : color) picture.pixels.push_back(static_cast<float>(value));
+    for (const glm::dvec3& color : colors_) {
+        for (const double value : {color.x, color.y, color.z}) {
+            picture.pixels.push_back(static_cast<float>(value));
+        }
     }
     return picture;
 }

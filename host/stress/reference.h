@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <memory>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -16,17 +17,16 @@ namespace rt {
 /// Renders a scene according to docs/scene-format.md, by textbook formulas in wide arithmetic on
 /// the author's own coordinates: nothing is recentered, scaled or shared with the renderers.
 /// Surfaces closer together than 1e-12 of the distance count as one, the first in the scene.
-class ReferenceTracer {
-   public:
-    virtual ~ReferenceTracer() = default;
-
-    /// Linear light, not clamped, at the point (x, y) of the picture, in pixels from its top left
-    /// corner, moved by (dx, dy) pixels. Thread-safe.
-    virtual std::array<double, 3> color_at(double x, double y, double dx, double dy) const = 0;
-};
+///
+/// Returns linear light, not clamped, at the point (x, y) of the picture, in pixels from its top
+/// left corner, moved by (dx, dy) pixels. Thread-safe.
+using ReferenceTracer = std::function<glm::dvec3(double x, double y, double dx, double dy)>;
 
 /// `kind` must not be none. The scene need not outlive this call.
-std::unique_ptr<ReferenceTracer> make_reference_tracer(const Scene& scene, ReferenceKind kind);
+ReferenceTracer make_reference_tracer(const Scene& scene, ReferenceKind kind);
+
+/// The largest difference of a channel, clamped to [0, 1]; infinite with a NaN.
+double color_difference(const glm::dvec3& a, const glm::dvec3& b);
 
 /// The correct picture of a scene, and which of its pixels lie at edges.
 class ReferencePicture {
@@ -35,7 +35,7 @@ class ReferencePicture {
     ReferencePicture(const Scene& scene, ReferenceKind kind);
 
     /// Color of a pixel, counted row by row from the top left; linear, not clamped.
-    const std::array<double, 3>& color(std::size_t pixel) const { return colors_[pixel]; }
+    const glm::dvec3& color(std::size_t pixel) const { return colors_[pixel]; }
 
     /// Which of these pixels lie at an edge: a channel, clamped to [0, 1], changes by more than
     /// 0.5/255 as the samples move by 0.02 pixel. Traced on first use, on all cores.
@@ -44,13 +44,13 @@ class ReferencePicture {
     Picture as_picture() const;
 
    private:
-    std::array<double, 3> pixel_color(std::size_t pixel, double dx, double dy) const;
+    glm::dvec3 pixel_color(std::size_t pixel, glm::dvec2 move) const;
     bool changes_nearby(std::size_t pixel) const;
 
     int width_, height_;
     int grid_;
-    std::unique_ptr<ReferenceTracer> tracer_;
-    std::vector<std::array<double, 3>> colors_;
+    ReferenceTracer tracer_;
+    std::vector<glm::dvec3> colors_;
     std::vector<std::int8_t> edges_;  ///< 1 yes, 0 no, -1 not known yet
 };
 

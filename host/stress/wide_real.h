@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <glm/vec3.hpp>
-#include <type_traits>
 
 // Vectors of wide reals for the reference: __float128 (113 bits) or long double (64 bits), both
 // with 15 bits of exponent. Nothing here is shared with the renderers.
@@ -12,36 +11,10 @@ namespace rt::stress {
 using Quad = __float128;
 
 template <typename R>
-struct Wide3 {
-    R x = 0, y = 0, z = 0;
-};
+using Wide3 = glm::vec<3, R>;
 
-template <typename R>
-Wide3<R> widened(const glm::dvec3& v) {
-    return {R(v.x), R(v.y), R(v.z)};
-}
+// In place of GLM's, which refuse __float128.
 
-template <typename R>
-Wide3<R> operator+(const Wide3<R>& a, const Wide3<R>& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <typename R>
-Wide3<R> operator-(const Wide3<R>& a, const Wide3<R>& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <typename R>
-Wide3<R> operator-(const Wide3<R>& a) {
-    return {-a.x, -a.y, -a.z};
-}
-template <typename R>
-Wide3<R> operator*(std::type_identity_t<R> s, const Wide3<R>& a) {
-    return {s * a.x, s * a.y, s * a.z};
-}
-/// Component by component.
-template <typename R>
-Wide3<R> operator*(const Wide3<R>& a, const Wide3<R>& b) {
-    return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
 template <typename R>
 R dot(const Wide3<R>& a, const Wide3<R>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;

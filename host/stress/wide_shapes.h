@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <type_traits>
+#include <variant>
 
 #include "host/scene/scene.h"
 #include "host/stress/wide_real.h"
@@ -19,6 +20,7 @@ struct WideRay {
     R least = 0;
 };
 
+/// t is negative for a miss.
 template <typename R>
 struct WideHit {
     R t = -1, u = 0, v = 0;
@@ -55,15 +57,18 @@ struct WideTriangle {
 };
 
 template <typename R>
+using WideShape = std::variant<WideSphere<R>, WideCone<R>, WideTriangle<R>>;
+
+template <typename R>
 WideSphere<R> wide_sphere(const Scene::Sphere& sphere) {
-    return {widened<R>(sphere.center), R(sphere.radius), sphere.material};
+    return {Wide3<R>(sphere.center), R(sphere.radius), sphere.material};
 }
 
 template <typename R>
 WideCone<R> wide_cone(const Scene::Cone& cone) {
     WideCone<R> wide;
-    wide.base = widened<R>(cone.base);
-    const Wide3<R> along = widened<R>(cone.apex) - wide.base;
+    wide.base = Wide3<R>(cone.base);
+    const Wide3<R> along = Wide3<R>(cone.apex) - wide.base;
     wide.length = length(along);
     wide.axis = unit(along);
     wide.radius = cone.base_radius;
@@ -75,13 +80,13 @@ WideCone<R> wide_cone(const Scene::Cone& cone) {
 template <typename R>
 WideTriangle<R> wide_triangle(const Scene::Triangle& triangle) {
     WideTriangle<R> wide;
-    wide.corner = widened<R>(triangle.vertices[0]);
-    wide.edge1 = widened<R>(triangle.vertices[1]) - wide.corner;
-    wide.edge2 = widened<R>(triangle.vertices[2]) - wide.corner;
+    wide.corner = Wide3<R>(triangle.vertices[0]);
+    wide.edge1 = Wide3<R>(triangle.vertices[1]) - wide.corner;
+    wide.edge2 = Wide3<R>(triangle.vertices[2]) - wide.corner;
     wide.normal = unit(cross(wide.edge1, wide.edge2));
     if (triangle.normals) {
         const auto& n = *triangle.normals;
-        wide.normals = {widened<R>(n[0]), widened<R>(n[1]), widened<R>(n[2])};
+        wide.normals = {Wide3<R>(n[0]), Wide3<R>(n[1]), Wide3<R>(n[2])};
     }
     wide.material = triangle.material;
     return wide;
@@ -94,12 +99,6 @@ struct Bound {
     Wide3<R> center;
     long double squared_radius = 0;
 };
-
-template <typename R>
-Wide3<long double> narrowed(const Wide3<R>& v) {
-    return {static_cast<long double>(v.x), static_cast<long double>(v.y),
-            static_cast<long double>(v.z)};
-}
 
 template <typename R>
 Bound<R> bound_around(const Wide3<R>& center, R squared_radius) {
@@ -134,7 +133,7 @@ Bound<R> bound_of(const WideTriangle<R>& triangle) {
 /// error of the difference of squares.
 template <typename R>
 bool passes_by(const Wide3<R>& origin, const Wide3<long double>& unit_dir, const Bound<R>& bound) {
-    const Wide3<long double> f = narrowed(bound.center - origin);
+    const Wide3<long double> f = Wide3<long double>(bound.center - origin);
     const long double along = dot(f, unit_dir), squared = dot(f, f);
     return squared - along * along > bound.squared_radius + 1e-16L * squared;
 }
@@ -160,22 +159,29 @@ bool lies_on(const Wide3<R>& point, const WideCone<R>& cone) {
     return magnitude(squared - radius * radius) <= R(1e-14) * squared;
 }
 
-/// Distance to the sphere, negative for a miss. For a ray that leaves it, one root is known: 0.
+/// A ray that starts on a triangle needs no care.
 template <typename R>
-R hit_sphere(const WideRay<R>& ray, const WideSphere<R>& sphere, bool leaving) {
+bool lies_on(const Wide3<R>&, const WideTriangle<R>&) {
+    return false;
+}
+
+// hit_shape: where a ray meets a shape. `leaving`: it starts there, so that one root is known: 0.
+
+template <typename R>
+WideHit<R> hit_shape(const WideRay<R>& ray, const WideSphere<R>& sphere, bool leaving) {
     const Wide3<R> f = ray.origin - sphere.center;
-    const R b = dot(f, ray.dir);
-    if (leaving) return -2 * b;
-    const R discriminant = b * b - (dot(f, f) - sphere.radius * sphere.radius);
-    if (!(discriminant >= 0)) return -1;
-    const R root = square_root(discriminant);
-    return -b - root > ray.least ? -b - root : -b + root;
+    const R a = dot(ray.dir, ray.dir), b = dot(f, ray.dir);
+    if (leaving) return {-2 * b / a};
+    const R discriminant = b * b - a * (dot(f, f) - sphere.radius * sphere.radius);
+    if (!(discriminant >= 0)) return {};
+    const R root = square_root(discriminant), near = (-b - root) / a;
+    return {near > ray.least ? near : (-b + root) / a};
 }
 
 /// Roots of |w + t d|^2 - h^2 = (radius + slope h)^2, h the height above the base: the nearer one
 /// that lies between the rims, on the half of the double cone where the radius is positive.
 template <typename R>
-R hit_cone(const WideRay<R>& ray, const WideCone<R>& cone, bool leaving) {
+WideHit<R> hit_shape(const WideRay<R>& ray, const WideCone<R>& cone, bool leaving) {
     const Wide3<R> w = ray.origin - cone.base;
     const R rise = dot(ray.dir, cone.axis), height = dot(w, cone.axis);
     const R radius = cone.radius + cone.slope * height, growth = cone.slope * rise;
@@ -183,7 +189,7 @@ R hit_cone(const WideRay<R>& ray, const WideCone<R>& cone, bool leaving) {
     const R b = dot(w, ray.dir) - height * rise - radius * growth;
     const R c = leaving ? R(0) : dot(w, w) - height * height - radius * radius;
     const R discriminant = b * b - a * c;
-    if (!(discriminant >= 0)) return -1;
+    if (!(discriminant >= 0)) return {};
     const R root = square_root(discriminant);
     const R q = b < 0 ? root - b : -root - b;
     const auto counts = [&](R t) {
@@ -193,34 +199,37 @@ R hit_cone(const WideRay<R>& ray, const WideCone<R>& cone, bool leaving) {
     const R one = a == 0 ? R(-1) : q / a;
     const R other = leaving || q == 0 ? R(-1) : c / q;
     const bool one_counts = counts(one), other_counts = counts(other);
-    if (one_counts && other_counts) return one < other ? one : other;
-    return one_counts ? one : (other_counts ? other : R(-1));
+    if (one_counts && other_counts) return {one < other ? one : other};
+    return {one_counts ? one : (other_counts ? other : R(-1))};
 }
 
 /// Moller-Trumbore intersection.
 template <typename R>
-R hit_triangle(const WideRay<R>& ray, const WideTriangle<R>& triangle, R& u, R& v) {
+WideHit<R> hit_shape(const WideRay<R>& ray, const WideTriangle<R>& triangle, bool leaving) {
     const Wide3<R> p = cross(ray.dir, triangle.edge2);
     const R determinant = dot(triangle.edge1, p);
-    if (determinant == 0) return -1;
+    if (leaving || determinant == 0) return {};
     const Wide3<R> s = ray.origin - triangle.corner;
-    u = dot(s, p) / determinant;
-    if (!(u >= -rim<R> && u <= 1 + rim<R>)) return -1;
+    const R u = dot(s, p) / determinant;
+    if (!(u >= -rim<R> && u <= 1 + rim<R>)) return {};
     const Wide3<R> q = cross(s, triangle.edge1);
-    v = dot(ray.dir, q) / determinant;
-    if (!(v >= -rim<R> && u + v <= 1 + rim<R>)) return -1;
-    return dot(triangle.edge2, q) / determinant;
+    const R v = dot(ray.dir, q) / determinant;
+    if (!(v >= -rim<R> && u + v <= 1 + rim<R>)) return {};
+    return {dot(triangle.edge2, q) / determinant, u, v};
 }
 
+// surface_at: of a shape, where a ray hits it.
+
 template <typename R>
-WideSurface<R> sphere_surface(const WideRay<R>& ray, R t, const WideSphere<R>& sphere) {
-    const Wide3<R> normal = unit(ray.origin - sphere.center + t * ray.dir);
+WideSurface<R> surface_at(const WideRay<R>& ray, const WideHit<R>& hit,
+                          const WideSphere<R>& sphere) {
+    const Wide3<R> normal = unit(ray.origin - sphere.center + hit.t * ray.dir);
     return {sphere.center + sphere.radius * normal, normal, normal, sphere.material};
 }
 
 template <typename R>
-WideSurface<R> cone_surface(const WideRay<R>& ray, R t, const WideCone<R>& cone) {
-    const Wide3<R> along = ray.origin - cone.base + t * ray.dir;
+WideSurface<R> surface_at(const WideRay<R>& ray, const WideHit<R>& hit, const WideCone<R>& cone) {
+    const Wide3<R> along = ray.origin - cone.base + hit.t * ray.dir;
     const R height = dot(along, cone.axis);
     const Wide3<R> spoke = along - height * cone.axis;
     if (!(dot(spoke, spoke) > 0)) {  // the tip has no normal
@@ -235,7 +244,8 @@ WideSurface<R> cone_surface(const WideRay<R>& ray, R t, const WideCone<R>& cone)
 
 /// Vertex normals are interpolated; the face normal is used where the interpolated one vanishes.
 template <typename R>
-WideSurface<R> triangle_surface(const WideHit<R>& hit, const WideTriangle<R>& triangle) {
+WideSurface<R> surface_at(const WideRay<R>&, const WideHit<R>& hit,
+                          const WideTriangle<R>& triangle) {
     const Wide3<R> point = triangle.corner + hit.u * triangle.edge1 + hit.v * triangle.edge2;
     WideSurface<R> surface{point, triangle.normal, triangle.normal, triangle.material};
     if (!triangle.normals) return surface;
