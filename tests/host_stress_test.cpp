@@ -246,15 +246,19 @@ TEST(RayTrials, AHoleInAMeshIsCounted) {
     mesh.faces.pop_back();
     add_mesh(scene, mesh, add_matt(scene, glm::dvec3(1)));
     set_view(scene, {0, 0, 0}, {0, 0, -1}, 60);
-    EXPECT_GT(leaks(scene, RayAim::edges).in_float(10000, threads_ray_caster()).failures, 50U);
+    EXPECT_GT(
+        leaks(scene, RayAim::edges).run(10000, threads_ray_caster(), Precision::float32).failures,
+        50U);
 }
 
 TEST(RayTrials, AreTheSameEachTime) {
     Scene scene = bare_scene();
     add_sphere(scene, {0, 0, -4}, 1e-5, add_matt(scene, glm::dvec3(1)));
     set_view(scene, {0, 0, 0}, {0, 0, -1}, 60);
-    const RayFigures first = past_sphere(scene).in_float(20000, threads_ray_caster());
-    const RayFigures second = past_sphere(scene).in_float(20000, threads_ray_caster());
+    const RayFigures first =
+        past_sphere(scene).run(20000, threads_ray_caster(), Precision::float32);
+    const RayFigures second =
+        past_sphere(scene).run(20000, threads_ray_caster(), Precision::float32);
     EXPECT_EQ(first.rays, 20000U);
     EXPECT_EQ(first.failures, second.failures);
     EXPECT_EQ(first.max_error, second.max_error);
@@ -275,8 +279,10 @@ TEST(LeavingEdges, StaysOnItsSide) {
         for (const MeshSide side : {MeshSide::inside, MeshSide::outside}) {
             for (const int lanes : lane_widths) {
                 const RayCaster caster = threads_ray_caster(lanes);
-                EXPECT_EQ(edge_escapes(scene, side).in_float(10000, caster).failures, 0U);
-                EXPECT_EQ(edge_escapes(scene, side).in_double(10000, caster).failures, 0U);
+                EXPECT_EQ(edge_escapes(scene, side).run(10000, caster, Precision::float32).failures,
+                          0U);
+                EXPECT_EQ(edge_escapes(scene, side).run(10000, caster, Precision::float64).failures,
+                          0U);
             }
         }
     }

@@ -95,7 +95,7 @@ inline StressFamily listed(StressFamily family, const std::vector<LabeledCase>& 
 
 using StressFamilies = std::vector<StressFamily>;
 
-// One file of families each.
+// In the order of the tables.
 StressFamilies ordinary_families();
 StressFamilies shape_families();
 StressFamilies glass_families();
@@ -104,17 +104,6 @@ StressFamilies eye_families();
 StressFamilies triangle_families();
 StressFamilies mesh_families();
 StressFamilies ray_families();
-
-// The scene scaled or moved. The first and last of these must not change a bit of its picture.
-
-/// By 2^k.
-StressCase scaled_by_two(const MakeScene& scene, int k);
-
-/// By 10^k.
-StressCase scaled_by_ten(const MakeScene& scene, int k);
-
-/// By whole numbers: `by` and up to twice that.
-StressCase moved(const MakeScene& scene, std::string label, double by);
 
 // Trials that send rays through a renderer; the same rays each time.
 

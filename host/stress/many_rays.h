@@ -21,14 +21,10 @@ namespace rt {
 /// A trial that runs count<T>(rays, caster), a generic lambda over T, in float and in double.
 template <typename Count>
 RayTrial both_precisions(const Count& count) {
-    RayTrial trial;
-    trial.in_float = [=](std::uint64_t rays, const RayCaster& caster) {
-        return count.template operator()<float>(rays, caster);
-    };
-    trial.in_double = [=](std::uint64_t rays, const RayCaster& caster) {
-        return count.template operator()<double>(rays, caster);
-    };
-    return trial;
+    return {[=](std::uint64_t rays, const RayCaster& caster, Precision precision) {
+        return precision == Precision::float64 ? count.template operator()<double>(rays, caster)
+                                               : count.template operator()<float>(rays, caster);
+    }};
 }
 
 /// Random numbers, the same on every machine.

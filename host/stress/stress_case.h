@@ -13,6 +13,7 @@
 
 #include "host/flatten/flat_scene.h"
 #include "host/record/describe.h"
+#include "host/render/picture_spec.h"
 #include "host/render/renderer.h"
 #include "host/scene/scene.h"
 
@@ -95,7 +96,7 @@ void describe(A& a, X& x) {
 
 /// Rays without a picture. The tolerance's most_wrong counts failures.
 struct RayTrial {
-    std::function<RayFigures(std::uint64_t rays, const RayCaster&caster)> in_float, in_double;
+    std::function<RayFigures(std::uint64_t rays, const RayCaster&, Precision)> run;
     std::uint64_t rays = 10'000'000, quick_rays = 100'000;
 };
 

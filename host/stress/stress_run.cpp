@@ -51,33 +51,23 @@ std::string file_stem(std::string text) {
     return text;
 }
 
-/// The worst picture of one case, written to a folder with its reference and its errors:
-/// FAMILY-LABEL.reference.png, .worst.png, .error.png.
-class StressPictures {
-   public:
-    void keep_worst(const Picture& picture, const PictureFigures& figures) {
-        const double badness = 1e6 * static_cast<double>(figures.nans + figures.wrong) +
-                               static_cast<double>(figures.wrong_at_edges) + figures.max_error;
-        if (badness <= badness_) return;
-        worst_ = picture;
-        badness_ = badness;
-    }
+/// How bad a picture is, among those of a case.
+double badness_of(const PictureFigures& figures) {
+    return 1e6 * static_cast<double>(figures.nans + figures.wrong) +
+           static_cast<double>(figures.wrong_at_edges) + figures.max_error;
+}
 
-    /// If there is one. Throws Error (ExitCode::output).
-    void write(const std::string& stem, const std::optional<ReferencePicture>& reference) const {
-        if (badness_ < 0) return;
-        write_picture(stem + ".worst.png", worst_, Encoding::display);
-        if (!reference) return;
-        const Picture right = reference->as_picture();
-        write_picture(stem + ".reference.png", right, Encoding::display);
-        write_picture(stem + ".error.png", heat_map(clamped(worst_), clamped(right), 1.0 / 255),
-                      Encoding::display);
-    }
-
-   private:
-    Picture worst_;
-    double badness_ = -1;
-};
+/// Writes STEM.worst.png and, with a reference, STEM.reference.png and STEM.error.png. Throws Error
+/// (ExitCode::output).
+void write_pictures(const std::string& stem, const Picture& worst,
+                    const std::optional<ReferencePicture>& reference) {
+    write_picture(stem + ".worst.png", worst, Encoding::display);
+    if (!reference) return;
+    const Picture right = reference->as_picture();
+    write_picture(stem + ".reference.png", right, Encoding::display);
+    write_picture(stem + ".error.png", heat_map(clamped(worst), clamped(right), 1.0 / 255),
+                  Encoding::display);
+}
 
 class Runner {
    public:
@@ -130,7 +120,8 @@ class Runner {
                               trial.reference);
         }
         result.reference_seconds = watch.seconds();
-        StressPictures pictures;
+        std::optional<Picture> worst;
+        double badness = 0;
         add_rows(one, result.rows, [&](const DeviceChoice& device, StressRow& row) {
             try {
                 const RenderedPicture rendered =
@@ -141,14 +132,19 @@ class Runner {
                                         : count_non_numbers(rendered.picture);
                 row.figures.hash = rendered.stats.image_hash;
                 row.why = exceeded_tolerance(row.figures, one.tolerance);
-                if (!options_.output.empty()) pictures.keep_worst(rendered.picture, row.figures);
+                if (!worst || badness_of(row.figures) > badness) {
+                    worst = rendered.picture;
+                    badness = badness_of(row.figures);
+                }
             } catch (const Error& error) {
                 row.why = first_line(error.what());
             }
             check_same_bits(trial, row);
             return true;
         });
-        pictures.write(options_.output + "/" + file_stem(family.name + "-" + one.label), reference);
+        if (options_.output.empty() || !worst) return;
+        write_pictures(options_.output + "/" + file_stem(family.name + "-" + one.label), *worst,
+                       reference);
     }
 
     /// Checks that a row has the same bits as the first of its group on this renderer.
@@ -170,8 +166,7 @@ class Runner {
             try {
                 const DriverTask task(device.use_threads ? "" : row.renderer);
                 const RayCaster caster = ray_caster(device, cache_.devices);
-                row.rays = row.precision == Precision::float64 ? trial.in_double(rays, caster)
-                                                               : trial.in_float(rays, caster);
+                row.rays = trial.run(rays, caster, row.precision);
                 row.why = exceeded_tolerance(*row.rays, one.tolerance);
             } catch (const Error& error) {
                 row.why = first_line(error.what());
