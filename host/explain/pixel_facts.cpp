@@ -27,70 +27,40 @@ void for_each_pixel(const Rect& region, const StopFlag& stop, const Work& work) 
                  });
 }
 
-/// What each pixel of a region counts, beyond its eye rays; in adaptive and edges modes also the
-/// samples beyond that at its center.
+/// What each pixel of a strip, pixels below each other, counts beyond its eye rays; in adaptive and
+/// edges modes also the samples beyond that at its center.
 template <typename T>
-class PixelCounter {
-   public:
-    using Counts = typename Flat<T>::RayCounts;
-
-    PixelCounter(const FlatScene<T>& scene, const Rect& region)
-        : kernels_(native_kernels_for(scene, any_samples())),
-          view_(native_view(scene)),
-          region_(region),
-          counts_(static_cast<std::size_t>(region.pixels())) {}
-
-    const Counts& operator[](std::size_t i) const { return counts_[i]; }
-    std::uint64_t samples() const { return static_cast<std::uint64_t>(view_.params.samples); }
-
-    /// For a strip of pixels below each other.
-    void count(const Rect& strip) {
-        std::vector<T> film(3 * static_cast<std::size_t>(strip.pixels()));
-        for (int y = strip.y; y < strip.y + strip.height; ++y) {
-            const auto pixel = flat_tile<T>({strip.x, y, 1, 1}, {strip.x, y, 1, 1});
-            kernels_.render_pixels(film.data(), &at(strip.x, y), &view_, &pixel, 0, 1);
-        }
-        if (renders_in_rounds(view_.params)) count_rounds(strip, film.data());
-    }
-
-   private:
+auto counts_of(const NativeKernels<T>& kernels, const NativeView<T>& view, const Rect& strip) {
     using Index = typename Flat<T>::Index;
-
-    static ThreadsOptions any_samples() {
-        ThreadsOptions options;
-        options.kernels.any_samples = true;
-        return options;
+    const auto height = static_cast<std::size_t>(strip.height);
+    std::vector<typename Flat<T>::RayCounts> counts(height);
+    std::vector<T> film(3 * height);
+    for (std::size_t i = 0; i < height; ++i) {
+        const Rect pixel{strip.x, strip.y + static_cast<int>(i), 1, 1};
+        const auto tile = flat_tile<T>(pixel, pixel);
+        kernels.render_pixels(film.data(), &counts[i], &view, &tile, 0, 1);
     }
-
-    Counts& at(int x, int y) { return counts_[index_in(region_, x, y)]; }
-
-    /// Row by row, each of which has one pixel that is not in the strip's margin.
-    void count_rounds(const Rect& strip, T* film) {
-        const auto tile = flat_tile<T>(strip, strip);
-        const int margin = tile_margin(view_.params);
-        const auto wide = size_with_margin(tile, margin);
-        std::vector<T> planes(plane_values(view_.params, tile, kernels_.lanes));
-        Counts ignored{};
-        kernels_.render_centers(planes.data(), &ignored, &view_, &tile, 0,
-                                wide.width * wide.height);  // packets of a pixel, or more
-        const auto render = round_kernel(kernels_, view_.params);
-        for (int round = 0; round < margin; ++round) {
-            const int around = margin - 1 - round;
-            const Index across = (1 + 2 * around + kernels_.lanes - 1) / kernels_.lanes;
-            for (Index row = 0; row < strip.height + 2 * around; ++row) {
-                const int y = strip.y + static_cast<int>(row) - around;
-                const bool is_margin = y < strip.y || y >= strip.y + strip.height;
-                render(film, is_margin ? &ignored : &at(strip.x, y), &view_, &tile, planes.data(),
-                       round, row * across, (row + 1) * across);
-            }
+    if (!renders_in_rounds(view.params)) return counts;
+    const auto tile = flat_tile<T>(strip, strip);
+    const int margin = tile_margin(view.params);
+    const auto wide = size_with_margin(tile, margin);
+    std::vector<T> planes(plane_values(view.params, tile, kernels.lanes));
+    typename Flat<T>::RayCounts ignored{};
+    kernels.render_centers(planes.data(), &ignored, &view, &tile, 0,
+                           wide.width * wide.height);  // packets of a pixel, or more
+    const auto render = round_kernel(kernels, view.params);
+    // Row by row, each of which has one pixel that is not in the margin.
+    for (int round = 0; round < margin; ++round) {
+        const int around = margin - 1 - round;
+        const Index across = (1 + 2 * around + kernels.lanes - 1) / kernels.lanes;
+        for (Index row = 0; row < strip.height + 2 * around; ++row) {
+            const auto i = static_cast<std::size_t>(row - around);  // huge in the margin above
+            render(film.data(), i < height ? &counts[i] : &ignored, &view, &tile, planes.data(),
+                   round, row * across, (row + 1) * across);
         }
     }
-
-    const NativeKernels<T>& kernels_;
-    const NativeView<T> view_;
-    const Rect region_;
-    std::vector<Counts> counts_;
-};
+    return counts;
+}
 
 }  // namespace
 
@@ -120,19 +90,25 @@ PixelHits pixel_hits(const Scene& scene, const Rect& region, const StopFlag& sto
 template <typename T>
 PixelWork pixel_work(const Scene& scene, const Rect& region, const StopFlag& stop) {
     const FlatScene<T> flat = flatten<T>(scene);
-    PixelCounter<T> counter(flat, region);
-    const std::vector<Rect> strips = make_tiles(region, 1, 64);
-    for_each_run(strips.size(), 1, available_cores(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last && stop == 0; ++i) counter.count(strips[i]);
-    });
+    ThreadsOptions options;
+    options.kernels.any_samples = true;
+    const NativeKernels<T>& kernels = native_kernels_for(flat, options);
+    const NativeView<T> view = native_view(flat);
     const auto pixels = static_cast<std::size_t>(region.pixels());
     PixelWork work{std::vector<std::uint32_t>(pixels), std::vector<std::uint64_t>(pixels)};
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const auto& counts = counter[i];
-        const std::uint64_t samples = counter.samples() + counts.primary;
-        work.samples[i] = static_cast<std::uint32_t>(samples);
-        work.rays[i] = samples + counts.shadow + counts.mirror + counts.transmitted;
-    }
+    const std::vector<Rect> strips = make_tiles(region, 1, 64);
+    for_each_run(strips.size(), 1, available_cores(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last && stop == 0; ++k) {
+            int y = strips[k].y;
+            for (const auto& counts : counts_of(kernels, view, strips[k])) {
+                const std::size_t i = index_in(region, strips[k].x, y++);
+                const auto samples =
+                    static_cast<std::uint64_t>(flat.params.samples) + counts.primary;
+                work.samples[i] = static_cast<std::uint32_t>(samples);
+                work.rays[i] = samples + counts.shadow + counts.mirror + counts.transmitted;
+            }
+        }
+    });
     return work;
 }
 
