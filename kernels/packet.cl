@@ -10,17 +10,7 @@
 
 #include "kernels/whitted.cl"
 
-#if RT_LANES == 1
-#define RT_LOG_LANES 0
-#elif RT_LANES == 2
-#define RT_LOG_LANES 1
-#elif RT_LANES == 4
-#define RT_LOG_LANES 2
-#elif RT_LANES == 8
-#define RT_LOG_LANES 3
-#else
-#define RT_LOG_LANES 4
-#endif
+#define RT_LOG_LANES ((RT_LANES > 1) + (RT_LANES > 2) + (RT_LANES > 4) + (RT_LANES > 8))
 
 typedef struct {
     Index samples;  // of each pixel
