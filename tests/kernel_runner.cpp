@@ -2,6 +2,7 @@
 #include "tests/kernel_runner.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include "host/base/error.h"
 #include "host/opencl/device_spec.h"
 #include "host/opencl/pocl.h"
+#include "host/record/record.h"
 #include "host/selftest/selftest.h"
 #include "tests/native_probes.h"
 
@@ -98,11 +100,37 @@ void expect_native_bits(const ProbeRecord& launch) {
     }
 }
 
+Json json_of(const std::vector<ProbeArray>& arrays) {
+    Json list = Json::array();
+    for (const ProbeArray& array : arrays) {
+        const auto* const begin = reinterpret_cast<const std::uint8_t*>(array.bytes.data());
+        list.push_back({array.item_bytes, array.holds_numbers,
+                        Json::binary({begin, begin + array.bytes.size()})});
+    }
+    return list;
+}
+
+/// The file that recorded_probes reads.
+std::string encoded(const std::vector<ProbeRecord>& records) {
+    Json list = Json::array();
+    for (const ProbeRecord& record : records) {
+        list.push_back({record.function, record.is_double, record.count, json_of(record.inputs),
+                        json_of(record.outputs)});
+    }
+    const std::vector<std::uint8_t> plain = Json::to_msgpack(list);
+    const uLongf plain_size = plain.size();
+    uLongf size = compressBound(plain_size);
+    std::vector<Bytef> packed(size);
+    compress2(packed.data(), &size, plain.data(), plain_size, Z_BEST_COMPRESSION);
+    return std::string(reinterpret_cast<const char*>(&plain_size), sizeof(plain_size)) +
+           std::string(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size));
+}
+
 /// Collects the launches of strict probes, the first items of each, for `mirrorball selftest`.
 class Recorder {
    public:
     void add(const ProbeRecord& launch) {
-        const bool has_scene = launch.inputs.size() >= scene_inputs;
+        const bool has_scene = launch.has_scene();
         const std::size_t most = has_scene ? 24 : 64;
         ProbeRecord record = first_items(launch, launch.function == "layout" ? launch.count : most);
         auto& [items, records] = launches_[{has_scene, launch.function, launch.is_double}];

@@ -8,6 +8,8 @@
 #include "host/base/hash.h"
 #include "host/base/version.h"
 #include "host/explain/ray_tree.h"
+#include "host/image/atomic_file.h"
+#include "host/image/output_path.h"
 #include "host/opencl/cl_options.h"
 #include "host/opencl/cl_renderer.h"
 #include "host/opencl/cl_tiles.h"
@@ -15,10 +17,11 @@
 #include "host/process/worker.h"
 #include "host/render/packet_shape.h"
 #include "host/render/threads_renderer.h"
-#include "host/selftest/reproducer.h"
 #include "host/selftest/selftest.h"
 
 namespace rt {
+
+extern const char* const reproduce_program;  // contrib/reproduce/reproduce.c, embedded by CMake
 
 namespace {
 
@@ -30,6 +33,50 @@ std::string why_of(const std::function<std::string()>& check) {
     checks.run("blame", check);
     return checks.list().empty() ? "stopped" : checks.list().front().why;
 }
+
+/// Writes a kernel launch as contrib/reproduce/reproduce.c makes it to a folder. Throws Error
+/// (output).
+class Reproducer {
+   public:
+    /// `numbers`: of the results; see reproduce.c.
+    Reproducer(std::string folder, const std::string& kernel, const std::string& options,
+               const char* numbers, std::size_t items, std::size_t group)
+        : folder_(std::move(folder)), global_((items + group - 1) / group * group) {
+        create_output_folder(folder_);
+        launch_ = fmt::format("kernel {}\noptions {}\nnumbers {}\nglobal {}\nlocal {}\n", kernel,
+                              options, numbers, global_, group);
+    }
+
+    /// An argument of one of its kinds.
+    void add(const char* kind, std::span<const std::byte> bytes) {
+        const std::string file = fmt::format("argument{}.bin", count_++);
+        launch_ += fmt::format("{} {}\n", kind, file);
+        write_file_atomically(folder_ + "/" + file, bytes);
+    }
+    template <typename T>
+    void add_value(const T& x) {
+        add("value", std::as_bytes(std::span(&x, 1)));
+    }
+    void add_scratch(std::size_t bytes_per_item) {
+        launch_ += fmt::format("scratch {}\n", global_ * bytes_per_item);
+    }
+
+    void finish(std::string_view source, std::string_view readme) const {
+        for (const auto& [file, text] :
+             {std::pair<const char*, std::string_view>{"launch.txt", launch_},
+              {"kernel.cl", source},
+              {"reproduce.c", reproduce_program},
+              {"README", readme}}) {
+            write_file_atomically(folder_ + "/" + file, std::as_bytes(std::span(text)));
+        }
+    }
+
+   private:
+    const std::string folder_;
+    const std::size_t global_;
+    std::string launch_;
+    int count_ = 0;
+};
 
 /// A function that is wrong on its own.
 struct WrongFunction {
@@ -49,29 +96,24 @@ class FunctionBlame {
     FunctionBlame(const ClDevice& device, const std::string& folder, Blame& blame)
         : device_(device), folder_(folder), blame_(blame), probes_(device) {}
 
-    /// Fills the blame in, if a function is wrong.
+    /// Fills the blame in, if a function is wrong. Those that take scenes, and many items, are
+    /// tried only if all others are right.
     void find() {
-        const int float_lanes = packet_lanes<float>(0, device_);
-        const int double_lanes = packet_lanes<double>(0, device_);
-        struct Step {
-            bool is_double, of_scenes;
-            int lanes;
+        const auto stage = [](const ProbeRecord& record) {
+            return record.in_one_launch ? 2 : record.has_scene() ? 1 : 0;
         };
-        for (const auto& [is_double, of_scenes, lanes] :
-             {Step{false, false, float_lanes}, Step{false, false, 1}, Step{false, false, 16},
-              Step{true, false, double_lanes}, Step{false, true, float_lanes},
-              Step{true, true, double_lanes}}) {
-            if (is_double && !device_.has_double) continue;
-            const auto wrong = wrong_with(lanes, is_double, of_scenes);
-            if (!wrong.empty()) return tell(wrong);
+        std::vector<WrongFunction> wrong;
+        for (const FunctionCheck& check : function_checks(records_, device_, false)) {
+            for (const ProbeRecord& record : check.records) {
+                if (!wrong.empty()) {
+                    const bool is_known = wrong.back().record->function == record.function;
+                    if (is_known || stage(record) > stage(*wrong.front().record)) continue;
+                }
+                std::string why = why_wrong(record, check.lanes);
+                if (!why.empty()) wrong.push_back({&record, check.lanes, std::move(why)});
+            }
         }
-        const ProbeRecord many = many_items_record(records_);
-        const std::string why =
-            why_of([&] { return what_is_wrong(probes_, many, 1, "", many.count); });
-        if (why.empty()) return;
-        blame_.verdict = "more than 2^20 work items in a launch";
-        blame_.text += fmt::format("wrong with {} work items: {}\n", many.count, why);
-        reproduce({&many, 1, why});
+        if (!wrong.empty()) tell(wrong);
     }
 
    private:
@@ -79,31 +121,20 @@ class FunctionBlame {
         return why_of([&] { return what_is_wrong(probes_, record, lanes, options); });
     }
 
-    std::vector<WrongFunction> wrong_with(int lanes, bool is_double, bool of_scenes) {
-        std::vector<WrongFunction> wrong;
-        for (const ProbeRecord& record : records_) {
-            const bool has_scene = record.inputs.size() >= scene_inputs;
-            if (record.is_double != is_double || has_scene != of_scenes) continue;
-            if (!wrong.empty() && wrong.back().record->function == record.function) continue;
-            std::string why = why_wrong(record, lanes);
-            if (!why.empty()) wrong.push_back({&record, lanes, std::move(why)});
-        }
-        return wrong;
-    }
-
     /// The one that calls none of the others: what is called is defined before.
-    const WrongFunction& innermost(const std::vector<WrongFunction>& wrong) const {
-        return *std::ranges::min_element(wrong, {}, [&](const WrongFunction& one) {
+    static const WrongFunction& innermost(const std::vector<WrongFunction>& wrong) {
+        return *std::ranges::min_element(wrong, {}, [](const WrongFunction& one) {
             const std::string& function = one.record->function;
             const bool is_own = std::ranges::find(own_probes, function) != std::end(own_probes);
-            return is_own ? 0 : 1 + parts_.place_of(function);
+            return is_own ? 0 : std::string_view(probe_kernels).find(" " + function + "(");
         });
     }
 
     void tell(const std::vector<WrongFunction>& wrong) {
         const WrongFunction& culprit = innermost(wrong);
         const std::string& function = culprit.record->function;
-        blame_.verdict = "the function " + function;
+        blame_.verdict = culprit.record->in_one_launch ? "more than 2^20 work items in a launch"
+                                                       : "the function " + function;
         blame_.text += fmt::format("{} in {}, packets of {}: {}\n", function,
                                    precision_name(*culprit.record), culprit.lanes, culprit.why);
         std::vector<std::string> others;
@@ -127,28 +158,26 @@ class FunctionBlame {
 
     void reproduce(const WrongFunction& wrong) const {
         const ProbeRecord& record = *wrong.record;
-        ProgramOptions options;
-        options.lanes = wrong.lanes;
-        KernelLaunch launch;
-        launch.kernel = "probe_" + record.function;
-        launch.options = build_options(device_, probe_program(options, record));
-        launch.numbers = record.outputs[0].holds_numbers ? precision_name(record) : "int";
+        ProgramOptions program;
+        program.lanes = wrong.lanes;
         const auto lanes = static_cast<std::size_t>(wrong.lanes);
-        launch.items = (record.count + lanes - 1) / lanes;
+        Reproducer launch(folder_, "probe_" + record.function,
+                          build_options(device_, probe_program(program, record)),
+                          record.outputs[0].holds_numbers ? precision_name(record) : "int",
+                          (record.count + lanes - 1) / lanes, 64);
         launch.add_value(std::uint32_t{0});
         launch.add_value(record.count);
         for (const ProbeArray& input : record.inputs) launch.add("in", input.bytes);
         for (const ProbeArray& output : record.outputs) launch.add("out", output.bytes);
         blame_.reproducer = folder_;
-        write_reproducer(folder_, launch, probe_kernels, blame_.text);
+        launch.finish(probe_kernels, blame_.text);
     }
 
     const ClDevice& device_;
     const std::string& folder_;
     Blame& blame_;
     ProbeDevice probes_;
-    const std::vector<ProbeRecord> records_ = recorded_probes();
-    const SourceParts parts_{probe_kernels};
+    const std::vector<ProbeRecord> records_ = checked_probes();
 };
 
 /// A way to render.
@@ -222,39 +251,31 @@ class PictureBlame {
         return film;
     }
 
-    std::vector<Variant> variants() const {
-        std::vector<Variant> all;
-        const auto add = [&](const std::string& what, const auto& change) {
-            Variant& variant = all.emplace_back(base_);
-            variant.what = what;
-            change(variant);
-        };
-        for (const int lanes : {16, 8, 4, 2, 1}) {
-            add(fmt::format("packets of {}", lanes), [&](auto& v) { v.kernels.lanes = lanes; });
-        }
-        const bool is_sampled = base_.kernels.launch == Launch::sample;
-        add(is_sampled ? "a pixel per work item" : "a sample per work item",
-            [&](auto& v) { v.kernels.launch = is_sampled ? Launch::pixel : Launch::sample; });
-        for (const FeatureName& feature : feature_names) {
-            if (flat_.features.*feature.flag) continue;
-            const bool is_on = base_.kernels.features.*feature.flag;
-            add(fmt::format("{} {}", is_on ? "without" : "with", feature.name),
-                [&](auto& v) { v.kernels.features.*feature.flag = !is_on; });
-        }
-        add("groups of 1 work item", [](auto& v) { v.kernels.group = 1; });
-        add("groups of 32 work items", [](auto& v) { v.kernels.group = 32; });
-        add(without_optimizer, [](auto& v) { v.kernels.cl_options = without_optimizer; });
-        return all;
-    }
-
     /// Renders with one thing changed at a time, and names what makes the picture right.
     void vary() {
         std::vector<std::string> helps;
-        for (const Variant& variant : variants()) {
-            const bool right = is_right(variant.kernels);
-            blame_.text += fmt::format("{:<28} {}\n", variant.what, right ? "right" : "WRONG");
-            if (right) helps.push_back(variant.what);
+        const auto vary_by = [&](const std::string& what, const auto& change) {
+            KernelChoice kernels = base_.kernels;
+            change(kernels);
+            const bool right = is_right(kernels);
+            blame_.text += fmt::format("{:<28} {}\n", what, right ? "right" : "WRONG");
+            if (right) helps.push_back(what);
+        };
+        for (const int lanes : {16, 8, 4, 2, 1}) {
+            vary_by(fmt::format("packets of {}", lanes), [&](auto& k) { k.lanes = lanes; });
         }
+        const bool is_sampled = base_.kernels.launch == Launch::sample;
+        vary_by(is_sampled ? "a pixel per work item" : "a sample per work item",
+                [&](auto& k) { k.launch = is_sampled ? Launch::pixel : Launch::sample; });
+        for (const FeatureName& feature : feature_names) {
+            if (flat_.features.*feature.flag) continue;
+            const bool is_on = base_.kernels.features.*feature.flag;
+            vary_by(fmt::format("{} {}", is_on ? "without" : "with", feature.name),
+                    [&](auto& k) { k.features.*feature.flag = !is_on; });
+        }
+        vary_by("groups of 1 work item", [](auto& k) { k.group = 1; });
+        vary_by("groups of 32 work items", [](auto& k) { k.group = 32; });
+        vary_by(without_optimizer, [](auto& k) { k.cl_options = without_optimizer; });
         blame_.verdict = "whole kernels with " + base_.what +
                          (helps.empty() ? ", whatever is changed"
                                         : fmt::format("; right with: {}", fmt::join(helps, "; ")));
@@ -331,23 +352,20 @@ class PictureBlame {
         const std::int64_t samples = flat_.params.samples;
         if (is_sampled && samples != 1) return;
         const ProgramOptions program = picture_program(flat_, device_, options());
-        KernelLaunch launch;
-        launch.kernel = is_sampled ? "render_samples" : "render_pixels";
-        launch.options = build_options(device_, program);
-        launch.numbers = to_string(precision_of<T>);
-        launch.group = picture_group(base_.kernels, program.lanes);
         // At most a packet for each pixel.
-        launch.items = static_cast<std::size_t>(whole().pixels() * samples);
+        Reproducer launch(folder_, is_sampled ? "render_samples" : "render_pixels",
+                          build_options(device_, program), to_string(precision_of<T>),
+                          static_cast<std::size_t>(whole().pixels() * samples),
+                          picture_group(base_.kernels, program.lanes));
         launch.add("out", std::as_bytes(std::span(right.rgb)));
-        const std::size_t counts = launch.whole_groups() * sizeof(typename Flat<T>::RayCounts);
-        launch.add("scratch", std::vector<std::byte>(counts));
+        launch.add_scratch(sizeof(typename Flat<T>::RayCounts));
 #define RT_LAUNCH_ARRAY(type, name, what) launch.add("in", std::as_bytes(std::span(flat_.name)));
         RT_SCENE_ARRAYS(RT_LAUNCH_ARRAY)
 #undef RT_LAUNCH_ARRAY
         launch.add_value(flat_.params);
         launch.add_value(flat_tile<T>(whole(), whole()));
         blame_.reproducer = folder_;
-        write_reproducer(folder_, launch, render_kernels, blame_.text);
+        launch.finish(render_kernels, blame_.text);
     }
 
     const ClDevice& device_;

@@ -86,35 +86,26 @@ std::string item_text(const ProbeArray& array, std::size_t item) {
     return array.holds_numbers ? words<T>(array, item) : words<std::uint32_t>(array, item);
 }
 
+/// Whether the items at `byte` of two results hold the same bits; all NaNs are equal, since IEEE
+/// 754 leaves sign and payload to the machine.
 template <typename T>
-bool is_same_number(const std::byte* a, const std::byte* b) {
-    T x, y;
-    std::memcpy(&x, a, sizeof(T));
-    std::memcpy(&y, b, sizeof(T));
-    return (x != x && y != y) || std::memcmp(a, b, sizeof(T)) == 0;
-}
-
-/// Whether two items of a result hold the same bits; all NaNs are equal, since IEEE 754 leaves sign
-/// and payload to the machine.
-bool is_same_item(bool is_double, const std::byte* a, const std::byte* b, std::size_t bytes,
-                  bool holds_numbers) {
-    if (std::memcmp(a, b, bytes) == 0) return true;
-    const auto is_same = is_double ? is_same_number<double> : is_same_number<float>;
-    for (std::size_t at = 0; at < bytes && holds_numbers; at += is_double ? 8 : 4) {
-        if (!is_same(a + at, b + at)) return false;
+bool is_same_item(const ProbeArray& a, const ProbeArray& b, std::size_t byte) {
+    const auto differs = [&](std::size_t at, std::size_t bytes) {
+        return std::memcmp(&a.bytes[at], &b.bytes[at], bytes) != 0;
+    };
+    if (!differs(byte, a.item_bytes)) return true;
+    for (std::size_t at = byte; at < byte + a.item_bytes && a.holds_numbers; at += sizeof(T)) {
+        const bool both_nan = std::isnan(number_at<T>(a, at)) && std::isnan(number_at<T>(b, at));
+        if (!both_nan && differs(at, sizeof(T))) return false;
     }
-    return holds_numbers;
+    return a.holds_numbers;
 }
 
 template <typename T>
 std::string difference(const ProbeRecord& record, const ProbeArray& got, const ProbeArray& right) {
     std::size_t wrong = 0, first = 0;
     for (std::size_t i = record.count; i-- > 0;) {
-        const std::size_t at = i * right.item_bytes;
-        if (is_same_item(record.is_double, got.bytes.data() + at, right.bytes.data() + at,
-                         right.item_bytes, right.holds_numbers)) {
-            continue;
-        }
+        if (is_same_item<T>(got, right, i * right.item_bytes)) continue;
         first = i;
         ++wrong;
     }
@@ -139,7 +130,7 @@ std::string difference(const ProbeRecord& right, const ProbeRecord& got) {
 }
 
 std::string what_is_wrong(ProbeDevice& device, const ProbeRecord& record, int lanes,
-                          const std::string& more_options, std::size_t most_items) {
+                          const std::string& more_options) {
     ProbeRecord got = record;
     for (ProbeArray& result : got.outputs) {  // what the kernel must write
         std::ranges::fill(result.bytes, std::byte{0xa5});
@@ -147,14 +138,16 @@ std::string what_is_wrong(ProbeDevice& device, const ProbeRecord& record, int la
     ProgramOptions build;
     build.lanes = lanes;
     build.more = more_options;
-    device.launch(build, got, most_items);
+    device.launch(build, got);
     return difference(record, got);
 }
 
-ProbeRecord many_items_record(const std::vector<ProbeRecord>& records) {
-    ProbeRecord many = *std::find_if(records.begin(), records.end(), [](const ProbeRecord& one) {
+std::vector<ProbeRecord> checked_probes() {
+    std::vector<ProbeRecord> records = recorded_probes();
+    ProbeRecord many = *std::ranges::find_if(records, [](const ProbeRecord& one) {
         return one.function == "owen_scramble" && !one.is_double;
     });
+    many.in_one_launch = true;
     many.count = (1u << 20) + 4096;
     for (auto* arrays : {&many.inputs, &many.outputs}) {
         for (ProbeArray& array : *arrays) {  // its items over and over
@@ -165,40 +158,47 @@ ProbeRecord many_items_record(const std::vector<ProbeRecord>& records) {
             }
         }
     }
-    return many;
+    records.push_back(std::move(many));
+    return records;
 }
 
-void check_functions(Checks& checks, const ClDevice& device, const std::string& prefix,
-                     bool quick) {
-    const std::vector<ProbeRecord> records = recorded_probes();
-    ProbeDevice probes(device);
+std::vector<FunctionCheck> function_checks(std::span<const ProbeRecord> records,
+                                           const ClDevice& device, bool quick) {
+    std::vector<FunctionCheck> checks;
     for (auto one = records.begin(); one != records.end();) {  // records of a function are together
         const auto last = std::find_if(one, records.end(), [&](const ProbeRecord& other) {
             return other.function != one->function || other.is_double != one->is_double;
         });
+        const bool is_slow = one->has_scene() || one->in_one_launch;
+        const bool is_left_out =
+            quick ? one->is_double || is_slow : one->is_double && (is_slow || !device.has_double);
         const int native =
             one->is_double ? packet_lanes<double>(0, device) : packet_lanes<float>(0, device);
-        const bool has_scene = one->inputs.size() >= scene_inputs;  // it takes long to compile
-        const bool is_left_out = quick ? one->is_double || has_scene
-                                       : one->is_double && (has_scene || !device.has_double);
-        for (const int lanes : std::set<int>{native, quick || has_scene ? native : 1}) {
+        const int widest = one->in_one_launch ? 1 : native;
+        for (const int lanes : std::set<int>{widest, quick || is_slow ? widest : 1}) {
             if (is_left_out) continue;
-            checks.run(
-                fmt::format("{}{}/{}/{}", prefix, one->function, precision_name(*one), lanes), [&] {
-                    std::string why;
-                    for (auto each = one; each != last && why.empty(); ++each) {
-                        why = what_is_wrong(probes, *each, lanes);
-                    }
-                    return why;
-                });
+            const std::string name = one->in_one_launch ? "many-items" : one->function;
+            checks.push_back(
+                {fmt::format("{}/{}/{}", name, precision_name(*one), lanes), {one, last}, lanes});
         }
         one = last;
     }
-    if (quick) return;
-    checks.run(prefix + "many-items/float/1", [&] {
-        const ProbeRecord many = many_items_record(records);
-        return what_is_wrong(probes, many, 1, "", many.count);
-    });
+    return checks;
+}
+
+void check_functions(Checks& checks, const ClDevice& device, const std::string& prefix,
+                     bool quick) {
+    const std::vector<ProbeRecord> records = checked_probes();
+    ProbeDevice probes(device);
+    for (const FunctionCheck& check : function_checks(records, device, quick)) {
+        checks.run(prefix + check.name, [&] {
+            std::string why;
+            for (const ProbeRecord& record : check.records) {
+                if (why.empty()) why = what_is_wrong(probes, record, check.lanes);
+            }
+            return why;
+        });
+    }
 }
 
 }  // namespace rt

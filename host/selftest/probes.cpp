@@ -24,18 +24,10 @@ namespace {
 
 /// One work-group size: PoCL compiles a kernel again for any other.
 constexpr std::size_t group = 64;
+constexpr std::size_t most_launch_items = 65536 - group;
 
-/// Of the file before it is compressed: {function, is_double, count, {inputs}, {outputs}}.
-Json json_of(const std::vector<ProbeArray>& arrays) {
-    Json list = Json::array();
-    for (const ProbeArray& array : arrays) {
-        const auto* const begin = reinterpret_cast<const std::uint8_t*>(array.bytes.data());
-        list.push_back({array.item_bytes, array.holds_numbers,
-                        Json::binary({begin, begin + array.bytes.size()})});
-    }
-    return list;
-}
-
+/// Of the file before it is compressed: {function, is_double, count, {inputs}, {outputs}}, which
+/// tests/kernel_runner.cpp writes.
 std::vector<ProbeArray> arrays_of(const Json& list) {
     std::vector<ProbeArray> arrays;
     for (const Json& json : list) {
@@ -63,32 +55,17 @@ std::vector<ProbeRecord> recorded_probes() {
     return records;
 }
 
-std::string encoded(const std::vector<ProbeRecord>& records) {
-    Json list = Json::array();
-    for (const ProbeRecord& record : records) {
-        list.push_back({record.function, record.is_double, record.count, json_of(record.inputs),
-                        json_of(record.outputs)});
-    }
-    const std::vector<std::uint8_t> plain = Json::to_msgpack(list);
-    const uLongf plain_size = plain.size();
-    uLongf size = compressBound(plain_size);
-    std::vector<Bytef> packed(size);
-    compress2(packed.data(), &size, plain.data(), plain_size, Z_BEST_COMPRESSION);
-    return std::string(reinterpret_cast<const char*>(&plain_size), sizeof(plain_size)) +
-           std::string(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size));
-}
-
 ProbeDevice::ProbeDevice(const ClDevice& device)
     : device_(device), queue_(programs_.context(device_), handle_of(device_)) {}
 
 ProgramOptions probe_program(ProgramOptions build, const ProbeRecord& launch) {
     build.precision = launch.is_double ? Precision::float64 : Precision::float32;
     build.entries = {false, false, false};
-    if (launch.inputs.size() < scene_inputs) build.more += " -DRT_SCENE_PROBES=0";
+    if (!launch.has_scene()) build.more += " -DRT_SCENE_PROBES=0";
     return build;
 }
 
-void ProbeDevice::launch(const ProgramOptions& build, ProbeRecord& record, std::size_t most_items) {
+void ProbeDevice::launch(const ProgramOptions& build, ProbeRecord& record) {
     cl::Kernel kernel(programs_.program(device_, probe_kernels, probe_program(build, record)),
                       ("probe_" + record.function).c_str());
     const std::size_t given = 2 + record.inputs.size() + record.outputs.size();
@@ -112,6 +89,7 @@ void ProbeDevice::launch(const ProgramOptions& build, ProbeRecord& record, std::
     kernel.setArg(1, static_cast<cl_uint>(record.count));
     const std::size_t lanes = static_cast<std::size_t>(build.lanes);
     const std::size_t packets = (record.count + lanes - 1) / lanes;
+    const std::size_t most_items = record.in_one_launch ? packets : most_launch_items;
     for (std::size_t first = 0; first < packets; first += most_items) {
         kernel.setArg(0, static_cast<cl_uint>(first));
         const std::size_t items = std::min(packets - first, most_items);

@@ -26,20 +26,18 @@ struct ProbeRecord {
     bool is_double = false;
     std::uint32_t count = 0;
     std::vector<ProbeArray> inputs, outputs;
+    bool in_one_launch = false;  ///< however many items there are
+
+    /// A scene is ten inputs. Probes that take one are a program of their own: they hold much of
+    /// the tracer, and take long to compile.
+    bool has_scene() const { return inputs.size() >= 10; }
 };
 
 /// A function's one after the other, those that take scenes last.
 std::vector<ProbeRecord> recorded_probes();
 
-/// The file that holds them.
-std::string encoded(const std::vector<ProbeRecord>& records);
-
 /// kernels/probes/probes.cl with its includes, embedded at build time.
 extern const char* const probe_kernels;
-
-/// A scene is so many inputs. Probes that take one are a program of their own: they hold much of
-/// the tracer, and take long to compile.
-inline constexpr std::size_t scene_inputs = 10;
 
 /// The options of a launch, in its precision.
 ProgramOptions probe_program(ProgramOptions build, const ProbeRecord& launch);
@@ -53,9 +51,8 @@ class ProbeDevice {
 
     /// Runs probe_FUNCTION over `count` items in packets of build.lanes; its arguments are first,
     /// count, the inputs and the outputs, which are uploaded before and get the results.
-    /// `most_items`: work items of a launch. Throws cl::Error, and Error as build_program does.
-    void launch(const ProgramOptions& build, ProbeRecord& record,
-                std::size_t most_items = 65536 - 64);
+    /// Throws cl::Error, and Error as build_program does.
+    void launch(const ProgramOptions& build, ProbeRecord& record);
 
    private:
     ClDevice device_;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,18 +64,28 @@ std::set<std::string> known_failures(const std::string& file);
 /// How the results of a launch differ from the right ones, NaNs being equal; empty if in nothing.
 std::string difference(const ProbeRecord& right, const ProbeRecord& got);
 
-/// Runs a record's probe and compares. `most_items`: in one launch. Throws as ProbeDevice::launch.
+/// Runs a record's probe and compares. Throws as ProbeDevice::launch.
 std::string what_is_wrong(ProbeDevice& device, const ProbeRecord& record, int lanes,
-                          const std::string& more_options = "",
-                          std::size_t most_items = 65536 - 64);
+                          const std::string& more_options = "");
 
 /// The name of a record's precision.
 inline const char* precision_name(const ProbeRecord& record) {
     return record.is_double ? "double" : "float";
 }
 
-/// A launch of more than 2^20 work items.
-ProbeRecord many_items_record(const std::vector<ProbeRecord>& records);
+/// The records of a function in one precision, to be run in packets of so many rays.
+struct FunctionCheck {
+    std::string name;  ///< "dot3/float/16"
+    std::span<const ProbeRecord> records;
+    int lanes;
+};
+
+/// recorded_probes and a launch of more than 2^20 work items.
+std::vector<ProbeRecord> checked_probes();
+
+/// The checks of these records on a device, those that take scenes and the many items last.
+std::vector<FunctionCheck> function_checks(std::span<const ProbeRecord> records,
+                                           const ClDevice& device, bool quick);
 
 /// A shipped scene as its golden picture shows it.
 struct GoldenPicture {
