@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -99,6 +100,20 @@ StressCase moved(const MakeScene& scene, std::string label, double by) {
     return labeled(std::move(label), by, same_bits([=] {
                        return shifted(scene(), {by, -by, by < 5e8 ? 2 * by : by});
                    }));
+}
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+/// A small picture of a shape to be added around the origin in material 0, which is shiny and
+/// two-sided; the eye is 1 unit in front. The view is at most 120 degrees high.
+Scene shape_scene(double fov_degrees) {
+    Scene scene = bare_scene();
+    set_image_size(scene, 80, 60);
+    add_matt(scene, {0.75, 0.5, 0.25}, 0.25, 20);
+    scene.materials.back().two_sided = true;
+    scene.lights = {{{0.25, 0.5, 0.5}, glm::dvec3(0.5)}};
+    set_view(scene, {0, 0, 1}, {0, 0, 0}, std::min(120.0, fov_degrees));
+    return scene;
 }
 
 /// Rounding coordinates to float alone moves a small object by 2^-24 of its distance, which is 1.

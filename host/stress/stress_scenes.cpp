@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numbers>
 #include <random>
 #include <utility>
 
@@ -172,16 +173,6 @@ Scene bare_scene() {
     scene.ambient_light = glm::dvec3(0.25);
     scene.lights = {{{-3, 6, 4}, glm::dvec3(0.5)}, {{5, 4, 2}, {0.375, 0.3125, 0.25}}};
     set_view(scene, {0, 2, 8}, {0, 0.75, 0}, 40);
-    return scene;
-}
-
-Scene shape_scene(double fov_degrees) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
-    add_matt(scene, {0.75, 0.5, 0.25}, 0.25, 20);
-    scene.materials.back().two_sided = true;
-    scene.lights = {{{0.25, 0.5, 0.5}, glm::dvec3(0.5)}};
-    set_view(scene, {0, 0, 1}, {0, 0, 0}, std::min(120.0, fov_degrees));
     return scene;
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <functional>
 #include <glm/vec3.hpp>
-#include <numbers>
 #include <vector>
 
 #include "host/scene/scene.h"
@@ -26,16 +25,10 @@ Scene glass_still_life();
 /// A camera, two lights, a small picture; no materials or objects.
 Scene bare_scene();
 
-/// A small picture of a shape to be added around the origin in material 0, which is shiny and
-/// two-sided; the eye is 1 unit in front. The view is at most 120 degrees high.
-Scene shape_scene(double fov_degrees);
-
 /// A scene with the shape that add_shape(scene, middle) adds in material 0, this far from the eye,
 /// and three specks that keep the scene's scale at 1. The shape comes first.
 Scene scene_to_aim_at(double distance,
                       const std::function<void(Scene&, const glm::dvec3& middle)>& add_shape);
-
-inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 void set_view(Scene& scene, glm::dvec3 from, glm::dvec3 at, double fov_degrees);
 
