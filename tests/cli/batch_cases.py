@@ -75,12 +75,12 @@ class SeveralScenes(CliTest):
         self.assertEqual(result.returncode, 4)
 
     def test_one_file_for_several_scenes_is_refused(self):
-        scene = scene_path("cones")
-        self.assert_refused(self.run_cli("render", scene, scene, "-o", "out.png"), 2, "%s")
-        self.assert_refused(self.run_cli("render", scene, scene, "-o", "%s.gif"), 2, ".gif")
-        self.assert_refused(self.run_cli("render", scene, scene, "-o", "nowhere/%s.png"), 4,
+        scenes = [scene_path("cones"), scene_path("glass")]
+        self.assert_refused(self.run_cli("render", *scenes, "-o", "out.png"), 2, "%s")
+        self.assert_refused(self.run_cli("render", *scenes, "-o", "%s.gif"), 2, ".gif")
+        self.assert_refused(self.run_cli("render", *scenes, "-o", "nowhere/%s.png"), 4,
                             "nowhere")
-        self.assert_refused(self.run_cli("render", scene, scene, "--reference", "a.png"), 2,
+        self.assert_refused(self.run_cli("render", *scenes, "--reference", "a.png"), 2,
                             "--reference")
         self.assertEqual(self.files(), [])
 
