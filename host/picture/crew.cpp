@@ -60,7 +60,6 @@ struct Crew<T>::Slot {
     double ready = 0;            ///< seconds until it could begin
     std::exception_ptr failure;  ///< why it does not render
     bool has_warned = false;
-    int last_round = 0;  ///< of jobs: the last one it took part in
     std::thread thread;
 
     bool is_able() const { return renderer != nullptr && failure == nullptr; }
@@ -73,34 +72,37 @@ struct Crew<T>::Shared {
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<Slot> slots;
-    const Job* job = nullptr;
-    int round = 0;    ///< of jobs; each member takes part in one once
+    std::exception_ptr last_failure;
+    const TileQueue* queue = nullptr;  ///< while rendering
+    std::function<void(Renderer<T>&)> job;
     int working = 0;  ///< members at work
     bool is_closed = false;
     const Stopwatch watch;
 
     bool has_work(const Slot& slot) const {
-        return job != nullptr && slot.is_able() && slot.last_round != round;
+        return slot.is_able() && queue != nullptr && queue->has_tiles();
     }
     template <typename Test>
     bool any(const Test& test) const {
         return std::any_of(slots.begin(), slots.end(), test);
     }
-    bool has_several() const {
-        return slots.size() > 1 && any([](const Slot& slot) {
-                   return slot.thread.joinable() && slot.failure == nullptr;
-               });
+    bool any_left() const {
+        return any([](const Slot& slot) { return slot.failure == nullptr; });
+    }
+    void fail(Slot& slot, const std::exception_ptr& failure) {
+        slot.failure = last_failure = failure;
+        changed.notify_all();
     }
 };
 
 template <typename T>
 Crew<T>::Crew(std::vector<CrewMember<T>> members, std::optional<CrewMember<T>> spare, Warn warn)
-    : shared_(std::make_shared<Shared>()), spare_(std::move(spare)), warn_(std::move(warn)) {
+    : shared_(std::make_shared<Shared>()),
+      spare_(std::move(spare)),
+      warn_(std::move(warn)),
+      is_single_(members.size() == 1) {
     for (CrewMember<T>& member : members) {
-        Slot& slot = shared_->slots.emplace_back();
-        slot.member = std::move(member);
-        if (slot.member.failure.empty()) continue;
-        slot.failure = std::make_exception_ptr(Error(ExitCode::device, slot.member.failure));
+        shared_->slots.emplace_back().member = std::move(member);
     }
 }
 
@@ -123,8 +125,7 @@ Crew<T>::~Crew() {
 
 /// Creates and tests a member's renderer; the mutex is not held.
 template <typename T>
-void Crew<T>::make(Shared& shared, Slot& slot) {
-    if (slot.failure) std::rethrow_exception(slot.failure);
+void Crew<T>::make(Shared& shared, Slot& slot) try {
     auto renderer = slot.member.make();
     const Stopwatch watch;
     if (slot.member.test) slot.member.test(*renderer);
@@ -136,131 +137,101 @@ void Crew<T>::make(Shared& shared, Slot& slot) {
     slot.ready = shared.watch.seconds();
     slot.renderer = std::move(renderer);
     shared.changed.notify_all();
+} catch (...) {
+    const std::scoped_lock lock(shared.mutex);
+    shared.fail(slot, std::current_exception());
 }
 
+/// Has a member render until no tile is left.
 template <typename T>
-void Crew<T>::open() {
-    if (shared_->slots.size() == 1) {
-        Slot& slot = shared_->slots.front();
-        try {
-            make(*shared_, slot);
-        } catch (const Error&) {
-            replace(slot, std::current_exception());
-        }
-        return;
+void Crew<T>::take_part(Shared& shared, Slot& slot, std::unique_lock<std::mutex>& lock) {
+    ++shared.working;
+    lock.unlock();
+    std::exception_ptr failure;
+    try {
+        shared.job(*slot.renderer);
+    } catch (...) {
+        failure = std::current_exception();
     }
-    {
-        const std::scoped_lock lock(shared_->mutex);
-        for (Slot& slot : shared_->slots) {
-            if (slot.failure) continue;
-            slot.thread = std::thread([shared = shared_, &slot] { serve(shared, slot); });
-        }
-        if (shared_->any([](const Slot& slot) { return slot.failure == nullptr; })) return;
-    }
-    replace(shared_->slots.back(), shared_->slots.back().failure);
+    lock.lock();
+    --shared.working;
+    shared.changed.notify_all();
+    if (failure != nullptr) shared.fail(slot, failure);
 }
 
 /// A member's thread, which may outlive the crew if the member is still being created.
 template <typename T>
 void Crew<T>::serve(const std::shared_ptr<Shared>& shared, Slot& slot) {
-    try {
-        make(*shared, slot);
-    } catch (...) {
-        const std::scoped_lock lock(shared->mutex);
-        slot.failure = std::current_exception();
-        shared->changed.notify_all();
-        return;
-    }
+    make(*shared, slot);
     std::unique_lock lock(shared->mutex);
-    for (;;) {
+    while (slot.failure == nullptr) {
         shared->changed.wait(lock, [&] { return shared->is_closed || shared->has_work(slot); });
         if (shared->is_closed) return;
-        slot.last_round = shared->round;
-        ++shared->working;
-        const Job& job = *shared->job;
+        take_part(*shared, slot, lock);
+    }
+}
+
+/// Starts a member's thread, or creates a single one.
+template <typename T>
+void Crew<T>::start(Slot& slot, std::unique_lock<std::mutex>& lock) {
+    if (!slot.member.failure.empty()) {
+        const Error failure(ExitCode::device, slot.member.failure);
+        shared_->fail(slot, std::make_exception_ptr(failure));
+    } else if (is_single_) {
         lock.unlock();
-        std::exception_ptr failure;
-        try {
-            job(*slot.renderer);
-        } catch (...) {
-            failure = std::current_exception();
-        }
+        make(*shared_, slot);
         lock.lock();
-        --shared->working;
-        slot.failure = failure;
-        shared->changed.notify_all();
-        if (failure != nullptr) return;
+    } else {
+        slot.thread = std::thread([shared = shared_, &slot] { serve(shared, slot); });
     }
 }
 
-/// When the only or last member fails: switches to the spare, or rethrows the failure.
+/// Warns of members that failed and, when none is left, starts the spare, or rethrows the last
+/// failure.
 template <typename T>
-void Crew<T>::replace(Slot& slot, std::exception_ptr failure) {
-    slot.failure = failure;
-    slot.has_warned = true;
-    if (!spare_ || !is_of_device(failure)) std::rethrow_exception(failure);
-    warn_(message_of(failure));
+void Crew<T>::replace_failed(std::unique_lock<std::mutex>& lock) {
+    const bool is_any_left = shared_->any_left();
+    const bool can_go_on = is_any_left || (spare_ && is_of_device(shared_->last_failure));
+    if (!can_go_on) std::rethrow_exception(shared_->last_failure);
+    for (Slot& slot : shared_->slots) {
+        if (slot.failure == nullptr || std::exchange(slot.has_warned, true)) continue;
+        warn_(message_of(slot.failure) + (is_any_left ? "; continuing without it" : ""));
+    }
+    if (is_any_left) return;
     warn_("rendering on threads instead");
-    shared_->slots.emplace_back().member = *std::move(spare_);
-    spare_.reset();
+    Slot& slot = shared_->slots.emplace_back();
+    slot.member = *std::exchange(spare_, std::nullopt);
     uses_spare_ = true;
-    make(*shared_, shared_->slots.back());
+    start(slot, lock);
 }
 
 template <typename T>
-void Crew<T>::work_alone(const Job& job) {
-    for (;;) {
-        Slot& slot = shared_->slots.back();
-        try {
-            return job(*slot.renderer);
-        } catch (const Error&) {
-            replace(slot, std::current_exception());
-        }
-    }
+void Crew<T>::open() {
+    std::unique_lock lock(shared_->mutex);
+    for (Slot& slot : shared_->slots) start(slot, lock);
+    while (!shared_->any_left()) replace_failed(lock);
 }
 
 template <typename T>
-void Crew<T>::work_together(const Job& job, const std::function<bool()>& is_unfinished) {
+void Crew<T>::render(TileQueue& queue, const Rect& region, Film<T>& film) {
     Shared& shared = *shared_;
     const Stopwatch watch;
     std::unique_lock lock(shared.mutex);
-    shared.job = &job;
-    ++shared.round;
+    shared.job = [&](Renderer<T>& renderer) { renderer.render(queue, region, film); };
+    shared.queue = &queue;
     shared.changed.notify_all();
     for (;;) {
-        for (Slot& slot : shared.slots) {
-            if (slot.failure == nullptr || std::exchange(slot.has_warned, true)) continue;
-            warn_(message_of(slot.failure) + "; continuing without it");
+        replace_failed(lock);
+        if (shared.working == 0 && !queue.has_tiles()) break;
+        Slot& last = shared.slots.back();
+        if (!last.thread.joinable() && shared.has_work(last)) {
+            take_part(shared, last, lock);
+        } else {
+            shared.changed.wait_for(lock, stop_interval);
         }
-        const bool is_idle = shared.working == 0 &&
-                             !shared.any([&](const Slot& slot) { return shared.has_work(slot); });
-        if (is_idle) {
-            if (!is_unfinished()) break;
-            if (shared.any([](const Slot& slot) { return slot.is_able(); })) {
-                ++shared.round;  // one failed and gave tiles back after the others were done
-                shared.changed.notify_all();
-            } else if (!shared.any([](const Slot& slot) { return slot.is_opening(); })) {
-                break;
-            }
-        }
-        shared.changed.wait_for(lock, stop_interval);
     }
-    shared.job = nullptr;
+    shared.queue = nullptr;
     trace_seconds_ += watch.seconds();
-}
-
-template <typename T>
-void Crew<T>::work(const Job& job, const std::function<bool()>& is_unfinished) {
-    const auto several = [&] {
-        const std::scoped_lock lock(shared_->mutex);
-        return shared_->has_several();
-    };
-    if (several()) {
-        work_together(job, is_unfinished);
-        if (several() || !is_unfinished()) return;
-        replace(shared_->slots.back(), shared_->slots.back().failure);
-    }
-    work_alone(job);
 }
 
 template <typename T>
@@ -282,20 +253,15 @@ std::int64_t Crew<T>::most_tile_pixels() const {
 }
 
 template <typename T>
-void Crew<T>::render(TileQueue& queue, const Rect& region, Film<T>& film) {
-    work([&](Renderer<T>& renderer) { renderer.render(queue, region, film); },
-         [&] { return !queue.stopped() && queue.tiles_finished() < queue.tiles().size(); });
-}
-
-template <typename T>
 RendererTimes Crew<T>::times() const {
     const std::scoped_lock lock(shared_->mutex);
     const Slot& last = shared_->slots.back();
     RendererTimes times;
-    if (!last.thread.joinable() && last.renderer)
+    if ((is_single_ || uses_spare_) && last.renderer) {
         times = without(last.renderer->times(), last.before);
+    }
     times.check = last.check;
-    times.trace += trace_seconds_;
+    if (!is_single_) times.trace = trace_seconds_;
     return times;
 }
 

@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,20 +60,19 @@ class Crew : public Renderer<T> {
    private:
     struct Slot;    ///< a member and its state
     struct Shared;  ///< what the members' threads share
-    using Job = std::function<void(Renderer<T>&)>;
 
-    void work(const Job& job, const std::function<bool()>& is_unfinished);
-    void work_together(const Job& job, const std::function<bool()>& is_unfinished);
-    void work_alone(const Job& job);
     static void make(Shared& shared, Slot& slot);
-    void replace(Slot& slot, std::exception_ptr failure);
+    static void take_part(Shared& shared, Slot& slot, std::unique_lock<std::mutex>& lock);
     static void serve(const std::shared_ptr<Shared>& shared, Slot& slot);
+    void start(Slot& slot, std::unique_lock<std::mutex>& lock);
+    void replace_failed(std::unique_lock<std::mutex>& lock);
 
     std::shared_ptr<Shared> shared_;  ///< also held by the members' threads
     std::optional<CrewMember<T>> spare_;
     Warn warn_;
+    const bool is_single_;
     bool uses_spare_ = false;
-    double trace_seconds_ = 0;  ///< with several members
+    double trace_seconds_ = 0;
 };
 
 }  // namespace rt

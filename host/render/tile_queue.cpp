@@ -40,6 +40,11 @@ TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop, TileEvents e
     for (const Rect& tile : tiles_) pixels_ += tile.pixels();
 }
 
+bool TileQueue::has_tiles() const {
+    return !stopped() && tiles_finished_ < tiles_.size() &&
+           (next_ < tiles_.size() || any_returned_);
+}
+
 std::optional<Rect> TileQueue::next() {
     if (stopped()) return std::nullopt;
     const std::size_t index = next_.fetch_add(1);

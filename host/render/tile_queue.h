@@ -75,6 +75,9 @@ class TileQueue {
     /// one.
     std::optional<TileRun> next_run(const std::function<bool(const Rect&)>& fits);
 
+    /// Whether there is a next tile.
+    bool has_tiles() const;
+
     void finish(const Rect& tile) { finish(TileRun{tile}); }
     void finish(const TileRun& run);
 
