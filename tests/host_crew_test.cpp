@@ -28,7 +28,7 @@ struct Painter : Renderer<float> {
     void fail_if_due() {
         if (done++ == fails_after) throw Error(ExitCode::device, "painter fell off");
     }
-    Rect tile_size(int) const override { return {0, 0, 4, 5}; }
+    TileSizes tile_sizes(int) const override { return {{0, 0, 4, 5}, 1000}; }
     void render(TileQueue& queue, const Rect& region, Film<float>& film) override {
         while (const auto run = queue.next_run([](const Rect& rect) { return rect.width <= 8; })) {
             try {
@@ -57,7 +57,7 @@ struct Painter : Renderer<float> {
 
 CrewMember<float> member(const std::string& name, float color, int fails_after = -1,
                          std::chrono::milliseconds pause = {}) {
-    CrewMember<float> painter{name, {0, 0, 4, 5}, 1000, {}, {}};
+    CrewMember<float> painter{name, {{0, 0, 4, 5}, 1000}, {}, {}};
     painter.make = [=] {
         auto made = std::make_unique<Painter>();
         made->color = color;

@@ -170,9 +170,9 @@ TEST(ThreadsRenderer, NumbersTheBuffersOfATileInAnIndex) {
     scene.aa = grid_aa(64);
     const FlatScene<float> flat = flatten<float>(scene);
     const auto renderer = make_threads_renderer(flat, {1, Schedule::buffers});
-    const std::int64_t most = renderer->most_tile_pixels();
+    const auto [best, most] = renderer->tile_sizes(500);
     EXPECT_LE(3 * 64 * 64 * most, std::numeric_limits<int>::max());
-    EXPECT_GE(most, renderer->tile_size(500).pixels());
+    EXPECT_GE(most, best.pixels());
 }
 
 ClDevice device(int index, int platform_index, const char* name, const char* platform, bool gpu) {

@@ -12,7 +12,7 @@ template <typename T>
 Film<T> whole_film(Renderer<T>& renderer, int width, int height, Rect tile = {},
                    RayCounts* rays = nullptr) {
     static const StopFlag never_stop = 0;
-    if (tile.width == 0) tile = renderer.tile_size(width);
+    if (tile.width == 0) tile = renderer.tile_sizes(width).best;
     const Rect whole{0, 0, width, height};
     TileQueue queue(make_tiles(whole, tile.width, tile.height), never_stop);
     Film<T> film(width, height);

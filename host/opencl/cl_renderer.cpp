@@ -155,8 +155,9 @@ class ClRenderer : public Renderer<T> {
         }
     }
 
-    Rect tile_size(int film_width) const override { return tiles(film_width).best; }
-    std::int64_t most_tile_pixels() const override { return tiles(1).most_pixels; }
+    TileSizes tile_sizes(int film_width) const override {
+        return cl_tile_sizes<T>(params_, device_, options_, film_width);
+    }
 
     void render(TileQueue& queue, const Rect& region, Film<T>& film) override {
         try {
@@ -199,10 +200,6 @@ class ClRenderer : public Renderer<T> {
         std::vector<TileRun> finished;
         RayCounts counted_before;
     };
-
-    ClTiles tiles(int film_width) const {
-        return cl_tiles<T>(params_, device_, options_, film_width);
-    }
 
     bool in_rounds() const { return renders_in_rounds(params_); }
     int margin() const { return tile_margin(params_); }

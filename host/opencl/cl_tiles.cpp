@@ -39,8 +39,8 @@ template int packet_lanes<float>(int, const ClDevice&);
 template int packet_lanes<double>(int, const ClDevice&);
 
 template <typename T>
-ClTiles cl_tiles(const typename Flat<T>::LaunchParams& params, const ClDevice& device,
-                 const ClOptions& options, int film_width) {
+TileSizes cl_tile_sizes(const typename Flat<T>::LaunchParams& params, const ClDevice& device,
+                        const ClOptions& options, int film_width) {
     const auto samples = static_cast<std::size_t>(params.samples);
     const PacketShape block =
         packet_shape(packet_lanes<T>(options.kernels.lanes, device), static_cast<int>(samples));
@@ -57,9 +57,9 @@ ClTiles cl_tiles(const typename Flat<T>::LaunchParams& params, const ClDevice& d
             static_cast<std::int64_t>(most)};
 }
 
-template ClTiles cl_tiles<float>(const Flat<float>::LaunchParams&, const ClDevice&,
-                                 const ClOptions&, int);
-template ClTiles cl_tiles<double>(const Flat<double>::LaunchParams&, const ClDevice&,
-                                  const ClOptions&, int);
+template TileSizes cl_tile_sizes<float>(const Flat<float>::LaunchParams&, const ClDevice&,
+                                        const ClOptions&, int);
+template TileSizes cl_tile_sizes<double>(const Flat<double>::LaunchParams&, const ClDevice&,
+                                         const ClOptions&, int);
 
 }  // namespace rt

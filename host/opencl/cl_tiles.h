@@ -2,12 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
-#include "host/flatten/flat_types.h"
 #include "host/opencl/cl_device.h"
 #include "host/opencl/cl_options.h"
-#include "host/render/rect.h"
+#include "host/render/renderer.h"
 
 namespace rt {
 
@@ -24,13 +22,9 @@ int packet_lanes(int asked_for, const ClDevice& device);
 /// so CPU launches stay below; a GPU needs more to fill up.
 std::size_t most_items(const ClDevice& device);
 
-/// Renderer::tile_size and most_tile_pixels for the renderer that make_cl_renderer makes.
-struct ClTiles {
-    Rect best;
-    std::int64_t most_pixels;
-};
+/// Renderer::tile_sizes of the renderer that make_cl_renderer makes.
 template <typename T>
-ClTiles cl_tiles(const typename Flat<T>::LaunchParams& params, const ClDevice& device,
-                 const ClOptions& options, int film_width);
+TileSizes cl_tile_sizes(const typename Flat<T>::LaunchParams& params, const ClDevice& device,
+                        const ClOptions& options, int film_width);
 
 }  // namespace rt

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <limits>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -235,21 +234,15 @@ void Crew<T>::render(TileQueue& queue, const Rect& region, Film<T>& film) {
 }
 
 template <typename T>
-Rect Crew<T>::tile_size(int film_width) const {
-    Rect smallest = shared_->slots.front().member.tile;
+TileSizes Crew<T>::tile_sizes(int film_width) const {
+    TileSizes sizes = shared_->slots.front().member.tiles;
     for (const Slot& slot : shared_->slots) {
-        const Rect& tile = slot.member.tile;
-        if (tile.pixels() < smallest.pixels()) smallest = tile;
+        const auto& [best, most_pixels] = slot.member.tiles;
+        if (best.pixels() < sizes.best.pixels()) sizes.best = best;
+        sizes.most_pixels = std::min(sizes.most_pixels, most_pixels);
     }
-    smallest.width = std::min(smallest.width, film_width);
-    return smallest;
-}
-
-template <typename T>
-std::int64_t Crew<T>::most_tile_pixels() const {
-    std::int64_t most = std::numeric_limits<int>::max();
-    for (const Slot& slot : shared_->slots) most = std::min(most, slot.member.most_tile_pixels);
-    return most;
+    sizes.best.width = std::min(sizes.best.width, film_width);
+    return sizes;
 }
 
 template <typename T>

@@ -18,8 +18,7 @@ namespace rt {
 template <typename T>
 struct CrewMember {
     std::string name;  ///< of the device, for messages
-    Rect tile;         ///< as in Renderer::tile_size
-    std::int64_t most_tile_pixels;
+    TileSizes tiles;
     std::function<std::unique_ptr<Renderer<T>>()> make;  ///< opens and compiles; throws Error
     std::function<void(Renderer<T>&)> test;              ///< throws Error if results are wrong
     std::string failure = {};                            ///< why it cannot be created, if known
@@ -40,8 +39,8 @@ class Crew : public Renderer<T> {
     /// Creates a single member; starts creating several. Throws like render.
     void open();
 
-    Rect tile_size(int film_width) const override;
-    std::int64_t most_tile_pixels() const override;
+    /// Tiles that suit every member.
+    TileSizes tile_sizes(int film_width) const override;
 
     /// Throws Error when the last member fails and there is no spare.
     void render(TileQueue& queue, const Rect& region, Film<T>& film) override;

@@ -88,12 +88,8 @@ CrewMember<T> CrewMaker<T>::threads_member(const ThreadsOptions& options) const 
     const auto make = [scene = scene, options] {
         return make_threads_renderer<T>(*scene, options);
     };
-    const auto renderer = make();
-    CrewMember<T> member{"threads",
-                         renderer->tile_size(static_cast<int>(scene->params.width)),
-                         renderer->most_tile_pixels(),
-                         make,
-                         {}};
+    const TileSizes tiles = make()->tile_sizes(static_cast<int>(scene->params.width));
+    CrewMember<T> member{"threads", tiles, make, {}};
     const NativeKernels<T>& kernels = native_kernels_for(*scene, options);
     member.stats.name = member.name;
     member.stats.lanes = kernels.lanes;
@@ -111,9 +107,9 @@ CrewMember<T> CrewMaker<T>::device_member(const ClDevice& device, bool is_alone)
     options.math = settings.math;
     options.shares_film = !is_alone;
     options.open_devices = open;
-    const ClTiles tiles =
-        cl_tiles<T>(scene->params, device, options, static_cast<int>(scene->params.width));
-    CrewMember<T> member{device.name, tiles.best, tiles.most_pixels, {}, {}};
+    const TileSizes tiles =
+        cl_tile_sizes<T>(scene->params, device, options, static_cast<int>(scene->params.width));
+    CrewMember<T> member{device.name, tiles, {}, {}};
     member.make = [scene = scene, device, options, loaded = loaded] {
         auto renderer = make_cl_renderer<T>(*scene, device, options);
         if (loaded) loaded();

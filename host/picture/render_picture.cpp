@@ -263,10 +263,9 @@ class Job {
 
     /// The requested tile, reduced to the region and to the renderer's limit.
     PictureSize tile_size(const Renderer<T>& renderer) const {
-        const Rect own = renderer.tile_size(region_.width);
+        const auto [own, most_pixels] = renderer.tile_sizes(region_.width);
         const PictureSize asked = settings_.tile.value_or(PictureSize{own.width, own.height});
-        const auto most =
-            static_cast<int>(std::min<std::int64_t>(renderer.most_tile_pixels(), region_.pixels()));
+        const auto most = static_cast<int>(std::min(most_pixels, region_.pixels()));
         const int width = std::min({asked.width, region_.width, most});
         return {width, std::min({asked.height, region_.height, most / width})};
     }

@@ -56,8 +56,8 @@ std::vector<Rect> test_strips(const Renderer<T>& device,
     const double samples =
         renders_in_rounds(params) ? round_samples_guess : static_cast<double>(params.samples);
     const int down = std::clamp(static_cast<int>(4 / std::sqrt(samples)), 1, height);
-    const double pixels =
-        std::min(strip_samples / samples, static_cast<double>(device.most_tile_pixels()));
+    const double pixels = std::min(strip_samples / samples,
+                                   static_cast<double>(device.tile_sizes(width).most_pixels));
     const int across = std::clamp(static_cast<int>(pixels) / down, 1, width);
     std::vector<Rect> tiles;
     for (int i = 0; i < strips; ++i) {

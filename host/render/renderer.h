@@ -25,6 +25,12 @@ struct RendererTimes {
     std::int64_t pixels = 0;  ///< rendered
 };
 
+/// The tiles that suit a renderer.
+struct TileSizes {
+    Rect best;                                                   ///< the default: width and height
+    std::int64_t most_pixels = std::numeric_limits<int>::max();  ///< no tile may have more
+};
+
 /// One flattened scene on one device, ready to render. A tile's pixels depend on the flat scene
 /// alone, not on which renderer does the tile, when, or how often.
 template <typename T>
@@ -32,11 +38,7 @@ class Renderer {
    public:
     virtual ~Renderer() = default;
 
-    /// The default tile.
-    virtual Rect tile_size(int film_width) const = 0;
-
-    /// No tile may have more pixels than this.
-    virtual std::int64_t most_tile_pixels() const { return std::numeric_limits<int>::max(); }
+    virtual TileSizes tile_sizes(int film_width) const = 0;
 
     /// Renders the queue's tiles, black so far, into the film, which shows `region` of the picture;
     /// returns when the queue is empty or stopped, with every tile it took finished. Throws Error

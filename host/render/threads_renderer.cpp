@@ -29,17 +29,15 @@ class ThreadsRenderer : public Renderer<T> {
           kernels_(native_kernels_for(scene, options)),
           view_(native_view(scene)) {}
 
-    /// The margin of a larger tile is a smaller part of it.
-    Rect tile_size(int) const override {
-        return in_rounds() ? Rect{0, 0, 64, 64} : Rect{0, 0, 32, 32};
-    }
-
-    /// Kernels count the numbers in a tile's sample buffers in an Index. Rounds keep more of a
-    /// tile than its pixels.
-    std::int64_t most_tile_pixels() const override {
-        if (in_rounds()) return 1 << 20;
-        if (options_.schedule == Schedule::tiles) return Renderer<T>::most_tile_pixels();
-        return std::numeric_limits<Index>::max() / (3 * samples());
+    /// Rounds keep more of a tile than its pixels; the margin of a larger tile is a smaller part of
+    /// it. Kernels count the numbers in a tile's sample buffers in an Index.
+    TileSizes tile_sizes(int) const override {
+        if (in_rounds()) return {{0, 0, 64, 64}, 1 << 20};
+        TileSizes sizes{{0, 0, 32, 32}};
+        if (options_.schedule == Schedule::buffers) {
+            sizes.most_pixels = std::numeric_limits<Index>::max() / (3 * samples());
+        }
+        return sizes;
     }
 
     void render(TileQueue& queue, const Rect& region, Film<T>& film) override {
