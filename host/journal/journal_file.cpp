@@ -195,14 +195,13 @@ JournalKeeper<T>::JournalKeeper(JournalFile& file, const JournalWriterInfo& writ
 template <typename T>
 void JournalKeeper<T>::keep(const std::stop_token& stop) {
     const auto is_over = [&stop] { return stop.stop_requested(); };
-    bool is_told = false;
     std::unique_lock lock(mutex_);
     while (!stopped_.wait_for(lock, stop, period, is_over)) {
         lock.unlock();
         std::exception_ptr failure;
         try {
-            write();
-            if (!file_.failure().empty() && !std::exchange(is_told, true)) failed_();
+            write(false);
+            if (!file_.failure().empty()) failed_();
         } catch (const std::bad_alloc&) {
             file_.give_up("out of memory");
         } catch (const Error&) {
@@ -238,42 +237,27 @@ template <typename T>
 void JournalKeeper<T>::tile_lost(const Rect& tile) {
     const std::scoped_lock lock(mutex_);
     std::erase(tiles_, tile);
-    append_record(records_, RecordKind::lost, std::as_bytes(std::span(&tile, 1)));
-}
-
-/// Makes records of the finished tiles; the mutex is held.
-template <typename T>
-void JournalKeeper<T>::take_tiles() {
-    std::vector<std::byte> body;
-    for (const Rect& tile : tiles_) {
-        const Film<T> part = part_of(film_, shown_, tile);
-        const auto rect = std::as_bytes(std::span(&tile, 1));
-        const auto values = std::as_bytes(std::span(part.rgb));
-        body.assign(rect.begin(), rect.end());
-        body.insert(body.end(), values.begin(), values.end());
-        append_record(records_, RecordKind::tile, body);
-    }
-    tiles_.clear();
-}
-
-template <typename T>
-void JournalKeeper<T>::copy_finished() {
-    const std::scoped_lock lock(mutex_);
-    take_tiles();
 }
 
 /// The thread calls it, and close() after that has ended.
 template <typename T>
-void JournalKeeper<T>::write() {
-    std::vector<std::byte> records;
+void JournalKeeper<T>::write(bool is_last) {
+    std::vector<std::byte> records, body;
     {
         const std::scoped_lock lock(mutex_);
-        take_tiles();
-        if (records_.empty()) return;
-        records_.insert(records_.begin(), writer_.begin(), writer_.end());
-        writer_.clear();
-        records.swap(records_);
+        if (tiles_.empty() && !is_last) return;
+        records.swap(writer_);
+        for (const Rect& tile : tiles_) {
+            const Film<T> part = part_of(film_, shown_, tile);
+            const auto rect = std::as_bytes(std::span(&tile, 1));
+            const auto values = std::as_bytes(std::span(part.rgb));
+            body.assign(rect.begin(), rect.end());
+            body.insert(body.end(), values.begin(), values.end());
+            append_record(records, RecordKind::tile, body);
+        }
+        tiles_.clear();
     }
+    if (is_last) append_record(records, RecordKind::finished, {});
     file_.append(records);
 }
 
@@ -285,19 +269,9 @@ void JournalKeeper<T>::discard() {
 }
 
 template <typename T>
-void JournalKeeper<T>::close() {
+void JournalKeeper<T>::close(bool is_finished) {
     discard();
-    if (is_time()) write();
-}
-
-template <typename T>
-void JournalKeeper<T>::close_finished() {
-    {
-        const std::scoped_lock lock(mutex_);
-        take_tiles();
-        append_record(records_, RecordKind::finished, {});
-    }
-    close();
+    if (is_time()) write(is_finished);
 }
 
 template class JournalKeeper<float>;

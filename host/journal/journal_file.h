@@ -96,20 +96,15 @@ class JournalKeeper {
     /// A rectangle of the picture is now in the film. Callable from any thread.
     void tile_finished(const Rect& tile);
 
-    /// It is no longer; call before it may be rendered again. Callable from any thread.
+    /// It will be rendered again, to the same bits. Callable from any thread.
     void tile_lost(const Rect& tile);
 
-    /// Copies what is finished out of the film, which may now go.
-    void copy_finished();
-
-    /// Whether there is anything worth keeping.
+    /// Whether there ever was anything worth keeping.
     bool has_pixels() const { return has_pixels_; }
 
-    /// Ends the thread and writes the rest, if `delay` has passed. Rethrows the thread's errors.
-    void close();
-
-    /// As close, and marks the journal as finished.
-    void close_finished();
+    /// Ends the thread and writes the rest, if `delay` has passed, and whether the journal is
+    /// finished. Rethrows the thread's errors.
+    void close(bool is_finished);
 
     /// Ends the thread and discards the rest. Rethrows the thread's errors.
     void discard();
@@ -118,8 +113,7 @@ class JournalKeeper {
     void check() const;
     void keep(const std::stop_token& stop);
     bool is_time() const { return watch_.seconds() >= delay_; }
-    void take_tiles();
-    void write();
+    void write(bool is_last);
 
     JournalFile& file_;
     const Film<T>& film_;
@@ -127,12 +121,11 @@ class JournalKeeper {
     const double delay_;
     const std::function<void()> failed_;
     const Stopwatch watch_;
-    std::mutex mutex_;         ///< guards what follows
-    std::vector<Rect> tiles_;  ///< finished, not yet copied
-    std::vector<std::byte> records_;
+    std::mutex mutex_;               ///< guards what follows
+    std::vector<Rect> tiles_;        ///< finished, not yet copied
     std::vector<std::byte> writer_;  ///< precedes the first records; empty once it is written
-    bool has_pixels_ = false;        ///< it ever had more
-    std::exception_ptr failure_;     ///< Error that ends the render
+    bool has_pixels_ = false;
+    std::exception_ptr failure_;  ///< Error that ends the render
     std::condition_variable_any stopped_;
     bool has_thread_ = false;  ///< or failed to start it: close() then writes everything
     std::jthread thread_;

@@ -151,13 +151,11 @@ bool JournalReader::interpret(JournalRecord& record) const {
         record.writer = parse_writer(body);
         return true;
     }
-    const bool is_tile = kind_ == RecordKind::tile;
-    if (!is_tile && kind_ != RecordKind::lost) return false;
-    if (body.size() < sizeof(Rect)) return false;
+    if (kind_ != RecordKind::tile || body.size() < sizeof(Rect)) return false;
     std::memcpy(&record.rect, body.data(), sizeof(Rect));
     record.values = body.subspan(sizeof(Rect));
     if (!is_within(record.rect, header_.picture.region)) return false;
-    const auto pixels = static_cast<std::size_t>(is_tile ? record.rect.pixels() : 0);
+    const auto pixels = static_cast<std::size_t>(record.rect.pixels());
     return record.values.size() == pixels * header_.pixel_bytes();
 }
 
@@ -178,33 +176,19 @@ double KnownPixels<T>::share_rendered() const {
 }
 
 template <typename T>
-KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used) {
+KnownPixels<T> read_known_pixels(JournalReader& reader) {
     const Rect film = reader.header().picture.region;
+    check_memory(static_cast<std::uint64_t>(film.pixels()) * (3 * sizeof(T) + 1),
+                 "the film of a journal", "render parts with --crop");
     KnownPixels<T> known;
-    if (used.width == film.width && used.height == film.height) {
-        known.film = std::move(used);
-    } else {
-        check_memory(static_cast<std::uint64_t>(film.pixels()) * (3 * sizeof(T) + 1),
-                     "the film of a journal", "render parts with --crop");
-        known.film = Film<T>(film.width, film.height);
-    }
+    known.film = Film<T>(film.width, film.height);
     known.is_rendered.resize(static_cast<std::size_t>(film.pixels()));
     while (const auto record = reader.next()) {
-        const Rect& rect = record->rect;
-        for (int row = 0; row < rect.height; ++row) {
-            const std::size_t at = index_in(film, rect.x, rect.y + row);
-            const bool is_there = record->kind == RecordKind::tile;
-            const std::size_t bytes = 3 * sizeof(T) * static_cast<std::size_t>(rect.width);
-            if (is_there) {
-                std::memcpy(&known.film.rgb[3 * at],
-                            record->values.data() + static_cast<std::size_t>(row) * bytes, bytes);
-            } else {
-                std::memset(&known.film.rgb[3 * at], 0, bytes);
-            }
-            std::fill_n(known.is_rendered.begin() + static_cast<std::ptrdiff_t>(at), rect.width,
-                        std::uint8_t{is_there});
-        }
-        if (record->kind == RecordKind::writer) known.writers.push_back(record->writer);
+        for_each_row(*record, film, [&](std::size_t at, std::span<const std::byte> row) {
+            std::memcpy(&known.film.rgb[3 * at], row.data(), row.size());
+            std::fill_n(known.is_rendered.begin() + static_cast<std::ptrdiff_t>(at),
+                        record->rect.width, std::uint8_t{1});
+        });
         if (record->kind == RecordKind::finished) known.is_finished = true;
     }
     return known;
@@ -212,7 +196,7 @@ KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used) {
 
 template struct KnownPixels<float>;
 template struct KnownPixels<double>;
-template KnownPixels<float> read_known_pixels(JournalReader&, Film<float>);
-template KnownPixels<double> read_known_pixels(JournalReader&, Film<double>);
+template KnownPixels<float> read_known_pixels(JournalReader&);
+template KnownPixels<double> read_known_pixels(JournalReader&);
 
 }  // namespace rt

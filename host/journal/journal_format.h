@@ -29,7 +29,6 @@ enum class RecordKind : std::uint32_t {
     header = 1,   ///< JSON: JournalHeader
     writer = 2,   ///< JSON: JournalWriterInfo
     tile = 3,     ///< i32 x, y, width, height in the picture; its pixels, three numbers each
-    lost = 4,     ///< i32 x, y, width, height: no longer valid
     finished = 5  ///< the whole picture, or all its shares, is here; no body
 };
 
@@ -90,10 +89,22 @@ std::vector<std::byte> journal_start(const JournalHeader& header);
 /// has the right length. Its span stays valid until the next record is read.
 struct JournalRecord {
     RecordKind kind;
-    Rect rect;                          ///< of tile and lost
+    Rect rect;                          ///< of tile
     std::span<const std::byte> values;  ///< of tile: three numbers per pixel
     JournalWriterInfo writer;           ///< of writer
 };
+
+/// Calls visit(index of its first pixel in the film, its values) with each row of a tile; of other
+/// records, with none.
+template <typename Visit>
+void for_each_row(const JournalRecord& record, const Rect& film, const Visit& visit) {
+    const Rect& rect = record.rect;
+    for (int row = 0; row < rect.height; ++row) {
+        const std::size_t bytes = record.values.size() / static_cast<std::size_t>(rect.height);
+        visit(index_in(film, rect.x, rect.y + row),
+              record.values.subspan(static_cast<std::size_t>(row) * bytes, bytes));
+    }
+}
 
 /// A journal whose header is missing or incomplete.
 struct DamagedJournal : Error {
@@ -136,16 +147,13 @@ struct KnownPixels {
     Film<T> film{0, 0};
     std::vector<std::uint8_t> is_rendered;
     bool is_finished = false;
-    std::vector<JournalWriterInfo> writers;
 
     /// The fraction of the film: 0 to 1.
     double share_rendered() const;
 };
 
-/// Reads the remaining records. Reuses the memory of `used`, a film no longer needed; if it has the
-/// right size, pixels not rendered keep its values, else they are black. Throws Error
-/// (ExitCode::limit) when memory is short.
+/// Reads the remaining records. Throws Error (ExitCode::limit) when memory is short.
 template <typename T>
-KnownPixels<T> read_known_pixels(JournalReader& reader, Film<T> used = {0, 0});
+KnownPixels<T> read_known_pixels(JournalReader& reader);
 
 }  // namespace rt

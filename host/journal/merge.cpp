@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/base/memory.h"
 #include "host/base/text.h"
 #include "host/image/built_in_formats.h"
 #include "host/journal/journal_format.h"
@@ -66,17 +67,19 @@ class Merger {
           owner_(static_cast<std::size_t>(region_.pixels()), -1) {}
 
     void add(const std::string& path, JournalReader& reader, std::vector<std::string>& notes) {
-        const std::vector<std::uint8_t> shared = shared_pixels(shares_of(reader.header()), region_);
-        KnownPixels<T> known = read_known_pixels<T>(reader, std::move(used_film_));
+        parts_.push_back({path, {}});
+        while (const auto record = reader.next()) {
+            if (record->kind == RecordKind::writer) {
+                parts_.back().writers.push_back(record->writer);
+            }
+            for_each_row(*record, region_, [&](std::size_t at, std::span<const std::byte> row) {
+                for (; !row.empty(); row = row.subspan(pixel_bytes)) take_pixel(at++, row.data());
+            });
+        }
         if (const auto damaged = reader.bytes() - reader.good_bytes(); damaged > 0) {
             notes.push_back(fmt::format("{}: ignored the last {}, which are damaged", path,
                                         counted(damaged, "byte")));
         }
-        parts_.push_back({path, known.writers});
-        for (std::size_t i = 0; i < shared.size(); ++i) {
-            if (shared[i] != 0 && known.is_rendered[i] != 0) take_pixel(i, known.film);
-        }
-        used_film_ = std::move(known.film);
     }
 
     /// Throws Error where parts differ.
@@ -115,13 +118,14 @@ class Merger {
         std::size_t pixels = 0, first = 0;
     };
 
-    void take_pixel(std::size_t i, const Film<T>& film) {
+    static constexpr std::size_t pixel_bytes = 3 * sizeof(T);
+
+    void take_pixel(std::size_t i, const std::byte* values) {
         const auto part = static_cast<int>(parts_.size()) - 1;
-        constexpr std::size_t bytes = 3 * sizeof(T);
         if (owner_[i] < 0) {
             owner_[i] = part;
-            std::memcpy(&film_.rgb[3 * i], &film.rgb[3 * i], bytes);
-        } else if (std::memcmp(&film_.rgb[3 * i], &film.rgb[3 * i], bytes) != 0) {
+            std::memcpy(&film_.rgb[3 * i], values, pixel_bytes);
+        } else if (std::memcmp(&film_.rgb[3 * i], values, pixel_bytes) != 0) {
             const auto added = differences_.insert({{owner_[i], part}, {0, i}}).first;
             ++added->second.pixels;
         }
@@ -155,8 +159,7 @@ class Merger {
 
     const Rect region_;
     Film<T> film_;
-    Film<T> used_film_{0, 0};  ///< the previous part's, reused: 100 MB at 4K
-    std::vector<int> owner_;   ///< index of the part that each pixel came from; -1: none
+    std::vector<int> owner_;  ///< index of the part that each pixel came from; -1: none
     std::vector<Part> parts_;
     std::map<std::pair<int, int>, Difference> differences_;
 };
@@ -164,6 +167,9 @@ class Merger {
 template <typename T>
 MergedPicture merge(const std::vector<std::string>& paths, const JournalHeader& first,
                     std::vector<std::string> notes) {
+    check_memory(
+        static_cast<std::uint64_t>(first.picture.region.pixels()) * (3 * sizeof(T) + sizeof(int)),
+        "the merged film", "render parts with --crop");
     Merger<T> merger(first);
     for (const std::string& path : paths) {
         read_part(path, [&](JournalReader& reader) {

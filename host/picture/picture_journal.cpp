@@ -203,11 +203,6 @@ TileEvents PictureJournal<T>::tile_events() {
 }
 
 template <typename T>
-void PictureJournal<T>::hold() {
-    if (keeper_) keeper_->copy_finished();
-}
-
-template <typename T>
 void PictureJournal<T>::discard() {
     const bool is_ours = file_ && file_->exists();
     start_again();
@@ -218,13 +213,11 @@ template <typename T>
 void PictureJournal<T>::end(bool is_complete) {
     if (!keeper_) return;
     const auto keeper = std::move(keeper_);
-    if (!is_complete) {
-        keeper->close();
-        if (!settings_.shares && !known_ && !keeper->has_pixels()) file_->remove();
-    } else if (settings_.shares) {
-        keeper->close_finished();
-    } else {
+    if (is_complete && !settings_.shares) {
         keeper->discard();
+    } else {
+        keeper->close(is_complete);
+        if (!settings_.shares && !known_ && !keeper->has_pixels()) file_->remove();
     }
     if (!file_->failure().empty()) tell_failure();
 }

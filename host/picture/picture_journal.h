@@ -50,9 +50,6 @@ class PictureJournal {
     void begin(const Film<T>& film, const std::string& device);
     TileEvents tile_events();
 
-    /// The film is final and no longer used.
-    void hold();
-
     /// Closes it, once what was rendered is known to be right. Throws Error (ExitCode::output) if
     /// shares are not on disk.
     void end(bool is_complete);

@@ -239,7 +239,6 @@ class Job {
         stats_.rays = queue.rays();
         stats_.tiles = queue.tiles().size();
         stats_.tiles_finished = queue.tiles_finished();
-        journal_->hold();
     }
 
     /// The journal's events, which also notify our caller.
@@ -353,8 +352,8 @@ class Job {
     };
     SharedScene<T> scene_;
     std::optional<CrewMaker<T>> maker_;
-    std::optional<PictureJournal<T>> journal_;
     Film<T> film_{0, 0};
+    std::optional<PictureJournal<T>> journal_;
     PictureSize tile_{};
     RenderStats stats_;
 };

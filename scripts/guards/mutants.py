@@ -251,7 +251,7 @@ MUTANTS = [
         (J + "merge.cpp", "if (header.key == first.key && ", "if ("),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("merge overlooks pixels that differ", [
-        (J + "merge.cpp", "&film.rgb[3 * i], bytes) != 0) {", "&film.rgb[3 * i], bytes) > 999) {"),
+        (J + "merge.cpp", "values, pixel_bytes) != 0) {", "values, pixel_bytes) > 999) {"),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("merge forgets that pixels are missing", [
         (J + "merge.cpp", "if (merged.missing_pixels > 0) merged",
