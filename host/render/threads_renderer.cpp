@@ -17,8 +17,9 @@ namespace {
 
 /// The rays that kernels count, plus the primary rays.
 template <typename Counts>
-RayCounts rays_of(const Counts& counts, std::uint64_t primary) {
-    return {primary + counts.primary, counts.shadow, counts.mirror, counts.transmitted};
+RayCounts rays_of(const Counts& counts, std::int64_t primary) {
+    return {static_cast<std::uint64_t>(primary) + counts.primary, counts.shadow, counts.mirror,
+            counts.transmitted};
 }
 
 template <typename T>
@@ -57,28 +58,24 @@ class ThreadsRenderer : public Renderer<T> {
 
     /// The packets of a launch, in rows over a tile.
     struct PacketGrid {
-        Index across, down;  ///< packets
-        Index rows;          ///< of pixels in a packet
+        Index across, down;
 
         PacketGrid(const FlatTile& tile, const PacketShape& shape)
             : across((tile.width + shape.width - 1) / shape.width),
-              down((tile.height + shape.height - 1) / shape.height),
-              rows(shape.height) {}
+              down((tile.height + shape.height - 1) / shape.height) {}
     };
 
     int samples() const { return static_cast<int>(view_.params.samples); }
     bool in_rounds() const { return renders_in_rounds(view_.params); }
 
-    /// Calls work(first, end) for each row of packets until the queue is stopped. Returns the
-    /// number of pixels in those rows.
+    /// Calls work(first, end) for each row of packets; false if the queue was stopped meanwhile.
     template <typename Work>
-    std::uint64_t for_each_row(const PacketGrid& grid, const FlatTile& tile, const TileQueue& queue,
-                               const Work& work) const {
+    bool for_each_row(const PacketGrid& grid, const TileQueue& queue, const Work& work) const {
         for (Index row = 0; row < grid.down; ++row) {
-            if (queue.stopped()) return static_cast<std::uint64_t>(row * grid.rows * tile.width);
+            if (queue.stopped()) return false;
             work(row * grid.across, (row + 1) * grid.across);
         }
-        return static_cast<std::uint64_t>(tile.height * tile.width);
+        return true;
     }
 
     void render_tiles(TileQueue& queue, const Rect& region, Film<T>& film) {
@@ -87,14 +84,9 @@ class ThreadsRenderer : public Renderer<T> {
         run_on_threads(thread_count(options_, samples()), [&](int) {
             std::vector<T> planes;
             while (const auto rect = queue.next()) {
-                const FlatTile tile = flat_tile<T>(*rect, region);
                 FlatCounts counts{};
-                T* const to = film.rgb.data();
-                const std::uint64_t pixels = in_rounds()
-                                                 ? render_rounds(tile, queue, planes, counts, to)
-                                                 : render_pixels(tile, queue, counts, to);
-                queue.add_rays(rays_of(counts, pixels * static_cast<std::uint64_t>(samples())));
-                if (pixels != static_cast<std::uint64_t>(rect->pixels())) continue;
+                if (!render_tile(flat_tile<T>(*rect, region), queue, planes, counts, film)) return;
+                queue.add_rays(rays_of(counts, rect->pixels() * samples()));
                 queue.finish(*rect);
                 finished += rect->pixels();
             }
@@ -103,20 +95,18 @@ class ThreadsRenderer : public Renderer<T> {
         times_.trace += watch.seconds();
     }
 
-    /// Returns the number of pixels done, like for_each_row.
-    std::uint64_t render_pixels(const FlatTile& tile, const TileQueue& queue, FlatCounts& counts,
-                                T* film) const {
+    /// False if stopped before its end, like for_each_row.
+    bool render_tile(const FlatTile& tile, const TileQueue& queue, std::vector<T>& planes,
+                     FlatCounts& counts, Film<T>& film) const {
+        T* const to = film.rgb.data();
+        if (in_rounds()) {
+            return render_tile_in_rounds(kernels_, view_, tile, planes, to, counts,
+                                         [&queue] { return queue.stopped(); });
+        }
         const PacketGrid grid(tile, packet_shape(kernels_.lanes, samples()));
-        return for_each_row(grid, tile, queue, [&](Index first, Index end) {
-            kernels_.render_pixels(film, &counts, &view_, &tile, first, end);
+        return for_each_row(grid, queue, [&](Index first, Index end) {
+            kernels_.render_pixels(to, &counts, &view_, &tile, first, end);
         });
-    }
-
-    std::uint64_t render_rounds(const FlatTile& tile, const TileQueue& queue,
-                                std::vector<T>& planes, FlatCounts& counts, T* film) const {
-        const bool is_done = render_tile_in_rounds(kernels_, view_, tile, planes, film, counts,
-                                                   [&queue] { return queue.stopped(); });
-        return is_done ? static_cast<std::uint64_t>(tile.width * tile.height) : 0;
     }
 
     /// The paper's schedule: a thread renders whole sample buffers, which are averaged at the end.
@@ -158,11 +148,11 @@ class ThreadsRenderer : public Renderer<T> {
         const PacketGrid grid(tile, packet_shape(kernels_.lanes, 1));
         const Index before = k * grid.across * grid.down;
         FlatCounts counts{};
-        const std::uint64_t pixels = for_each_row(grid, tile, queue, [&](Index first, Index end) {
+        const bool is_done = for_each_row(grid, queue, [&](Index first, Index end) {
             kernels_.render_samples(buffers, &counts, &view_, &tile, before + first, before + end);
         });
-        queue.add_rays(rays_of(counts, pixels));
-        return pixels == static_cast<std::uint64_t>(rect.pixels());
+        if (is_done) queue.add_rays(rays_of(counts, rect.pixels()));
+        return is_done;
     }
 
     void average(const Rect& rect, const T* buffers, const Rect& region, Film<T>& film) const {
