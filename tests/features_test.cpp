@@ -10,6 +10,7 @@
 #include "host/flatten/flat_scene.h"
 #include "host/opencl/cl_options.h"
 #include "host/opencl/cl_program.h"
+#include "host/opencl/cl_tiles.h"
 #include "tests/feature_scenes.h"
 #include "tests/refusals.h"
 #include "tests/render_helpers.h"
@@ -37,7 +38,7 @@ TEST_P(OneFeatureAlone, IsWhatTheSceneNeedsAndGivesTheBitsOfAllFeatures) {
     ASSERT_EQ(flatten<float>(scene).features, GetParam());
     const std::uint64_t reference = hash_of(render_on_threads<float>(scene));
     ClOptions options = cl_options(Launch::pixel);
-    options.warnings_are_errors = true;
+    options.kernels.cl_options = "-Werror";
     EXPECT_EQ(hash_of(render_on_device<float>(scene, options)), reference);
     EXPECT_EQ(hash_of(render_on_device<float>(scene, cl_options(Launch::pixel, true))), reference);
 }
@@ -101,8 +102,8 @@ TEST(BuildProgram, DeclaresItselfWhatKernelsCallWherePoclWouldReadALongHeader) {
         EXPECT_NE(used.find("RT_DECLARES_BUILTINS"), std::string::npos) << used;
     };
     ProgramOptions options;
-    options.warnings_are_errors = true;
-    options.lanes = 16;
+    options.more = "-Werror";
+    options.lanes = packet_lanes<float>(0, test_device());
     expect_own_declarations(render_kernels, options);
     options.entries = {true, false, false};
     for (const int lanes : {1, 4}) {

@@ -191,7 +191,7 @@ void launch_on_device(ProbeRecord& launch) {
     try {
         ProgramOptions build;
         build.math = fast_math ? Math::fast : Math::strict;
-        build.warnings_are_errors = probes.device().platform == pocl_platform;
+        if (probes.device().platform == pocl_platform) build.more = "-Werror";
         probes.launch(build, launch);
     } catch (const cl::Error& error) {
         throw failed(fmt::format("{}: {}", error.what(), cl_status_text(error.err())));

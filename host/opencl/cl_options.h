@@ -20,8 +20,7 @@ std::shared_ptr<OpenDevices> make_open_devices();
 struct ClOptions {
     KernelChoice kernels{};
     Math math = Math::strict;
-    bool shares_film = false;          ///< others render into the film at the same time
-    bool warnings_are_errors = false;  ///< for tests
+    bool shares_film = false;  ///< others render into the film at the same time
     std::shared_ptr<OpenDevices> open_devices = make_open_devices();
 };
 

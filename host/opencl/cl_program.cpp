@@ -84,7 +84,6 @@ std::string build_options(const ClDevice& device, const ProgramOptions& options)
     } else if (device.rounds_correctly) {
         text += " -cl-fp32-correctly-rounded-divide-sqrt";
     }
-    if (options.warnings_are_errors) text += " -Werror";
     for (const FeatureName& feature : feature_names) {
         if (!(options.features.*feature.flag)) text += fmt::format(" -D{}=0", feature.macro);
     }

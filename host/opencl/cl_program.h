@@ -29,8 +29,7 @@ struct EntryPoints {
 struct ProgramOptions {
     Precision precision = Precision::float32;
     Math math = Math::strict;
-    bool warnings_are_errors = false;  ///< for tests
-    int lanes = 1;                     ///< rays of a packet: 1, 2, 4, 8 or 16
+    int lanes = 1;    ///< rays of a packet: 1, 2, 4, 8 or 16
     int samples = 0;  ///< per pixel, if a packet holds them all: compiled in; 0: any number
     Features features;
     EntryPoints entries;

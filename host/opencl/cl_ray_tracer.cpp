@@ -28,7 +28,6 @@ class ClRayTracer {
         program.precision = precision_of<T>;
         program.lanes = packet_lanes<T>(options.kernels.lanes, device);
         program.math = options.math;
-        program.warnings_are_errors = options.warnings_are_errors;
         program.more = options.kernels.cl_options;
         program.entries = {false, false, true};
         lanes_ = static_cast<std::size_t>(program.lanes);

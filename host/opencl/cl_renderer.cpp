@@ -467,7 +467,6 @@ ProgramOptions picture_program(const FlatScene<T>& scene, const ClDevice& device
     program.precision = precision_of<T>;
     program.lanes = packet_lanes<T>(kernels.lanes, device);
     program.math = options.math;
-    program.warnings_are_errors = options.warnings_are_errors;
     program.entries = {by_pixels, by_samples, false, in_rounds && !finds_edges, finds_edges};
     program.features = either_of(scene.features, kernels.features);
     program.more = kernels.cl_options;

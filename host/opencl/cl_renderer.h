@@ -30,7 +30,7 @@ std::unique_ptr<Renderer<T>> make_cl_renderer(const FlatScene<T>& scene, const C
                                               const ClOptions& options);
 
 /// Single rays on an OpenCL device, in packets as wide as for its pictures. Of the options, only
-/// lanes, math and warnings_are_errors count. Throws like make_cl_renderer; the scene need not
+/// lanes, math and cl_options count. Throws like make_cl_renderer; the scene need not
 /// outlive the call.
 template <typename T>
 RayTracer<T> make_cl_ray_tracer(const FlatScene<T>& scene, const ClDevice& device,
