@@ -34,20 +34,25 @@ constexpr const char* library_folders =
     "/usr/lib/x86_64-linux-gnu:/usr/lib/x86_64-linux-gnu/intel-opencl:/usr/lib64:/usr/lib:"
     "/usr/local/lib:/usr/local/nvidia/lib64:/usr/lib/wsl/lib:/opt/rocm/lib";
 
-/// In the loader's order.
+/// In the loader's order. Reading what is no regular file might never end.
 std::vector<std::string> icd_files(const std::string& place) {
     std::error_code error;
     std::vector<std::string> files;
-    if (fs::is_regular_file(place, error) && place.ends_with(".icd")) files = {fs::absolute(place)};
+    const auto add = [&](const fs::path& file) {
+        std::error_code ignored;
+        if (file.extension() != ".icd" || !fs::is_regular_file(file, ignored)) return;
+        files.push_back(fs::absolute(file));
+    };
+    add(place);
     for (fs::directory_iterator file(place, error), end; !error && file != end;
          file.increment(error)) {
-        if (file->path().extension() == ".icd") files.push_back(fs::absolute(file->path()));
+        add(file->path());
     }
     std::sort(files.begin(), files.end());
     return files;
 }
 
-/// The first line: the driver's library. Of a regular file: others may never end.
+/// The first line: the driver's library.
 std::string library_of(const std::string& file) {
     std::ifstream in(file);
     std::string line;
@@ -96,23 +101,15 @@ Listing list_in_worker(const std::string& drivers, double deadline) {
 class Lister {
    public:
     Lister(const std::string& place, double deadline) : deadline_(deadline) {
-        for (const std::string& file : icd_files(place)) {
-            std::error_code error;
-            if (fs::is_regular_file(file, error)) {
-                drivers_.files.push_back(file);
-            } else {
-                leave_out(file, "cannot be loaded: it is not a file");
-            }
-        }
+        drivers_.files = icd_files(place);
     }
 
     Drivers list() {
-        if (drivers_.files.empty() && leaves_out_) return std::move(drivers_);
-        Listing listing = list_together();
+        Listing listing = list_in_worker("", deadline_);
         if (listing.is_started && !listing.failure.empty()) {
             leave_out_failing(listing);
             if (drivers_.files.empty()) return std::move(drivers_);
-            if (leaves_out_) listing = list_together();
+            if (!drivers_.bad_files.empty()) listing = list_rest();
         }
         if (listing.failure.empty()) {
             add(listing.answer);
@@ -126,13 +123,19 @@ class Lister {
     }
 
    private:
-    void leave_out(const std::string& file, const std::string& why) {
-        drivers_.bad_files.push_back(problem_of(file, why));
-        leaves_out_ = true;
+    /// Leaves out those that fail in a worker of their own; an only one has failed there already.
+    void leave_out_failing(const Listing& together) {
+        const bool is_only = drivers_.files.size() == 1;
+        std::erase_if(drivers_.files, [&](const std::string& file) {
+            const Listing alone = is_only ? together : list_in_worker(file, deadline_);
+            if (!alone.failure.empty()) {
+                drivers_.bad_files.push_back(problem_of(file, alone.failure));
+            }
+            return !alone.failure.empty();
+        });
     }
 
-    Listing list_together() {
-        if (!leaves_out_) return list_in_worker("", deadline_);
+    Listing list_rest() {
         std::string place = drivers_.files.front();
         if (drivers_.files.size() > 1) {
             drivers_.folder = std::make_unique<TemporaryFolder>();
@@ -147,16 +150,6 @@ class Lister {
         return list_in_worker(place, deadline_);
     }
 
-    /// Those that fail in a worker of their own; an only one has failed there already.
-    void leave_out_failing(const Listing& together) {
-        const bool is_only = drivers_.files.size() == 1;
-        std::erase_if(drivers_.files, [&](const std::string& file) {
-            const Listing alone = is_only ? together : list_in_worker(file, deadline_);
-            if (!alone.failure.empty()) leave_out(file, alone.failure);
-            return !alone.failure.empty();
-        });
-    }
-
     void add(const Json& answer) {
         for (const auto& [file, why] :
              answer.at("skipped").get<std::map<std::string, std::string>>()) {
@@ -169,7 +162,6 @@ class Lister {
 
     const double deadline_;
     Drivers drivers_;
-    bool leaves_out_ = false;  ///< a file whose driver must not be loaded
 };
 
 }  // namespace
@@ -180,10 +172,7 @@ Drivers list_drivers(const std::string& place, double deadline) {
 
 std::vector<std::string> unlisted_drivers(const std::string& place, const std::string& folders) {
     std::string named;
-    for (const std::string& file : icd_files(place)) {
-        std::error_code error;
-        if (fs::is_regular_file(file, error)) named += library_of(file) + "\n";
-    }
+    for (const std::string& file : icd_files(place)) named += library_of(file) + "\n";
     std::istringstream all(folders + ":" + library_folders);
     std::vector<std::string> found;
     for (std::string folder; std::getline(all, folder, ':');) {
