@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """bench and converge: every figure in their JSON follows from the raw runs in it, computed independently
-here.
-
-usage: bench_test.py BUILD_DIR REPO_ROOT
-"""
+here."""
 import csv
 import io
 import json
@@ -16,10 +13,9 @@ import sys
 import tempfile
 import unittest
 
-from hang_limit import HANG_LIMIT
+import program
+from program import ROOT
 
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 SCENE = str(ROOT / "scenes" / "cornell-box.json")
 PICTURE = ["flatten", "upload", "trace", "resolve", "read_back"]
 TARGETS = [1e-2, 3e-3, 1e-3, 3e-4]
@@ -27,11 +23,7 @@ CACHE = tempfile.TemporaryDirectory(prefix="mirrorball-bench-test-")
 
 
 def run(*arguments, code=0):
-    variables = dict(os.environ, XDG_CACHE_HOME=CACHE.name)
-    result = subprocess.run([str(BUILD / "mirrorball"), *arguments], capture_output=True, cwd=ROOT,
-                            text=True, timeout=HANG_LIMIT, env=variables, check=False)
-    assert result.returncode == code, (result.returncode, result.stderr)
-    return result
+    return program.run(*arguments, code=code, XDG_CACHE_HOME=CACHE.name)
 
 
 def picture_seconds(one):

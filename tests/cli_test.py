@@ -1,40 +1,38 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The mirrorball command line, from outside. Usage: cli_test.py BUILD_DIR REPO_ROOT [TEST...]
+"""The mirrorball command line, from outside, also with an OpenCL driver that misbehaves (tests/cl_shim.cpp).
 
-TEST is a unittest name such as signal_cases or stats_cases.TextStats.test_sections, or `calm` or
-`timed` for those that may run next to other tests, or may not.
+usage: cli_test.py BUILD_DIR REPO_ROOT [I/N] [TEST...]
+
+TEST is a unittest name such as signal_cases or stats_cases.TextStats.test_sections, `calm` or `timed` for those
+that may run next to other tests, or may not, or `drivers`. I/N: only every N-th test, from the I-th, counted
+from 0. Needs python3-matplotlib, for numpy and Pillow, and python3-jsonschema.
 """
 import pathlib
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "cli"))
-sys.dont_write_bytecode = True
+import program
 
-import harness
-
-MODULES = {
-    "calm": ["usage_cases", "shell_cases", "batch_cases", "journal_cases", "doctor_cases",
-             "explain_cases", "frames_cases", "scene_cases", "pipe_cases",
-             "view_cases", "watch_cases", "aov_cases",
-             "output_cases", "device_cases", "picture_cases",
-             "render_cases", "compare_cases", "stats_cases", "failure_cases", "estimate_cases"],
-    "timed": ["stream_cases", "signal_cases"],
-}
+FOLDERS = [program.ROOT / "tests" / name for name in ["cli", "drivers"]]
+sys.path[:0] = map(str, FOLDERS)
+TIMED = ["stream_cases", "signal_cases"]
+MODULES, DRIVERS = ([path.stem for path in sorted(folder.glob("*_cases.py"))] for folder in FOLDERS)
+GROUPS = {"calm": [name for name in MODULES if name not in TIMED], "timed": TIMED, "drivers": DRIVERS}
 
 
-def names(arguments):
-    """Tests for unittest: groups by their modules, all of them without arguments."""
-    return [name for argument in arguments or MODULES for name in MODULES.get(argument, [argument])]
+def tests_of(suite):
+    """All tests, however deep in suites."""
+    for test in suite:
+        yield from tests_of(test) if isinstance(test, unittest.TestSuite) else [test]
 
 
 def main():
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    with harness.environment(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])):
-        suite = unittest.defaultTestLoader.loadTestsFromNames(names(sys.argv[3:]))
-        result = unittest.TextTestRunner(verbosity=2).run(suite)
+    arguments = sys.argv[1:]
+    share, shares = map(int, arguments.pop(0).split("/")) if "/" in "".join(arguments[:1]) else (0, 1)
+    names = [name for argument in arguments or GROUPS for name in GROUPS.get(argument, [argument])]
+    tests = [*tests_of(unittest.defaultTestLoader.loadTestsFromNames(names))]
+    result = unittest.TextTestRunner(verbosity=2).run(unittest.TestSuite(tests[share::shares]))
     sys.exit(0 if result.wasSuccessful() else 1)
 
 

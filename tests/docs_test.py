@@ -3,8 +3,6 @@
 """Runs the commands of README.md, docs/tutorial.md and docs/kernels.md as they are printed; reads those
 of all pages.
 
-usage: docs_test.py BUILD_DIR REPO_ROOT
-
 A block of a page without a language is commands: lines that begin with `mirrorball` or
 `build/release/mirrorball` are run, one after the other, in a folder that has the repository's scenes.
 A json block that follows "Save this as `NAME`" is written to NAME first.
@@ -16,15 +14,14 @@ import re
 import shlex
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
-sys.dont_write_bytecode = True
-BUILD, REPO = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+from program import PROGRAM, ROOT, run
+
 NAMES = {"mirrorball", "build/release/mirrorball"}
-PAGES = [REPO / "README.md", REPO / "CONTRIBUTING.md", REPO / "python/README.md",
-         *sorted((REPO / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "python/README.md",
+         *sorted((ROOT / "docs").glob("*.md"))]
 # Of other programs, of scripts, and of an earlier revision.
 OTHERS_OPTIONS = {"--spec", "--bind-to", "--enable-recovery", "--sshlogin", "--corners", "--naive"}
 
@@ -61,7 +58,7 @@ class Code(unittest.TestCase):
     def test_names_scripts_that_are_there(self):
         for page in PAGES:
             for script in re.findall(r"(?<![\w/.])scripts/[\w/.-]*\w", "\n".join(code_of(page))):
-                self.assertTrue((REPO / script).exists(), f"{page}: {script}")
+                self.assertTrue((ROOT / script).exists(), f"{page}: {script}")
 
     def test_names_packages_as_apt_reads_them(self):
         """To apt, `build/x.deb` is package build of release x.deb."""
@@ -72,19 +69,18 @@ class Code(unittest.TestCase):
             for word in words:
                 self.assertRegex(word, r"^(\.{0,2}/.*|[^/]*)$", page)
 
-
     def test_names_presets_that_are_there(self):
-        presets = json.loads((REPO / "CMakePresets.json").read_text(encoding="utf-8"))
+        presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))
         names = {preset["name"] for preset in presets["configurePresets"]}
         found = [name for page in PAGES for code in code_of(page) for name in re.findall(r"--preset (\S+)", code)]
         self.assertTrue(found)
         self.assertLessEqual(set(found), names)
 
     def test_tells_how_long_the_tracer_is(self):
-        page = (REPO / "docs/kernels.md").read_text(encoding="utf-8")
+        page = (ROOT / "docs/kernels.md").read_text(encoding="utf-8")
         said = int(re.search(r"about ([\d,]+) lines of OpenCL C in `kernels/`", page)[1].replace(",", ""))
         lines = sum(len(path.read_text(encoding="utf-8").splitlines())
-                    for path in (REPO / "kernels").iterdir() if path.is_file())
+                    for path in (ROOT / "kernels").iterdir() if path.is_file())
         self.assertAlmostEqual(said / lines, 1, delta=0.05, msg=str(lines))
 
 
@@ -110,18 +106,13 @@ class Links(unittest.TestCase):
         self.assertGreater(found, 50)
 
 
-def help_of(*verb):
-    return subprocess.run([BUILD / "mirrorball", *verb, "--help"], capture_output=True, text=True,
-                          check=True).stdout
-
-
 def options_of(*verb):
-    return set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", help_of(*verb), re.M))
+    return set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", run(*verb, "--help").stdout, re.M))
 
 
 class Options(unittest.TestCase):
     def test_that_pages_name_are_there(self):
-        verbs = re.findall(r"^  (\w+) ", help_of().partition("Verbs (")[2], re.M)
+        verbs = re.findall(r"^  (\w+) ", run("--help").stdout.partition("Verbs (")[2], re.M)
         of_verb = {verb: options_of(verb) for verb in verbs}
         of_verb["scene"] = options_of("scene", "info") | options_of("scene", "check")
         of_any = set().union(options_of(), *of_verb.values())
@@ -146,18 +137,18 @@ class Pages(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         (self.folder / "out").mkdir()
-        shutil.copytree(REPO / "scenes", self.folder / "scenes")
+        shutil.copytree(ROOT / "scenes", self.folder / "scenes")
 
     def run_page(self, name, environment):
         """How many commands ran."""
         commands = 0
-        for kind, what, content in steps_of(REPO / name):
+        for kind, what, content in steps_of(ROOT / name):
             if kind == "file":
                 (self.folder / what).write_text(content, encoding="utf-8")
                 continue
             result = subprocess.run(
                 ["bash", "-c", '"$0" ' + " ".join(glob_safe(word) for word in what),
-                 str(BUILD / "mirrorball")], cwd=self.folder, capture_output=True, text=True,
+                 PROGRAM], cwd=self.folder, capture_output=True, text=True,
                 check=False, env={**os.environ, **environment})
             with self.subTest(command=content):
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
@@ -183,4 +174,4 @@ def glob_safe(word):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
+    unittest.main(verbosity=2)

@@ -8,19 +8,16 @@ import csv
 import json
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 
 import jsonschema
 
-from hang_limit import HANG_LIMIT
+from program import ROOT, run
 
 WRITE = "--write" in sys.argv
 sys.argv = [argument for argument in sys.argv if argument != "--write"]
-BUILD = pathlib.Path(sys.argv.pop(1))
-ROOT = pathlib.Path(sys.argv.pop(1))
 GOLDEN = ROOT / "tests" / "golden"
 
 BOX = ["scenes/cornell-box.json", "--size", "24x16"]
@@ -102,12 +99,9 @@ def outcome(name, command, folder):
     stem = str(pathlib.Path(folder) / name)
     pixels = b"".join(number.to_bytes(4, "little") for number in [0x3F000000] * 3 * 24 * 16)
     pathlib.Path(stem + ".pfm").write_bytes(b"PF\n24 16\n-1.0\n" + pixels)
-    words = [word.replace("{}", stem) for word in command]
-    result = subprocess.run([str(BUILD / "mirrorball"), *words], cwd=ROOT, capture_output=True, text=True,
-                            timeout=HANG_LIMIT)
-    assert result.returncode == 0, result.stderr
+    said = run(*(word.replace("{}", stem) for word in command)).stdout
     file = pathlib.Path(stem + ".json")
-    text = file.read_text() if file.exists() else result.stdout
+    text = file.read_text() if file.exists() else said
     expect_documented(json.loads(text))
     found = list(lines(json.loads(text)))
     table = pathlib.Path(stem + ".csv")

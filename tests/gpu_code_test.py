@@ -13,9 +13,9 @@ import sys
 import tempfile
 import unittest
 
-CLANG = sys.argv.pop()
-ROOT = pathlib.Path(sys.argv.pop()).resolve()
-BUILD = pathlib.Path(sys.argv.pop()).resolve()
+from program import ROOT, run
+
+CLANG = sys.argv.pop(1)
 GPUS = {"nvptx64": ["-target", "nvptx64-nvidia-cuda", "-Xclang", "-target-cpu", "-Xclang", "sm_70"],
         "amdgcn": ["-target", "amdgcn-amd-amdhsa", "-mcpu=gfx1030", "-O1"]}
 STRICT = "-cl-fp32-correctly-rounded-divide-sqrt"
@@ -40,9 +40,8 @@ def left_out(scene):
     """The build options for what a scene does not need."""
     macros = dict(re.findall(r'"([\w ]+)", "(RT_HAS_\w+)"', (ROOT / "host/flatten/features.h").read_text()))
     with tempfile.TemporaryDirectory() as folder:
-        stats = json.loads(subprocess.run(
-            [BUILD / "mirrorball", "render", ROOT / "scenes" / scene, "--size", "8", "--device", "threads",
-             "--stats=json", "-o", pathlib.Path(folder, "out.pfm")], check=True, text=True, stdout=subprocess.PIPE).stdout)
+        stats = json.loads(run("render", ROOT / "scenes" / scene, "--size", "8", "--device", "threads", "--stats=json",
+                               "-o", pathlib.Path(folder, "out.pfm")).stdout)
     return [f"-D{macros[name]}=0" for name in stats["scene"]["features_left_out"]]
 
 

@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What cmake installs and cpack packs runs from any folder. Usage: install_test.py BUILD_DIR REPO_ROOT"""
+"""What cmake installs and cpack packs runs from any folder."""
 import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
-BUILD, ROOT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+from program import BUILD
 
 
 def run(*command, cwd="/", env=None):
@@ -89,4 +88,4 @@ class Installed(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
+    unittest.main(verbosity=2)

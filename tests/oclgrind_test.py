@@ -1,26 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs every kernel under Oclgrind: no bad memory access, and the bits of the pthreads renderer.
 
-usage: oclgrind_test.py BUILD_DIR REPO_ROOT
 Oclgrind exits with 0 when it has found errors, so its log is what is judged.
 """
 import json
 import pathlib
 import subprocess
-import sys
 import tempfile
 import unittest
 
-from hang_limit import HANG_LIMIT
-
-BUILD = pathlib.Path(sys.argv.pop(1))
-ROOT = pathlib.Path(sys.argv.pop(1))
+from program import HANG_LIMIT, PROGRAM, ROOT
 
 
 def render(scene, options, device, prefix=()):
     """The --stats=json of a picture, of 20 x 20 pixels where the options do not say."""
     size = [] if "--size" in options else ["--size", "20"]
-    command = [*prefix, str(BUILD / "mirrorball"), "render", str(ROOT / "scenes" / scene),
+    command = [*prefix, PROGRAM, "render", str(ROOT / "scenes" / scene),
                *size, "--device", device, "--no-fallback", "--progress", "none",
                "--stats=json", *options]
     result = subprocess.run(command, capture_output=True, text=True, timeout=HANG_LIMIT)

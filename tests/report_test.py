@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page of `mirrorball report`: well-formed, alone, small, described, and its numbers those of its data.
-
-usage: report_test.py BUILD_DIR REPO_ROOT
-"""
+"""The page of `mirrorball report`: well-formed, alone, small, described, and its numbers those of its data."""
 import html
 import html.parser
 import json
@@ -13,14 +10,11 @@ import shutil
 import signal
 import statistics
 import subprocess
-import sys
 import tempfile
 import unittest
 
-from hang_limit import HANG_LIMIT
+from program import HANG_LIMIT, PROGRAM, ROOT, run
 
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 EVIL = '</title><script>alert("x")</script>'
 VOID = {"meta", "link", "img", "br", "hr", "input"}
 
@@ -119,10 +113,8 @@ def setUpModule():
                            count=1)
     assert names == 1
     (FOLDER / "scene.json").write_text(scene, encoding="utf-8")
-    environment = dict(os.environ, XDG_CACHE_HOME=str(FOLDER / "cache"))
-    subprocess.run([str(BUILD / "mirrorball"), "report", "scene.json", "-o", "report.html",
-                    "--size", "48", "--quick", "-q", "--plots", "plots"],
-                   cwd=FOLDER, env=environment, check=True, timeout=HANG_LIMIT)
+    run("report", "scene.json", "-o", "report.html", "--size", "48", "--quick", "-q", "--plots", "plots",
+        cwd=FOLDER, XDG_CACHE_HOME=str(FOLDER / "cache"))
     TEXT = (FOLDER / "report.html").read_text(encoding="utf-8")
     PAGE = Page(TEXT)
 
@@ -212,23 +204,15 @@ class Report(unittest.TestCase):
         self.assertIn("&lt;/title&gt;&lt;script&gt;", TEXT)
 
     def test_data_can_be_read_and_sources_lead_to_it(self):
-        blocks = {}
-        for name, (kind, text) in PAGE.blocks.items():
-            self.assertEqual(kind, "application/json")
-            blocks[name] = json.loads(text)
-        self.assertGreaterEqual(set(blocks), {"environment", "bench-0", "converge-0", "pictures-0"})
+        self.assertEqual({kind for kind, _ in PAGE.blocks.values()}, {"application/json"})
+        self.assertGreaterEqual(set(PAGE.blocks), {"environment", "bench-0", "converge-0", "pictures-0"})
         sources = {attrs["data-source"] for _, attrs in PAGE.tags if "data-source" in attrs}
         self.assertGreater(len(sources), 10)
         for source in sources:
-            name, pointer = source.split("#")
-            value = blocks[name]
-            for key in pointer.split("/")[1:]:
-                value = value[int(key)] if isinstance(value, list) else value[key]
-            self.assertIsNotNone(value, source)
+            self.assertIsNotNone(self.source(source), source)
 
     def test_figures_come_from_the_repeats(self):
-        rows = json.loads(PAGE.blocks["bench-0"][1])["rows"]
-        for row in rows:
+        for row in self.source("bench-0#/rows"):
             self.assertEqual(row["verdict"], "right", row["why"])
             self.assertEqual(len(row["repeats"]), 5)
 
@@ -303,9 +287,7 @@ class Report(unittest.TestCase):
 
     def test_a_picture_has_one_time(self):
         """The captions give the medians of the tables, and nothing gives another."""
-        units = {"s": 1, "ms": 1e-3, "µs": 1e-6}
-        rows = json.loads(PAGE.blocks["bench-0"][1])["rows"]
-        pictures = json.loads(PAGE.blocks["pictures-0"][1])
+        rows, pictures = self.source("bench-0#/rows"), self.source("pictures-0#")
         captions = re.findall(r"(?:Plain|Anti-aliased): (.+), traced in ([\d.]+)\xa0(\S+) on", TEXT)
         self.assertEqual([samples for samples, *_ in captions],
                          ["one sample per pixel", "2\xa0x\xa02 samples per pixel (grid:2)"])
@@ -314,12 +296,12 @@ class Report(unittest.TestCase):
                        if (row["width"], row["aa"], row["device_name"]) ==
                        (48, aa, picture["device"]["name"])]
             self.assertEqual(len(medians), 1)
-            self.assertAlmostEqual(float(shown) * units[unit] / medians[0], 1, delta=0.01)
+            self.assertAlmostEqual(float(shown) * UNITS[unit] / medians[0], 1, delta=0.01)
         trial = re.search(r"kernels compiled with.*?</table>", TEXT, re.S).group(0)
         self.assertNotIn("trace", trial)
 
     def test_pictures_have_an_estimate_of_their_error(self):
-        for picture in json.loads(PAGE.blocks["pictures-0"][1]).values():
+        for picture in self.source("pictures-0#").values():
             ratio = picture["estimate"]["rmse"] / picture["error"]["rmse"]
             self.assertTrue(0.5 < ratio < 2, ratio)
         self.assertEqual(TEXT.count(" (estimated without the reference: "), 4)  # captions and their images
@@ -336,7 +318,7 @@ class Report(unittest.TestCase):
 
     def test_slopes_have_their_noise_and_a_mark(self):
         table = next(table for table in PAGE.tables if table[0][0][0] == "device" and table[0][1][0] == "grid")
-        converge = json.loads(PAGE.blocks["converge-0"][1])
+        converge = self.source("converge-0#")
         for curve, shown in zip([c for c in converge["curves"] if c["family"] == "grid"], table[1:]):
             self.assertTrue(shown[1][0].startswith(f"{curve['slope']:.2f} ± "), shown)
             seconds = [converge["points"][i]["figures"]["seconds"] for i in curve["points"]]
@@ -356,25 +338,20 @@ class Report(unittest.TestCase):
 class Failures(unittest.TestCase):
     """No page, the right exit code, and one line that says why."""
 
-    def report(self, *words, **environment):
+    def report(self, code, *words, **environment):
         page = FOLDER / "none.html"
-        result = subprocess.run([str(BUILD / "mirrorball"), "report", *words, "-o", str(page), "--quick"], cwd=FOLDER,
-                                env={**os.environ, **environment}, capture_output=True, text=True, timeout=HANG_LIMIT,
-                                check=False)
+        said = run("report", *words, "-o", page, "--quick", code=code, cwd=FOLDER, **environment).stderr
         self.assertFalse(page.exists())
-        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
-        return result.returncode, result.stderr
+        self.assertEqual(len(said.splitlines()), 1, said)
+        return said
 
     def test_a_scene_that_is_missing(self):
-        code, said = self.report("scene.json", "missing.json")
-        self.assertEqual(code, 3)
-        self.assertIn("missing.json: no such file", said)
+        self.assertIn("missing.json: no such file", self.report(3, "scene.json", "missing.json"))
 
     def test_an_interpreter_without_matplotlib(self):
         (FOLDER / "bare").mkdir()
         (FOLDER / "bare" / "matplotlib.py").write_text("raise ImportError\n")
-        code, said = self.report("scene.json", PYTHONPATH=str(FOLDER / "bare"))
-        self.assertEqual(code, 5)
+        said = self.report(5, "scene.json", PYTHONPATH=str(FOLDER / "bare"))
         self.assertIn(shutil.which("python3"), said)
         self.assertIn("apt install python3-matplotlib", said)
 
@@ -383,18 +360,15 @@ class Failures(unittest.TestCase):
         own = FOLDER / "bin" / "python3"
         own.write_text("#!/bin/sh\nexit 1\n")
         own.chmod(0o755)
-        code, said = self.report("missing.json", PATH=f"{own.parent}:{os.environ['PATH']}")
-        self.assertEqual(code, 3, said)
+        self.report(3, "missing.json", PATH=f"{own.parent}:{os.environ['PATH']}")
 
     def test_a_folder_that_cannot_be_made(self):
         (FOLDER / "file").write_text("")
-        code, said = self.report("scene.json", "--plots", "file/plots")
-        self.assertEqual(code, 4)
-        self.assertIn("file/plots: cannot make this folder", said)
+        self.assertIn("file/plots: cannot make this folder", self.report(4, "scene.json", "--plots", "file/plots"))
 
     def test_a_signal(self):
         for number in (signal.SIGINT, signal.SIGTERM):
-            command = [str(BUILD / "mirrorball"), "report", "scene.json", "-o", "stopped.html", "--size", "64",
+            command = [PROGRAM, "report", "scene.json", "-o", "stopped.html", "--size", "64",
                        "--devices", "threads", "--repeats", "30"]
             with subprocess.Popen(command, cwd=FOLDER, stderr=subprocess.PIPE, text=True) as process:
                 for line in process.stderr:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes written by scripts/spd and scripts/generate. Usage: spd_test.py BUILD_DIR REPO_ROOT"""
+"""Scenes written by scripts/spd and scripts/generate."""
 import json
 import math
 import pathlib
@@ -10,8 +10,7 @@ import sys
 import tempfile
 import unittest
 
-sys.dont_write_bytecode = True
-BUILD, REPO = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+from program import ROOT, run
 
 # The table "Database Analysis" in the Readme of SPD 3.14, and the heads of its programs.
 USUAL = {
@@ -36,15 +35,20 @@ SMALL = {
 }
 
 
-def run(*arguments):
-    return subprocess.run([str(a) for a in arguments], capture_output=True, text=True, check=False)
+def script(name, *arguments):
+    """What a script prints; it must say nothing else."""
+    result = subprocess.run([sys.executable, ROOT / "scripts" / name, *map(str, arguments)], capture_output=True,
+                            text=True, check=True)
+    assert result.stderr == ""
+    return result.stdout
 
 
 def written(name, *options):
-    result = run(sys.executable, REPO / "scripts/spd/spd.py", name, *options)
-    if result.returncode != 0:
-        raise AssertionError(result.stderr)
-    return result.stdout
+    return script("spd/spd.py", name, *options)
+
+
+def info_of(path):
+    return json.loads(run("scene", "info", path, "--json").stdout)
 
 
 def entities(text):
@@ -92,10 +96,9 @@ class Databases(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, f"{name}.nff")
             path.write_text(text, encoding="utf-8")
-            check = run(BUILD / "mirrorball", "scene", "check", path)
-            self.assertEqual(check.returncode, 0)
+            check = run("scene", "check", path)
             self.assertRegex(check.stderr, r"^(mirrorball: .*: ignored \d+ zero-area polygons\n)?$")
-            info = json.loads(run(BUILD / "mirrorball", "scene", "info", path, "--json").stdout)
+            info = info_of(path)
         expected = counts(text)
         self.assertEqual(info["spheres"], expected.get("s", 0))
         self.assertEqual(info["cones"], expected.get("c", 0))
@@ -110,12 +113,10 @@ class Databases(unittest.TestCase):
             scene = pathlib.Path(folder, "scene.nff")
             scene.write_text(written("balls"), encoding="utf-8")
             for precision in ["float", "double"]:
-                result = run(BUILD / "mirrorball", "render", scene, "--size", 160, "-q",
-                             "--aa", "none", "--device", "threads", "--precision", precision,
-                             "-o", pathlib.Path(folder, f"{precision}.pfm"))
-                self.assertEqual((result.returncode, result.stderr), (0, ""))
-            error = json.loads(run(BUILD / "mirrorball", "compare", f"{folder}/float.pfm",
-                                   f"{folder}/double.pfm", "--json").stdout)["error"]
+                result = run("render", scene, "--size", 160, "-q", "--aa", "none", "--device", "threads",
+                             "--precision", precision, "-o", f"{folder}/{precision}.pfm")
+                self.assertEqual(result.stderr, "")
+            error = json.loads(run("compare", f"{folder}/float.pfm", f"{folder}/double.pfm", "--json").stdout)["error"]
             self.assertLessEqual(error["rmse"], 1e-3)
             self.assertLessEqual(error["pixels_over_8_255"], 1e-3 * 160 * 160)
 
@@ -130,15 +131,13 @@ class Databases(unittest.TestCase):
 class Generated(unittest.TestCase):
     def generate(self, folder, name, size):
         path = pathlib.Path(folder, f"{name}.json")
-        result = run(sys.executable, REPO / "scripts/generate/generate.py", name, size, "-o", path)
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        script("generate/generate.py", name, size, "-o", path)
         return path
 
     def test_balls_are_as_many_as_they_should_be(self):
         with tempfile.TemporaryDirectory() as folder:
             path = self.generate(folder, "sphere-flake", 3)
-            info = json.loads(run(BUILD / "mirrorball", "scene", "info", path, "--json").stdout)
-            self.assertEqual(info["spheres"], 820)
+            self.assertEqual(info_of(path)["spheres"], 820)
 
     def test_mesh_is_closed_and_has_as_many_triangles_as_asked_for(self):
         for triangles in [18, 1000, 20000]:
@@ -147,9 +146,8 @@ class Generated(unittest.TestCase):
                 meshes = json.loads(path.read_text(encoding="utf-8"))["meshes"]
                 self.assertEqual([mesh["file"] for mesh in meshes], ["bumpy-mesh.ply"])
                 self.assert_closed(path.with_suffix(".ply").read_bytes(), triangles)
-                check = run(BUILD / "mirrorball", "scene", "check", path)
-                self.assertEqual((check.returncode, check.stderr), (0, ""))
-                info = json.loads(run(BUILD / "mirrorball", "scene", "info", path, "--json").stdout)
+                self.assertEqual(run("scene", "check", path).stderr, "")
+                info = info_of(path)
                 self.assertEqual((info["mesh_triangles"], info["notes"]), (triangles, []))
 
     def assert_closed(self, ply, triangles):
@@ -167,4 +165,4 @@ class Generated(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(verbosity=2)

@@ -1,26 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rays of the quick stress suite pass on PoCL, and its options do what they say.
-
-usage: stress_test.py BUILD_DIR REPO_ROOT
-"""
+"""The rays of the quick stress suite pass on PoCL, and its options do what they say."""
 import json
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
-from hang_limit import HANG_LIMIT
-
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+from program import run
 
 
 def stress(*arguments, code=0):
-    result = subprocess.run([str(BUILD / "mirrorball"), "stress", *arguments], cwd=ROOT, text=True,
-                            capture_output=True, timeout=HANG_LIMIT, check=False)
-    assert result.returncode == code, (result.returncode, result.stdout, result.stderr)
-    return result
+    return run("stress", *arguments, code=code)
 
 
 class Output(unittest.TestCase):

@@ -154,8 +154,7 @@ GUARDS = [
     ], [("geometry_hits_test", "Hits.*"), ("kernel_hits_test", "DeviceHits.*")]),
     Guard("and by the origin's share", [
         (K + "bvh.cl", "(Reals)((Real)16 * (Real)RT_ROUNDOFF) * max_of", "(Reals)0 * max_of"),
-    ], [("geometry_hits_test", "Hits.*FromFarAway"),
-        ("kernel_scene_test", "ClosestHit.*FromFarAway")]),
+    ], [("geometry_hits_test", "Hits.*FromFarAway")]),
     Guard("Blinn lobe near its peak from the part across the normal", [
         (K + "power.cl", "Mask near = (binades >= (Indices)0) & !low;",
          "Mask near = (binades > (Indices)0) & !low;"),

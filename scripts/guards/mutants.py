@@ -12,8 +12,8 @@ def counts(*filters):
     return [("ray_counts_test", name) for name in filters or ["Scenes/RaysOfScene.*"]]
 
 
-def driver(test):
-    return [("wrong_driver_test.py", test)]
+def cli(test):
+    return [("cli", test)]
 
 
 def edges(test):
@@ -104,15 +104,15 @@ MUTANTS = [
     Mutant("a filter's weight without y", [
         (K + "sampling.cl", "filter_weight(params->filter, position.y - (Reals)0.5f);",
          "filter_weight(params->filter, (Reals)0);"),
-    ], [("kernel_filter_test", "SampleWeight*")]),
+    ], [("kernel_sampling_test", "SamplePosition*")]),
     Mutant("Sobol samples alike in all pixels", [
         (K + "sampling.cl", "sobol_position(hash_bits(pixel ^ seed), RT_TO_UINTS(k))",
          "sobol_position(hash_bits((pixel & 0u) ^ seed), RT_TO_UINTS(k))"),
-    ], [("kernel_filter_test", "SobolSample*")]),
+    ], [("kernel_sampling_test", "SobolSample*")]),
     Mutant("Sobol samples alike for all seeds", [
         (K + "sampling.cl", "Uints seed = hash_bits((Uints)(uint)params->seed);",
          "Uints seed = hash_bits((Uints)(uint)(params->seed & 0));"),
-    ], [("kernel_filter_test", "SobolSample*")]),
+    ], [("kernel_sampling_test", "SobolSample*")]),
     Mutant("samples in x where y is meant", [
         (K + "sampling.cl", "position.y = fma(position.y - (Reals)0.5f, side, (Reals)0.5f);",
          "position.y = fma(position.x - (Reals)0.5f, side, (Reals)0.5f);"),
@@ -141,28 +141,28 @@ MUTANTS = [
     ], [("bench_test.py", "Bench.test_rounds_go_over_all_rows")]),
     Mutant("bench overlooks infinities", [
         (M + "timing.cpp", "run.error->non_finite; count > 0", "run.error->non_finite; count > 1000000"),
-    ], driver("Bench.test_a_picture_with_infinities_is_wrong")),
+    ], cli("measure_cases.Bench.test_a_picture_with_infinities_is_wrong")),
     Mutant("bench overlooks pictures that change", [
         (M + "timing.cpp", "runs->front().image_hash == run.image_hash) continue;",
          "runs->front().image_hash != 0) continue;"),
-    ], driver("Bench.test_a_picture_that_changes_between_repeats_is_wrong")),
+    ], cli("measure_cases.Bench.test_a_picture_that_changes_between_repeats_is_wrong")),
     Mutant("bench exits 0 with wrong rows", [
         (V + "bench.cpp", "slower || result.has_any(Verdict::wrong)", "slower"),
-    ], driver("Bench.test_a_picture_that_is_off_in_a_bit_is_wrong")),
+    ], cli("measure_cases.Bench.test_a_picture_that_is_off_in_a_bit_is_wrong")),
     Mutant("stress ignores differing hashes", [
         ("host/stress/stress_run.cpp", "if (hashes.size() < 2) continue;",
          "if (hashes.size() < 200) continue;"),
-    ], driver("Stress.test_devices_that_disagree_in_a_bit_fail")),
+    ], cli("measure_cases.Stress.test_devices_that_disagree_in_a_bit_fail")),
     Mutant("stress ignores same_bits", [
         ("host/stress/stress_run.cpp", "if (!is_new && first->second != row.figures.hash) {",
          "if (is_new && first->second != row.figures.hash) {"),
     ], [("host_stress_test", "StressRun.CasesThatShouldHaveTheSameBits*")]),
     Mutant("kernel seconds times 7", [
         ("host/opencl/cl_renderer.cpp", "times_.kernel += kernel;", "times_.kernel += 7 * kernel;"),
-    ], [("cli", "stats_cases.Phases.test_kernels_take_most_of_the_trace_time")]),
+    ], cli("stats_cases.Phases.test_kernels_take_most_of_the_trace_time")),
     Mutant("--math fast without its options", [
         ("host/opencl/cl_program.cpp", '" -DRT_FAST_MATH=1 -cl-mad-enable"', '""'),
-    ], driver("Math.test_fast_lets_the_compiler_contract_and_strict_does_not")),
+    ], cli("measure_cases.Math.test_fast_lets_the_compiler_contract_and_strict_does_not")),
     Mutant("medians of an even number by the upper one", [
         (M + "runs.cpp", "(values[middle - 1] + values[middle]) / 2", "values[middle]"),
     ], [("host_bench_test", "Statistics.*")]),
@@ -181,7 +181,7 @@ MUTANTS = [
     Mutant("RMSE over pixels instead of values", [
         ("host/image/image_error.cpp", "(pixels - error.non_finite) * channels);",
          "(pixels - error.non_finite));"),
-    ], [("cli", "compare_cases.Figures.test_numbers")]),
+    ], cli("compare_cases.Figures.test_numbers")),
     Mutant("the report's trace column shows the slowest", [
         ("python/mirrorball/time_sections.py", "rows.append([*start, milliseconds(trace_seconds(row)),",
          'rows.append([*start, milliseconds(figures["trace"]["max"]),'),
@@ -256,19 +256,19 @@ MUTANTS = [
     Mutant("merge forgets that pixels are missing", [
         (J + "merge.cpp", "if (merged.missing_pixels > 0) merged",
          "if (merged.missing_pixels > 9999999) merged"),
-    ], [("cli", "journal_cases.Shares.test_that_are_missing_are_named")]),
+    ], cli("journal_cases.Shares.test_that_are_missing_are_named")),
     Mutant("the self-test of a device always passes", [
         ("host/picture/tile_check.cpp", "if (wrong == 0) return;", "if (wrong < 9999) return;"),
-    ], [("wrong_driver_test.py", "Wrong.test_by_its_self_test")]),
+    ], cli("wrong_cases.Wrong.test_by_its_self_test")),
     Mutant("--check compares tiles with themselves", [
         ("host/picture/tile_check.cpp", "differing_pixels(again, part_of(film",
          "differing_pixels(part_of(film, region, tile), part_of(film"),
-    ], [("wrong_driver_test.py", "Wrong.test_by_tracing_tiles_again")]),
+    ], cli("wrong_cases.Wrong.test_by_tracing_tiles_again")),
     Mutant("a driver that crashes while it is listed is not left out", [
         ("host/process/drivers.cpp", "end.task == listing_devices", "end.task.empty()"),
-    ], [("wrong_driver_test.py", "Dies.test_is_left_out_of_what_is_measured")]),
+    ], cli("dies_cases.Dies.test_is_left_out_of_what_is_measured")),
     Mutant("NaN in a picture is no error", [
         (V + "render_steps.cpp", "non_finite ? ExitCode::non_finite : ExitCode::done",
          "non_finite ? ExitCode::done : ExitCode::done"),
-    ], [("cli", "picture_cases.NotFinite.test_on_every_device")]),
+    ], cli("picture_cases.NotFinite.test_on_every_device")),
 ]

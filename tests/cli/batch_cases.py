@@ -5,8 +5,8 @@ import pathlib
 import signal
 import subprocess
 
-from hang_limit import HANG_LIMIT
 from harness import CliTest, scene_path
+from program import HANG_LIMIT
 
 SMALL = ["--size", "32", "--device", "threads"]
 

@@ -6,9 +6,11 @@ import struct
 import zlib
 
 import jsonschema
+import numpy
 
-from harness import SETTINGS, CliTest, scene_path
+from harness import CliTest, scene_path
 from pictures import png_texts, read_pfm, read_png
+from program import ROOT
 
 CYAN = (0, 255, 255)
 
@@ -16,10 +18,9 @@ CYAN = (0, 255, 255)
 class CompareTest(CliTest):
     def write_pfm(self, name, width, height, values, channels=3):
         """values: rows from the top."""
-        row = width * channels
-        rows = [struct.pack(f"<{row}f", *values[y * row:(y + 1) * row]) for y in range(height)]
+        rows = numpy.array(values, "<f4").reshape(height, -1)
         head = f"{'PF' if channels == 3 else 'Pf'}\n{width} {height}\n-1.0\n".encode()
-        (self.folder / name).write_bytes(head + b"".join(reversed(rows)))
+        (self.folder / name).write_bytes(head + rows[::-1].tobytes())
 
     def compare(self, *arguments, code=0, **more):
         result = self.run_cli("compare", *arguments, **more)
@@ -31,9 +32,9 @@ class CompareTest(CliTest):
         return json.loads(self.compare(*arguments, "--json", **more).stdout)
 
     def cornell(self):
-        """The paper's picture, 40x30, as (values, name)."""
+        """The paper's picture, 40x30."""
         self.render("cornell-box", "--size", "40x30", "--device", "threads", "-o", "box.pfm")
-        return read_pfm(self.folder / "box.pfm")[2]
+        return read_pfm(self.folder / "box.pfm")
 
 
 class Figures(CompareTest):
@@ -89,7 +90,7 @@ class Figures(CompareTest):
 class Catches(CompareTest):
     def test_one_nan(self):
         values = self.cornell()
-        values[3 * (40 * 7 + 5) + 1] = math.nan
+        values[7, 5, 1] = math.nan
         self.write_pfm("nan.pfm", 40, 30, values)
         for pair, name in [(("nan.pfm", "box.pfm"), "A"), (("box.pfm", "nan.pfm"), "B")]:
             result = self.compare(*pair, code=1)
@@ -119,11 +120,8 @@ class Catches(CompareTest):
 
     def test_shifted_by_one_pixel(self):
         values = self.cornell()
-        rows = [values[120 * y:120 * (y + 1)] for y in range(30)]
-        right = [value for row in rows for value in row[:3] + row[:-3]]
-        down = [value for row in rows[:1] + rows[:-1] for value in row]
-        for name, shifted in [("right.pfm", right), ("down.pfm", down)]:
-            self.write_pfm(name, 40, 30, shifted)
+        for name, axis in [("right.pfm", 1), ("down.pfm", 0)]:
+            self.write_pfm(name, 40, 30, numpy.roll(values, 1, axis))
             for limit in [("--max-rmse", "0.01"), ("--max-abs", "0.1"), ("--max-pixels", "100")]:
                 with self.subTest(name=name, limit=limit):
                     self.assertIn(limit[0], self.compare(name, "box.pfm", *limit, code=1).stderr)
@@ -197,7 +195,7 @@ class Json(CompareTest):
         self.assertEqual((answer["picture"], answer["width"], answer["channels"]), ("a.pfm", 1, 3))
 
     def test_is_what_the_schema_says(self):
-        schema = SETTINGS["scenes"].parent / "docs" / "compare.schema.json"
+        schema = ROOT / "docs" / "compare.schema.json"
         validator = jsonschema.Draft202012Validator(json.loads(schema.read_text()))
         self.write_pfm("b.pfm", 1, 1, [0.25] * 3)
         self.write_pfm("nan.pfm", 1, 1, [math.nan] * 3)
@@ -221,16 +219,15 @@ class HeatMap(CompareTest):
 
     def pixels(self, *arguments):
         self.text = self.compare("a.pfm", "b.pfm", "--heatmap", "h.png", *arguments, code=1).stdout
-        width, height, data = read_png(self.folder / "h.png")
-        self.assertEqual((width, height), (3, 2))
-        return [tuple(data[3 * i:3 * i + 3]) for i in range(6)]
+        data = read_png(self.folder / "h.png")
+        self.assertEqual(data.shape, (2, 3, 3))
+        return list(map(tuple, data.reshape(6, 3)))
 
     def test_black_to_yellow_and_cyan(self):
         pixels = self.pixels()
         self.assertEqual(pixels, [(0, 0, 4), (252, 253, 191)] + [(0, 0, 4)] * 3 + [CYAN])
         self.assertIn("h.png: black 0 to yellow 5.0000e-01 by square roots, cyan not finite", self.text)
-        self.assertEqual(png_texts(self.bytes_of("h.png"))["mirrorball:HeatmapScale"],
-                         "0.5")
+        self.assertEqual(png_texts(self.folder / "h.png")["mirrorball:HeatmapScale"], "0.5")
 
     def test_fixed_scale(self):
         self.assertEqual(self.pixels("--heatmap-scale", "1.62")[1], (205, 64, 113))
@@ -238,4 +235,4 @@ class HeatMap(CompareTest):
 
     def test_of_identical_pictures(self):
         self.compare("b.pfm", "b.pfm", "--heatmap", "h.png")
-        self.assertEqual(set(read_png(self.folder / "h.png")[2]), {0, 4})
+        self.assertEqual(set(read_png(self.folder / "h.png").flat), {0, 4})

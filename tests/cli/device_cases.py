@@ -5,7 +5,7 @@ import os
 import pathlib
 import unittest
 
-from harness import SETTINGS, CliTest, image_hash, scene_path
+from harness import NO_DRIVERS, CliTest, image_hash, scene_path
 
 TWO_DEVICES = {"POCL_DEVICES": "pthread pthread"}
 
@@ -226,7 +226,7 @@ class NoOpenCl(Unusable, CliTest):
 
     def setUp(self):
         super().setUp()
-        self.env = {"OCL_ICD_VENDORS": SETTINGS["no-drivers"]}
+        self.env = {"OCL_ICD_VENDORS": NO_DRIVERS}
 
 
 class UnwritableKernelCache(Unusable, CliTest):

@@ -30,7 +30,7 @@ class Estimate(CliTest):
     def test_is_the_same_on_every_path(self):
         estimates = []
         for device in [["pocl"], ["threads:1"], ["threads:3"], ["threads", "--schedule", "buffers"],
-                       ["threads", "--lanes", "1"], ["threads,pocl", "--tile", "7"]]:
+                       ["threads", "--lanes", "1"], ["threads", "--lanes", "4"], ["threads,pocl", "--tile", "7"]]:
             estimates.append(self.estimate_of("--device", *device))
             del estimates[-1]["seconds"]
         self.assertEqual(estimates, estimates[:1] * len(estimates))

@@ -9,9 +9,9 @@ import shutil
 import subprocess
 import time
 
-from hang_limit import HANG_LIMIT
-from harness import SETTINGS, CliTest, clean_environment, scene_path, unwritable_folder
+from harness import SHIM, CliTest, clean_environment, scene_path, unwritable_folder
 from pictures import png_texts
+from program import HANG_LIMIT, PROGRAM, ROOT
 
 COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 
@@ -66,20 +66,18 @@ class Busy(CliTest):
     def bench(self, *more):
         return self.run_cli("bench", scene_path("empty"), *self.BENCH, *more)
 
-    def test_bench_says_so_first_and_on_top_of_its_table(self):
-        result = self.bench()
+    def test_bench_says_so_first_and_on_top_of_its_table_and_in_json(self):
+        result = self.bench("--json", "bench.json")
         self.assertRegex(result.stderr.splitlines()[0], self.WORDS)
         self.assertRegex(result.stdout.splitlines()[0], self.WORDS)
+        environment = json.loads(self.bytes_of("bench.json"))["environment"]
+        self.assertIs(environment["busy"], True)
+        self.assertAlmostEqual(environment["load_before"], environment["load_per_core"])
 
     def test_quiet_keeps_the_table_honest(self):
         result = self.bench("-q")
         self.assertEqual(result.stderr, "")
         self.assertRegex(result.stdout, self.WORDS)
-
-    def test_json_says_it(self):
-        environment = json.loads(self.bench("-q", "--json").stdout)["environment"]
-        self.assertIs(environment["busy"], True)
-        self.assertAlmostEqual(environment["load_before"], environment["load_per_core"])
 
     def test_devices_has_no_times(self):
         self.assertNotIn("busy", self.run_cli("devices").stdout)
@@ -93,9 +91,8 @@ class Busy(CliTest):
         self.assertRegex(result.stdout.splitlines()[0], self.WORDS)
 
     def test_scripts_bench_refuses(self):
-        root = pathlib.Path(SETTINGS["scenes"]).parent
         result = subprocess.run(
-            [str(root / "scripts" / "bench"), "--only", "embree", SETTINGS["program"]],
+            [str(ROOT / "scripts" / "bench"), "--only", "embree", PROGRAM],
             capture_output=True, text=True, check=False, timeout=HANG_LIMIT, env=clean_environment({}))
         self.assertEqual(result.returncode, 1)
         self.assertIn("--anyway", result.stderr)
@@ -112,7 +109,7 @@ class OutOfMemory(PreloadTest):
 class Fallback(CliTest):
     def render_without_opencl(self, *more):
         return self.render("single-sphere", "--size", "8", "--device", "pocl", *more,
-                           env={"LD_PRELOAD": SETTINGS["shim"], "CL_SHIM_DIE_IN": "clBuildProgram",
+                           env={"LD_PRELOAD": SHIM, "CL_SHIM_DIE_IN": "clBuildProgram",
                                 "CL_SHIM_DIE_BY": "error"})
 
     def test_stats_text_says_so(self):
@@ -122,7 +119,7 @@ class Fallback(CliTest):
 
     def test_picture_says_so(self):
         self.render_without_opencl("-q", "-o", "out.png")
-        texts = png_texts(self.bytes_of("out.png"))
+        texts = png_texts(self.folder / "out.png")
         self.assertIn("pthread", texts["mirrorball:FallbackFrom"])
 
 

@@ -1,20 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs mirrorball as a user would: a fresh folder per test, a time limit on every run."""
 import contextlib
+import fcntl
 import json
 import os
 import pathlib
+import pty
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import tempfile
+import termios
 import unittest
 
-from hang_limit import HANG_LIMIT
+from program import BUILD, HANG_LIMIT, PROGRAM, ROOT
 
 POCL_DRIVER = "/etc/OpenCL/vendors/pocl.icd"
-SETTINGS = {}
+SHIM = str(BUILD / "libcl_shim.so")
+SCENES = ROOT / "scenes"
+# Shared by all tests, and removed at the end.
+FOLDER = tempfile.TemporaryDirectory(prefix="mirrorball-cli-")
+KERNEL_CACHE, NO_DRIVERS = (os.path.join(FOLDER.name, name) for name in ["cache", "no-drivers"])
+os.mkdir(KERNEL_CACHE)
+os.mkdir(NO_DRIVERS)
 
 CAMERA = {"from": [0, 0, 4], "at": [0, 0, 0], "fov_degrees": 40}
 GRAY = {"ambient": 1, "diffuse": 1}
@@ -29,31 +39,12 @@ def unwritable_folder(parent):
     return str(folder)
 
 
-@contextlib.contextmanager
-def environment(build, repo):
-    """The program, the scenes, and an OpenCL kernel cache that all tests share."""
-    SETTINGS["program"] = str((build / "mirrorball").resolve())
-    SETTINGS["shim"] = str((build / "libcl_shim.so").resolve())
-    SETTINGS["scenes"] = (repo / "scenes").resolve()
-    with tempfile.TemporaryDirectory(prefix="mirrorball-cli-") as folder:
-        for name in ["cache", "no-drivers"]:
-            SETTINGS[name] = os.path.join(folder, name)
-            os.mkdir(SETTINGS[name])
-        yield
-
-
 def scene_path(name):
-    return str(SETTINGS["scenes"] / f"{name}.json")
+    return str(SCENES / f"{name}.json")
 
 
 def all_scenes():
-    return sorted(p for p in SETTINGS["scenes"].glob("*.json") if p.name not in ("golden.json", "scene.schema.json"))
-
-
-def malformed_files(ending, beginning=""):
-    """The files of tests/scenes_bad whose names begin and end so."""
-    folder = SETTINGS["scenes"].parent / "tests" / "scenes_bad"
-    return sorted(folder.glob(f"{beginning}*{ending}"))
+    return sorted(p for p in SCENES.glob("*.json") if p.name not in ("golden.json", "scene.schema.json"))
 
 
 def image_hash(text):
@@ -68,7 +59,7 @@ PROGRESS = re.compile(r"(?m)^ *\d+ %.*  ETA \S+\n")
 def clean_environment(changes):
     """This process's environment without what changes mirrorball, and with PoCL alone."""
     variables = dict(os.environ)
-    variables.setdefault("POCL_CACHE_DIR", SETTINGS["cache"])
+    variables.setdefault("POCL_CACHE_DIR", KERNEL_CACHE)
     for name in ["MIRRORBALL_DEVICE", "POCL_DEVICES", "POCL_AFFINITY", "POCL_MAX_PTHREAD_COUNT",
                  "POCL_PTHREAD_MIN_THREADS", "OCL_ICD_VENDORS", "TERM", "TMUX",
                  "STY", "CL_PLATFORM_INDEX", "CL_PLATFORM_NAME", "CL_DEVICE_INDEX", "CL_DEVICE_TYPE"]:
@@ -84,13 +75,12 @@ class CliTest(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="mirrorball-test-"))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
 
-    def run_cli(self, *arguments, env=None, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **more):
-        """Runs the program in the test's folder; output as text, without the lines of progress that
-        it prints where the machine is slow."""
+    def run_cli(self, *arguments, env=None, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text="", **more):
+        """Runs the program in the test's folder, with a text as standard input; output as text, without the
+        lines of progress that it prints where the machine is slow."""
         result = subprocess.run(
-            [SETTINGS["program"], *map(str, arguments)], cwd=self.folder, stdout=stdout,
-            stderr=stderr, stdin=subprocess.DEVNULL, env=clean_environment(env or {}),
-            timeout=HANG_LIMIT, text=True, check=False, **more)
+            [PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=stdout, stderr=stderr, input=text,
+            env=clean_environment(env or {}), timeout=HANG_LIMIT, text=True, check=False, **more)
         if result.stderr and not {"-q", "--progress"} & set(arguments):
             result.stderr = PROGRESS.sub("", result.stderr)
         return result
@@ -111,18 +101,35 @@ class CliTest(unittest.TestCase):
         """Runs a shell line with $MIRRORBALL and $SCENE (the single sphere) set."""
         return subprocess.run(
             ["bash", "-c", command], cwd=self.folder, capture_output=True, text=True,
-            env=clean_environment(dict(env, MIRRORBALL=SETTINGS["program"],
+            env=clean_environment(dict(env, MIRRORBALL=PROGRAM,
                                        SCENE=scene_path("single-sphere"))),
             stdin=subprocess.DEVNULL, timeout=HANG_LIMIT, check=False)
 
     def start(self, *arguments, env=None, stdin=subprocess.DEVNULL):
         """Starts the program and leaves it running; it is killed at the end of the test."""
         process = subprocess.Popen(
-            [SETTINGS["program"], *map(str, arguments)], cwd=self.folder, text=True,
+            [PROGRAM, *map(str, arguments)], cwd=self.folder, text=True,
             stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
             env=clean_environment(env or {}), start_new_session=True)
         self.addCleanup(self._finish, process)
         return process
+
+    def on_terminal(self, *arguments, env, columns=80, rows=24):
+        """What a terminal of so many cells gets of the program, which is in front there and must succeed."""
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
+        process = subprocess.Popen(
+            [PROGRAM, *map(str, arguments)], cwd=self.folder, stdin=theirs, stdout=theirs, stderr=theirs,
+            env=clean_environment(env), start_new_session=True,
+            preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+        os.close(theirs)
+        got = bytearray()
+        with contextlib.suppress(OSError):  # the other end is closed
+            while True:
+                got.extend(os.read(ours, 65536))
+        os.close(ours)
+        self.assertEqual(process.wait(HANG_LIMIT), 0, got)
+        return bytes(got).replace(b"\r\n", b"\n")
 
     @staticmethod
     def _finish(process):

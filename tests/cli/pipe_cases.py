@@ -4,8 +4,8 @@ import os
 import pty
 import subprocess
 
-from hang_limit import HANG_LIMIT
-from harness import SETTINGS, CliTest, clean_environment, scene_path
+from harness import CliTest, clean_environment, scene_path
+from program import HANG_LIMIT, PROGRAM
 
 SIZE = ["--size", "16", "--device", "threads"]
 
@@ -13,7 +13,7 @@ SIZE = ["--size", "16", "--device", "threads"]
 class PictureToStdout(CliTest):
     def piped(self, *arguments, code=0, **more):
         result = subprocess.run(
-            [SETTINGS["program"], "render", *arguments], cwd=self.folder, capture_output=True,
+            [PROGRAM, "render", *arguments], cwd=self.folder, capture_output=True,
             env=clean_environment({}), timeout=HANG_LIMIT, check=False, **more)
         self.assertEqual(result.returncode, code, result.stderr)
         return result.stdout
@@ -80,9 +80,7 @@ class PictureToStdout(CliTest):
 
 class SceneFromStdin(CliTest):
     def given(self, text, *arguments, code=0):
-        result = subprocess.run(
-            [SETTINGS["program"], *arguments], cwd=self.folder, input=text, text=True,
-            capture_output=True, env=clean_environment({}), timeout=HANG_LIMIT, check=False)
+        result = self.run_cli(*arguments, text=text)
         self.assertEqual(result.returncode, code, result.stderr)
         return result
 

@@ -4,7 +4,8 @@ import json
 import os
 import shutil
 
-from harness import CAMERA, GRAY, CliTest, all_scenes, malformed_files, scene_path
+from harness import CAMERA, GRAY, CliTest, all_scenes, scene_path
+from program import ROOT
 
 
 class Unreadable(CliTest):
@@ -33,20 +34,26 @@ class Unreadable(CliTest):
 
 
 class HostileNames(CliTest):
+    NAME = os.fsdecode(b"new\nline \x1b[31m\x9b31m" + "\x9b31m\u202e".encode())
+
     def test_control_characters_do_not_reach_the_terminal(self):
-        names = ["new\nline", "esc\x1b[31m", b"csi\x9b31m", "c1\x9b31m", "bidi\u202e"]
-        for name in [n if isinstance(n, bytes) else n.encode() for n in names]:
-            path = os.path.join(os.fsencode(self.folder), name + b".json")
-            for text, code in [("{}", 3), (json.dumps({"camera": CAMERA}), 0)]:
-                with open(path, "w", encoding="utf-8") as file:
-                    file.write(text)
-                for verb in [("check",), ("check", "--json"), ("info",), ("info", "--json")]:
-                    with self.subTest(name=name, verb=verb):
-                        result = self.run_cli("scene", *verb, os.fsdecode(path))
-                        self.assertEqual(result.returncode, code)
-                        for stream in [result.stdout, result.stderr]:
-                            self.assertNotRegex(stream, "[\x00-\x09\x0b-\x1f\x7f-\x9f\u202e]")
-                        self.assertNotIn("new\nline", result.stdout + result.stderr)
+        scene, bad, picture = (f"{self.NAME}{ending}" for ending in [".json", "-bad.json", ".png"])
+        shutil.copy(scene_path("single-sphere"), self.folder / scene)
+        (self.folder / bad).write_text("{}")
+        bench = ["bench", scene, "--sizes", "8", "--aa", "none", "--devices", "threads", "--repeats", "1", "-q"]
+        converge = ["converge", scene, "--size", "8", "--aa", "none", "--devices", "threads",
+                    "--reference-samples", "4", "-q"]
+        render = ["render", scene, "--size", "8", "--device", "threads", "-o", picture, "--stats"]
+        compare = ["compare", picture, picture, "--heatmap", f"{self.NAME}-map.png"]
+        for arguments in [bench, [*bench, "--csv=-"], [*bench, "--json=-"], converge, [*converge, "--json=-"],
+                          render, [*render, "json"], compare, [*compare, "--json=-"],
+                          *(["scene", verb, name, *more] for verb in ["check", "info"] for name in [scene, bad]
+                            for more in [[], ["--json"]])]:
+            with self.subTest(arguments=arguments):
+                result = self.run_cli(*arguments, env={"XDG_CACHE_HOME": str(self.folder)})
+                self.assertEqual(result.returncode, 3 if bad in arguments else 0, result.stderr)
+                self.assertNotRegex(result.stdout + result.stderr,
+                                    "[\x00-\x09\x0b-\x1f\x7f-\x9f\u202e]|new\nline")
 
 
 class MalformedFiles(CliTest):
@@ -54,7 +61,7 @@ class MalformedFiles(CliTest):
 
     def test_one_of_each_format(self):
         for ending in [".json", ".nff", ".obj", ".ply"]:
-            for path in malformed_files(ending)[::10]:
+            for path in sorted((ROOT / "tests" / "scenes_bad").glob(f"*{ending}"))[::10]:
                 with self.subTest(path=path.name):
                     result = self.run_cli("scene", "check", path)
                     self.assertEqual((result.returncode, result.stdout), (3, ""))

@@ -5,8 +5,8 @@ import shutil
 import subprocess
 import unittest
 
-from hang_limit import HANG_LIMIT
-from harness import SETTINGS, CliTest, clean_environment
+from harness import CliTest, clean_environment
+from program import HANG_LIMIT, PROGRAM
 
 VERBS = [["render"], ["merge"], ["compare"], ["bench"], ["converge"], ["stress"], ["report"],
          ["devices"], ["doctor"], ["explain"], ["scene", "info"], ["scene", "check"]]
@@ -76,7 +76,7 @@ class Shell(CliTest):
             if shell == "bash":
                 words = [part for word in words for part in re.split("(=)", word)]
                 offered = [word.split("=")[-1] for word in offered]
-            result = subprocess.run([shell, "-c", command, SETTINGS["program"], *words], capture_output=True,
+            result = subprocess.run([shell, "-c", command, PROGRAM, *words], capture_output=True,
                                     text=True, env=clean_environment({}), timeout=HANG_LIMIT, check=False)
             self.assertEqual((result.stdout.split(), result.stderr), (offered, ""), words)
 

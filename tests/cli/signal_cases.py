@@ -8,9 +8,9 @@ import select
 import signal
 import time
 
-from hang_limit import HANG_LIMIT
 from harness import CliTest, scene_path
-from pictures import png_chunks, png_texts, read_pfm
+from pictures import png_texts, read_pfm, read_png
+from program import HANG_LIMIT
 
 LONG = ["--size", "900", "--aa", "grid:32", "--progress", "json"]
 PATHS = {
@@ -56,10 +56,8 @@ class Interrupted(CliTest):
         self.assertEqual(self.pictures(), [partial])
 
     def assert_has_light_and_gaps(self, name):
-        _, _, values = read_pfm(self.folder / name)
-        black = sum(1 for i in range(0, len(values), 3) if values[i:i + 3] == [0, 0, 0])
-        self.assertGreater(black, 0)
-        self.assertLess(black, len(values) // 3)
+        is_lit = read_pfm(self.folder / name).any(axis=2)
+        self.assertTrue(is_lit.any() and not is_lit.all())
 
     def test_saves_what_is_finished(self):
         for path, number, output in [
@@ -72,7 +70,7 @@ class Interrupted(CliTest):
                 if output == "out.pfm":
                     self.assert_has_light_and_gaps("out.partial.pfm")
                 else:
-                    texts = png_texts(self.bytes_of("out.partial.png"))
+                    texts = png_texts(self.folder / "out.partial.png")
                     self.assertRegex(texts["mirrorball:Partial"], r"^\d+ of \d+ tiles$")
                 self.remove_all()
 
@@ -195,9 +193,8 @@ class Interrupted(CliTest):
             if line.startswith("{") and json.loads(line)["fraction"] > 0:
                 break
         self.stop(process, signal.SIGINT)
-        whole, part = (read_pfm(self.folder / name)[2] for name in ["whole.pfm", "part.partial.pfm"])
-        wrong = [i for i, value in enumerate(part) if value not in (0, whole[i])]
-        self.assertEqual(wrong, [])
+        whole, part = (read_pfm(self.folder / name) for name in ["whole.pfm", "part.partial.pfm"])
+        self.assertTrue(((part == 0) | (part == whole)).all())
 
     def test_twice_leaves_no_half_file(self):
         process = self.start_and_wait_until_tiles_are_done("threads", "out.png")
@@ -208,7 +205,7 @@ class Interrupted(CliTest):
         self.assertIn(process.returncode, [130, -signal.SIGINT])
         for name in self.pictures():
             self.assertEqual(name, "out.partial.png")
-            png_chunks(self.bytes_of(name))
+            read_png(self.folder / name)
 
     def test_stats_say_incomplete(self):
         process = self.start("render", scene_path("mirror-hall"), *long_options("threads"),

@@ -2,51 +2,28 @@
 """The picture while it is rendered: in the terminal, and in tev. Decoders written for these tests
 look at what the program sends."""
 import ctypes.util
-import fcntl
-import os
 import pathlib
-import pty
 import re
 import signal
 import socket
 import struct
-import subprocess
-import termios
 import threading
 import time
 import unittest
 
-from hang_limit import HANG_LIMIT
-from harness import SETTINGS, CliTest, clean_environment, scene_path
+import numpy
+
+from harness import CliTest, scene_path
 from pictures import read_pfm, read_png
+from program import HANG_LIMIT
 
 UTF8 = {"TERM": "xterm-256color", "LC_ALL": "C.UTF-8", "COLORTERM": "truecolor"}
 BLOCK = "▀".encode()
 TAKES_A_WHILE = ["--size", "300", "--aa", "grid:8", "--lanes", "1", "--tile", "30"]
 
 
-def on_terminal(arguments, folder, env, columns=80, rows=24):
-    """(exit code, what a terminal of so many cells gets) of the program, which is in front there."""
-    ours, theirs = pty.openpty()
-    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
-    process = subprocess.Popen(
-        [SETTINGS["program"], *map(str, arguments)], cwd=folder, stdin=theirs, stdout=theirs,
-        stderr=theirs, env=clean_environment(env), start_new_session=True,
-        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
-    os.close(theirs)
-    got = bytearray()
-    while True:
-        try:
-            got.extend(os.read(ours, 65536))
-        except OSError:  # the other end is closed
-            break
-    code = process.wait(HANG_LIMIT)
-    os.close(ours)
-    return code, bytes(got).replace(b"\r\n", b"\n")
-
-
 def decoded_half_blocks(frame):
-    """(width, height, RGB) of lines of half blocks in 24-bit colors, the last time they are drawn."""
+    """Lines of half blocks in 24-bit colors, the last time they are drawn, as rows of RGB."""
     rows = []
     for line in re.split(rb"\x1b\[\d+A\r", frame)[-1].decode().split("\n"):
         if "▀" not in line:
@@ -59,34 +36,26 @@ def decoded_half_blocks(frame):
             upper += front * len(blocks) if blocks else []
             lower += back * len(blocks) if blocks and back else []
         rows += [upper, lower] if lower else [upper]
-    return len(rows[0]) // 3, len(rows), bytes(value for row in rows for value in row)
+    return numpy.array(rows).reshape(len(rows), -1, 3)
 
 
 class Preview(CliTest):
     def preview(self, *arguments, env=None, device="threads", **terminal):
-        code, text = on_terminal(
-            ["render", scene_path("cornell-box"), "--device", device, "-o", "out.png",
-             *arguments], self.folder, UTF8 if env is None else env, **terminal)
-        self.assertEqual(code, 0, text)
-        return text
+        return self.on_terminal("render", scene_path("cornell-box"), "--device", device, "-o", "out.png",
+                                *arguments, env=UTF8 if env is None else env, **terminal)
 
-    def saved(self):
-        return read_png(self.folder / "out.png")
+    def assert_shows_the_saved_picture(self, text):
+        self.assertEqual(decoded_half_blocks(text).tolist(), read_png(self.folder / "out.png").tolist())
 
     def test_half_blocks_are_the_pixels(self):
         for size in ["20x10", "7x5"]:
-            text = self.preview("--preview", "--size", size)
-            self.assertEqual(decoded_half_blocks(text), self.saved())
+            self.assert_shows_the_saved_picture(self.preview("--preview", "--size", size))
 
     def test_a_large_picture_is_shrunk_to_the_terminal(self):
         text = self.preview("--preview", "--size", "100", columns=50, rows=12)
-        width, height, rgb = decoded_half_blocks(text)
-        self.assertEqual((width, height), (20, 20))
-        side, _, whole = self.saved()
+        means = read_png(self.folder / "out.png").reshape(20, 5, 20, 5, 3).mean(axis=(1, 3))
         for x, y in [(0, 0), (7, 12), (19, 19)]:
-            block = [whole[3 * (side * (5 * y + j) + 5 * x + i)] for i in range(5)
-                     for j in range(5)]
-            self.assertAlmostEqual(rgb[3 * (width * y + x)], sum(block) / 25, delta=1)
+            self.assertLessEqual(abs(decoded_half_blocks(text)[y, x] - means[y, x]).max(), 1)
 
     def test_256_colors_where_the_terminal_has_no_more(self):
         env = dict(UTF8)
@@ -99,8 +68,8 @@ class Preview(CliTest):
         text = self.preview("--preview", *TAKES_A_WHILE, rows=12)
         frames = text.split(b"\x1b[10A\r")
         self.assertGreater(len(frames), 2)
-        first, last = (decoded_half_blocks(frame)[2] for frame in (frames[0], frames[-1]))
-        self.assertGreater(first.count(0), last.count(0))
+        first, last = (decoded_half_blocks(frame) for frame in (frames[0], frames[-1]))
+        self.assertGreater((first == 0).sum(), (last == 0).sum())
         self.assertNotIn(b"%", text)  # no bar over it
 
     def test_none_in_a_pipe_and_on_terminals_that_cannot(self):
@@ -113,8 +82,7 @@ class Preview(CliTest):
             self.assertNotIn(BLOCK, text)
 
     def test_a_worker_process_draws_too(self):
-        text = self.preview("--preview", "--size", "8", device="pocl")
-        self.assertEqual(decoded_half_blocks(text), self.saved())
+        self.assert_shows_the_saved_picture(self.preview("--preview", "--size", "8", device="pocl"))
 
 
 class TevServer:
@@ -191,11 +159,11 @@ class Tev(CliTest):
                 server = TevServer()
                 self.render_to(server, "--size", "40x30", *more)
                 server.thread.join(20)
-                width, height, values = read_pfm(self.folder / "out.pfm")
+                picture = read_pfm(self.folder / "out.pfm")
+                height, width, _ = picture.shape
                 self.assertEqual(server.created, [("out.pfm", width, height)])
-                got = [value for y in range(height) for x in range(width)
-                       for value in server.pixels[x, y]]
-                self.assertEqual(got, values)
+                got = [[server.pixels[x, y] for x in range(width)] for y in range(height)]
+                self.assertTrue((got == picture).all())
 
     def test_it_gets_tiles_as_they_come(self):
         server = TevServer()

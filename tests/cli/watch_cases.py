@@ -4,8 +4,8 @@ import json
 import signal
 import threading
 
-from hang_limit import HANG_LIMIT
 from harness import CAMERA, GRAY, CliTest
+from program import HANG_LIMIT
 
 
 class Watch(CliTest):

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A driver ends its process, or hangs."""
+"""A driver ends its process, or hangs, also in the middle of several pictures."""
 import json
+import pathlib
 import shutil
-import subprocess
 
-from driver_case import BUILD, SCENE, WrongDriver
-from measure_cases import Bench
+from driver_case import SCENE, WrongDriver
+from harness import POCL_DRIVER, SCENES
+from measure_cases import BENCH
+from program import run
 
 
 class Dies(WrongDriver):
@@ -22,9 +24,7 @@ class Dies(WrongDriver):
 
     @staticmethod
     def hash_on_threads(*render):
-        right = subprocess.run([str(BUILD / "mirrorball"), *render, "--device", "threads"], text=True,
-                               capture_output=True, check=True)
-        return right.stderr.split()[-1]
+        return run(*render, "--device", "threads").stderr.split()[-1]
 
     def die(self, place, by, *arguments, render=ARGUMENTS, code=None, **shim):
         if "-o" not in arguments:
@@ -145,7 +145,7 @@ class Dies(WrongDriver):
         folder = self.folder / "drivers"
         folder.mkdir()
         for name in names:
-            shutil.copy("/etc/OpenCL/vendors/pocl.icd", folder / name)
+            shutil.copy(POCL_DRIVER, folder / name)
         return {"OCL_ICD_VENDORS": str(folder)}
 
     def test_beside_another_one_is_named(self):
@@ -159,7 +159,7 @@ class Dies(WrongDriver):
     def test_is_left_out_of_what_is_measured(self):
         shim = {"CL_SHIM_DIE_IN": "clGetPlatformIDs", "CL_SHIM_DIE_BY": "abort",
                 "CL_SHIM_DIE_WITH": "bad.icd", **self.drivers("bad.icd", "good.icd")}
-        result = self.run_with(shim, *Bench.ARGUMENTS, code=0)
+        result = self.run_with(shim, *BENCH, code=0)
         self.assertRegex(result.stderr, r"bad\.icd: its driver was killed by SIGABRT while listing its devices")
         self.assertEqual({row["verdict"] for row in json.loads(result.stdout)["rows"]
                           if row["device_name"] != "threads"}, {"right"})
@@ -179,7 +179,7 @@ class Dies(WrongDriver):
         self.assertRegex(result.stderr, r"pthread.*: the worker process made no progress for")
 
     def test_by_hanging_ends_bench(self):
-        self.check_hanging_ends(*Bench.ARGUMENTS)
+        self.check_hanging_ends(*BENCH)
 
     def test_by_hanging_ends_ray_trials(self):
         self.check_hanging_ends("stress", "-q", "--quick", "--case", "sphere-rays", "--device", "pocl")
@@ -210,3 +210,58 @@ class IsNotAsked(WrongDriver):
             with self.subTest(arguments=arguments):
                 self.run_with({"CL_SHIM_DIE_IN": "clGetPlatformIDs",
                                "CL_SHIM_DIE_BY": "abort"}, *arguments, code=0)
+
+
+class DiesInABatch(WrongDriver):
+    """Several pictures by a driver that ends its process: each is rendered once."""
+
+    NAMES = ["glass.json", "cones.json", "torus.ply", "single-sphere.json", "two-sided.json",
+             "glass.json"]
+    SMALL = ["--size", "40", "-o", "%s.png", "--stats=json", "--threads", "1"]
+
+    def setUp(self):
+        super().setUp()
+        self.scenes = []
+        for i, name in enumerate(self.NAMES):
+            scene = self.folder / f"{i}{pathlib.Path(name).suffix}"
+            scene.symlink_to(SCENES / name)
+            self.scenes.append(str(scene))
+
+    def figures(self, code, text, arguments, **shim):
+        """The batch's JSON lines, by scene, and what it said."""
+        result = self.run_with(shim, "render", *arguments, code=code, text=text)
+        lines = [json.loads(line) for line in result.stdout.splitlines()]
+        return [(line["scene"]["path"], line["image"]["hash"]) for line in lines], result.stderr
+
+    def check(self, code, text, *arguments, by="abort", at="22"):
+        """By a worker that dies at its `at`-th launch (up to six a picture). Returns what was said."""
+        right, _ = self.figures(code, text, [*arguments, "--device", "threads"])
+        got, said = self.figures(code, text, [*arguments, "--device", "pocl", "--deadline", "1"],
+                                 CL_SHIM_DIE_IN="clEnqueueNDRangeKernel", CL_SHIM_DIE_BY=by,
+                                 CL_SHIM_DIE_AT=at)
+        self.assertEqual(got, right)
+        return said
+
+    def test_of_the_command_line(self):
+        said = self.check(0, "", *self.scenes, *self.SMALL)
+        self.assertIn("was killed by SIGABRT; rendering on threads instead", said)
+
+    def test_of_a_list(self):
+        scenes = [f"{scene}\n" for scene in self.scenes]
+        scenes[2:2] = ["# a comment\n", "nowhere.json\n"]
+        last = "mirrorball: 1 of 7 pictures failed, with exit codes: nowhere.json (3)"
+        said = self.check(3, "".join(scenes), "--batch", "-", *self.SMALL)
+        self.assertEqual(said.count("nowhere.json: "), 1)
+        self.assertIn(last, said.splitlines()[-1])
+        (self.folder / "list").write_text("".join(scenes))
+        self.assertIn(last, self.check(3, "", "--batch", "list", *self.SMALL, by="hang").splitlines()[-1])
+
+    def test_of_frames(self):
+        (self.folder / "path.json").write_text(json.dumps({
+            "image": {"width": 40, "height": 30}, "camera": {"from": [0, 0, 5], "at": [0, 0, 0],
+                                                            "fov_degrees": 40},
+            "materials": {"red": {"ambient": [1, 0, 0]}},
+            "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "red"}],
+            "path": {"keys": [{"frame": 1, "from": [0, 0, 5]}, {"frame": 6, "from": [2, 0, 5]}]}}))
+        self.assertIn("rendering on threads instead", self.check(
+            0, "", "path.json", "--frames", "1-6", "-o", "%d.png", "--stats=json"))

@@ -14,36 +14,36 @@ class Fails(WrongDriver):
         result = self.run_with(shim, *self.ARGUMENTS, device, *arguments, code=0)
         return json.loads(result.stdout)
 
-    def check_fails_at(self, launch, *arguments, **shim):
-        """The pixels that the device had finished."""
-        right = self.figures({}, "threads", *arguments)
-        got = self.figures(dict({"CL_SHIM_FAIL_LAUNCH": str(launch)}, **shim), "pocl", *arguments)
-        self.assertEqual(got["image"]["hash"], right["image"]["hash"])
-        self.assertEqual(got["rays"], right["rays"])
-        self.assertEqual(got["device"]["name"], "threads")
-        device, threads = got["devices"]
-        self.assertEqual(got["device"]["fallback_from"], device["name"])
-        self.assertIn("CL_OUT_OF_RESOURCES", device["failure"])
-        self.assertEqual(device["pixels"] + threads["pixels"], 300 * 300)
-        return device["pixels"]
+    def finished_before(self, launches, *arguments, **shim):
+        """The pixels that the device had finished when each of these launches failed."""
+        right, finished = self.figures({}, "threads", *arguments), []
+        for launch in launches:
+            got = self.figures(dict({"CL_SHIM_FAIL_LAUNCH": str(launch)}, **shim), "pocl", *arguments)
+            self.assertEqual(got["image"]["hash"], right["image"]["hash"])
+            self.assertEqual(got["rays"], right["rays"])
+            self.assertEqual(got["device"]["name"], "threads")
+            device, threads = got["devices"]
+            self.assertEqual(got["device"]["fallback_from"], device["name"])
+            self.assertIn("CL_OUT_OF_RESOURCES", device["failure"])
+            self.assertEqual(device["pixels"] + threads["pixels"], 300 * 300)
+            finished.append(device["pixels"])
+        return finished
 
     def test_at_any_launch(self):
         # The first is of nothing, the next four are the self-test's.
-        finished = [self.check_fails_at(launch, *self.TILES) for launch in [1, 2, 5, 6, 7, 8]]
+        finished = self.finished_before([1, 2, 5, 6, 7, 8], *self.TILES)
         self.assertEqual(finished[:4], [0, 0, 0, 0])
         self.assertGreater(finished[4], 0)
         self.assertGreater(finished[5], finished[4])
 
     def test_samples_as_work_items(self):
-        for launch in [8, 9, 10, 11, 12]:
-            self.check_fails_at(launch, "--launch", "sample", *self.TILES)
+        self.finished_before([8, 9, 10, 11, 12], "--launch", "sample", *self.TILES)
 
     def test_when_what_was_finished_cannot_be_read(self):
-        self.assertEqual(self.check_fails_at(8, *self.TILES, CL_SHIM_FAIL_READ="1"), 0)
+        self.assertEqual(self.finished_before([8], *self.TILES, CL_SHIM_FAIL_READ="1"), [0])
 
     def test_while_refining(self):
-        for launch in [11, 12]:
-            self.check_fails_at(launch, "--aa", "adaptive:0.01")
+        self.finished_before([11, 12], "--aa", "adaptive:0.01")
 
     def test_beside_others(self):
         picture = ["--aa", "grid:24", "--tile", "100x10"]

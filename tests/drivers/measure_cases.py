@@ -5,12 +5,13 @@ import json
 from driver_case import SCENE, WrongDriver, brighter
 
 
-class Bench(WrongDriver):
-    ARGUMENTS = ["bench", SCENE, "--sizes", "32", "--aa", "none", "--precision", "float",
-                 "--devices", "threads:1,pocl", "--repeats", "3", "-q", "--json"]
+BENCH = ["bench", SCENE, "--sizes", "32", "--aa", "none", "--precision", "float",
+         "--devices", "threads:1,pocl", "--repeats", "3", "-q", "--json"]
 
+
+class Bench(WrongDriver):
     def verdicts(self, shim, code):
-        result = self.run_with(shim, *self.ARGUMENTS, code=code)
+        result = self.run_with(shim, *BENCH, code=code)
         rows = json.loads(result.stdout)["rows"]
         return ({row["verdict"] for row in rows if row["device_name"] == "threads"},
                 [(row["verdict"], row["why"]) for row in rows if row["device_name"] != "threads"],
