@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "host/scene/geometry.h"
 #include "host/scene/mesh.h"
 
 namespace rt {
@@ -17,13 +19,17 @@ using Positions = std::vector<glm::dvec3>;
 using Faces = std::vector<Scene::Mesh::Face>;
 using Strings = std::vector<std::string>;
 
+double area_of(const Positions& corners, const Scene::Mesh::Face& face) {
+    const auto [a, b, c] = face;
+    return glm::cross(corners[b] - corners[a], corners[c] - corners[a]).z / 2;
+}
+
 /// The triangles' total area seen along z; each area must be positive.
 double total_area(const Positions& corners, const Faces& triangles) {
     double total = 0;
-    for (const auto& [a, b, c] : triangles) {
-        const double area = glm::cross(corners[b] - corners[a], corners[c] - corners[a]).z / 2;
-        EXPECT_GT(area, 0);
-        total += area;
+    for (const auto& face : triangles) {
+        EXPECT_GT(area_of(corners, face), 0);
+        total += area_of(corners, face);
     }
     return total;
 }
@@ -49,6 +55,33 @@ Faces split(MeshBuilder& builder, const Positions& corners) {
 Faces triangulate(const Positions& corners) {
     MeshBuilder builder;
     return split(builder, corners);
+}
+
+/// Triangulates a polygon in z = 0 exactly: all parts face up and total `area`.
+Faces expect_split(const Positions& corners, double area) {
+    MeshBuilder builder;
+    const Faces faces = split(builder, corners);
+    EXPECT_TRUE(builder.notes("f").empty());
+    EXPECT_NEAR(total_area(corners, faces), area, 1e-12 * std::abs(area));
+    return faces;
+}
+
+Positions ring_of(int corners, double inner, double outer) {
+    Positions ring;
+    for (int i = 0; i < corners; ++i) {
+        const double angle = 2 * std::numbers::pi * i / corners;
+        const double radius = i % 2 == 0 ? outer : inner;
+        ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+    return ring;
+}
+
+TEST(Orientation, IsExactWhereRoundingWouldNotBe) {
+    const double ulp = std::ldexp(1.0, -53);
+    EXPECT_EQ(orientation({0.5, 0.5}, {12, 12}, {24, 24}), 0);
+    EXPECT_EQ(orientation({0.5, 0.5 + ulp}, {12, 12}, {24, 24}), 1);
+    EXPECT_EQ(orientation({0.5 + ulp, 0.5}, {12, 12}, {24, 24}), -1);
+    EXPECT_EQ(orientation({0, 0}, {1, 0}, {0.5, 1e-300}), 1);
 }
 
 TEST(MeshFaces, ConvexPolygonIsAFan) {
@@ -88,9 +121,73 @@ TEST(MeshFaces, CombsAndSpiralsKeepTheirArea) {
         }
     }
     for (const Positions& shape : {comb, spiral}) {
-        const Faces triangles = triangulate(shape);
-        EXPECT_EQ(triangles.size(), shape.size() - 2);
-        EXPECT_NEAR(total_area(shape, triangles), shoelace(shape), 1e-9);
+        EXPECT_EQ(expect_split(shape, shoelace(shape)).size(), shape.size() - 2);
+    }
+}
+
+TEST(MeshFaces, StarsOfAnySize) {
+    for (const int corners : {6, 10, 144, 1000}) {
+        const auto ring = ring_of(corners, 0.3, 1);
+        const double area = 0.5 * 0.3 * corners * std::sin(2 * std::numbers::pi / corners);
+        EXPECT_EQ(expect_split(ring, area).size(), ring.size() - 2);
+    }
+}
+
+TEST(MeshFaces, ManyCornersOnAnEdge) {
+    Positions corners{{0, 5, 0}};
+    for (int i = 0; i <= 5000; ++i) corners.emplace_back(i, 0, 0);
+    EXPECT_EQ(expect_split(corners, 5000 * 5 / 2.0).size(), 5000u);
+}
+
+TEST(MeshFaces, HoleJoinedByASlit) {
+    expect_split({{0, 0, 0},
+                  {4, 0, 0},
+                  {4, 4, 0},
+                  {0, 4, 0},
+                  {0, 0, 0},
+                  {1, 1, 0},
+                  {1, 3, 0},
+                  {3, 3, 0},
+                  {3, 1, 0},
+                  {1, 1, 0}},
+                 12);
+}
+
+TEST(MeshFaces, CornersThatTouchAnEdge) {
+    expect_split({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}, 8);
+}
+
+TEST(MeshFaces, RepeatedCornersAndSpikes) {
+    expect_split({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}}, 1);
+    expect_split({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 1);
+}
+
+TEST(MeshFaces, AnyScaleAndPlace) {
+    for (const double scale : {1e-30, 1e-12, 1.0, 1e12, 1e29}) {
+        Positions ring = ring_of(20, 0.5, 1);
+        for (glm::dvec3& corner : ring) corner *= scale;
+        const double area = 5 * std::sin(2 * std::numbers::pi / 20) * scale * scale;
+        expect_split(ring, area);
+    }
+}
+
+TEST(MeshFaces, BackOfAPolygonStaysItsBack) {
+    Positions ring = ring_of(12, 0.5, 1);
+    std::reverse(ring.begin(), ring.end());
+    for (const auto& face : triangulate(ring)) EXPECT_LT(area_of(ring, face), 0);
+}
+
+/// Corners coincide, or lie on a line, in the projection only.
+TEST(MeshFaces, WhatIsNotFlatLosesNothing) {
+    for (const Positions& corners :
+         {Positions{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {2, 2, 1}},
+          Positions{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 1}, {0, 2, 0}},
+          Positions{{0, 0, 0}, {2, 0, 0}, {2, 0, 1}, {2, 2, 1}, {2, 2, 0}, {0, 2, 0}},
+          Positions{{0, 0, 0}, {1, 0, 3}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 2, 1}},
+          Positions{{0, 0, 0}, {2, 0, 0}, {4, 0, 1}, {2, 0, 0.5}, {2, 2, 0}, {0, 2, 0}}}) {
+        MeshBuilder builder;
+        EXPECT_EQ(split(builder, corners).size(), corners.size() - 2);
+        EXPECT_TRUE(builder.notes("f").empty());
     }
 }
 
