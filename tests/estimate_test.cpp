@@ -90,20 +90,6 @@ TEST(ErrorEstimate, FindsAnyMistake) {
     EXPECT_NEAR(estimate(scene, film).rmse, rmse, 0.05 * rmse);
 }
 
-TEST(ErrorEstimate, DependsOnNeitherThreadsNorLanes) {
-    const Scene scene = small_scene("glass", "grid:2", 60);
-    const Film<float> film = render_on_threads<float>(scene);
-    const ErrorEstimate one = estimate(scene, film, {1});
-    for (const int lanes : {1, 4, 16}) {
-        ThreadsOptions options{3};
-        options.kernels.lanes = lanes;
-        const ErrorEstimate other = estimate(scene, film, options);
-        EXPECT_EQ(other.rmse, one.rmse);
-        EXPECT_EQ(other.low, one.low);
-        EXPECT_EQ(other.high, one.high);
-    }
-}
-
 TEST(ErrorEstimate, IsThatOfTheCrop) {
     const Scene scene = small_scene("cornell-box", "grid:2");
     const Rect whole{0, 0, 120, 120}, crop{30, 60, 80, 50};

@@ -121,14 +121,6 @@ TEST(PaperSceneOblong, FloatStaysNearDoubleOnTheDiagonals) {
     EXPECT_EQ(error.over_1, 0u);
 }
 
-TEST_P(PaperScene, DeviceDoubleIsWithin1e9OfThreadsDouble) {
-    if (!test_device().has_double) GTEST_SKIP() << test_device().name << " has no double";
-    const ImageError error =
-        film_error(render_on_device<double>(scene()), render_on_threads<double>(scene()));
-    EXPECT_EQ(error.non_finite, 0u);
-    EXPECT_LE(error.rmse, 1e-9);
-}
-
 INSTANTIATE_TEST_SUITE_P(Grids, PaperScene, testing::Values(1, 2));
 
 }  // namespace
