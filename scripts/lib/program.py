@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the scripts that measure have in common: commands that must succeed, renders, meshes."""
+import argparse
 import json
 import pathlib
 import subprocess
@@ -10,12 +11,19 @@ PROGRAM = ROOT / "build" / "release" / "mirrorball"
 PAPER_SCENE = ROOT / "scenes" / "cornell-box.json"
 
 
-def run(command, **more):
+def parser_of(doc):
+    """For a script with this text, which takes the program's path."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", type=lambda text: pathlib.Path(text).resolve(), default=PROGRAM)
+    return parser
+
+
+def run(command, stderr=subprocess.PIPE, **more):
     """What the command, run in ROOT, prints; ends the script where the command fails."""
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True,
+    result = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=stderr, text=True,
                             errors="replace", cwd=ROOT, check=False, **more)
     if result.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}\n{result.stdout[-1000:]}{result.stderr[-2000:]}")
+        sys.exit(f"{' '.join(map(str, command))}\n{result.stdout[-1000:]}{(result.stderr or '')[-2000:]}")
     return result.stdout
 
 

@@ -12,6 +12,8 @@ import pathlib
 import re
 import struct
 
+from spd.vectors import cross, sub, unit
+
 
 def read_scene(path):
     return json.loads(pathlib.Path(path).read_text())
@@ -42,21 +44,9 @@ def rgb(value):
     return [value] * 3 if isinstance(value, (int, float)) else list(value)
 
 
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def unit(a):
-    return [x / math.sqrt(dot(a, a)) for x in a]
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
 def view(camera, width, height):
     """(forward, right, up) as unit vectors, and half the picture's height at distance 1."""
-    forward = unit([b - a for a, b in zip(camera["from"], camera["at"])])
+    forward = unit(sub(camera["at"], camera["from"]))
     right = unit(cross(forward, camera.get("up", [0, 1, 0])))
     half = math.tan(math.radians(camera["fov_degrees"]) / 2)
     if camera.get("fov_axis", "y") == "x":

@@ -1,21 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The provenance of a table of figures: date, machine, revision."""
+"""Pages of docs/ with parts that scripts write, each between its own markers, and the provenance of such a part:
+date, machine, revision."""
 import datetime
 import json
 import os
 import pathlib
-import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+from lib.program import ROOT, run
+
+NUMERICS = ROOT / "docs" / "numerics.md"
 BENCH_STAMP = "MIRRORBALL_BENCH_STAMP"
+
+
+def replace_between_marks(page, name, text):
+    """Puts the text between the page's lines `<!-- NAME: begin -->` and `<!-- NAME: end -->`."""
+    begin, end = f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->\n"
+    before, rest = page.read_text(encoding="utf-8").split(begin)
+    _, after = rest.split(end)
+    page.write_text(before + begin + text + end + after, encoding="utf-8")
 
 
 def environment(program):
     """The environment that `mirrorball bench --json` reports."""
-    result = subprocess.run([program, "bench", "scenes/empty.json", "--sizes", "8", "--aa", "none",
-                             "--devices", "threads:1", "--repeats", "1", "--json", "-q"], check=True,
-                            capture_output=True, text=True, cwd=ROOT)
-    return json.loads(result.stdout)["environment"]
+    return json.loads(run([program, "bench", "scenes/empty.json", "--sizes", "8", "--aa", "none", "--devices",
+                           "threads:1", "--repeats", "1", "--json", "-q"]))["environment"]
 
 
 def processor():
@@ -27,8 +35,7 @@ def processor():
 
 def revision_stamp():
     """One line of Markdown for results of the source alone, without a program: date, processor, revision."""
-    revision = subprocess.run(["git", "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"],
-                              check=True, capture_output=True, text=True, cwd=ROOT).stdout.strip()
+    revision = run(["git", "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"]).strip()
     return f"*{datetime.date.today()}, {processor()}, revision {revision}.*"
 
 
