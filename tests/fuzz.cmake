@@ -14,7 +14,7 @@ function(add_fuzz_target NAME LIBRARY)
 endfunction()
 
 add_custom_target(fuzz_targets)
-add_fuzz_target(fuzz_json_scene mirrorball_scene
+add_fuzz_target(fuzz_json_scene mirrorball_threads
     ${CMAKE_SOURCE_DIR}/scenes ${CMAKE_SOURCE_DIR}/tests/scenes_bad)
 foreach(model obj ply)
     add_fuzz_target(fuzz_${model}_scene mirrorball_threads

@@ -13,31 +13,11 @@
 #include "host/scene/json_document.h"
 #include "host/scene/mistakes.h"
 #include "host/scene/scene_file.h"
+#include "tests/fuzz_model.h"
 
 namespace {
 
-/// Traps on a bug in the reader, as opposed to an error in the text.
-void require(bool condition) {
-    if (!condition) __builtin_trap();
-}
-
-void check_scene(const rt::Scene& scene) {
-    const rt::Scene::Window& window = scene.camera.window;
-    require(std::isfinite(window.right - window.left) && std::isfinite(window.top - window.bottom));
-    require(scene.width >= 1 && scene.height >= 1);
-    const int materials = static_cast<int>(scene.materials.size());
-    for (const rt::Scene::Sphere& sphere : scene.spheres) {
-        require(sphere.radius > 0 && sphere.material >= 0 && sphere.material < materials);
-    }
-    for (const rt::Scene::Cone& cone : scene.cones) {
-        require(cone.base_radius >= 0 && cone.apex_radius >= 0 && cone.base != cone.apex);
-        require(cone.base_radius + cone.apex_radius > 0);
-        require(cone.material >= 0 && cone.material < materials);
-    }
-    for (const rt::Scene::Triangle& triangle : scene.triangles) {
-        require(triangle.material >= 0 && triangle.material < materials);
-    }
-}
+using rt::fuzz::require;
 
 /// Every value's offset points at a character that starts such a value.
 void check_offsets(const rt::JsonValue& value, std::string_view text) {
@@ -63,7 +43,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         rt::Mistakes mistakes(text, "fuzz.json");
         const rt::JsonValue root = rt::parse_json(mistakes);
         check_offsets(root, text);
-        check_scene(rt::parse_json_scene(text, "fuzz.json"));
+        const rt::Scene scene = rt::parse_json_scene(text, "fuzz.json");
+        rt::fuzz::check_scene(scene);
+        const rt::Scene::Window& window = scene.camera.window;
+        require(std::isfinite(window.right - window.left));
+        require(std::isfinite(window.top - window.bottom));
+        require(scene.width >= 1 && scene.height >= 1);
     } catch (const rt::Error& error) {
         require(error.exit_code() == rt::ExitCode::input ||
                 error.exit_code() == rt::ExitCode::limit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by the fuzz targets that render what they read.
+// What the fuzz targets expect of what they read.
 #pragma once
 
 #include <cmath>
@@ -22,6 +22,23 @@ inline void require(bool condition) {
 
 inline bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+inline void check_scene(const Scene& scene) {
+    const int materials = static_cast<int>(scene.materials.size());
+    const auto known = [&](int material) { return material >= 0 && material < materials; };
+    for (const Scene::Sphere& sphere : scene.spheres) {
+        require(sphere.radius > 0 && finite(sphere.center) && known(sphere.material));
+    }
+    for (const Scene::Cone& cone : scene.cones) {
+        require(cone.base_radius >= 0 && cone.apex_radius >= 0 && cone.base != cone.apex);
+        require(cone.base_radius + cone.apex_radius > 0 && known(cone.material));
+    }
+    for (const Scene::Triangle& triangle : scene.triangles) {
+        for (const glm::dvec3& vertex : triangle.vertices) require(finite(vertex));
+        require(known(triangle.material));
+    }
+    for (const Scene::Material& material : scene.materials) require(material.ior > 0);
 }
 
 inline void check_mesh(const Scene::Mesh& mesh, std::size_t materials) {
