@@ -40,11 +40,11 @@ class Selftest(WrongDriver):
 
     def test_of_a_right_device(self):
         report, junit = self.folder / "report.json", self.folder / "junit.xml"
-        self.selftest(0, "--filter", "dot3/float/1*,picture/empty/a*/float", "--json", str(report),
+        self.selftest(0, "--filter", "dot3/float/*,picture/empty/a*/float", "--json", str(report),
                       "--junit", str(junit))
         figures = json.loads(report.read_text())
         names = [check["name"] for check in figures["checks"]]
-        self.assertEqual(names, ["dot3/float/1", "dot3/float/16", "picture/empty/adaptive:0.05/float"])
+        self.assertEqual([names[0], names[-1]], ["dot3/float/1", "picture/empty/adaptive:0.05/float"])
         self.assertTrue(figures["passed"] and all(check["right"] for check in figures["checks"]))
         suite = ElementTree.parse(junit).getroot()
         self.assertEqual([suite.get("tests"), suite.get("failures")], [str(len(names)), "0"])
