@@ -33,9 +33,9 @@ class Dies(WrongDriver):
                              *render, *arguments, code=code)
 
     def die_late(self, *arguments):
-        """In the middle of a picture of three seconds, of which a journal is kept."""
+        """In the middle of a picture of three seconds, when at least a tenth is in the journal."""
         return self.die("clEnqueueNDRangeKernel", "abort", *arguments, "--tile", "16", "--threads", "1",
-                        render=self.LATE, CL_SHIM_DIE_AT="4", CL_SHIM_DIE_AFTER="1.5", code=0)
+                        render=self.LATE, CL_SHIM_DIE_AT="20", CL_SHIM_DIE_AFTER="1.2", code=0)
 
     def test_costs_time_and_not_the_picture(self):
         words = {"abort": "was killed by SIGABRT", "segfault": "was killed by SIGSEGV",
