@@ -248,54 +248,6 @@ TYPED_TEST(TraceTree, FocusesABallWhereTheoryHasIt) {
     }
 }
 
-/// Many spheres, cones and triangles, all reflecting and transmitting.
-template <typename T>
-FlatScene<T> glass_crowd() {
-    Random random(6);
-    auto scene = crowd<T>(random);
-    const auto color = [&] { return pack<T>(0.5 * random.in_cube(0.5) + glm::dvec3(0.3)); };
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 way = random.unit_vector();
-        scene.cones.push_back({pack<T>(random.in_cube(2)), T(0.4), pack<T>(way), T(0.9),
-                               T(0.3 * random.index(3) - 0.3), 0, 0, 0});
-    }
-    for (Index<T> i = 0; i < 6; ++i) {
-        const auto clear = i % 3 == 0 ? Packed3<T>{} : color();
-        const auto shiny = i == 2 ? Packed3<T>{} : color();
-        scene.materials.push_back({color(), T(5 << i), color(), i % 2, color(),
-                                   T(random.uniform(0.6, 2)), shiny, 0, clear, 0});
-        scene.vertex_normals.push_back({pack<T>(random.unit_vector()), 0,
-                                        pack<T>(random.unit_vector()), 0,
-                                        pack<T>(random.unit_vector()), 0});
-        scene.triangles[static_cast<std::size_t>(i)].smooth = i;
-    }
-    for (auto& sphere : scene.spheres) sphere.material = random.index(6);
-    for (auto& cone : scene.cones) cone.material = random.index(6);
-    for (auto& triangle : scene.triangles) triangle.material = random.index(6);
-    scene.lights = {{{5, 6, 7}, 0, {1, 1, 1}, 0}, {{-3, 5, 0}, 0, {T(0.5), 1, T(0.25)}, 0}};
-    scene.params.max_bounces = 6;
-    scene.params.background = {T(0.1), T(0.2), T(0.3)};
-    scene.params.ambient_light = {T(0.5), T(0.5), T(0.5)};
-    count_primitives(scene);
-    return scene;
-}
-
-TYPED_TEST(TraceTree, HasTheSameBitsEverywhereInAGlassCrowd) {
-    using T = TypeParam;
-    const auto scene = glass_crowd<T>();
-    Random random(7);
-    const auto rays =
-        many(count, [&] { return make_ray<T>(random.in_cube(3), random.unit_vector()); });
-    std::uint64_t mirror = 0, transmitted = 0;
-    const auto counts = std::get<1>(trace_paths(scene, rays));
-    for (const auto& used : counts) {
-        mirror += used.mirror;
-        transmitted += used.transmitted;
-    }
-    EXPECT_GT(mirror, count / 2);
-    EXPECT_GT(transmitted, count / 2);
-}
-
 }  // namespace
 
 }  // namespace rt

@@ -35,20 +35,6 @@ struct SphereCases {
     }
 };
 
-/// The exact answer: both roots, and the ray's depth, 1 - (closest distance / radius)^2.
-struct SphereRoots {
-    Quad near, far, depth;
-};
-template <typename T>
-SphereRoots exact_roots(const ProbeRay<T>& ray, const Sphere<T>& sphere) {
-    const Quad3 d = exact(ray.dir), f = exact(ray.origin) - exact(sphere.center);
-    const Quad squared = dot(d, d), b = -dot(f, d) / squared;
-    const Quad3 l = f + b * d;
-    const Quad r2 = Quad(sphere.radius) * sphere.radius, left = r2 - dot(l, l);
-    const Quad s = square_root(left / squared);
-    return {b - s, b + s, left / r2};
-}
-
 /// Rays from outside aimed at and a little past a sphere of radius r at distance 1, or from inside.
 template <typename T>
 SphereCases<T> sphere_cases(Random& random, double r, bool inside) {

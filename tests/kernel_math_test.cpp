@@ -155,11 +155,6 @@ TYPED_TEST(Dot3, IsExactWhereTheLastTermsCancel) {
     const auto sum = run<TypeParam, TypeParam>("dot3", 1, a, b);
     EXPECT_EQ(sum[0], 2 * e + e * e);
 }
-TYPED_TEST(Dot3, HasTheSameBitsEverywhere) {
-    Random random(4);
-    const auto a = any_vectors<TypeParam>(random), b = any_vectors<TypeParam>(random);
-    run<TypeParam, TypeParam>("dot3", count, a, b);
-}
 
 KERNEL_SUITE(AddScaled);
 TYPED_TEST(AddScaled, RoundsOnce) {
@@ -173,10 +168,20 @@ TYPED_TEST(AddScaled, RoundsOnce) {
                                  return {TypeParam(sum.x), TypeParam(sum.y), TypeParam(sum.z)};
                              })));
 }
-TYPED_TEST(AddScaled, HasTheSameBitsEverywhere) {
-    Random random(6);
-    const auto a = any_vectors<TypeParam>(random), b = any_vectors<TypeParam>(random);
-    run<TypeParam, Packed3<TypeParam>>("add_scaled", count, a, any_numbers<TypeParam>(random), b);
+
+KERNEL_SUITE(AnyNumbers);
+TYPED_TEST(AnyNumbers, GiveTheSameBitsEverywhere) {
+    using T = TypeParam;
+    Random random(4);
+    const auto a = any_vectors<T>(random), b = any_vectors<T>(random);
+    const auto s = any_numbers<T>(random), t = any_numbers<T>(random), u = any_numbers<T>(random),
+               v = any_numbers<T>(random);
+    run<T, T>("dot3", count, a, b);
+    run<T, T>("length3", count, a);
+    run<T, T>("difference_of_products", count, s, t, u, v);
+    run<T, Packed3<T>>("add_scaled", count, a, s, b);
+    run<T, Packed3<T>>("normalize3", count, a);
+    run<T, Packed3<T>>("reflect3", count, a, b);
 }
 
 // a * b + c must not silently become one fma, or devices give different pictures.
@@ -203,10 +208,6 @@ TYPED_TEST(Length3, IsExactOnPythagoreanQuadruples) {
     const std::vector<Packed3<TypeParam>> a{{2, 3, -6}, {1, 4, 8}, {0, -3, 4}, {0, 0, 0}};
     EXPECT_EQ((run<TypeParam, TypeParam>("length3", 4, a)), (std::vector<TypeParam>{7, 9, 5, 0}));
 }
-TYPED_TEST(Length3, HasTheSameBitsEverywhere) {
-    Random random(8);
-    run<TypeParam, TypeParam>("length3", count, any_vectors<TypeParam>(random));
-}
 
 KERNEL_SUITE(Normalize3);
 TYPED_TEST(Normalize3, IsWithinFourAndAHalfRoundings) {
@@ -220,10 +221,6 @@ TYPED_TEST(Normalize3, IsWithinFourAndAHalfRoundings) {
     }
     direction.expect_at_most(4.5, "direction");
     norm.expect_at_most(4.5, "norm");
-}
-TYPED_TEST(Normalize3, HasTheSameBitsEverywhere) {
-    Random random(10);
-    run<TypeParam, Packed3<TypeParam>>("normalize3", count, any_vectors<TypeParam>(random));
 }
 
 KERNEL_SUITE(DifferenceOfProducts);
@@ -262,12 +259,6 @@ TYPED_TEST(DifferenceOfProducts, ChangesItsSignAloneWithSwappedProducts) {
         }
     }
 }
-TYPED_TEST(DifferenceOfProducts, HasTheSameBitsEverywhere) {
-    Random random(13);
-    const auto a = any_numbers<TypeParam>(random), b = any_numbers<TypeParam>(random),
-               c = any_numbers<TypeParam>(random), d = any_numbers<TypeParam>(random);
-    run<TypeParam, TypeParam>("difference_of_products", count, a, b, c, d);
-}
 
 KERNEL_SUITE(Reflect3);
 TYPED_TEST(Reflect3, TurnsTheNormalPartAround) {
@@ -286,11 +277,6 @@ TYPED_TEST(Reflect3, IsWithinFourRoundingsForUnitVectors) {
         worst.add(vector_error<TypeParam>(results[i], p - 2 * dot(p, q) * q, 1));
     }
     worst.expect_at_most(4.0, "worst");
-}
-TYPED_TEST(Reflect3, HasTheSameBitsEverywhere) {
-    Random random(15);
-    const auto d = any_vectors<TypeParam>(random), n = any_vectors<TypeParam>(random);
-    run<TypeParam, Packed3<TypeParam>>("reflect3", count, d, n);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// kernels/sampling.cl: bits against their definitions, Sobol points by the defining property of a
-// (0, 2)-sequence, filters against their formulas in long double.
+// kernels/sampling.cl: sample positions by formulas written out here, Burley's hashed Owen
+// scrambling (JCGT 9(4), 2020) with a seed per pixel, and by the defining property of a (0,
+// 2)-sequence; filters against their formulas in long double.
 #include <algorithm>
-#include <bitset>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "host/scene/aa_mode.h"
 #include "tests/kernel_runner.h"
@@ -23,6 +25,48 @@ std::vector<Word> random_words(std::size_t count) {
     std::vector<Word> words{0, 1, 0x80000000u, 0xffffffffu};
     while (words.size() < count) words.push_back(static_cast<Word>(random.uniform(0, 0x1p32)));
     return words;
+}
+
+Word reversed(Word v) {
+    Word result = 0;
+    for (int bit = 0; bit < 32; ++bit) result |= (v >> bit & 1u) << (31 - bit);
+    return result;
+}
+
+/// Wellons' triple32.
+Word hashed(Word v) {
+    v = (v ^ v >> 17) * 0xed5ad4bbu;
+    v = (v ^ v >> 11) * 0xac4c1b51u;
+    v = (v ^ v >> 15) * 0x31848babu;
+    return v ^ v >> 14;
+}
+
+/// Laine and Karras' permutation of the reversed bits, with Burley's constants.
+Word scrambled(Word v, Word seed) {
+    v = reversed(v) + seed;
+    for (const Word factor : {0x6c50b47cu, 0xb82f1e52u, 0xc7afe638u, 0x8d22f6e6u}) v ^= v * factor;
+    return reversed(v);
+}
+
+/// The second dimension of Sobol's sequence: Pascal's triangle modulo two.
+Word sobol_second(Word index) {
+    Word result = 0;
+    for (unsigned column = 0; column < 32; ++column) {
+        if ((index >> column & 1u) == 0) continue;
+        for (unsigned row = 0; row < 32; ++row) {
+            if ((row & ~column) == 0) result ^= Word{1} << (31 - row);
+        }
+    }
+    return result;
+}
+
+double unit(Word bits) { return (static_cast<double>(bits >> 20) + 0.5) / 4096; }
+
+std::pair<double, double> sobol_unit(Word picture_seed, Word x, Word y, Word k) {
+    const Word seed = hashed((y * 65536u + x) ^ hashed(picture_seed));
+    const Word index = scrambled(k, hashed(seed));
+    return {unit(scrambled(reversed(index), hashed(seed ^ 0x9e3779b9u))),
+            unit(scrambled(sobol_second(index), hashed(seed ^ 0x85ebca6bu)))};
 }
 
 /// Whether each of the 2^bits boxes of every shape 2^-a by 2^-(bits-a) holds one of 2^bits points.
@@ -68,8 +112,7 @@ long double exact_weight(std::int64_t filter, long double distance) {
 template <typename T>
 typename Flat<T>::LaunchParams params_with(int grid, int samples, int filter) {
     typename Flat<T>::LaunchParams params{};
-    params.width = 640;
-    params.height = 480;
+    params.width = params.height = 65536;
     params.sampling = grid == 0 ? f32::RT_SAMPLES_SOBOL : f32::RT_SAMPLES_GRID;
     params.grid = grid;
     params.samples = samples;
@@ -78,58 +121,61 @@ typename Flat<T>::LaunchParams params_with(int grid, int samples, int filter) {
     return params;
 }
 
-KERNEL_SUITE(ReverseBits);
-TYPED_TEST(ReverseBits, AreTheWordBackwards) {
-    const auto words = random_words(4000);
-    const auto device = run<TypeParam, Word>("reverse_bits", words.size(), words);
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        std::string text = std::bitset<32>(words[i]).to_string();
-        std::reverse(text.begin(), text.end());
-        ASSERT_EQ(device[i], std::bitset<32>(text).to_ulong());
-    }
-}
+/// 3000 samples of random pixels in a large picture.
+template <typename T>
+struct Samples {
+    using Index = typename Flat<T>::Index;
+    std::vector<Index> x, y, k;
+    std::vector<T> unit_x, unit_y, at_x, at_y, weight;
 
-KERNEL_SUITE(SwapBits);
-TYPED_TEST(SwapBits, ExchangesNeighboringBytes) {
-    const auto words = random_words(1000);
-    const std::vector<Word> masks(words.size(), 0x00ff00ffu), shifts(words.size(), 8);
-    const auto device = run<TypeParam, Word>("swap_bits", words.size(), words, masks, shifts);
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const Word v = words[i];
-        const Word expected = (v & 0xff) * 0x100u + (v >> 8 & 0xff) +
-                              (v >> 16 & 0xff) * 0x1000000u + (v >> 24) * 0x10000u;
-        ASSERT_EQ(device[i], expected);
-    }
-}
-
-KERNEL_SUITE(HashBits);
-TYPED_TEST(HashBits, EveryInputBitMovesAboutHalfOfTheOutput) {
-    const auto words = random_words(2000);
-    const auto hashes = run<TypeParam, Word>("hash_bits", words.size(), words);
-    for (int bit = 0; bit < 32; ++bit) {
-        auto flipped = words;
-        for (Word& word : flipped) word ^= Word{1} << bit;
-        const auto others = run<TypeParam, Word>("hash_bits", words.size(), flipped);
-        double moved = 0;
-        for (std::size_t i = 0; i < words.size(); ++i) {
-            moved += static_cast<double>(std::bitset<32>(hashes[i] ^ others[i]).count());
+    explicit Samples(const typename Flat<T>::LaunchParams& params) {
+        Random random(11);
+        for (int i = 0; i < 3000; ++i) {
+            x.push_back(static_cast<Index>(random.uniform(0, 65536)));
+            y.push_back(static_cast<Index>(random.uniform(0, 65536)));
+            k.push_back(static_cast<Index>(random.uniform(0, params.samples)));
         }
-        EXPECT_NEAR(moved / static_cast<double>(words.size()), 16, 0.5) << "bit " << bit;
+        std::tie(unit_x, unit_y, at_x, at_y, weight) =
+            run<T, T, T, T, T, T>("sample", x.size(), std::vector{params}, x, y, k);
     }
+};
+
+KERNEL_SUITE(SampleBits);
+TYPED_TEST(SampleBits, AreThoseOfTheFormulas) {
+    const auto words = random_words(4000);
+    const std::vector<Word> masks(words.size(), 0x00ff00ffu), shifts(words.size(), 8);
+    const std::vector<Word> seeds(words.size(), 0x12345678u);
+    const auto expect = [&](const char* function, const auto& formula, const auto&... more) {
+        const auto device = run<TypeParam, Word>(function, words.size(), words, more...);
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            ASSERT_EQ(device[i], formula(words[i])) << function << " of " << words[i];
+        }
+    };
+    expect("reverse_bits", reversed);
+    expect("hash_bits", hashed);
+    expect("sobol_second", sobol_second);
+    expect(
+        "owen_scramble", [&](Word v) { return scrambled(v, seeds[0]); }, seeds);
+    expect(
+        "swap_bits", [](Word v) { return (v & 0xff00ff) << 8 | (v >> 8 & 0xff00ff); }, masks,
+        shifts);
+    const auto units = run<TypeParam, TypeParam>("unit_from_bits", words.size(), words);
+    for (std::size_t i = 0; i < words.size(); ++i) ASSERT_EQ(double(units[i]), unit(words[i]));
 }
 
-KERNEL_SUITE(OwenScramble);
-TYPED_TEST(OwenScramble, KeepsCommonPrefixesAndNothingMore) {
-    const auto words = random_words(4000);
-    const std::vector<Word> seeds(words.size(), 0x12345678u);
-    const auto device = run<TypeParam, Word>("owen_scramble", words.size(), words, seeds);
-    for (int bits = 1; bits < 32; ++bits) {
-        auto others = words;
-        for (Word& word : others) word ^= Word{1} << (31 - bits);
-        const auto scrambled = run<TypeParam, Word>("owen_scramble", words.size(), others, seeds);
-        for (std::size_t i = 0; i < words.size(); ++i) {
-            const Word difference = device[i] ^ scrambled[i];
-            ASSERT_EQ(std::countl_zero(difference), bits);
+KERNEL_SUITE(SobolSample);
+TYPED_TEST(SobolSample, IsWherePixelAndSeedPutIt) {
+    using Index = typename Flat<TypeParam>::Index;
+    auto params = params_with<TypeParam>(0, 16, 0);
+    for (const Word seed : {0u, 3u, 12345u}) {
+        params.seed = static_cast<Index>(seed);
+        const Samples<TypeParam> samples(params);
+        for (std::size_t i = 0; i < samples.x.size(); ++i) {
+            const auto [x, y] =
+                sobol_unit(seed, static_cast<Word>(samples.x[i]), static_cast<Word>(samples.y[i]),
+                           static_cast<Word>(samples.k[i]));
+            ASSERT_EQ(double(samples.unit_x[i]), x);
+            ASSERT_EQ(double(samples.unit_y[i]), y);
         }
     }
 }
@@ -145,28 +191,6 @@ TYPED_TEST(SobolPosition, AreANetInEveryElementaryInterval) {
                 run<TypeParam, TypeParam, TypeParam>("sobol_position", k.size(), seeds, k);
             EXPECT_TRUE(is_net(x, y, bits)) << "seed " << seed << ", 2^" << bits;
         }
-    }
-}
-
-TYPED_TEST(SobolPosition, SecondDimensionIsPascalsTriangleModTwo) {
-    std::vector<Word> powers;
-    for (int i = 0; i < 32; ++i) powers.push_back(Word{1} << i);
-    const auto columns = run<TypeParam, Word>("sobol_second", powers.size(), powers);
-    for (unsigned column = 0; column < 32; ++column) {
-        for (unsigned row = 0; row < 32; ++row) {
-            // binomial(column, row) is odd when row's bits are among column's (Lucas 1878)
-            const bool odd = (row & ~column) == 0;
-            EXPECT_EQ((columns[column] >> (31 - row) & 1u) != 0, odd);
-        }
-    }
-}
-
-KERNEL_SUITE(UnitFromBits);
-TYPED_TEST(UnitFromBits, IsTheMiddleOfItsCell) {
-    const auto words = random_words(4000);
-    const auto device = run<TypeParam, TypeParam>("unit_from_bits", words.size(), words);
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        ASSERT_EQ(double(device[i]), (std::floor(words[i] / 1048576.0) + 0.5) / 4096);
     }
 }
 
@@ -193,30 +217,24 @@ TYPED_TEST(FilterWeight, FollowsItsFormula) {
 KERNEL_SUITE(SamplePosition);
 TYPED_TEST(SamplePosition, StaysInTheFootprintAndWeighsByTheFilter) {
     using T = TypeParam;
-    using Index = typename Flat<T>::Index;
-    Random random(5);
-    for (const auto& [grid, samples] : {std::pair{3, 9}, std::pair{0, 16}}) {
+    const double u = double(Flat<T>::roundoff);
+    for (const auto& [grid, count] : {std::pair{3, 9}, std::pair{0, 16}}) {
         for (const int filter : {0, 1, 2, 3}) {
-            const auto params = params_with<T>(grid, samples, filter);
-            std::vector<Index> x, y, k;
-            for (int i = 0; i < 5000; ++i) {
-                x.push_back(static_cast<Index>(random.uniform(0, 65536)));
-                y.push_back(static_cast<Index>(random.uniform(0, 65536)));
-                k.push_back(static_cast<Index>(random.uniform(0, samples)));
-            }
-            const auto [unit_x, unit_y, sample_x, sample_y, weight] =
-                run<T, T, T, T, T, T>("sample", x.size(), std::vector{params}, x, y, k);
-            const T radius = T(radius_of(filter));
-            for (std::size_t i = 0; i < x.size(); ++i) {
-                ASSERT_TRUE(unit_x[i] > 0 && unit_x[i] < 1 && unit_y[i] > 0 && unit_y[i] < 1);
-                const T off_x = sample_x[i] - T(0.5), off_y = sample_y[i] - T(0.5);
-                ASSERT_LE(std::max(std::fabs(off_x), std::fabs(off_y)), radius);
-                const double u = double(Flat<T>::roundoff);
-                ASSERT_NEAR(double(off_x), (double(unit_x[i]) - 0.5) * 2 * double(radius), 2 * u);
-                ASSERT_NEAR(double(off_y), (double(unit_y[i]) - 0.5) * 2 * double(radius), 2 * u);
+            const Samples<T> samples(params_with<T>(grid, count, filter));
+            const double radius = radius_of(filter);
+            const auto expect_place = [&](T unit, T off) {
+                ASSERT_TRUE(unit > 0 && unit < 1);
+                ASSERT_LE(std::fabs(off), T(radius));
+                ASSERT_NEAR(double(off), (double(unit) - 0.5) * 2 * radius, 2 * u);
+            };
+            for (std::size_t i = 0; i < samples.x.size(); ++i) {
+                const T off_x = samples.at_x[i] - T(0.5), off_y = samples.at_y[i] - T(0.5);
+                expect_place(samples.unit_x[i], off_x);
+                expect_place(samples.unit_y[i], off_y);
                 const long double right = exact_weight(filter, off_x) * exact_weight(filter, off_y);
-                ASSERT_NEAR(double(weight[i]), double(right), 256 * u) << filter;
-                ASSERT_TRUE(filter != 0 || weight[i] == T(1));
+                // Each factor is off by at most 32 u (FilterWeight) and below 2.
+                ASSERT_NEAR(double(samples.weight[i]), double(right), 128 * u) << filter;
+                ASSERT_TRUE(filter != 0 || samples.weight[i] == T(1));
             }
         }
     }

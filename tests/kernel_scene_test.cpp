@@ -178,52 +178,6 @@ TYPED_TEST(ClosestHit, SkipsTheTriangleItLeaves) {
     EXPECT_EQ(hits[1].prim, 1);
 }
 
-/// A floor of 8 x 8 squares, and rays at its vertices from a thousand times its width away.
-struct FarFloor {
-    Scene scene;
-
-    FarFloor() {
-        scene.materials.emplace_back();
-        const auto at = [](int i, int j) { return glm::dvec3(0.25 * i - 1, 0.25 * j - 1, 0); };
-        for (int i = 0; i < 8; ++i) {
-            for (int j = 0; j < 8; ++j) {
-                const glm::dvec3 a = at(i, j), c = at(i + 1, j + 1);
-                scene.triangles.push_back({{{a, at(i + 1, j), c}}, {}, 0});
-                scene.triangles.push_back({{{a, c, at(i, j + 1)}}, {}, 0});
-            }
-        }
-    }
-    template <typename T>
-    static std::vector<ProbeRay<T>> rays_at(const FlatScene<T>& flat, Random& random) {
-        return many(20000, [&] {
-            const auto& p = flat.triangles[random.index(int(flat.triangles.size()))].p0;
-            const glm::dvec3 target(p.x, p.y, p.z), way = random.unit_vector();
-            return make_ray<T>(target - 1000.0 * way, way);
-        });
-    }
-};
-
-TYPED_TEST(ClosestHit, IsTheSameThroughAHierarchySeenFromFarAway) {
-    const FarFloor floor;
-    FlattenOptions all;
-    all.hierarchies = false;
-    const auto plain = flatten<TypeParam>(floor.scene, all), bvh = flatten<TypeParam>(floor.scene);
-    ASSERT_NE(bvh.params.triangle_root, 0);
-    Random random(12);
-    const auto rays = FarFloor::rays_at(plain, random);
-    const auto expected = run<TypeParam, Hit<TypeParam>>("closest_hit", rays.size(), plain, rays);
-    const auto hits = run<TypeParam, Hit<TypeParam>>("closest_hit", rays.size(), bvh, rays);
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const auto prim = hits[i].prim;
-        ASSERT_EQ(prim < 0 ? prim : bvh.order[std::size_t(prim)], expected[i].prim) << i;
-        if (prim < 0) continue;
-        ASSERT_EQ(hits[i].t, expected[i].t);
-        ++found;
-    }
-    EXPECT_GT(found, rays.size() / 4);
-}
-
 /// The deepest hierarchy there may be: each inner node holds the next and a leaf. All boxes are
 /// alike, so that every leaf but one waits on the stack. Triangle i is about (3 i, 0, 1).
 template <typename T>

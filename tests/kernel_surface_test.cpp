@@ -33,25 +33,17 @@ std::vector<Packed3<T>> offset_origins(const std::vector<ProbeSurface<T>>& surfa
 /// Where a ray meets a ball in front of its origin, rounded; 0 where it does not.
 template <typename T>
 T ball_distance(const ProbeRay<T>& ray, const Sphere<T>& sphere) {
-    const Quad3 d = exact(ray.dir), f = exact(ray.origin) - exact(sphere.center);
-    const Quad b = -dot(f, d) / dot(d, d);
-    const Quad3 closest = f + b * d;
-    const Quad squared = Quad(sphere.radius) * sphere.radius - dot(closest, closest);
-    if (squared < 0) return 0;
-    const Quad half_chord = square_root(squared / dot(d, d));
-    return static_cast<T>(b > half_chord ? b - half_chord : b + half_chord);
+    const SphereRoots roots = exact_roots(ray, sphere);
+    if (roots.depth < 0) return 0;
+    return static_cast<T>(roots.near > 0 ? roots.near : roots.far);
 }
 
 /// Where a ray meets a triangle, rounded; t is not positive where it does not.
 template <typename T>
 Hit<T> triangle_hit(const ProbeRay<T>& ray, const Triangle<T>& triangle) {
-    const Quad3 d = exact(ray.dir), o = exact(ray.origin);
-    const Quad3 a = exact(triangle.p0) - o, b = exact(triangle.p1) - o, c = exact(triangle.p2) - o;
-    const Quad wa = dot(d, cross(b, c)), wb = dot(d, cross(c, a)), wc = dot(d, cross(a, b));
-    const Quad sum = wa + wb + wc;
-    if (sum == 0 || wa / sum < 0 || wb / sum < 0 || wc / sum < 0) return {};
-    const Quad3 n = cross(b - a, c - a);
-    return {T(dot(a, n) / dot(d, n)), T(wb / sum), T(wc / sum), 0, 0};
+    const auto& [t, weight] = exact_hit(ray, triangle);
+    if (!(weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0)) return {};
+    return {T(t), T(weight[1]), T(weight[2]), 0, 0};
 }
 
 /// Rays that hit balls of all sizes and positions, from outside and from inside, and their hits.

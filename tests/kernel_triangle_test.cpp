@@ -93,20 +93,6 @@ TYPED_TEST(IntersectTriangle, OnIntegersHitsInsidesEdgesAndVerticesAndNothingEls
     EXPECT_GT(on_edge, 2000);
 }
 
-/// The exact hit: distance and barycentric weights, all positive inside.
-struct ExactHit {
-    Quad t, weight[3];
-};
-template <typename T>
-ExactHit exact_hit(const ProbeRay<T>& ray, const Triangle<T>& triangle) {
-    const Quad3 d = exact(ray.dir), o = exact(ray.origin);
-    const Quad3 a = exact(triangle.p0) - o, b = exact(triangle.p1) - o, c = exact(triangle.p2) - o;
-    const Quad wa = dot(d, cross(b, c)), wb = dot(d, cross(c, a)), wc = dot(d, cross(a, b));
-    const Quad sum = wa + wb + wc;
-    const Quad3 n = cross(b - a, c - a);
-    return {dot(a, n) / dot(d, n), {wa / sum, wb / sum, wc / sum}};
-}
-
 /// Rays at and around triangles of height `height` and base 1, from at least 5 degrees above.
 template <typename T>
 TriangleCases<T> triangles_of_height(Random& random, double height) {

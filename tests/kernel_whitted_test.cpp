@@ -133,21 +133,28 @@ TYPED_TEST(TracePath, LightsTheBackOfATwoSidedSurfaceAlone) {
     }
 }
 
-/// Many mirrors, some with vertex normals, with two lights and a camera.
+/// Spheres, cones and triangles, some with vertex normals, mirrors and glass, with two lights and a
+/// camera.
 template <typename T>
-FlatScene<T> mirror_crowd() {
+FlatScene<T> shiny_crowd() {
     Random random(3);
     auto scene = crowd<T>(random);
     const auto any = [&] { return pack<T>(random.unit_vector()); };
     const auto color = [&] { return pack<T>(random.in_cube(0.5) + glm::dvec3(0.5)); };
-    for (Index<T> i = 0; i < 5; ++i) {
-        scene.materials.push_back(
-            {color(), T(5 << i), color(), i % 2, color(), 1, color(), 0, {}, 0});
+    for (int i = 0; i < 8; ++i) {
+        scene.cones.push_back({pack<T>(random.in_cube(2)), T(0.4), any(), T(0.9),
+                               T(0.3 * random.index(3) - 0.3), 0, 0, 0});
+    }
+    for (Index<T> i = 0; i < 6; ++i) {
+        const auto clear = i % 3 == 0 ? Packed3<T>{} : pack<T>(0.5 * in_double(color()));
+        scene.materials.push_back({color(), T(5 << i), color(), i % 2, color(),
+                                   T(random.uniform(0.6, 2)), color(), 0, clear, 0});
         scene.vertex_normals.push_back({any(), 0, any(), 0, any(), 0});
         scene.triangles[static_cast<std::size_t>(i)].smooth = i;
     }
-    for (auto& sphere : scene.spheres) sphere.material = random.index(5);
-    for (auto& triangle : scene.triangles) triangle.material = random.index(5);
+    for (auto& sphere : scene.spheres) sphere.material = random.index(6);
+    for (auto& cone : scene.cones) cone.material = random.index(6);
+    for (auto& triangle : scene.triangles) triangle.material = random.index(6);
     scene.lights = {{{5, 6, 7}, 0, {1, 1, 1}, 0}, {{-3, 5, 0}, 0, {T(0.5), 1, T(0.25)}, 0}};
     scene.params.direction = {0, 0, -1};
     scene.params.direction_dx = {T(0.02), 0, 0};
@@ -164,8 +171,8 @@ FlatScene<T> mirror_crowd() {
 }
 
 KERNEL_SUITE(TraceSample);
-TYPED_TEST(TraceSample, HasTheSameBitsEverywhereInAMirrorCrowd) {
-    const auto scene = mirror_crowd<TypeParam>();
+TYPED_TEST(TraceSample, HasTheSameBitsEverywhereInACrowdOfGlassAndMirrors) {
+    const auto scene = shiny_crowd<TypeParam>();
     const auto& f = scene.params;
     std::vector<Index<TypeParam>> x, y, k;
     for (Index<TypeParam> i = 0; i < f.width * f.height * 4; ++i) {
@@ -175,13 +182,13 @@ TYPED_TEST(TraceSample, HasTheSameBitsEverywhereInAMirrorCrowd) {
     }
     const auto counts = std::get<1>(run<TypeParam, Packed3<TypeParam>, Counts<TypeParam>>(
         "trace_sample", x.size(), scene, x, y, k));
-    std::uint64_t mirror = 0, shadow = 0;
+    std::uint64_t mirror = 0, shadow = 0, transmitted = 0;
     for (const auto& used : counts) {
         mirror += used.mirror;
         shadow += used.shadow;
+        transmitted += used.transmitted;
     }
-    EXPECT_GT(mirror, 4000u);
-    EXPECT_GT(shadow, 4000u);
+    for (const std::uint64_t rays : {mirror, shadow, transmitted}) EXPECT_GT(rays, 4000u);
 }
 
 /// The weighted means of the pixels' samples, in quad.
@@ -208,7 +215,7 @@ std::vector<Quad3> means_of_samples(const FlatScene<T>& scene, const std::vector
 KERNEL_SUITE(TracePixel);
 TYPED_TEST(TracePixel, IsTheWeighedMeanOfItsSamples) {
     using T = TypeParam;
-    auto scene = mirror_crowd<T>();
+    auto scene = shiny_crowd<T>();
     for (const int filter : {0, 1, 2, 3}) {
         scene.params.filter = filter;
         const bool is_sobol = filter % 2 == 0;
@@ -234,8 +241,8 @@ TYPED_TEST(TracePixel, IsTheWeighedMeanOfItsSamples) {
 TYPED_TEST(TracePixel, DoesNotDriftOverManySamples) {
     using T = TypeParam;
     FlatScene<T> scene{};
-    scene.params = mirror_crowd<T>().params;
-    scene.params.sphere_count = scene.params.triangle_count = scene.params.light_count = 0;
+    scene.params = shiny_crowd<T>().params;
+    count_primitives(scene);
     scene.params.grid = 64;
     scene.params.samples = 4096;
     for (const double gray : {0.0123, 0.1, 0.3, 0.7, 0.9876}) {

@@ -57,4 +57,32 @@ typename Flat<T>::Triangle make_triangle(const glm::dvec3& p0, const glm::dvec3&
     return triangle;
 }
 
+/// Where a ray meets a triangle: distance and barycentric weights, all positive inside.
+struct ExactHit {
+    Quad t, weight[3];
+};
+template <typename T>
+ExactHit exact_hit(const ProbeRay<T>& ray, const typename Flat<T>::Triangle& triangle) {
+    const Quad3 d = exact(ray.dir), o = exact(ray.origin);
+    const Quad3 a = exact(triangle.p0) - o, b = exact(triangle.p1) - o, c = exact(triangle.p2) - o;
+    const Quad wa = dot(d, cross(b, c)), wb = dot(d, cross(c, a)), wc = dot(d, cross(a, b));
+    const Quad sum = wa + wb + wc;
+    const Quad3 n = cross(b - a, c - a);
+    return {dot(a, n) / dot(d, n), {wa / sum, wb / sum, wc / sum}};
+}
+
+/// Where a ray meets a sphere: both roots, and the ray's depth, 1 - (closest distance / radius)^2.
+struct SphereRoots {
+    Quad near, far, depth;
+};
+template <typename T>
+SphereRoots exact_roots(const ProbeRay<T>& ray, const typename Flat<T>::Sphere& sphere) {
+    const Quad3 d = exact(ray.dir), f = exact(ray.origin) - exact(sphere.center);
+    const Quad squared = dot(d, d), b = -dot(f, d) / squared;
+    const Quad3 l = f + b * d;
+    const Quad r2 = Quad(sphere.radius) * sphere.radius, left = r2 - dot(l, l);
+    const Quad s = square_root(left / squared);
+    return {b - s, b + s, left / r2};
+}
+
 }  // namespace rt
