@@ -42,8 +42,7 @@ std::filesystem::path program_file();
 std::filesystem::path beside_program(std::initializer_list<const char*> folders, const char* file);
 
 /// An empty folder, deleted with its files on destruction; has no name if it could not be created.
-/// It is locked as long as its process lives. Folders that killed processes of this user left are
-/// deleted by the next one, an hour later.
+/// A killed process leaves it to the system, which clears the folder of temporary files.
 class TemporaryFolder {
    public:
     TemporaryFolder();
@@ -55,7 +54,6 @@ class TemporaryFolder {
 
    private:
     std::string name_;
-    FileDescriptor lock_;
 };
 
 }  // namespace rt

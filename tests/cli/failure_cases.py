@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A machine that misbehaves: busy, out of memory, with broken drivers. Where it cannot be had, a
 library loaded first (LD_PRELOAD) plays it."""
-import fcntl
 import json
 import os
 import pathlib
@@ -206,21 +205,6 @@ class KernelCache(CliTest):
         self.render_on_pocl(POCL_CACHE_DIR="")
         self.assertEqual({path.name for path in own.iterdir() if path.is_file()},
                          {"tempfile_b.so", "other"})
-
-    def test_folders_of_killed_processes_are_removed_after_an_hour(self):
-        """But not one that a process still uses, nor others of similar names."""
-        folder = self.folder / "tmp"
-        long_ago = (time.time() - 4000,) * 2
-        for name in ["mirrorball.tmp.old", "mirrorball.tmp.used", "mirrorball-old", "mirrorball.tmp.new"]:
-            (folder / name / "kernels").mkdir(parents=True)
-            if name != "mirrorball.tmp.new":
-                os.utime(folder / name, times=long_ago)
-        used = os.open(folder / "mirrorball.tmp.used", os.O_RDONLY)
-        self.addCleanup(os.close, used)
-        fcntl.flock(used, fcntl.LOCK_EX)
-        self.run_cli("doctor", env={"TMPDIR": str(folder)})
-        self.assertEqual({path.name for path in folder.iterdir()},
-                         {"mirrorball.tmp.used", "mirrorball-old", "mirrorball.tmp.new"})
 
     def test_needs_no_path_to_the_linker(self):
         """PoCL calls ld, and ends the process where it finds none. The working folder's is not ours."""
