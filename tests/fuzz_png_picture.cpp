@@ -13,7 +13,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::istringstream stream(std::string(reinterpret_cast<const char*>(data), size));
     try {
-        const rt::Picture picture = rt::read_png("fuzz.png", stream, size, true).picture;
+        const rt::Picture picture = rt::read_png("fuzz.png", stream, true).picture;
         const std::size_t values = static_cast<std::size_t>(picture.width) * picture.height *
                                    static_cast<std::size_t>(picture.channels);
         if (picture.pixels.size() != values) __builtin_trap();

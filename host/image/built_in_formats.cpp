@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <system_error>
 
@@ -64,16 +65,6 @@ void check_picture_size(const std::string& path, int width, int height, int chan
             path, "has " + size,
             "scale it down to at most 65536 pixels per side, 2^28 pixels and 2^30 values");
     }
-}
-
-void check_stored_size(const std::string& path, std::uintmax_t pixel_bytes,
-                       std::uintmax_t best_ratio, std::uintmax_t file_size) {
-    if (pixel_bytes / best_ratio <= file_size) return;
-    refuse_picture(
-        path,
-        fmt::format("its {} bytes cannot hold the {} bytes of pixels that its header declares",
-                    file_size, pixel_bytes),
-        "it may be truncated: save it again");
 }
 
 void check_picture_memory(const std::string& path, int width, int height, int channels) {
@@ -251,7 +242,7 @@ class PngReader {
     PngReader& operator=(const PngReader&) = delete;
     ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
 
-    PictureFile read(std::uintmax_t file_size, bool with_pixels) {
+    PictureFile read(bool with_pixels) {
         png_set_read_fn(png_, this, read_bytes);
         png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // we check the size ourselves
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // bad checksums would stop nearly all inputs
@@ -265,9 +256,6 @@ class PngReader {
         const bool has_key = png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
         const int channels = (has_palette ? 3 : png_get_channels(png_, info_)) + (has_key ? 1 : 0);
         check_picture_size(path_, width, height, channels);
-        // Deflate's best ratio is 1032:1.
-        const std::uintmax_t stored = png_get_rowbytes(png_, info_) * std::uintmax_t(height);
-        check_stored_size(path_, stored, 1032, file_size);
         PictureFile file{{width, height, channels, {}}, {}};
         if (with_pixels) {
             check_picture_memory(path_, width, height, channels);
@@ -297,15 +285,17 @@ class PngReader {
         const std::size_t values = static_cast<std::size_t>(picture.width) * picture.channels;
         const std::size_t row_bytes = png_get_rowbytes(png_, info_);
         const bool interlaced = png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE;
-        picture.pixels.reserve(values * picture.height);  // pages are touched as rows arrive
-        std::vector<png_byte> bytes(interlaced ? row_bytes * picture.height : row_bytes);
+        // Pages are touched as rows arrive, so that a false header costs no memory.
+        picture.pixels.reserve(values * picture.height);
+        const auto bytes = std::make_unique_for_overwrite<png_byte[]>(
+            interlaced ? row_bytes * picture.height : row_bytes);
         // Each pass but the last leaves gaps in all rows.
         for (int pass = interlaced ? 7 : 1; pass > 1; --pass) {
             for (int y = 0; y < picture.height; ++y)
                 png_read_row(png_, &bytes[row_bytes * y], nullptr);
         }
         for (int y = 0; y < picture.height; ++y) {
-            png_bytep row = interlaced ? &bytes[row_bytes * y] : bytes.data();
+            png_bytep row = interlaced ? &bytes[row_bytes * y] : bytes.get();
             png_read_row(png_, row, nullptr);
             is_wide ? append_wide(row, values, picture.pixels)
                     : append_narrow(row, values, picture.pixels);
@@ -373,9 +363,8 @@ std::vector<std::byte> encode_png_file(
     fail_to_encode(path, "out of memory");
 }
 
-PictureFile read_png(const std::string& path, std::istream& stream, std::uintmax_t size,
-                     bool with_pixels) {
-    return PngReader(path, stream).read(size, with_pixels);
+PictureFile read_png(const std::string& path, std::istream& stream, bool with_pixels) {
+    return PngReader(path, stream).read(with_pixels);
 }
 
 }  // namespace rt

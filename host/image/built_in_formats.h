@@ -35,11 +35,6 @@ InputFile open_input_file(const std::string& path);
 /// x 65536, 2^28 pixels, 2^30 values. Throws Error(ExitCode::input).
 void check_picture_size(const std::string& path, int width, int height, int channels);
 
-/// Refuses a file whose header promises more pixel bytes than it could hold at its format's best
-/// compression ratio, `best_ratio` to 1. Throws Error(ExitCode::input).
-void check_stored_size(const std::string& path, std::uintmax_t pixel_bytes,
-                       std::uintmax_t best_ratio, std::uintmax_t file_size);
-
 /// Throws Error(ExitCode::limit) when a picture of this size does not fit into free memory.
 void check_picture_memory(const std::string& path, int width, int height, int channels);
 
@@ -51,11 +46,9 @@ std::vector<std::byte> encode_png_file(
     const std::string& path, const Picture& picture, Encoding encoding,
     std::span<const std::pair<std::string, std::string>> metadata);
 
-/// Reads a PNG file of `size` bytes: palettes and fewer than 8 bits become 8 bits, a transparent
-/// color becomes alpha. Without pixels, it reads what is in front of them. Throws
-/// Error(ExitCode::input).
-PictureFile read_png(const std::string& path, std::istream& stream, std::uintmax_t size,
-                     bool with_pixels);
+/// Reads a PNG file: palettes and fewer than 8 bits become 8 bits, a transparent color becomes
+/// alpha. Without pixels, it reads what is in front of them. Throws Error(ExitCode::input).
+PictureFile read_png(const std::string& path, std::istream& stream, bool with_pixels);
 
 /// Writes the picture as a Portable Float Map: "PF" (3 channels) or "Pf" (1 channel), little-endian
 /// 32-bit floats, bottom row first; every bit of every float is kept. The format cannot hold

@@ -13,16 +13,15 @@ constexpr PictureFormatFacts formats[] = {
     {PictureFormat::png, "PNG", "png", {".png"}},
     {PictureFormat::exr, "EXR", "openexr", {".exr"}, true},
     {PictureFormat::pfm, "PFM", "pfm", {".pfm"}, true},
-    {PictureFormat::tiff, "TIFF", "tiff", {".tif", ".tiff"}, true, 8 * 1032},  // bits, deflated
-    // Blocks of 64, runs of empty ones; libjpeg ends the process beyond its longest side.
-    {PictureFormat::jpeg, "JPEG", "jpeg", {".jpg", ".jpeg"}, false, 64 * 32, 65500},
-    {PictureFormat::webp, "WebP", "webp", {".webp"}, false, 0, 16383},
-    // Runs of pixels, two bytes each.
-    {PictureFormat::hdr, "HDR", "hdr", {".hdr"}, true, 4 * 128},
-    {PictureFormat::tga, "TGA", "targa", {".tga"}, false, 4 * 128, 65535},
-    {PictureFormat::bmp, "BMP", "bmp", {".bmp"}, false, 4 * 128},
-    {PictureFormat::pnm, "PNM", "pnm", {".ppm", ".pgm", ".pnm"}, false, 8},  // one bit each
-    {PictureFormat::dpx, "DPX", "dpx", {".dpx"}, false, 4 * 128},
+    {PictureFormat::tiff, "TIFF", "tiff", {".tif", ".tiff"}, true},
+    // libjpeg ends the process beyond its longest side.
+    {PictureFormat::jpeg, "JPEG", "jpeg", {".jpg", ".jpeg"}, false, 65500},
+    {PictureFormat::webp, "WebP", "webp", {".webp"}, false, 16383},
+    {PictureFormat::hdr, "HDR", "hdr", {".hdr"}, true},
+    {PictureFormat::tga, "TGA", "targa", {".tga"}, false, 65535},
+    {PictureFormat::bmp, "BMP", "bmp", {".bmp"}},
+    {PictureFormat::pnm, "PNM", "pnm", {".ppm", ".pgm", ".pnm"}},
+    {PictureFormat::dpx, "DPX", "dpx", {".dpx"}},
 };
 
 }  // namespace

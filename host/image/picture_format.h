@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -20,7 +19,6 @@ struct PictureFormatFacts {
     const char* module_name;  ///< OpenImageIO's: "png", "openexr", "targa"
     std::array<std::string_view, 3> extensions;
     bool stores_floats = false;  ///< exactly, but for .hdr's 8-bit mantissas; else 8-bit integers
-    std::uintmax_t values_per_byte = 0;  ///< at most, generously where not exact; 0: no limit
     int longest_side = std::numeric_limits<int>::max();  ///< in pixels
 };
 const PictureFormatFacts& facts_of(PictureFormat format);

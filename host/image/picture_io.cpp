@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
@@ -13,6 +12,7 @@
 
 #include "host/base/error.h"
 #include "host/base/module_file.h"
+#include "host/base/text.h"
 #include "host/image/atomic_file.h"
 #include "host/image/built_in_formats.h"
 #include "host/image/output_path.h"
@@ -49,12 +49,6 @@ const PictureModule& picture_module(PictureFormat format, ExitCode failure) {
 
 namespace {
 
-std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    while (!text.empty() && text.back() == ' ') text.pop_back();
-    return text;
-}
-
 /// A JPEG file that was cut short has missing pixels, which OpenImageIO's reader makes up.
 void check_jpeg_end(const std::string& path, InputFile& file) {
     const std::string bytes{std::istreambuf_iterator<char>(file.stream), {}};
@@ -69,10 +63,6 @@ PictureFile read_with_module(const std::string& path, PictureFormat format, Inpu
     const PictureModule& library = picture_module(format, ExitCode::input);
     const auto check = [&](int width, int height, int channels) {
         check_picture_size(path, width, height, channels);
-        // Nor does it check whether the file can hold what its header promises; WebP has no limit.
-        if (const std::uintmax_t most = facts_of(format).values_per_byte; most != 0) {
-            check_stored_size(path, std::uintmax_t(width) * height * channels, most, file.size);
-        }
         if (with_pixels) check_picture_memory(path, width, height, channels);
         return with_pixels;
     };
@@ -83,7 +73,7 @@ PictureFile read_with_module(const std::string& path, PictureFormat format, Inpu
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        refuse_damaged(path, one_line(error.what()));
+        refuse_damaged(path, first_line(error.what()));
     }
 }
 
@@ -95,7 +85,7 @@ PictureFile read(const std::string& path, bool with_pixels) try {
                        "use a .png, .exr, .pfm, .tif, .jpg, .webp, .hdr, .tga, .bmp, .ppm or .dpx");
     }
     if (file.size == 0) refuse_picture(path, "is empty", "save it again");
-    if (format == PictureFormat::png) return read_png(path, file.stream, file.size, with_pixels);
+    if (format == PictureFormat::png) return read_png(path, file.stream, with_pixels);
     if (format == PictureFormat::pfm) return {read_pfm(path, std::move(file), with_pixels), {}};
     return read_with_module(path, *format, std::move(file), with_pixels);
 } catch (const std::bad_alloc&) {
