@@ -148,6 +148,14 @@ struct Scene {
     std::vector<std::string> model_files;  ///< read in addition to the scene's own file
 };
 
+/// The colors of a material and their keys in scene files.
+inline constexpr Named<glm::dvec3 Scene::Material::*> material_colors[] = {
+    {"ambient", &Scene::Material::ambient},
+    {"diffuse", &Scene::Material::diffuse},
+    {"specular", &Scene::Material::specular},
+    {"mirror", &Scene::Material::mirror},
+    {"transmission", &Scene::Material::transmission}};
+
 struct Box {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;  ///< empty
 };

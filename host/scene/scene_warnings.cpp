@@ -64,16 +64,7 @@ bool is_of_bytes(const glm::dvec3& color) {
     return whole && brightest(color) >= 2 && brightest(color) <= 255;
 }
 
-struct NamedColor {
-    std::string_view name;
-    const glm::dvec3 Scene::Material::*color;
-};
-
-constexpr NamedColor material_colors[] = {{"ambient", &Scene::Material::ambient},
-                                          {"diffuse", &Scene::Material::diffuse},
-                                          {"specular", &Scene::Material::specular},
-                                          {"mirror", &Scene::Material::mirror},
-                                          {"transmission", &Scene::Material::transmission}};
+using NamedColor = Named<glm::dvec3 Scene::Material::*>;
 
 /// "diffuse of material 'red'", for each color that satisfies `is`.
 template <typename Is>
@@ -81,9 +72,9 @@ std::vector<std::string> materials_where(const Scene& scene, std::span<const Nam
                                          Is is) {
     std::vector<std::string> found;
     for (const Scene::Material& material : scene.materials) {
-        for (const NamedColor& named : colors) {
-            if (!is(material.*named.color)) continue;
-            found.push_back(fmt::format("{} of material {}", named.name, in_quotes(material.name)));
+        for (const auto& [key, color] : colors) {
+            if (!is(material.*color)) continue;
+            found.push_back(fmt::format("{} of material {}", key, in_quotes(material.name)));
         }
     }
     return found;
