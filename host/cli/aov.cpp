@@ -9,7 +9,7 @@
 
 #include "host/base/console.h"
 #include "host/base/text.h"
-#include "host/cli/render_steps.h"
+#include "host/cli/render_pictures.h"
 #include "host/explain/pixel_facts.h"
 #include "host/image/false_color.h"
 #include "host/image/output_path.h"
@@ -110,12 +110,12 @@ class Aovs {
 
 }  // namespace
 
-void check_aov_files(const RenderOptions& options, const std::vector<std::string>& inputs) {
+void check_aov_files(const RenderOptions& options, const InputFiles& inputs) {
     if (options.aovs.empty()) return;
     std::vector<std::string> files = aov_files(options);
     for (const std::string& file : files) {
         check_picture_path(file);
-        check_output_is_no_input(file, inputs);
+        inputs.check(file);
     }
     files.push_back(options.output);
     check_outputs_differ(files);

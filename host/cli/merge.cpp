@@ -9,7 +9,7 @@
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/cli/options.h"
-#include "host/cli/render_steps.h"
+#include "host/cli/render_pictures.h"
 #include "host/cli/verb.h"
 #include "host/image/image_error.h"
 #include "host/image/output_path.h"
@@ -77,8 +77,10 @@ int run_merge(const MergeOptions& options) {
                                   printable(to_string(merged.header.picture)),
                                   hash_text(merged.image_hash)));
     }
-    const bool is_finite = !report_non_finite(merged.picture, merged.header.picture.region,
-                                              count_non_finite(merged.picture));
+    std::vector<std::string> notes;
+    const bool is_finite = !note_non_finite(merged.picture, merged.header.picture.region,
+                                            count_non_finite(merged.picture), notes);
+    print_notes(notes);
     return static_cast<int>(is_finite ? ExitCode::done : ExitCode::non_finite);
 }
 

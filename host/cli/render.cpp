@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
-#include <optional>
+#include <functional>
 #include <string>
 #include <system_error>
+#include <thread>
+#include <tuple>
 #include <utility>
-#include <vector>
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/base/text.h"
-#include "host/cli/batch_list.h"
-#include "host/cli/render_steps.h"
-#include "host/image/image_error.h"
-#include "host/image/output_path.h"
-#include "host/image/picture_io.h"
+#include "host/cli/render_pictures.h"
 #include "host/process/drivers.h"
 #include "host/process/stop_signal.h"
 #include "host/render/stopwatch.h"
@@ -27,93 +22,63 @@ namespace rt {
 
 namespace {
 
-/// The reference picture, read before the render takes hours and perhaps overwrites it.
-std::optional<Picture> load_reference(const RenderOptions& options, const Scene& scene) {
-    if (options.reference.empty()) return std::nullopt;
-    Picture reference = read_picture(options.reference);
-    const int width = options.crop ? options.crop->width : scene.width;
-    const int height = options.crop ? options.crop->height : scene.height;
-    if (reference.width == width && reference.height == height && reference.channels == 3) {
-        if (const std::size_t count = count_non_finite(reference); count > 0) {
-            const auto [x, y] = first_non_finite(reference);
-            throw Error(
-                ExitCode::input,
-                fmt::format("{}: {} not finite, the first at {},{}; use a reference "
-                            "without NaN and infinities",
-                            options.reference, counted(count, "pixel is", "pixels are"), x, y));
-        }
-        return reference;
-    }
-    throw Error(ExitCode::input,
-                fmt::format("{}: has {}x{} pixels and {}, but the picture will "
-                            "have {}x{} and 3; adjust --size or --crop",
-                            options.reference, reference.width, reference.height,
-                            counted(reference.channels, "channel"), width, height));
+constexpr std::chrono::milliseconds look_interval(100);
+
+FileStates states_of(FileStates files) {
+    for (auto& [file, state] : files) state = state_of(file);
+    return files;
 }
 
-/// `kept`: viewers that stay open for the next picture; null: they wait to be closed.
-int render_scene(RenderOptions options, double seconds_before_main, LivePicture* kept) {
-    const Stopwatch total;
-    start_timeout(options);
-    check_output(options);
-    const std::vector<std::string> inputs{options.scene, options.reference};
-    check_output_is_no_input(options.output, inputs);
-    check_aov_files(options, inputs);
-    choose_journal(options);
-    auto devices = start_finding_devices(options);
-    Stopwatch watch;
-    const Scene scene = scene_to_render(options);
-    check_aov_files(options, scene.model_files);
-    const double load_seconds = watch.lap();
-    const std::optional<Picture> reference = load_reference(options, scene);
-    const double reference_seconds = watch.lap();
-    say_unsaved(options);
-    const auto own = kept == nullptr ? make_live_picture(options) : nullptr;
-    LivePicture* const live = kept == nullptr ? own.get() : kept;
-    RenderConsole console(options, live);
-    RenderedPicture rendered =
-        render_picture(scene, options, std::move(devices), console.events(), stop_flag());
-    RenderStats& stats = rendered.stats;
-    note_failed_device(stats, options);
-    stats.scene.path = options.scene;
-    stats.phases.start = seconds_before_main;
-    stats.phases.load = load_seconds;
-    watch.lap();
-    const std::string path = save_picture(rendered, options);
-    stats.phases.write = watch.seconds();
-    stats.phases.total = seconds_before_main + total.seconds() - reference_seconds;
-    if (live != nullptr) live->finish(rendered.picture);
-    const auto pixels =
-        static_cast<std::size_t>(stats.picture.region.width) * stats.picture.region.height;
-    if (reference && stats.non_finite < pixels) {
-        stats.error = image_error(rendered.picture, *reference);
-    }
-    print_results(stats, options);
-    const bool has_aovs = write_aovs(scene, stats, options);
-    int status = has_aovs ? verdict(rendered, options, path) : exit_code_of_stop(stop_flag());
-    if (status == 0 && options.expected_hash.value_or(stats.image_hash) != stats.image_hash) {
-        print_note(fmt::format("the picture's hash is {}, expected {}", hash_text(stats.image_hash),
-                               hash_text(*options.expected_hash)));
-        status = static_cast<int>(ExitCode::different);
-    }
-    if (own) wait_for_viewers(*own);
-    return status;
+/// Whether another scene may help.
+bool concerns_scene(const Error& error) {
+    const ExitCode code = error.exit_code();
+    return code != ExitCode::usage && code != ExitCode::output && code != ExitCode::device;
 }
 
-/// Renders again and again, in the same viewers, until the window is closed.
+/// Waits until `is_over`, or a file differs from `before` and has been left alone for a moment: an
+/// editor may still be writing it.
+void await_change(const std::string& scene, const FileStates& before,
+                  const std::function<bool()>& is_over) {
+    FileStates last = before;
+    while (stop_flag() == 0 && !is_over()) {
+        std::this_thread::sleep_for(look_interval);
+        FileStates now = states_of(last);
+        if (now != before && now == last && std::get<1>(now.at(scene)) > 0) return;
+        last = std::move(now);
+    }
+}
+
+/// Renders again, in the same viewers, whenever the scene's file or one of its models or their
+/// material libraries changes, until the window is closed, with exit status 0, or a stop signal
+/// comes, with the signal's; reports errors on stderr.
 int render_and_watch(const RenderOptions& options, double seconds_before_main) {
+    const std::string& scene = options.scene;
     const auto live = make_live_picture(options);
-    const auto render = [&] {
-        return render_scene(options, std::exchange(seconds_before_main, 0.0), live.get());
-    };
     const auto is_over = [&] { return options.view.window && live->is_over(); };
-    return watch_scene(options.scene, options.quiet, render, is_over);
+    FileStates files{{scene, {}}};
+    for (bool is_first = true; stop_flag() == 0 && !is_over(); is_first = false) {
+        files = states_of(files);
+        take_asked_files();
+        try {
+            render_pictures(options, std::exchange(seconds_before_main, 0.0), live.get());
+        } catch (const Error& error) {
+            if (is_first && !concerns_scene(error)) throw;
+            watch_worker("");
+            print_error(error.what());
+        }
+        if (stop_flag() != 0 || is_over()) break;
+        if (FileStates asked = take_asked_files(); asked.contains(scene)) files = std::move(asked);
+        const bool was_quiet = stop_quietly(true);  // nothing is left to save
+        if (!options.quiet) print_note("waiting for " + scene + " to change");
+        await_change(scene, files, is_over);
+        stop_quietly(was_quiet);
+    }
+    return stop_flag() == 0 ? 0 : exit_code_of_stop(stop_flag());
 }
 
 int render_here(const RenderOptions& options, double seconds_before_main) {
-    if (options.is_batch()) return render_batch(options);
     if (options.watch) return render_and_watch(options, seconds_before_main);
-    return render_scene(options, seconds_before_main, nullptr);
+    return render_pictures(options, options.is_batch() ? 0 : seconds_before_main, nullptr);
 }
 
 /// When the picture's journal was last written; the epoch if there is none.

@@ -27,7 +27,7 @@ inline const char* to_string(Aov aov) { return name_of(aov_names, aov); }
 enum class StatsFormat { summary, text, json };
 enum class ProgressMode { automatic, bar, plain, json, none };
 
-/// A picture of a batch.
+/// A picture to be rendered.
 struct BatchItem {
     std::string where;  ///< "list.txt:3: ", for messages; empty: the command line
     std::string scene;
@@ -43,7 +43,7 @@ struct RenderOptions : RenderSettings {
     std::vector<std::string> scenes;      ///< all of them, if there are several
     std::string batch;                    ///< a file that names scenes, "-": stdin; empty: none
     std::vector<int> frames;              ///< of the scene's camera path; empty: the scene as it is
-    std::vector<BatchItem> items;         ///< the pictures that these name, if they are several
+    std::vector<BatchItem> items;         ///< the pictures that these name
     std::string device;                   ///< comma-separated list; empty: the best available
     std::string reference;                ///< empty: none
     std::optional<std::uint64_t> expected_hash;  ///< of the picture

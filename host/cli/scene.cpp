@@ -6,7 +6,7 @@
 #include "host/base/console.h"
 #include "host/base/error.h"
 #include "host/cli/options.h"
-#include "host/cli/render_steps.h"
+#include "host/cli/render_pictures.h"
 #include "host/cli/verb.h"
 #include "host/flatten/flat_scene.h"
 #include "host/print/print_stats.h"

@@ -195,7 +195,7 @@ GUARDS = [
         ("host/stress/reference.cpp", "std::isnan(change.x + change.y + change.z)", "false"),
     ], [("host_stress_test", "StressJudge.*")]),
     Guard("pictures are searched for NaN: render", [
-        ("host/cli/render_steps.cpp", "if (count == 0) return false;", "if (count + 1 > 0) return "
+        ("host/cli/save_picture.cpp", "if (count == 0) return false;", "if (count + 1 > 0) return "
          "false;"),
     ], [("cli", "render_cases.NonFinite")]),
     Guard("triangle: the normal of a thin one without cancellation", [
