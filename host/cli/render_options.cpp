@@ -51,7 +51,6 @@ bool is_tev_address(const std::string& text) {
 
 void add_view_options(Verb& verb, ViewSettings& view) {
     view.terminal.kind = environment("TERM");
-    view.terminal.colors = environment("COLORTERM");
     view.terminal.without_colors = !environment("NO_COLOR").empty();
     verb.flag("--preview", view.preview, "show the picture in the terminal while it renders");
     verb.flag("--show", view.window,

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <clocale>
 #include <cmath>
 #include <cstdio>
@@ -29,22 +28,9 @@ bool is_utf8() {
     return result;
 }
 
-/// Brightness levels of the cube of xterm's colors 16 to 231.
-constexpr std::array<int, 6> xterm_levels{0, 95, 135, 175, 215, 255};
-
-int nearest_level(int value) {
-    int best = 0;
-    for (int i = 1; i < 6; ++i) {
-        if (std::abs(xterm_levels[i] - value) < std::abs(xterm_levels[best] - value)) best = i;
-    }
-    return best;
-}
-
-/// "38;2;R;G;B" or "38;5;N"; 48 for what lies behind.
-std::string color_code(int layer, const std::uint8_t* rgb, bool true_color) {
-    if (true_color) return fmt::format("{};2;{};{};{}", layer, rgb[0], rgb[1], rgb[2]);
-    const int cube = 36 * nearest_level(rgb[0]) + 6 * nearest_level(rgb[1]) + nearest_level(rgb[2]);
-    return fmt::format("{};5;{}", layer, 16 + cube);
+/// "38;2;R;G;B"; 48 for what lies behind.
+std::string color_code(int layer, const std::uint8_t* rgb) {
+    return fmt::format("{};2;{};{};{}", layer, rgb[0], rgb[1], rgb[2]);
 }
 
 /// Downsamples, each pixel the mean of those that it covers; 1 x 1 at least.
@@ -75,15 +61,15 @@ Picture shrink(const Picture& picture, int width, int height) {
 }
 
 /// Rows that end in "\n". Under an odd last row is the terminal's background.
-std::string half_blocks(std::span<const std::uint8_t> rgb, int width, bool true_color) {
+std::string half_blocks(std::span<const std::uint8_t> rgb, int width) {
     const std::size_t row = 3 * static_cast<std::size_t>(width);
     std::string text;
     for (std::size_t top = 0; top < rgb.size(); top += 2 * row) {
         const bool has_lower = top + row < rgb.size();
         std::string before;
         for (std::size_t x = 0; x < row; x += 3) {
-            std::string code = color_code(38, &rgb[top + x], true_color);
-            if (has_lower) code += ";" + color_code(48, &rgb[top + row + x], true_color);
+            std::string code = color_code(38, &rgb[top + x]);
+            if (has_lower) code += ";" + color_code(48, &rgb[top + row + x]);
             if (code != before) text += "\x1b[" + code + "m";
             text += "▀";
             before = std::move(code);
@@ -108,11 +94,6 @@ bool has_half_blocks(const TerminalNames& names) {
     return !names.kind.empty() && names.kind != "dumb" && !names.without_colors && is_utf8();
 }
 
-TerminalViewer::TerminalViewer(const TerminalNames& names, Encoding encoding)
-    : has_true_color_(names.colors == "truecolor" || names.colors == "24bit" ||
-                      names.kind.ends_with("-direct")),
-      encoding_(encoding) {}
-
 void TerminalViewer::begin(int width, int height) {
     const TerminalSize size = terminal_size();
     const double room = 2.0 * std::max(size.rows - lines_below, 1);
@@ -125,8 +106,7 @@ void TerminalViewer::begin(int width, int height) {
 void TerminalViewer::draw(const Picture& picture) {
     std::string text;
     if (std::exchange(is_drawn_, true)) text = fmt::format("\x1b[{}A\r", (height_ + 1) / 2);
-    text += half_blocks(encode_8bit(shrink(picture, width_, height_), encoding_), width_,
-                        has_true_color_);
+    text += half_blocks(encode_8bit(shrink(picture, width_, height_), encoding_), width_);
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }

@@ -19,7 +19,7 @@ bool has_half_blocks(const TerminalNames& names);
 /// fit but never up, redrawing it in the same place.
 class TerminalViewer : public Viewer {
    public:
-    TerminalViewer(const TerminalNames& names, Encoding encoding);
+    explicit TerminalViewer(Encoding encoding) : encoding_(encoding) {}
 
     void begin(int width, int height) override;
     void update(const Picture& picture, std::span<const Rect>) override { draw(picture); }
@@ -28,7 +28,6 @@ class TerminalViewer : public Viewer {
    private:
     void draw(const Picture& picture);
 
-    const bool has_true_color_;  ///< 24 bits; else xterm's 256 colors
     const Encoding encoding_;
     int width_ = 0, height_ = 0;  ///< pixels that are drawn
     bool is_drawn_ = false;

@@ -40,7 +40,7 @@ std::unique_ptr<Viewer> make_preview(const TerminalNames& names, Encoding encodi
     } else if (!has_half_blocks(names)) {
         say("no preview: the terminal does not support colors or UTF-8");
     } else {
-        return std::make_unique<TerminalViewer>(names, encoding);
+        return std::make_unique<TerminalViewer>(encoding);
     }
     return nullptr;
 }

@@ -46,7 +46,6 @@ struct TevAddress {
 /// What the environment says about the terminal.
 struct TerminalNames {
     std::string kind;             ///< TERM
-    std::string colors;           ///< COLORTERM
     bool without_colors = false;  ///< NO_COLOR
 };
 

@@ -17,7 +17,7 @@ from harness import CliTest, scene_path
 from pictures import read_pfm, read_png
 from program import HANG_LIMIT
 
-UTF8 = {"TERM": "xterm-256color", "LC_ALL": "C.UTF-8", "COLORTERM": "truecolor"}
+UTF8 = {"TERM": "xterm-256color", "LC_ALL": "C.UTF-8"}
 BLOCK = "▀".encode()
 TAKES_A_WHILE = ["--size", "300", "--aa", "grid:8", "--lanes", "1", "--tile", "30"]
 
@@ -56,13 +56,6 @@ class Preview(CliTest):
         means = read_png(self.folder / "out.png").reshape(20, 5, 20, 5, 3).mean(axis=(1, 3))
         for x, y in [(0, 0), (7, 12), (19, 19)]:
             self.assertLessEqual(abs(decoded_half_blocks(text)[y, x] - means[y, x]).max(), 1)
-
-    def test_256_colors_where_the_terminal_has_no_more(self):
-        env = dict(UTF8)
-        del env["COLORTERM"]
-        text = self.preview("--preview", "--size", "8", env=env)
-        self.assertIn(b"38;5;", text)
-        self.assertNotIn(b"38;2;", text)
 
     def test_it_is_drawn_again_at_the_same_place_as_tiles_finish(self):
         text = self.preview("--preview", *TAKES_A_WHILE, rows=12)
