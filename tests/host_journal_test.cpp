@@ -226,24 +226,6 @@ TEST_F(Journals, CreatedByAnotherProcessAreLeftToIt) {
     EXPECT_EQ(bytes_of("p.mbj"), bytes);
 }
 
-TEST_F(Journals, MakeRoomForThePicture) {
-    render_shares(small("grid:2"), "0/2", path("p.mbj"));
-    const std::string bytes = bytes_of("p.mbj");
-    JournalFile file(path("p.mbj"));
-    file.read([](JournalReader& reader) {
-        while (reader.next()) {
-        }
-    });
-    const auto fail = [&] {
-        EXPECT_FALSE(std::filesystem::exists(path("p.mbj")));
-        throw Error(ExitCode::output, "still full");
-    };
-    EXPECT_THROW(file.make_room(fail), Error);
-    EXPECT_EQ(bytes_of("p.mbj"), bytes);
-    file.make_room([] {});
-    EXPECT_FALSE(std::filesystem::exists(path("p.mbj")));
-}
-
 TEST_F(Journals, MergeRefusesWhatDiffers) {
     const RenderSettings settings = small("grid:2");
     render_shares(settings, "0/2", path("a.mbj"));

@@ -129,17 +129,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
         metadata.emplace_back(partial_mark, share_done(stats));
     }
     const StopsAtOnce may_wait_for_a_reader(find_output_destination(path).in_place);
-    const auto write = [&] {
-        write_picture(path, rendered.picture, options.encoding, metadata, options.format);
-    };
-    try {
-        write();
-    } catch (const DiskFull&) {
-        if (!stats.complete() || !rendered.journal || !rendered.journal->exists()) throw;
-        print_note(
-            fmt::format("the disk is full; replacing {} with {}", rendered.journal->path(), path));
-        rendered.journal->make_room(write);
-    }
+    write_picture(path, rendered.picture, options.encoding, metadata, options.format);
     if (!stats.complete()) return path;
     if (rendered.journal) rendered.journal->remove();
     remove_partial(options.output, metadata);

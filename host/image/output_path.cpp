@@ -62,10 +62,9 @@ std::optional<fs::path> follow_links(const std::string& path) {
 }  // namespace
 
 void fail_to_write(const std::string& path, int error) {
-    const std::string what =
-        path + ": cannot write: " + std::generic_category().message(error) + "; " + advice(error);
-    if (error == ENOSPC || error == EDQUOT) throw DiskFull(ExitCode::output, what);
-    throw Error(ExitCode::output, what);
+    throw Error(
+        ExitCode::output,
+        path + ": cannot write: " + std::generic_category().message(error) + "; " + advice(error));
 }
 
 fs::path directory_of(const fs::path& file) {

@@ -31,12 +31,7 @@ OutputDestination find_output_destination(const std::string& path);
 /// "." for a bare name.
 std::filesystem::path directory_of(const std::filesystem::path& file);
 
-/// The disk, or our share of it, is full.
-struct DiskFull : Error {
-    using Error::Error;
-};
-
-/// Throws Error(ExitCode::output) "path: cannot write: reason; what to do", or DiskFull.
+/// Throws Error(ExitCode::output) "path: cannot write: reason; what to do".
 [[noreturn]] void fail_to_write(const std::string& path, int error);
 
 /// Throws the Error that write_file_atomically would throw before writing: the directory is missing

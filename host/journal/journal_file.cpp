@@ -167,21 +167,6 @@ void JournalFile::remove() {
     file_ = FileDescriptor();
 }
 
-void JournalFile::make_room(const std::function<void()>& work) {
-    std::vector<std::byte> kept(end_);
-    const ssize_t got = ::pread(file_.number(), kept.data(), kept.size(), 0);
-    if (got != static_cast<ssize_t>(kept.size())) return work();
-    remove();
-    try {
-        work();
-    } catch (const Error&) {
-        failure_.clear();
-        end_ = 0;
-        append(kept);
-        throw;
-    }
-}
-
 template <typename T>
 JournalKeeper<T>::JournalKeeper(JournalFile& file, const JournalWriterInfo& writer,
                                 const Film<T>& film, const Rect& shown, double delay, bool claims,

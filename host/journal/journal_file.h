@@ -54,10 +54,6 @@ class JournalFile {
     /// Removes the file, unless it holds another picture: restarted, and nothing written since.
     void remove();
 
-    /// Removes the file while `work` needs its space on the disk; puts it back if that throws
-    /// Error.
-    void make_room(const std::function<void()>& work);
-
     /// Stops writing and stores the reason.
     void give_up(const std::string& why) { failure_ = path_ + ": " + why; }
 
