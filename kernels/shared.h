@@ -203,6 +203,7 @@ enum { RT_SAMPLES_GRID = 0, RT_SAMPLES_SOBOL = 1 };
 // Reconstruction filters (kernels/sampling.cl).
 enum { RT_FILTER_BOX = 0, RT_FILTER_TENT = 1, RT_FILTER_GAUSSIAN = 2, RT_FILTER_MITCHELL = 3 };
 
+// Structs without padding have one layout, so that a wrong one fails to build wherever it is.
 RT_STATIC_ASSERT(sizeof(Packed3) == 3 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Index) == sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Sphere) == 12 * sizeof(Real));
@@ -214,5 +215,6 @@ RT_STATIC_ASSERT(sizeof(Light) == 8 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(BvhNode) == 8 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(LaunchParams) == 48 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(Tile) == 8 * sizeof(Real));
+RT_STATIC_ASSERT(sizeof(RayCounts) == 32);
 RT_STATIC_ASSERT(sizeof(RayQuery) == 12 * sizeof(Real));
 RT_STATIC_ASSERT(sizeof(RayAnswer) == 16 * sizeof(Real));

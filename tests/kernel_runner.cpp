@@ -132,7 +132,7 @@ class Recorder {
     void add(const ProbeRecord& launch) {
         const bool has_scene = launch.has_scene();
         const std::size_t most = has_scene ? 24 : 64;
-        ProbeRecord record = first_items(launch, launch.function == "layout" ? launch.count : most);
+        ProbeRecord record = first_items(launch, most);
         auto& [items, records] = launches_[{has_scene, launch.function, launch.is_double}];
         std::size_t bytes = 0;
         for (const ProbeArray& input : record.inputs) bytes += input.bytes.size();

@@ -89,9 +89,8 @@ struct WrongFunction {
     std::string why;
 };
 
-/// Probes of the device's own arithmetic and layout, for which the kernels call no function.
-constexpr const char* own_probes[] = {"layout",      "product", "quotient",
-                                      "square_root", "fused",   "shifted"};
+/// Probes of the device's own arithmetic, for which the kernels call no function.
+constexpr const char* own_probes[] = {"product", "quotient", "square_root", "fused", "shifted"};
 
 /// Functions one by one.
 class FunctionBlame {

@@ -14,15 +14,6 @@ namespace rt {
 
 namespace {
 
-/// The entries of the probe `layout`.
-constexpr const char* layout_names[] = {
-#define RT_STRUCT(type) "the size of " #type,
-#define RT_FIELD(type, member) #type "." #member,
-#include "kernels/probes/layout_fields.h"
-#undef RT_STRUCT
-#undef RT_FIELD
-};
-
 template <typename T>
 T number_at(const ProbeArray& array, std::size_t byte) {
     T x;
@@ -111,9 +102,6 @@ std::string difference(const ProbeRecord& record, const ProbeArray& got, const P
     }
     if (wrong == 0) return "";
     const std::string both = item_text<T>(got, first) + " instead of" + item_text<T>(right, first);
-    if (record.function == "layout") {
-        return fmt::format("{} is elsewhere than in C++:{}", layout_names[first], both);
-    }
     return fmt::format("{} of {} items differ{}; item {}:{}", wrong, record.count,
                        right.holds_numbers ? error_text<T>(record, got, right) : "", first, both);
 }

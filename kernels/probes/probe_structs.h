@@ -44,10 +44,6 @@ typedef struct {
     Real sx, sy, sz;
 } ProbeShear;
 
-typedef struct {
-    ulong offset, bytes;
-} ProbeField;
-
 // Initial values of lanes that are then filled one by one.
 
 Hit no_hit() {

@@ -39,27 +39,6 @@
         PUT_##result(out, function(A(a), B(b), C(c), D(d)));                                    \
     }
 
-// shared.h: offset and size of entry i of kernels/probes/layout_fields.h
-
-__kernel void probe_layout(PROBE_ITEMS, __global ProbeField* out) {
-    PROBE_PACKET;
-    PROBE_EACH_ITEM {
-        size_t n = 0;
-#define RT_STRUCT(type)              \
-    if (n++ == i) {                  \
-        out[i].offset = 0;           \
-        out[i].bytes = sizeof(type); \
-    }
-#define RT_FIELD(type, member)                                           \
-    if (n++ == i) {                                                      \
-        type object;                                                     \
-        out[i].offset = (ulong)((char*)&object.member - (char*)&object); \
-        out[i].bytes = sizeof(object.member);                            \
-    }
-#include "kernels/probes/layout_fields.h"
-    }
-}
-
 // bits.cl, power.cl
 
 PROBE1(log2_tail, REALS, REALS)

@@ -35,7 +35,7 @@ FAULTS = {
     "fmax returns NaN": ("return a > b ? a : b;", "return a <= b ? b : a;", "the function max_of"),
     "a shift off by one": ("v ^= v >> 11;", "v ^= v >> 12;", "the function hash_bits"),
     "a field elsewhere": ("    Real radius;\n    Index material;", "    Index material;\n    Real radius;",
-                          "the function layout"),
+                          "the function intersect_sphere"),
     "one lane of 16": ("real3 negate3(real3 v) { ", "real3 negate3(real3 v) {\n#if RT_LANES == 16\n"
                        "    v.x.sf += (Real)1;\n#endif\n    ", "the function negate3"),
     "only with glass": (ITEM, ITEM.replace("\n", "\n    if (RT_HAS_GLASS) {\n" + BRIGHTER + "    }\n", 1),

@@ -17,7 +17,7 @@ CHECKS = {"fma undone": ("dot3", ""), "dot product in another order": ("dot3", "
           "square root an ulp off": ("square_root", r"by up to [12]\.\d+ ulps from the exact value"),
           "a dropped rounding": ("difference_of_products", ""), "fmax returns NaN": ("max_of", " differ, by far; "),
           "a shift off by one": ("hash_bits", r"items differ; item \d+: 0x[0-9a-f]+ instead of 0x[0-9a-f]+$"),
-          "a field elsewhere": ("layout", "")}
+          "a field elsewhere": ("intersect_sphere", "")}
 ALL = bool(os.environ.get("MIRRORBALL_ALL_FAULTS"))
 
 
