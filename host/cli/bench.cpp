@@ -10,7 +10,6 @@
 #include "host/image/output_path.h"
 #include "host/measure/timing.h"
 #include "host/print/print_run.h"
-#include "host/process/stop_signal.h"
 
 namespace rt {
 
@@ -23,14 +22,9 @@ struct BenchCall : BenchOptions {
     double max_regress = 0.05;  ///< allowed loss of a row, as a share of the old median
 };
 
-template <typename Row>
-void say_bad_rows(const std::vector<Row>& rows) {
-    for (const Row& row : rows) {
-        if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
-        print_note(fmt::format("{} ({}){}: {}: {}", key_of(row.asked), row.asked.device_name,
-                               row.asked.change.empty() ? "" : ", " + row.asked.change,
-                               to_string(row.verdict), row.why));
-    }
+std::string row_name(const BenchCase& asked) {
+    return fmt::format("{} ({}){}", key_of(asked), asked.device_name,
+                       asked.change.empty() ? "" : ", " + asked.change);
 }
 
 /// Whether any row has become slower; reports each on stderr.
@@ -58,27 +52,12 @@ int run_bench(const BenchCall& options) {
     if (!options.results.take_stdout()) print_result(bench_text(result));
     write_result(json, [&] { return result_json("bench", result); });
     write_result(csv, [&] { return bench_csv(result); });
-    say_bad_rows(result.rows);
-    say_bad_rows(result.ablation);
-    if (result.interrupted) return 128 + stop_flag();
-    const bool slower = !options.baseline.empty() &&
+    const int status = options.ablate
+                           ? report_bad_rows(result.ablation, result.interrupted, row_name)
+                           : report_bad_rows(result.rows, result.interrupted, row_name);
+    const bool slower = !options.baseline.empty() && !result.interrupted &&
                         has_regressed(result, baseline, options.max_regress, options.quiet);
-    if (slower || result.has_any(Verdict::wrong)) return static_cast<int>(ExitCode::different);
-    return static_cast<int>(result.has_any(Verdict::failed) ? ExitCode::device : ExitCode::done);
-}
-
-void parse_schedules(const std::string& text, BenchOptions& bench) {
-    bench.schedules.clear();
-    bench.scalar = false;
-    for (const std::string& part : split_list(text)) {
-        if (part == "scalar") {
-            bench.scalar = true;
-        } else if (const auto schedule = value_of(schedule_names, part)) {
-            bench.schedules.push_back(*schedule);
-        } else {
-            refuse_choice(part, {"tiles", "buffers", "scalar"});
-        }
-    }
+    return slower ? static_cast<int>(ExitCode::different) : status;
 }
 
 /// Defaults of an ablation: one picture on every device.
@@ -95,6 +74,7 @@ void add_bench(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<BenchCall>();
     BenchCall& bench = *asked;
     bench.aa = parse_aa_list("none,grid:2");
+    for (const auto& way : threads_ways) bench.ways.push_back(way.value);
     Verb& verb = program.verb("bench", "benchmark OpenCL devices against pthreads");
     verb.arguments("SCENE", bench.scenes, "scene files (default: the built-in cornell-box)", false);
     verb.value("--sizes", "LIST", bench.sizes, list_of(parse_size),
@@ -105,10 +85,9 @@ void add_bench(Verb& program, Invocation& call) {
                "time 'threads' with 1 to N threads (default: all cores)");
     add_precisions(verb, bench.precisions);
     add_light_options(verb, bench.light);
-    verb.option("--schedules", "LIST",
-                "pthreads schedules: tiles, buffers, scalar (tiles, one ray at a time; with one "
-                "thread and with all threads) (default: all)",
-                [&](const std::string& text) { parse_schedules(text, bench); });
+    verb.value("--schedules", "LIST", bench.ways, set_of(one_of(threads_ways)),
+               "pthreads schedules: tiles, buffers, scalar (tiles, one ray at a time; with one "
+               "thread and with all threads) (default: all)");
     add_repeats(verb, bench.repeats, 1);
     verb.value("--baseline", "FILE", bench.baseline,
                "compare with an earlier --json file: exit 1 if a row has become slower");

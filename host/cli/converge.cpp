@@ -11,7 +11,6 @@
 #include "host/image/picture_io.h"
 #include "host/measure/timing.h"
 #include "host/print/print_run.h"
-#include "host/process/stop_signal.h"
 
 namespace rt {
 
@@ -22,21 +21,6 @@ struct ConvergeCall : ConvergeOptions {
     ResultFiles results;
 };
 
-/// Reports the points without a result. Returns the exit status.
-int verdict(const ConvergeResult& result) {
-    bool wrong = false, failed = false;
-    for (const ConvergePoint& point : result.points) {
-        if (point.verdict != Verdict::wrong && point.verdict != Verdict::failed) continue;
-        (point.verdict == Verdict::wrong ? wrong : failed) = true;
-        print_note(fmt::format("{} {}: {}: {}", point.asked.device_name,
-                               to_string(point.asked.picture.aa), to_string(point.verdict),
-                               point.why));
-    }
-    if (result.interrupted) return 128 + stop_flag();
-    if (wrong) return static_cast<int>(ExitCode::different);
-    return static_cast<int>(failed ? ExitCode::device : ExitCode::done);
-}
-
 int run_converge(const ConvergeCall& options) {
     check_result_path(options.results.json, json_start("converge"));
     check_result_path(options.results.csv, run_csv_header());
@@ -44,11 +28,12 @@ int run_converge(const ConvergeCall& options) {
     check_outputs_differ({options.results.json, options.results.csv, options.reference});
     const FreshKernelCache kernels;
     const ConvergeResult result = measure_converge(options);
-    if (!options.quiet) print_notes(result.notes);
     if (!options.results.take_stdout()) print_result(converge_text(result));
     write_result(options.results.json, [&] { return result_json("converge", result); });
     write_result(options.results.csv, [&] { return converge_csv(result); });
-    return verdict(result);
+    return report_bad_rows(result.points, result.interrupted, [](const ConvergeCase& asked) {
+        return asked.device_name + " " + to_string(asked.picture.aa);
+    });
 }
 
 constexpr const char* default_sweep =

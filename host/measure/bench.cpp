@@ -80,11 +80,6 @@ void BenchResult::judge() {
     }
 }
 
-bool BenchResult::has_any(Verdict verdict) const {
-    return std::ranges::count(rows, verdict, &BenchRow::verdict) > 0 ||
-           std::ranges::count(ablation, verdict, &AblationRow::verdict) > 0;
-}
-
 std::string key_of(const BenchCase& asked) {
     const PictureSpec& picture = asked.picture;
     return fmt::format("{} {}x{} {} {} {} {}{}{}", hash_text(asked.scene.hash), picture.width,

@@ -127,9 +127,6 @@ struct BenchResult {
     /// Computes the figures of all rows, and marks rows of the ablation whose picture differs from
     /// the baseline's as wrong.
     void judge();
-
-    /// Whether any row has this verdict.
-    bool has_any(Verdict verdict) const;
 };
 
 template <typename A, Of<BenchResult> X>
@@ -180,6 +177,18 @@ void check_baseline(const std::vector<BenchCase>& rows, const Baseline& baseline
 std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,
                                     double max_regress);
 
+/// How threads render a row's picture.
+struct ThreadsWay {
+    Schedule schedule = Schedule::tiles;
+    bool is_scalar = false;  ///< without vectors: one ray at a time
+
+    bool operator==(const ThreadsWay&) const = default;
+};
+
+inline constexpr Named<ThreadsWay> threads_ways[] = {{"tiles", {Schedule::tiles, false}},
+                                                     {"buffers", {Schedule::buffers, false}},
+                                                     {"scalar", {Schedule::tiles, true}}};
+
 /// What to measure.
 struct BenchOptions {
     std::vector<std::string> scenes;  ///< empty: the built-in scene
@@ -188,8 +197,7 @@ struct BenchOptions {
     std::vector<std::string> devices{"all"};
     int threads = 0;  ///< "threads" runs with 1 to this many; 0: all cores
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
-    std::vector<Schedule> schedules{Schedule::tiles, Schedule::buffers};
-    bool scalar = true;  ///< also threads without vectors: one ray at a time
+    std::vector<ThreadsWay> ways;  ///< of threads
     LightOverrides light;
     int repeats = 5;      ///< not counting the warm-up
     bool ablate = false;  ///< measure what leaving features out saves, instead of devices

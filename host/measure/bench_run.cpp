@@ -5,7 +5,6 @@
 #include <deque>
 #include <functional>
 #include <map>
-#include <set>
 
 #include "host/base/console.h"
 #include "host/base/parallel.h"
@@ -95,12 +94,6 @@ std::vector<Change> changes_to_measure(const Scene& scene, const DeviceChoice& d
     return changes;
 }
 
-struct LoadedScene {
-    SceneId id;
-    Scene scene;
-    double load_seconds = 0;
-};
-
 /// The rows of one bench, and the scenes and references they point to.
 class Plan {
    public:
@@ -108,21 +101,17 @@ class Plan {
         : options_(options), devices_(listed_devices(options.devices)) {
         if (options.scenes.empty()) {
             say("no scene given: using the built-in cornell-box");
-            add_scene(default_scene_path, load_default_scene(options.light), 0);
+            scenes_.push_back(load_timed_scene("", options.light, options.quiet));
         }
         for (const std::string& path : options.scenes) {
-            const Stopwatch watch;
-            Scene scene = load_scene(path, options.light);
-            const double seconds = watch.seconds();
-            if (!options.quiet) print_notes(scene.notes);
-            add_scene(path, std::move(scene), seconds);
+            scenes_.push_back(load_timed_scene(path, options.light, options.quiet));
         }
         say_devices_without_double();
     }
 
     /// Renders the references and lists the rows. False when stopped.
     bool make(BenchResult& result) {
-        for (const LoadedScene& loaded : scenes_) {
+        for (const TimedScene& loaded : scenes_) {
             for (const PictureSize& size : options_.sizes) {
                 for (const AaMode& aa : options_.aa) {
                     RenderSettings picture = timed_settings();
@@ -144,11 +133,6 @@ class Plan {
         if (!options_.quiet) print_note(line);
     }
 
-    void add_scene(const std::string& path, Scene scene, double seconds) {
-        const SceneId id{path, scene.name, scene_hash(scene)};
-        scenes_.push_back({id, std::move(scene), seconds});
-    }
-
     void say_devices_without_double() const {
         if (std::ranges::count(options_.precisions, Precision::float64) == 0) return;
         for (const DeviceChoice& device : devices_) {
@@ -158,7 +142,7 @@ class Plan {
 
     int most_threads() const { return options_.threads > 0 ? options_.threads : available_cores(); }
 
-    bool add_reference(const LoadedScene& loaded, RenderSettings picture, BenchResult& result) {
+    bool add_reference(const TimedScene& loaded, RenderSettings picture, BenchResult& result) {
         picture.precision = Precision::float64;
         picture.estimate = true;
         Scene scene = loaded.scene;
@@ -179,7 +163,7 @@ class Plan {
         return in_float.stats.complete();
     }
 
-    void add_rows(const LoadedScene& loaded, RenderSettings picture) {
+    void add_rows(const TimedScene& loaded, RenderSettings picture) {
         for (const Precision precision : options_.precisions) {
             picture.precision = precision;
             for (const DeviceChoice& device : devices_) {
@@ -195,30 +179,26 @@ class Plan {
         }
     }
 
-    /// threads: 1 to N threads with every schedule; threads:K: only K. Then scalar threads, to show
-    /// what vectors gain. The buffers schedule runs at most one thread per sample of a pixel.
-    void add_threads_rows(const LoadedScene& loaded, RenderSettings picture,
+    /// threads: 1 to N threads with every schedule; threads:K: only K. Scalar threads show what
+    /// vectors gain, with one thread and with all. The buffers schedule runs at most one thread per
+    /// sample of a pixel.
+    void add_threads_rows(const TimedScene& loaded, RenderSettings picture,
                           const DeviceChoice& device) {
         const int first = device.threads > 0 ? device.threads : 1;
         const int last = device.threads > 0 ? device.threads : most_threads();
-        for (const Schedule schedule : options_.schedules) {
+        for (const auto& [schedule, is_scalar] : options_.ways) {
+            picture.schedule = schedule;
+            picture.kernels.lanes = is_scalar ? 1 : 0;
             for (int threads = first; threads <= last; ++threads) {
-                const int running = thread_count({threads, schedule}, picture.aa->samples());
-                if (running < threads) break;
-                picture.schedule = schedule;
+                if (thread_count({threads, schedule}, picture.aa->samples()) < threads) break;
+                if (is_scalar && threads != first && threads != last) continue;
                 add_row(loaded, picture, threads_choice(threads));
             }
-        }
-        if (!options_.scalar) return;
-        picture.schedule = Schedule::tiles;
-        picture.kernels.lanes = 1;
-        for (const int threads : std::set{first, last}) {
-            add_row(loaded, picture, threads_choice(threads));
         }
     }
 
     /// The picture with default settings, then with each change.
-    void add_ablation(const LoadedScene& loaded, const RenderSettings& picture,
+    void add_ablation(const TimedScene& loaded, const RenderSettings& picture,
                       const DeviceChoice& device) {
         DeviceChoice used = device;
         if (device.use_threads && device.threads == 0) used.threads = most_threads();
@@ -232,7 +212,7 @@ class Plan {
         }
     }
 
-    void add_row(const LoadedScene& loaded, const RenderSettings& picture,
+    void add_row(const TimedScene& loaded, const RenderSettings& picture,
                  const DeviceChoice& device, const std::string& change = "") {
         BenchCase& row = asked.emplace_back();
         row.scene = loaded.id;
@@ -246,18 +226,16 @@ class Plan {
             row.schedule = picture.kernels.lanes == 1 ? "scalar" : to_string(picture.schedule);
         }
         TimedCase& timed = cases.emplace_back();
-        timed.scene = &loaded.scene;
+        timed.scene = &loaded;
         timed.reference = &references_.back();
-        timed.path = loaded.id.path;
         timed.device = device;
         timed.settings = picture;
         timed.expected_hash = hashes_.at(picture.precision);
-        timed.load_seconds = loaded.load_seconds;
     }
 
     const BenchOptions& options_;
     const std::vector<DeviceChoice> devices_;
-    std::deque<LoadedScene> scenes_;  // deques: rows point into them
+    std::deque<TimedScene> scenes_;  // deques: rows point into them
     std::deque<Picture> references_;
     PictureSpec spec_;                           ///< of the latest reference
     std::map<Precision, std::uint64_t> hashes_;  ///< of the latest reference, and in float

@@ -147,8 +147,7 @@ void describe(A& a, X& x) {
 struct ConvergeResult {
     double load_before = -1;  ///< see other_load
     SceneId scene;
-    std::vector<std::string> notes;  ///< Scene::notes
-    int width = 0, height = 0;       ///< pixels
+    int width = 0, height = 0;  ///< pixels
     int repeats_asked = 0;
     bool interrupted = false;
     ConvergeReference reference;

@@ -130,53 +130,52 @@ std::vector<SweptDevice> swept_devices(const ConvergeOptions& options) {
     return devices;
 }
 
-/// The points of one device at the precision and math of `picture`, in the order of the sweep.
-void add_points(const ConvergeOptions& options, const std::vector<int>& bounces,
-                const SweptDevice& device, PictureSpec picture,
-                std::vector<ConvergePoint>& points) {
-    for (const int max_bounces : bounces) {
-        for (const AaMode& aa : options.aa) {
-            picture.max_bounces = max_bounces;
-            picture.aa = aa;
-            points.emplace_back().asked = {device.spec(), device.choice.name(), picture};
-        }
-    }
-}
-
-/// Omits double on devices without it and on scalar threads, which only show what vectors gain, and
-/// fast math on threads: it is an OpenCL compiler option.
-std::vector<ConvergePoint> planned_points(const ConvergeOptions& options, const Scene& scene,
-                                          const std::vector<int>& bounces,
-                                          const std::vector<SweptDevice>& devices) {
-    std::vector<ConvergePoint> points;
-    for (const SweptDevice& device : devices) {
-        for (const Precision precision : options.precisions) {
-            if (precision == Precision::float64 &&
-                (!device.choice.has_double() || device.is_scalar))
-                continue;
-            for (const Math math : options.math) {
-                if (math == Math::fast && device.choice.use_threads) continue;
-                PictureSpec picture = picture_spec(scene, {});
-                picture.precision = precision;
-                picture.math = math;
-                add_points(options, bounces, device, picture, points);
+/// The pictures of one device's sweep, in its order. Omits double on devices without it and on
+/// scalar threads, which only show what vectors gain, and fast math on threads: it is an OpenCL
+/// compiler option.
+std::vector<PictureSpec> swept_pictures(const ConvergeOptions& options, const Scene& scene,
+                                        const std::vector<int>& bounces,
+                                        const SweptDevice& device) {
+    const bool can_do_double = device.choice.has_double() && !device.is_scalar;
+    std::vector<PictureSpec> pictures;
+    PictureSpec picture = picture_spec(scene, {});
+    for (const Precision precision : options.precisions) {
+        if (precision == Precision::float64 && !can_do_double) continue;
+        for (const Math math : options.math) {
+            if (math == Math::fast && device.choice.use_threads) continue;
+            picture.precision = precision;
+            picture.math = math;
+            for (const int max_bounces : bounces) {
+                for (const AaMode& aa : options.aa) {
+                    picture.max_bounces = max_bounces;
+                    picture.aa = aa;
+                    pictures.push_back(picture);
+                }
             }
         }
     }
-    return points;
+    return pictures;
 }
 
-TimedCase timed_case(const ConvergeCase& asked, const ConvergeOptions& options,
-                     const std::vector<SweptDevice>& devices) {
-    TimedCase timed;
-    timed.path = options.scene;
-    const SweptDevice& device = *std::ranges::find(devices, asked.device, &SweptDevice::spec);
-    timed.device = device.choice;
-    timed.settings = timed_settings(settings_for(asked.picture));
-    if (device.is_scalar) timed.settings.kernels.lanes = 1;
-    if (device.choice.use_threads && device.choice.threads == 0)
-        timed.settings.threads = options.threads;
-    return timed;
+/// What it takes to time each of the points, which are added to the result.
+std::vector<TimedCase> plan(const ConvergeOptions& options, const TimedScene& scene,
+                            const std::vector<int>& bounces, ConvergeResult& result) {
+    std::vector<TimedCase> cases;
+    for (const SweptDevice& device : swept_devices(options)) {
+        const DeviceChoice& choice = device.choice;
+        for (const PictureSpec& picture : swept_pictures(options, scene.scene, bounces, device)) {
+            result.points.emplace_back().asked = {device.spec(), choice.name(), picture};
+            TimedCase& timed = cases.emplace_back();
+            timed.scene = &scene;
+            timed.device = choice;
+            timed.settings = timed_settings(settings_for(picture));
+            if (device.is_scalar) timed.settings.kernels.lanes = 1;
+            if (choice.use_threads && choice.threads == 0) {
+                timed.settings.threads = options.threads;
+            }
+        }
+    }
+    return cases;
 }
 
 /// A picture as threads compute it, with an estimate of its error; empty if the render was stopped.
@@ -189,28 +188,21 @@ std::optional<RenderStats> picture_of_threads(Scene scene, RenderSettings settin
 }
 
 /// Times the points of the result against the converged picture.
-void time_points(const Scene& scene, double load_seconds, const ConvergedPicture& converged,
-                 const ConvergeOptions& options, const std::vector<SweptDevice>& devices,
-                 ConvergeResult& result) {
-    std::vector<TimedCase> cases;
+void time_points(const ConvergedPicture& converged, const ConvergeOptions& options,
+                 std::vector<TimedCase> cases, ConvergeResult& result) {
     using Key = std::tuple<Precision, int, std::string>;
     std::map<Key, std::optional<RenderStats>> pictures;  ///< every device must give these bits
-    for (ConvergePoint& point : result.points) {
-        TimedCase timed = timed_case(point.asked, options, devices);
-        timed.scene = &scene;
-        timed.reference = &converged.picture;
-        timed.load_seconds = load_seconds;
-        if (point.asked.picture.math == Math::strict) {
-            const PictureSpec& asked = point.asked.picture;
-            const auto [place, is_new] =
-                pictures.try_emplace({asked.precision, asked.max_bounces, to_string(asked.aa)});
-            if (is_new) place->second = picture_of_threads(scene, timed.settings);
-            if (const auto& picture = place->second) {
-                timed.expected_hash = picture->image_hash;
-                point.estimate = picture->estimate;
-            }
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        cases[i].reference = &converged.picture;
+        const PictureSpec& asked = result.points[i].asked.picture;
+        if (asked.math != Math::strict) continue;
+        const auto [place, is_new] =
+            pictures.try_emplace({asked.precision, asked.max_bounces, to_string(asked.aa)});
+        if (is_new) place->second = picture_of_threads(cases[i].scene->scene, cases[i].settings);
+        if (const auto& picture = place->second) {
+            cases[i].expected_hash = picture->image_hash;
+            result.points[i].estimate = picture->estimate;
         }
-        cases.push_back(std::move(timed));
     }
     result.interrupted = !run_rounds(cases, options.repeats, options.quiet);
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -224,19 +216,16 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     ConvergeResult result;
     result.repeats_asked = options.repeats;
     other_load();
-    const Stopwatch watch;
-    Scene scene = load_scene(options.scene, options.light);
-    const double load_seconds = watch.seconds();
+    TimedScene loaded = load_timed_scene(options.scene, options.light, options.quiet);
+    Scene& scene = loaded.scene;
     say_busy(options.quiet);
     if (options.size) set_image_size(scene, options.size->width, options.size->height);
-    result.scene = {options.scene, scene.name, scene_hash(scene)};
-    result.notes = scene.notes;
+    result.scene = loaded.id = {options.scene, scene.name, scene_hash(scene)};
     result.width = scene.width;
     result.height = scene.height;
     std::vector<int> bounces = options.max_bounces;
     if (bounces.empty()) bounces.push_back(scene.max_bounces);
-    const std::vector<SweptDevice> devices = swept_devices(options);
-    result.points = planned_points(options, scene, bounces, devices);
+    std::vector<TimedCase> cases = plan(options, loaded, bounces, result);
     if (result.points.empty()) {
         throw Error(
             ExitCode::usage,
@@ -247,9 +236,7 @@ ConvergeResult measure_converge(const ConvergeOptions& options) {
     const ConvergedPicture converged = converged_picture(scene, options);
     result.reference = converged.about;
     result.interrupted = !converged.complete;
-    if (converged.complete) {
-        time_points(scene, load_seconds, converged, options, devices, result);
-    }
+    if (converged.complete) time_points(converged, options, std::move(cases), result);
     result.summarize();
     result.load_before = other_load();
     return result;

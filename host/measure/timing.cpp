@@ -44,13 +44,13 @@ std::string what_is_wrong(const TimedCase& timed, const RenderStats& run) {
 /// Renders a case once more and keeps the run, unless it was stopped midway.
 void render_once(TimedCase& timed, bool warm_up, const Stopwatch& watch) {
     const double started = watch.seconds();
-    Scene scene = *timed.scene;
+    Scene scene = timed.scene->scene;
     apply_overrides(scene, timed.settings);
     RenderedPicture rendered = render_quietly(scene, timed.settings, timed.device);
     TimedRun run{std::move(rendered.stats), started};
     if (!run.complete()) return;
-    run.scene.path = timed.path;
-    run.phases.load = timed.load_seconds;
+    run.scene.path = timed.scene->id.path;
+    run.phases.load = timed.scene->load_seconds;
     run.phases.total = timed_total(run);
     run.error = image_error(clamped(std::move(rendered.picture)), clamped(*timed.reference));
     timed.why = what_is_wrong(timed, run);
@@ -116,6 +116,15 @@ std::vector<DeviceChoice> listed_devices(const std::vector<std::string>& specs) 
         }
     }
     return devices;
+}
+
+TimedScene load_timed_scene(const std::string& path, const LightOverrides& light, bool quiet) {
+    const Stopwatch watch;
+    Scene scene = path.empty() ? load_default_scene(light) : load_scene(path, light);
+    const double seconds = watch.seconds();
+    if (!quiet) print_notes(scene.notes);
+    const SceneId id{path.empty() ? default_scene_path : path, scene.name, scene_hash(scene)};
+    return {id, std::move(scene), seconds};
 }
 
 RenderSettings timed_settings(RenderSettings settings) {

@@ -15,15 +15,23 @@
 
 namespace rt {
 
+/// A scene as loaded; options override.
+struct TimedScene {
+    SceneId id;
+    Scene scene;
+    double load_seconds = 0;  ///< noted in every run
+};
+
+/// Loads a scene file, the built-in scene for "", and prints its notes unless `quiet`.
+TimedScene load_timed_scene(const std::string& path, const LightOverrides& light, bool quiet);
+
 /// One way to render one picture, to be timed, and the runs once it is.
 struct TimedCase : TimedRuns {
-    const Scene* scene = nullptr;        ///< as loaded; options override
+    const TimedScene* scene = nullptr;
     const Picture* reference = nullptr;  ///< of the same size; errors are relative to it
-    std::string path;                    ///< of the scene's file
     DeviceChoice device;
     RenderSettings settings;
     std::optional<std::uint64_t> expected_hash;  ///< of the picture, in strict arithmetic
-    double load_seconds = 0;                     ///< of the scene file, noted in every run
 };
 
 /// The devices that specs name, without duplicates; "all" means threads and every usable OpenCL

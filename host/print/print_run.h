@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "host/base/console.h"
+#include "host/base/error.h"
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
+#include "host/process/stop_signal.h"
 #include "host/record/record.h"
 #include "host/stress/judge.h"
 
@@ -42,6 +45,21 @@ std::string rounds_text(const std::vector<Row>& rows, int asked, bool interrupte
     const std::string rounds = counted(static_cast<std::size_t>(asked), "round");
     return interrupted ? fmt::format("{} of {} after a warm-up, interrupted", done, rounds)
                        : rounds + " after a warm-up";
+}
+
+/// Reports on stderr the rows that are wrong or failed; `name` gives what a row is called. Returns
+/// the exit status of what measured them.
+template <typename Row, typename Name>
+int report_bad_rows(const std::vector<Row>& rows, bool interrupted, const Name& name) {
+    bool wrong = false, failed = false;
+    for (const Row& row : rows) {
+        if (row.verdict != Verdict::wrong && row.verdict != Verdict::failed) continue;
+        (row.verdict == Verdict::wrong ? wrong : failed) = true;
+        print_note(fmt::format("{}: {}: {}", name(row.asked), to_string(row.verdict), row.why));
+    }
+    if (interrupted) return 128 + stop_flag();
+    if (wrong) return static_cast<int>(ExitCode::different);
+    return static_cast<int>(failed ? ExitCode::device : ExitCode::done);
 }
 
 /// Human-readable tables, at most 100 columns wide.
