@@ -17,7 +17,6 @@
 #include "host/process/worker.h"
 #include "host/render/packet_shape.h"
 #include "host/render/threads_renderer.h"
-#include "host/selftest/reduce_source.h"
 #include "host/selftest/selftest.h"
 
 namespace rt {

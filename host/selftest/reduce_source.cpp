@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/selftest/reduce_source.h"
-
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <string>
 #include <vector>
+
+#include "host/selftest/selftest.h"
 
 namespace rt {
 
