@@ -66,14 +66,6 @@ class CoreFile {
         if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) {
             refuse("it has deep pixels");
         }
-        const exr_attr_chlist_t* channels = nullptr;
-        require(exr_get_channels(context_, part, &channels));
-        for (int c = 0; c < channels->num_channels; ++c) {
-            const exr_attr_chlist_entry_t& channel = channels->entries[c];
-            if (channel.x_sampling != 1 || channel.y_sampling != 1) {
-                refuse("it has subsampled channels");
-            }
-        }
         std::int32_t chunks = 0;
         require(exr_get_chunk_count(context_, part, &chunks));
         constexpr std::uint64_t place_bytes = 8;  // each chunk's offset in the file
@@ -91,36 +83,18 @@ class CoreFile {
     exr_context_t context_ = nullptr;
 };
 
-bool start(int count) {
-    try {
-        Imf::setGlobalThreadCount(count);
-        return true;
-    } catch (const std::exception&) {
-        return false;
-    }
+/// How many threads compress or decompress a picture, which OpenEXR then has: one per core, or
+/// none if it has few rows or the system can start no more.
+int start_threads(int rows) try {
+    constexpr int rows_per_thread = 64;  // four blocks of rows, which are compressed as one
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    const int count = std::min(cores, rows / rows_per_thread);
+    if (count < 2) return 0;
+    Imf::setGlobalThreadCount(count);
+    return count;
+} catch (const std::exception&) {
+    return 0;
 }
-
-/// Runs OpenEXR with one thread per core while a picture is compressed or decompressed; with no
-/// extra threads if it has few rows or the system can start no more.
-class ExrThreads {
-   public:
-    explicit ExrThreads(int rows) {
-        constexpr int rows_per_thread = 64;  // four blocks of rows, which are compressed as one
-        const int cores = static_cast<int>(std::thread::hardware_concurrency());
-        const int count = std::min(cores, rows / rows_per_thread);
-        if (count > 1 && start(count)) count_ = count;
-    }
-    ExrThreads(const ExrThreads&) = delete;
-    ExrThreads& operator=(const ExrThreads&) = delete;
-    ~ExrThreads() {
-        if (count_ > 0) start(0);
-    }
-
-    int count() const { return count_; }
-
-   private:
-    int count_ = 0;
-};
 
 class MemoryStream : public Imf::OStream {
    public:
@@ -170,9 +144,8 @@ std::vector<std::byte> encode_exr(const EncodeRequest& request) {
     // Reserves address space only, so that growing never copies: most files are smaller than this.
     bytes.reserve(sizeof(float) * picture.pixels.size());
     {
-        const ExrThreads threads(picture.height);
         MemoryStream stream(bytes);
-        Imf::OutputFile file(stream, header, threads.count());
+        Imf::OutputFile file(stream, header, start_threads(picture.height));
         file.setFrameBuffer(buffer);
         file.writePixels(picture.height);
     }
@@ -241,8 +214,7 @@ PictureFile decode_exr(const std::string& path, const char* /*format*/, const Ch
     const CoreFile core(path);
     const std::uint64_t file_size = std::filesystem::file_size(path);
     for (int part = 0; part < core.parts(); ++part) core.check(part, file_size);
-    const ExrThreads threads(core.height());
-    Imf::InputFile file(path.c_str(), threads.count());
+    Imf::InputFile file(path.c_str(), start_threads(core.height()));
     const Imath::Box2i window = file.header().dataWindow();
     const auto channels = static_cast<int>(channel_names(file.header()).size());
     PictureFile result{{window.size().x + 1, window.size().y + 1, channels, {}},
