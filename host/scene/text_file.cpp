@@ -127,19 +127,6 @@ bool lies_in(const fs::path& file, const fs::path& root) {
     return std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
 }
 
-/// Opens a path of plain names component by component, following no links: like openat2 with
-/// RESOLVE_BENEATH and RESOLVE_NO_SYMLINKS, but on any kernel. None on failure.
-FileDescriptor open_steps(const fs::path& root, const fs::path& steps) {
-    constexpr int flags = O_RDONLY | O_NOFOLLOW | O_CLOEXEC;
-    FileDescriptor at(open(root.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-    for (auto step = steps.begin(); at && step != steps.end(); ++step) {
-        const bool last = std::next(step) == steps.end();
-        const int kind = last ? O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
-        at = FileDescriptor(openat(at.number(), step->c_str(), flags | kind));
-    }
-    return at;
-}
-
 }  // namespace
 
 FileState state_of(const std::string& path) {
@@ -239,22 +226,22 @@ OpenedFile open_beneath(const SceneFolder& folder, const std::string& name) {
     if (climbs(name)) return problem(outside);
     const fs::path path = folder.base / name;
     note_asked(path.string());
+    // The file that was found is the one that is read, even if names and links change meanwhile.
+    const FileDescriptor found(open(path.c_str(), O_PATH | O_CLOEXEC));
+    const std::string link = fmt::format("/proc/self/fd/{}", found.number());
     std::error_code error;
-    const fs::path real = name.find('\0') == name.npos ? fs::canonical(path, error) : fs::path();
-    if (error || real.empty()) return problem(unreachable);
+    const fs::path real = fs::read_symlink(link, error);
+    if (error || name.find('\0') != name.npos) return problem(unreachable);
     const fs::path root = fs::canonical(folder_or_here(folder.root), error);
     if (error || !lies_in(real, root)) return problem(outside);
-    FileDescriptor file = open_steps(root, real.lexically_relative(root));
+    const mode_t mode = status_of(found, path.string()).st_mode;
+    if (!S_ISREG(mode)) return problem("is not a regular file; name one");
+    FileDescriptor file(open(link.c_str(), O_RDONLY | O_CLOEXEC));
     if (!file && errno == EACCES) return problem("cannot be read; check its permissions");
-    if (!file && (errno == ENOENT || errno == ENOTDIR || errno == ELOOP || errno == ENXIO)) {
-        return problem(unreachable);
-    }
     if (!file) {
         throw Error(ExitCode::limit, fmt::format("{}: cannot be opened: {}; raise the limit",
                                                  in_quotes(name), std::strerror(errno)));
     }
-    const mode_t mode = status_of(file, path.string()).st_mode;
-    if (!S_ISREG(mode)) return problem("is not a regular file; name one");
     return {std::move(file), path.string(), {}};
 }
 
