@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <utility>
@@ -54,29 +52,10 @@ OpenLibrary library_opener(const std::string& model_path, const std::filesystem:
     };
 }
 
-/// A file of one format under the other's name, or of quite another format, is refused.
-void check_format(const std::string& path, std::string_view text) {
-    refuse_foreign(path, text);
-    const auto refuse = [&](const char* what) {
-        throw Error(ExitCode::input, fmt::format("{}: {}", printable(path), what));
-    };
-    constexpr std::size_t stl_header = 84, stl_facet = 50;
-    if (text.size() > stl_header) {
-        std::uint32_t facets = 0;
-        std::memcpy(&facets, text.data() + stl_header - sizeof facets, sizeof facets);
-        if (text.size() == stl_header + std::size_t{facets} * stl_facet && facets > 0) {
-            refuse("is an STL model; export it as OBJ or PLY");
-        }
-    }
-    if (text.starts_with("{")) refuse("is JSON, a scene or glTF; give it the name of its format");
-    const bool is_ply = text.starts_with("ply\n") || text.starts_with("ply\r");
-    if (is_obj_name(path) && is_ply) refuse("is a PLY model; give it a name that ends in .ply");
-}
-
 Model parse_model(const FileDescriptor& file, const std::string& path,
                   const ModelOptions& options) {
     const FileText text = read_text_file(file, path, max_model_bytes);
-    check_format(path, text.view());
+    refuse_foreign(path, text.view());
     if (is_ply_name(path)) return parse_ply(text.view(), printable(path));
     OpenLibrary open;
     if (options.with_materials) open = library_opener(path, options.root);
