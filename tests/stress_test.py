@@ -47,7 +47,7 @@ class Output(unittest.TestCase):
         lines = stress(*self.SMALL, "--device", "threads").stdout.splitlines()
         self.assertEqual(len(lines), 3)
         self.assertRegex(lines[0], "^PASS: 2 of 2 families")
-        self.assertRegex(lines[1], "^pass scale-2 .* allowed")
+        self.assertRegex(lines[1], "^pass scale-2 .* wrong")
         self.assertLessEqual(max(map(len, lines)), 80)
 
     def test_pictures(self):

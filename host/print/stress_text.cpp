@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include "host/base/text.h"
 #include "host/print/print_run.h"
@@ -10,58 +10,6 @@
 namespace rt {
 
 namespace {
-
-constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
-
-/// "4000 allowed", or "any" where there is no limit.
-std::string allowed_text(std::size_t count) {
-    return count == no_limit ? "any" : fmt::format("{} allowed", count);
-}
-
-/// The row of a family's trials of rays, among those that are judged, in which most fail.
-const StressRow* worst_of_rays(const StressFamilyResult& family) {
-    const StressRow* worst = nullptr;
-    for (const StressCaseResult& one : family.cases) {
-        for (const StressRow& row : one.rows) {
-            if (!row.rays || !row.judged) continue;
-            if (worst == nullptr || row.rays->failures > worst->rays->failures) worst = &row;
-        }
-    }
-    return worst;
-}
-
-std::string worst_text(const PictureFigures& worst) {
-    std::string text = fmt::format("{} wrong ({} at edges), {:.1e}", worst.wrong,
-                                   worst.wrong_at_edges, worst.max_error);
-    if (worst.nans > 0) text += fmt::format(", {} NaN", worst.nans);
-    if (worst.infinities > 0) text += fmt::format(", {} inf", worst.infinities);
-    return text;
-}
-
-/// The loosest tolerance of a family's cases.
-StressTolerance loosest_tolerance(const StressFamilyResult& family) {
-    StressTolerance loosest{0, 0, 0, false, true};
-    for (const StressCaseResult& one : family.cases) {
-        loosest.most_wrong = std::max(loosest.most_wrong, one.tolerance.most_wrong);
-        loosest.most_wrong_at_edges =
-            std::max(loosest.most_wrong_at_edges, one.tolerance.most_wrong_at_edges);
-        loosest.max_error = std::max(loosest.max_error, one.tolerance.max_error);
-    }
-    return loosest;
-}
-
-/// The worst of a family next to what is allowed: "987 of 100000 rays wrong, 4000 allowed".
-std::string family_figures(const StressFamilyResult& family) {
-    const PictureFigures worst = worst_figures(family);
-    const StressTolerance allowed = loosest_tolerance(family);
-    if (const StressRow* const row = worst_of_rays(family)) {
-        return fmt::format("{} of {} rays wrong, {}", row->rays->failures, row->rays->rays,
-                           allowed_text(allowed.most_wrong));
-    }
-    if (worst.nans + worst.infinities > 0) return worst_text(worst);
-    return fmt::format("{} pixels wrong, {}; error {:.0e} of {:.0e}", worst.wrong,
-                       allowed_text(allowed.most_wrong), worst.max_error, allowed.max_error);
-}
 
 std::string row_name(const StressRow& row) {
     return fmt::format("{} {}", row.renderer, to_string(row.precision));
@@ -72,7 +20,27 @@ std::string row_figures(const StressRow& row) {
         return fmt::format("{} of {} rays fail, {:.1e}", row.rays->failures, row.rays->rays,
                            row.rays->max_error);
     }
-    return worst_text(row.figures);
+    const PictureFigures& figures = row.figures;
+    std::string text = fmt::format("{} wrong ({} at edges), {:.1e}", figures.wrong,
+                                   figures.wrong_at_edges, figures.max_error);
+    if (figures.nans > 0) text += fmt::format(", {} NaN", figures.nans);
+    if (figures.infinities > 0) text += fmt::format(", {} inf", figures.infinities);
+    return text;
+}
+
+/// Of the row, among those that are judged, in which most is wrong.
+std::string family_figures(const StressFamilyResult& family) {
+    const auto badness = [](const StressRow& row) {
+        return row.rays ? std::pair<std::size_t, double>(row.rays->failures, row.rays->max_error)
+                        : std::pair(row.figures.wrong, row.figures.max_error);
+    };
+    const StressRow* worst = nullptr;
+    for (const StressCaseResult& one : family.cases) {
+        for (const StressRow& row : one.rows) {
+            if (row.judged && (!worst || badness(row) > badness(*worst))) worst = &row;
+        }
+    }
+    return worst ? row_figures(*worst) : "not judged";
 }
 
 std::string row_verdict(const StressRow& row) {

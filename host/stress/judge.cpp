@@ -95,21 +95,4 @@ bool StressResult::passed() const {
            std::ranges::all_of(families, &StressFamilyResult::passed);
 }
 
-PictureFigures worst_figures(const StressFamilyResult& family) {
-    PictureFigures worst;
-    for (const StressCaseResult& one : family.cases) {
-        for (const StressRow& row : one.rows) {
-            if (!row.judged) continue;
-            const std::size_t failures = row.rays ? row.rays->failures : row.figures.wrong;
-            const double error = row.rays ? row.rays->max_error : row.figures.max_error;
-            worst.wrong = std::max<std::size_t>(worst.wrong, failures);
-            worst.wrong_at_edges = std::max(worst.wrong_at_edges, row.figures.wrong_at_edges);
-            worst.max_error = std::max(worst.max_error, error);
-            worst.nans = std::max(worst.nans, row.figures.nans);
-            worst.infinities = std::max(worst.infinities, row.figures.infinities);
-        }
-    }
-    return worst;
-}
-
 }  // namespace rt

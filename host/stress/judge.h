@@ -128,9 +128,6 @@ void describe(A& a, X& x) {
     a("families", x.families, "");
 }
 
-/// The worst figures over a family's judged rows.
-PictureFigures worst_figures(const StressFamilyResult& family);
-
 struct RenderCache;
 
 /// What to run.
