@@ -276,6 +276,8 @@ TEST_F(Journals, HaveNoTileThatIsRenderedAgain) {
     EXPECT_EQ(reader.header(), header);
     const KnownPixels<float> known = read_known_pixels<float>(reader);
     EXPECT_EQ(known.is_rendered, (std::vector<std::uint8_t>{0, 0, 1, 1, 0, 0, 0, 0}));
+    EXPECT_TRUE(known.has({2, 0, 2, 1}));
+    EXPECT_FALSE(known.has({2, 0, 2, 2}));
     EXPECT_EQ(known.film.rgb[6], 6);
     EXPECT_EQ(known.film.rgb[0], 0);
 }

@@ -5,8 +5,6 @@
 #include <cstdlib>
 
 #include "host/journal/shares.h"
-#include "host/render/tile_queue.h"
-#include "tests/test_random.h"
 
 namespace rt {
 namespace {
@@ -44,32 +42,14 @@ TEST(ShareBlocks, AreAboutAThousand) {
     EXPECT_EQ(share_blocks({5, 6, 20, 10}).size(), 2u);
 }
 
-TEST(SharedPixels, AreThoseOfTheSharesBlocks) {
+TEST(SharedBlocks, AreThePictureTogether) {
     const Rect region{3, 2, 64, 48};
-    std::size_t pixels = 0;
-    for (const Shares& shares : {Shares{{1}, 3}, Shares{{0, 2}, 3}}) {
-        for (const std::uint8_t is_shared : shared_pixels(shares, region)) pixels += is_shared;
+    std::vector<Rect> blocks = shared_blocks({{1}, 3}, region);
+    for (const Rect& block : shared_blocks({{0, 2}, 3}, region)) {
+        EXPECT_EQ(std::ranges::count(blocks, block), 0);
+        blocks.push_back(block);
     }
-    EXPECT_EQ(pixels, 64u * 48u);
-    EXPECT_EQ(shared_pixels({{1}, 3}, region)[0] + shared_pixels({{0, 2}, 3}, region)[0], 1);
-}
-
-TEST(WantedTiles, CoverWhatIsWantedOnce) {
-    Random random(7);
-    const Rect film{3, 2, 50, 40};
-    std::vector<std::uint8_t> wanted(2000);
-    for (auto& value : wanted) value = random.uniform(0, 1) < 0.7;
-    std::vector<int> covered(2000);
-    for (const Rect& tile : wanted_tiles(make_tiles(film, 16, 16), wanted, film)) {
-        for (int y = tile.y - 2; y < tile.y - 2 + tile.height; ++y) {
-            for (int x = tile.x - 3; x < tile.x - 3 + tile.width; ++x) {
-                ++covered[static_cast<std::size_t>(50 * y + x)];
-            }
-        }
-    }
-    for (std::size_t i = 0; i < 2000; ++i) ASSERT_EQ(covered[i], wanted[i]) << i;
-    const std::vector<std::uint8_t> all(2000, 1);
-    EXPECT_EQ(wanted_tiles(make_tiles(film, 16, 16), all, film), make_tiles(film, 16, 16));
+    EXPECT_TRUE(std::ranges::is_permutation(blocks, share_blocks(region)));
 }
 
 }  // namespace

@@ -176,11 +176,22 @@ double KnownPixels<T>::share_rendered() const {
 }
 
 template <typename T>
+bool KnownPixels<T>::has(const Rect& tile) const {
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+        const std::span row(&is_rendered[index_in(region, tile.x, y)],
+                            static_cast<std::size_t>(tile.width));
+        if (std::ranges::count(row, 0) > 0) return false;
+    }
+    return true;
+}
+
+template <typename T>
 KnownPixels<T> read_known_pixels(JournalReader& reader) {
     const Rect film = reader.header().picture.region;
     check_memory(static_cast<std::uint64_t>(film.pixels()) * (3 * sizeof(T) + 1),
                  "the film of a journal", "render parts with --crop");
     KnownPixels<T> known;
+    known.region = film;
     known.film = Film<T>(film.width, film.height);
     known.is_rendered.resize(static_cast<std::size_t>(film.pixels()));
     while (const auto record = reader.next()) {

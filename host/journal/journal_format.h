@@ -144,12 +144,16 @@ class JournalReader {
 /// Everything that a journal has of a picture.
 template <typename T>
 struct KnownPixels {
+    Rect region;  ///< of the film in the picture
     Film<T> film{0, 0};
     std::vector<std::uint8_t> is_rendered;
     bool is_finished = false;
 
     /// The fraction of the film: 0 to 1.
     double share_rendered() const;
+
+    /// Whether it has all of a tile of the picture.
+    bool has(const Rect& tile) const;
 };
 
 /// Reads the remaining records. Throws Error (ExitCode::limit) when memory is short.

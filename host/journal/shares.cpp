@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "host/base/text.h"
@@ -17,16 +18,6 @@ namespace {
 constexpr double blocks_of_a_picture = 1000;
 constexpr int smallest_block = 16, largest_block = 256;
 
-/// Appends "7" or "20-25" to `numbers`; false when it is neither or not below `of`.
-bool parse_range(std::string_view text, int of, std::vector<int>& numbers) {
-    const std::size_t dash = text.find('-');
-    const auto first = parse_number<int>(text.substr(0, dash));
-    const auto last = dash == text.npos ? first : parse_number<int>(text.substr(dash + 1));
-    if (!first || !last || *last < *first || *last >= of) return false;
-    for (int number = *first; number <= *last; ++number) numbers.push_back(number);
-    return true;
-}
-
 /// Hashes a number (the finalizer of SplitMix64; Steele, Lea and Flood 2014).
 std::uint64_t mixed(std::uint64_t number) {
     number += 0x9e3779b97f4a7c15u;
@@ -37,24 +28,29 @@ std::uint64_t mixed(std::uint64_t number) {
 
 }  // namespace
 
+std::optional<std::vector<int>> parse_ranges(std::string_view text, int most) {
+    std::set<int> numbers;
+    for (bool is_last = false; !is_last;) {
+        const std::size_t comma = text.find(',');
+        const std::string_view range = text.substr(0, comma);
+        const std::size_t dash = range.find('-');
+        const auto first = parse_number<int>(range.substr(0, dash));
+        const auto last = dash == range.npos ? first : parse_number<int>(range.substr(dash + 1));
+        if (!first || !last || *last < *first || *last > most) return {};
+        for (int number = *first; number <= *last; ++number) numbers.insert(number);
+        is_last = comma == text.npos;
+        if (!is_last) text.remove_prefix(comma + 1);
+    }
+    return std::vector(numbers.begin(), numbers.end());
+}
+
 std::optional<Shares> parse_shares(std::string_view text) {
     const std::size_t slash = text.find('/');
     if (slash == text.npos) return {};
     const auto of = parse_number<int>(text.substr(slash + 1));
     if (!of || *of < 1 || *of > Shares::most) return {};
-    Shares shares{{}, *of};
-    std::string_view list = text.substr(0, slash);
-    for (;;) {
-        const std::size_t comma = list.find(',');
-        if (!parse_range(list.substr(0, comma), *of, shares.numbers)) return {};
-        if (comma == list.npos) break;
-        list.remove_prefix(comma + 1);
-        if (shares.numbers.size() > static_cast<std::size_t>(Shares::most)) return {};
-    }
-    std::sort(shares.numbers.begin(), shares.numbers.end());
-    const auto end = std::unique(shares.numbers.begin(), shares.numbers.end());
-    shares.numbers.erase(end, shares.numbers.end());
-    return shares;
+    const auto numbers = parse_ranges(text.substr(0, slash), *of - 1);
+    return numbers ? std::optional(Shares{*numbers, *of}) : std::nullopt;
 }
 
 std::string to_string(const Shares& shares) {
@@ -89,52 +85,14 @@ std::vector<int> block_shares(std::size_t blocks, int shares) {
     return share_of;
 }
 
-std::vector<std::uint8_t> shared_pixels(const Shares& shares, const Rect& region) {
-    std::vector<std::uint8_t> shared(static_cast<std::size_t>(region.pixels()), 0);
+std::vector<Rect> shared_blocks(const Shares& shares, const Rect& region) {
     const std::vector<Rect> blocks = share_blocks(region);
     const std::vector<int> share_of = block_shares(blocks.size(), shares.of);
+    std::vector<Rect> shared;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-        if (!std::binary_search(shares.numbers.begin(), shares.numbers.end(), share_of[i])) {
-            continue;
-        }
-        const Rect& block = blocks[i];
-        for (int y = block.y; y < block.y + block.height; ++y) {
-            std::fill_n(shared.begin() + static_cast<std::ptrdiff_t>(index_in(region, block.x, y)),
-                        block.width, std::uint8_t{1});
-        }
+        if (std::ranges::binary_search(shares.numbers, share_of[i])) shared.push_back(blocks[i]);
     }
     return shared;
-}
-
-std::vector<Rect> wanted_tiles(const std::vector<Rect>& cells,
-                               const std::vector<std::uint8_t>& wanted, const Rect& region) {
-    std::vector<Rect> tiles;
-    for (const Rect& cell : cells) {
-        const std::size_t first_of_cell = tiles.size();
-        for (int y = cell.y; y < cell.y + cell.height; ++y) {
-            const int end = cell.x + cell.width;
-            for (int x = cell.x; x < end;) {
-                if (wanted[index_in(region, x, y)] == 0) {
-                    ++x;
-                    continue;
-                }
-                const int first = x;
-                while (x < end && wanted[index_in(region, x, y)] != 0) ++x;
-                const auto above =
-                    std::find_if(tiles.begin() + static_cast<std::ptrdiff_t>(first_of_cell),
-                                 tiles.end(), [&](const Rect& tile) {
-                                     return tile.x == first && tile.width == x - first &&
-                                            tile.y + tile.height == y;
-                                 });
-                if (above == tiles.end()) {
-                    tiles.push_back({first, y, x - first, 1});
-                } else {
-                    ++above->height;
-                }
-            }
-        }
-    }
-    return tiles;
 }
 
 }  // namespace rt

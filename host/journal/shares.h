@@ -22,6 +22,10 @@ struct Shares {
     bool operator==(const Shares&) const = default;
 };
 
+/// Numbers from 0 to `most` and ranges of them, separated by commas: "7,9,20-25"; ascending. Empty
+/// when the text is anything else.
+std::optional<std::vector<int>> parse_ranges(std::string_view text, int most);
+
 /// "7/64" or "7,9,20-25/64"; empty when the text is anything else.
 std::optional<Shares> parse_shares(std::string_view text);
 
@@ -36,12 +40,7 @@ std::vector<Rect> share_blocks(const Rect& region);
 /// expensive blocks cluster.
 std::vector<int> block_shares(std::size_t blocks, int shares);
 
-/// Which pixels of the region the shares have: 1, or 0.
-std::vector<std::uint8_t> shared_pixels(const Shares& shares, const Rect& region);
-
-/// Greedily covers the pixels of each cell that are not 0 in `wanted` with rectangles. Cells must
-/// lie in the region.
-std::vector<Rect> wanted_tiles(const std::vector<Rect>& cells,
-                               const std::vector<std::uint8_t>& wanted, const Rect& region);
+/// The blocks of these shares.
+std::vector<Rect> shared_blocks(const Shares& shares, const Rect& region);
 
 }  // namespace rt

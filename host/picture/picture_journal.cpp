@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "host/base/error.h"
@@ -41,7 +42,7 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
       region_(stats.picture.region),
       inexact_devices_(std::move(inexact_devices)),
       say_(std::move(say)) {
-    if (settings.shares) shared_ = shared_pixels(*settings.shares, region_);
+    blocks_ = settings.shares ? shared_blocks(*settings.shares, region_) : std::vector{region_};
     if (settings.journal.empty()) return;
     if (settings.math == Math::fast || settings.schedule != Schedule::tiles) return;
     header_.picture = stats.picture;
@@ -162,19 +163,18 @@ Film<T> PictureJournal<T>::take_film() {
 
 template <typename T>
 std::vector<Rect> PictureJournal<T>::tiles(int width, int height) const {
-    if (!known_) return shared_tiles(width, height);
-    std::vector<std::uint8_t> wanted = shared_;
-    if (wanted.empty()) wanted.assign(static_cast<std::size_t>(region_.pixels()), 1);
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        if (known_->is_rendered[i] != 0) wanted[i] = 0;
-    }
-    return wanted_tiles(make_tiles(region_, width, height), wanted, region_);
+    std::vector<Rect> tiles = shared_tiles(width, height);
+    if (known_) std::erase_if(tiles, [&](const Rect& tile) { return known_->has(tile); });
+    return tiles;
 }
 
 template <typename T>
 std::vector<Rect> PictureJournal<T>::shared_tiles(int width, int height) const {
-    std::vector<Rect> cells = make_tiles(region_, width, height);
-    return shared_.empty() ? cells : wanted_tiles(cells, shared_, region_);
+    std::vector<Rect> tiles;
+    for (const Rect& block : blocks_) {
+        std::ranges::copy(make_tiles(block, width, height), std::back_inserter(tiles));
+    }
+    return tiles;
 }
 
 template <typename T>

@@ -38,7 +38,7 @@ class PictureJournal {
     /// The film with all that is known of it; call once.
     Film<T> take_film();
 
-    /// The film's tiles that remain to be rendered, cut from tiles of this size.
+    /// The film's tiles of this size of which a pixel remains to be rendered.
     std::vector<Rect> tiles(int width, int height) const;
 
     /// All of them, known or not.
@@ -73,7 +73,7 @@ class PictureJournal {
     const std::string inexact_devices_;
     const Say say_;
     JournalHeader header_;
-    std::vector<std::uint8_t> shared_;  ///< shared_pixels; empty: everything
+    std::vector<Rect> blocks_;  ///< of the shares; otherwise the region
     std::shared_ptr<JournalFile> file_;
     bool is_ours_ = false;  ///< what the file had: this picture, though perhaps with other bits
     std::optional<KnownPixels<T>> known_;
