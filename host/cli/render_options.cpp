@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
-#include <iterator>
 #include <string>
-#include <string_view>
 #include <system_error>
 
 #include "host/base/error.h"
@@ -37,18 +34,6 @@ TevAddress parse_tev_address(const std::string& text) {
     return address;
 }
 
-/// Whether a word is an address rather than a scene: no file, and without a scene's extension.
-bool is_tev_address(const std::string& text) {
-    std::error_code ignored;
-    if (text.empty() || text.starts_with('-') || std::filesystem::exists(text, ignored)) {
-        return false;
-    }
-    if (text.find(':') != std::string::npos) return true;
-    constexpr std::string_view extensions[] = {".json", ".nff", ".obj", ".ply"};
-    return text.find('/') == std::string::npos &&
-           std::ranges::find(extensions, lower_extension(text)) == std::end(extensions);
-}
-
 void add_view_options(Verb& verb, ViewSettings& view) {
     view.terminal.kind = environment("TERM");
     view.terminal.without_colors = !environment("NO_COLOR").empty();
@@ -58,9 +43,9 @@ void add_view_options(Verb& verb, ViewSettings& view) {
               "the command ends when it is closed");
     const TevAddress usual;
     verb.optional_value(
-        "--tev", "HOST[:PORT]",
+        "--tev", "=HOST[:PORT]",
         "show the picture in the image viewer tev while it renders (default: 127.0.0.1:14158)",
-        usual.host + ":" + usual.port, is_tev_address,
+        usual.host + ":" + usual.port, [](const std::string&) { return false; },
         [&view](const std::string& text) { view.tev = parse_tev_address(text); });
 }
 
@@ -95,20 +80,11 @@ Shares parse_shard(const std::string& text) {
     return *shares;
 }
 
-/// "1-240" or "1,5,10-20", ascending.
 std::vector<int> parse_frames(const std::string& text) {
     constexpr int last_frame = 999999;
-    std::vector<int> frames;
-    for (const std::string& part : split_list(text)) {
-        const auto ends = parse_integers(part, '-');
-        const bool is_range = ends && ends->size() <= 2 && ends->front() >= 0 &&
-                              ends->front() <= ends->back() && ends->back() <= last_frame;
-        if (!is_range || (!frames.empty() && ends->front() <= frames.back())) {
-            refuse(text, "expected ascending frames from 0 to 999999, such as 1-240 or 1,5,10-20");
-        }
-        for (int frame = ends->front(); frame <= ends->back(); ++frame) frames.push_back(frame);
-    }
-    return frames;
+    const auto frames = parse_ranges(text, last_frame);
+    if (!frames) refuse(text, "expected frames from 0 to 999999, such as 1-240 or 1,5,10-20");
+    return *frames;
 }
 
 std::string parse_isa(const std::string& text) {
@@ -257,7 +233,6 @@ void add_report_options(Verb& verb, RenderOptions& render) {
 void add_render(Verb& program, Invocation& call) {
     const auto asked = std::make_shared<RenderOptions>();
     RenderOptions& render = *asked;
-    render.dumb_terminal = environment("TERM") == "dumb";
     Verb& verb = program.verb("render", "render one or more pictures");
     verb.arguments("SCENE", render.scenes,
                    "scene files (.json, .nff, .obj, .ply), or - for JSON from standard input",

@@ -64,7 +64,6 @@ struct RenderOptions : RenderSettings {
     std::vector<std::string> batch_past;
     std::vector<std::string> command;  ///< the program's own, to start workers
     bool quiet = false, verbose = false;
-    bool dumb_terminal = false;  ///< TERM=dumb: no bar
 
     bool is_batch() const { return !batch.empty() || scenes.size() > 1 || !frames.empty(); }
 };
