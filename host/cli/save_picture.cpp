@@ -37,33 +37,18 @@ bool shows_the_same(const PictureMetadata& a, const PictureMetadata& b) {
     return true;
 }
 
-/// The metadata of an unfinished picture (PNG and EXR have them); empty for any other file, which
-/// may be somebody's.
-PictureMetadata metadata_of_partial(const std::string& path) try {
-    PictureMetadata metadata = read_picture_header(path).metadata;
-    return text_in(metadata, partial_mark).empty() ? PictureMetadata() : metadata;
-} catch (const Error&) {
-    return {};
-}
-
-/// Where a picture's finished part goes: over an older part at most.
-std::string free_partial_path(const std::string& output) {
-    std::string path = partial_path(output);
-    std::error_code ignored;
-    for (int n = 2; std::filesystem::exists(path, ignored) && metadata_of_partial(path).empty();) {
-        path = partial_path(output, n++);
-    }
-    return path;
-}
-
-/// Removes what an interrupted render of the same picture left next to it.
+/// Removes what an interrupted render of the same picture left next to it: PNG and EXR have
+/// metadata to tell.
 void remove_partial(const std::string& output, const PictureMetadata& metadata) {
     if (output == stdout_path) return;
-    const std::string path = free_partial_path(output);
-    const PictureMetadata partial = metadata_of_partial(path);
-    std::error_code ignored;
-    if (!partial.empty() && shows_the_same(partial, metadata)) {
-        std::filesystem::remove(path, ignored);
+    const std::string path = partial_path(output);
+    try {
+        const PictureMetadata found = read_picture_header(path).metadata;
+        std::error_code ignored;
+        if (!text_in(found, partial_mark).empty() && shows_the_same(found, metadata)) {
+            std::filesystem::remove(path, ignored);
+        }
+    } catch (const Error&) {  // there is none
     }
 }
 
@@ -125,7 +110,7 @@ std::string save_picture(const RenderedPicture& rendered, const RenderOptions& o
     if (!stats.complete()) {
         if (stats.tiles_finished == 0 && stats.resumed == 0) return "";
         if (path == stdout_path) return "";  // a reader of stdout wants a whole picture
-        path = free_partial_path(path);
+        path = partial_path(path);
         metadata.emplace_back(partial_mark, share_done(stats));
     }
     const StopsAtOnce may_wait_for_a_reader(find_output_destination(path).in_place);

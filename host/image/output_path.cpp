@@ -135,11 +135,10 @@ void create_output_folder(const std::string& folder) {
     throw Error(ExitCode::output, folder + ": cannot create the folder: " + error.message());
 }
 
-std::string partial_path(const std::string& path, int number) {
+std::string partial_path(const std::string& path) {
     constexpr std::size_t longest = 255;  // names in file systems, in bytes
     const fs::path name(path);
-    const std::string ending = (number == 1 ? ".partial" : ".partial-" + std::to_string(number)) +
-                               name.extension().string();
+    const std::string ending = ".partial" + name.extension().string();
     std::string stem = name.stem().string();
     // Whole characters of UTF-8.
     while (stem.size() > 1 && stem.size() + ending.size() > longest) {

@@ -52,9 +52,9 @@ void check_outputs_differ(const std::vector<std::string>& outputs);
 /// Creates a folder and its parents. Throws Error (ExitCode::output).
 void create_output_folder(const std::string& folder);
 
-/// Where an unfinished picture goes: "dir/out.partial.png" for "dir/out.png";
-/// "dir/out.partial-2.png" if that is not free. A name that gets too long is cut.
-std::string partial_path(const std::string& path, int number = 1);
+/// Where an unfinished picture goes: "dir/out.partial.png" for "dir/out.png". A name that gets too
+/// long is cut.
+std::string partial_path(const std::string& path);
 
 /// Files that are read, so that no output may replace them.
 class InputFiles {

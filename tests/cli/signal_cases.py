@@ -90,20 +90,11 @@ class Interrupted(CliTest):
         self.assertEqual((self.folder / "out.png").read_text(), "finished yesterday")
         self.assertEqual(self.pictures(), ["out.partial.png", "out.png"])
 
-    def test_a_file_of_somebody_else_is_left_alone(self):
-        for name in ["out.partial.png", "out.partial-2.png"]:
-            self.write_text(name, "somebody else's")
-        for _ in range(2):  # the second replaces what the first has left
-            self.assertIn("the finished part is in out.partial-3.png", self.interrupted("out.png"))
-        self.assertEqual(self.pictures(),
-                         ["out.partial-2.png", "out.partial-3.png", "out.partial.png"])
-        for name in ["out.partial.png", "out.partial-2.png"]:
-            self.assertEqual((self.folder / name).read_text(), "somebody else's")
-
-    def test_a_format_that_does_not_say_who_wrote_it_is_left_alone(self):
-        self.write_text("out.partial.pfm", "somebody else's")
-        self.assertIn("the finished part is in out.partial-2.pfm", self.interrupted("out.pfm"))
-        self.assertEqual((self.folder / "out.partial.pfm").read_text(), "somebody else's")
+    def test_an_unfinished_picture_takes_the_place_of_another(self):
+        self.write_text("out.partial.pfm", "unfinished")
+        self.assertIn("the finished part is in out.partial.pfm", self.interrupted("out.pfm"))
+        self.assertEqual(self.pictures(), ["out.partial.pfm"])
+        self.assertNotEqual((self.folder / "out.partial.pfm").read_bytes(), b"unfinished")
 
     def test_as_terminals_and_timeout_send_it(self):
         """To the program and its worker process; to the program, and at once to its group."""
