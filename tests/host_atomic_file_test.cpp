@@ -156,18 +156,17 @@ TEST_F(OutputPath, OutputsThatAreInputsAreRefused) {
     put(path("other.png"), "");
     fs::create_symlink("scene.json", path("symbolic.png"));
     fs::create_hard_link(path("scene.json"), path("hard.png"));
-    const std::vector<std::string> inputs{path("missing"), "", path("scene.json")};
+    const UsedFiles inputs({path("missing"), "", path("scene.json")});
     for (const char* name : {"scene.json", "symbolic.png", "hard.png"}) {
-        const auto [code, message] =
-            refusal_of([&] { check_output_is_no_input(path(name), inputs); });
+        const auto [code, message] = refusal_of([&] { inputs.check(path(name)); });
         EXPECT_EQ(code, ExitCode::usage) << name;
-        EXPECT_EQ(message, path(name) + ": is the same file as the input " + path("scene.json") +
+        EXPECT_EQ(message, path(name) + ": is the same file as " + path("scene.json") +
                                "; choose another output");
     }
     for (const std::string& name : {path("other.png"), path("new.png"), std::string("-"),
                                     std::string(), std::string("/dev/null")}) {
-        check_output_is_no_input(name, inputs);
-        check_output_is_no_input(name, {"/dev/null"});
+        inputs.check(name);
+        UsedFiles({"/dev/null"}).check(name);
     }
 }
 

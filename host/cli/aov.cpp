@@ -110,15 +110,12 @@ class Aovs {
 
 }  // namespace
 
-void check_aov_files(const RenderOptions& options, const InputFiles& inputs) {
+void check_aov_files(const RenderOptions& options, UsedFiles used) {
     if (options.aovs.empty()) return;
-    std::vector<std::string> files = aov_files(options);
-    for (const std::string& file : files) {
-        check_picture_path(file);
-        inputs.check(file);
-    }
-    files.push_back(options.output);
-    check_outputs_differ(files);
+    const std::vector<std::string> files = aov_files(options);
+    for (const std::string& file : files) check_picture_path(file);
+    used.add(options.output);
+    check_outputs(files, std::move(used));
 }
 
 bool write_aovs(const Scene& scene, const RenderStats& stats, const RenderOptions& options) {

@@ -7,7 +7,6 @@
 #include "host/base/error.h"
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
-#include "host/image/output_path.h"
 #include "host/measure/timing.h"
 #include "host/print/print_run.h"
 
@@ -39,19 +38,15 @@ bool has_regressed(const BenchResult& result, const Baseline& baseline, double m
 }
 
 int run_bench(const BenchCall& options) {
-    const auto& [json, csv] = options.results;
-    check_result_path(json, json_start("bench"));
-    check_result_path(csv, run_csv_header());
-    check_outputs_differ({json, csv});
-    for (const auto& file : {json, csv}) check_output_is_no_input(file, {options.baseline});
+    options.results.check({options.baseline}, {});
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
     const FreshKernelCache kernels;
     const BenchResult result =
         measure_bench(options, options.baseline.empty() ? nullptr : &baseline);
     if (!options.results.take_stdout()) print_result(bench_text(result));
-    write_result(json, [&] { return result_json("bench", result); });
-    write_result(csv, [&] { return bench_csv(result); });
+    options.results.write("--json", [&] { return result_json("bench", result); });
+    options.results.write("--csv", [&] { return bench_csv(result); });
     const int status = options.ablate
                            ? report_bad_rows(result.ablation, result.interrupted, row_name)
                            : report_bad_rows(result.rows, result.interrupted, row_name);
@@ -93,14 +88,14 @@ void add_bench(Verb& program, Invocation& call) {
                "compare with an earlier --json file: exit 1 if a row has become slower");
     verb.value("--max-regress", "P%", bench.max_regress, percent_to(1e6),
                "how much slower a row may become; changes within noise also pass (default: 5%)");
-    add_result_files(verb, bench.results);
+    bench.results.add(verb, "--json", json_start("bench"), "write all measurements as JSON");
+    bench.results.add(verb, "--csv", csv_start, "write one row per run as CSV");
     verb.flag("--ablate", bench.ablate,
               "measure what leaving out each feature saves, with and without it in alternation "
               "(default: --sizes 500 --aa grid:2 --precision float)");
     add_build_extras(verb);
     verb.flag("-q,--quiet", bench.quiet, quiet_help);
     verb.chosen = [asked, &verb, &call] {
-        check_stdout_has_one_use({{"--json", asked->results.json}, {"--csv", asked->results.csv}});
         if (asked->ablate) settle_ablation(verb, *asked);
         call.in_worker([asked] { return run_bench(*asked); }, asked->quiet);
     };

@@ -14,7 +14,6 @@
 #include "host/cli/verb.h"
 #include "host/image/false_color.h"
 #include "host/image/image_error.h"
-#include "host/image/output_path.h"
 #include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
 #include "host/print/print_run.h"
@@ -32,8 +31,8 @@ struct CompareOptions {
     std::optional<int> max_pixels;        ///< with a difference over 1/255
     std::string heatmap;                  ///< empty: none
     std::optional<double> heatmap_scale;  ///< default: the largest difference
-    std::string json;                     ///< empty: text; "-": JSON on stdout; else JSON to a file
-    bool clamp = false;                   ///< to 0..1, as 8-bit files do
+    ResultFiles results;
+    bool clamp = false;  ///< to 0..1, as 8-bit files do
 };
 
 struct Comparison {
@@ -137,21 +136,13 @@ Json comparison_json(const Comparison& result, const CompareOptions& options) {
     return json;
 }
 
-void print_comparison(const Comparison& result, const CompareOptions& options) {
-    write_result(options.json, [&] { return json_text(comparison_json(result, options)); });
-    if (options.json != "-") print_result(comparison_text(result, options));
-}
-
 int run_compare(const CompareOptions& options) {
-    for (const std::string& output : {options.heatmap, options.json}) {
-        check_output_is_no_input(output, {options.picture, options.reference});
-    }
+    options.results.check({options.picture, options.reference}, {options.heatmap});
     if (!options.heatmap.empty()) check_picture_path(options.heatmap);
-    check_result_path(options.json, json_start("compare"));
-    check_outputs_differ({options.heatmap, options.json});
     const Comparison result = compare_pictures(options);
     if (!options.heatmap.empty()) write_heatmap(result, options);
-    print_comparison(result, options);
+    options.results.write("--json", [&] { return json_text(comparison_json(result, options)); });
+    if (!options.results.take_stdout()) print_result(comparison_text(result, options));
     if (result.breaches.empty()) return static_cast<int>(ExitCode::done);
     print_note(fmt::format("{}", fmt::join(result.breaches, "; ")));
     return static_cast<int>(ExitCode::different);
@@ -200,8 +191,8 @@ void add_compare(Verb& program, Invocation& call) {
     verb.value("--heatmap-scale", "X", compare.heatmap_scale, parse_scale,
                "difference shown as yellow (default: the largest)");
     verb.flag("--clamp", compare.clamp, "first clamp values to 0..1, as 8-bit files do");
-    add_result_file(verb, "--json", compare.json,
-                    "write JSON, to FILE or to stdout instead of the text");
+    compare.results.add(verb, "--json", json_start("compare"),
+                        "write JSON, to FILE or to stdout instead of the text");
     verb.chosen = [asked, &call] { call.here([asked] { return run_compare(*asked); }); };
 }
 

@@ -7,7 +7,6 @@
 #include "host/base/error.h"
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
-#include "host/image/output_path.h"
 #include "host/image/picture_io.h"
 #include "host/measure/timing.h"
 #include "host/print/print_run.h"
@@ -22,15 +21,13 @@ struct ConvergeCall : ConvergeOptions {
 };
 
 int run_converge(const ConvergeCall& options) {
-    check_result_path(options.results.json, json_start("converge"));
-    check_result_path(options.results.csv, run_csv_header());
+    options.results.check({}, {options.reference});
     if (!options.reference.empty()) check_picture_path(options.reference);
-    check_outputs_differ({options.results.json, options.results.csv, options.reference});
     const FreshKernelCache kernels;
     const ConvergeResult result = measure_converge(options);
     if (!options.results.take_stdout()) print_result(converge_text(result));
-    write_result(options.results.json, [&] { return result_json("converge", result); });
-    write_result(options.results.csv, [&] { return converge_csv(result); });
+    options.results.write("--json", [&] { return result_json("converge", result); });
+    options.results.write("--csv", [&] { return converge_csv(result); });
     return report_bad_rows(result.points, result.interrupted, [](const ConvergeCase& asked) {
         return asked.device_name + " " + to_string(asked.picture.aa);
     });
@@ -74,11 +71,11 @@ void add_converge(Verb& program, Invocation& call) {
                "the reference is the mean of two sobol:N pictures in double (default: 1024)");
     verb.value("--reference", "FILE", converge.reference,
                "keep the reference in this EXR or PFM file, or read it from there if it exists");
-    add_result_files(verb, converge.results);
+    converge.results.add(verb, "--json", json_start("converge"), "write all measurements as JSON");
+    converge.results.add(verb, "--csv", csv_start, "write one row per run as CSV");
     add_build_extras(verb);
     verb.flag("-q,--quiet", converge.quiet, quiet_help);
     verb.chosen = [asked, &call] {
-        check_stdout_has_one_use({{"--json", asked->results.json}, {"--csv", asked->results.csv}});
         call.in_worker([asked] { return run_converge(*asked); }, asked->quiet);
     };
 }

@@ -55,7 +55,7 @@ bool is_whole(const MergeOptions& options) {
 int run_merge(const MergeOptions& options) {
     if (!options.output.empty()) {
         check_picture_path(options.output, options.format);
-        check_output_is_no_input(options.output, options.parts);
+        check_outputs({options.output}, UsedFiles(options.parts));
     }
     if (is_whole(options)) {
         const Picture picture = read_picture(options.parts.front());

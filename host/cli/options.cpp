@@ -36,7 +36,8 @@ bool may_take_results(const std::string& word) {
     std::string start(32, ' ');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     return file.gcount() == 0 || word.ends_with(".csv") ||
-           start.find("\"format\": \"mirrorball") != std::string::npos;
+           start.find("\"format\": \"mirrorball") != std::string::npos ||
+           start.starts_with("<?xml");
 }
 
 constexpr double brightest = 1e30;
@@ -195,36 +196,42 @@ void check_result_path(const std::string& path, const std::string& first_bytes) 
                 path + ": already exists and is not such a result file; choose another name");
 }
 
-void write_result(const std::string& path, const std::function<std::string()>& text) {
-    if (path.empty()) return;
-    const std::string result = text();
-    if (path == "-") return print_result(result);
-    write_file_atomically(path, std::as_bytes(std::span(result)));
+void ResultFiles::add(Verb& verb, const std::string& option, const std::string& first_bytes,
+                      const std::string& help) {
+    File& file = files_[option];
+    file.first_bytes = first_bytes;
+    verb.optional_value(option, "FILE|-", help, "-", may_take_results,
+                        [&file](const std::string& text) {
+                            if (text.empty()) refuse(text, "expected a file name, or - for stdout");
+                            file.path = text;
+                        });
 }
 
-void check_stdout_has_one_use(const std::vector<std::array<std::string, 2>>& results) {
+void ResultFiles::check(const std::vector<std::string>& inputs,
+                        std::vector<std::string> outputs) const {
     std::string user;
-    for (const auto& [option, path] : results) {
-        if (path != "-") continue;
+    for (const auto& [option, file] : files_) {
+        outputs.push_back(file.path);
+        if (file.path != "-") continue;
         if (!user.empty()) {
             usage_error("{} and {} cannot both write to stdout; send one to a file", user, option);
         }
         user = option;
     }
+    check_outputs(outputs, UsedFiles(inputs));
+    for (const auto& [option, file] : files_) check_result_path(file.path, file.first_bytes);
 }
 
-void add_result_file(Verb& verb, const std::string& option, std::string& file,
-                     const std::string& help) {
-    verb.optional_value(option, "FILE|-", help, "-", may_take_results,
-                        [&file](const std::string& text) {
-                            if (text.empty()) refuse(text, "expected a file name, or - for stdout");
-                            file = text;
-                        });
+bool ResultFiles::take_stdout() const {
+    return std::ranges::any_of(files_, [](const auto& file) { return file.second.path == "-"; });
 }
 
-void add_result_files(Verb& verb, ResultFiles& files) {
-    add_result_file(verb, "--json", files.json, "write all measurements as JSON");
-    add_result_file(verb, "--csv", files.csv, "write one row per run as CSV");
+void ResultFiles::write(const std::string& option, const std::function<std::string()>& text) const {
+    const std::string& path = files_.at(option).path;
+    if (path.empty()) return;
+    const std::string result = text();
+    if (path == "-") return print_result(result);
+    write_file_atomically(path, std::as_bytes(std::span(result)));
 }
 
 void add_build_extras(Verb& verb) {

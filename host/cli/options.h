@@ -5,9 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -151,31 +151,38 @@ void add_device_list(Verb& verb, const std::string& option, std::vector<std::str
 void add_precisions(Verb& verb, std::vector<Precision>& precisions);
 void add_repeats(Verb& verb, int& repeats, int least);
 
-/// Where results go in addition to the table: a file, "-" for stdout, or empty for nowhere.
-struct ResultFiles {
-    std::string json, csv;
-
-    bool take_stdout() const { return json == "-" || csv == "-"; }
-};
-
-/// Rejects, before anything is measured, a path that write_result could not or should not write:
-/// Error (output) for a place that cannot be written, Error (usage) for an existing file that does
-/// not begin with `first_bytes` as results do: "--json scene.json" must not replace a scene.
-/// Accepts "" and "-".
+/// Rejects, before anything is measured, a path that could not or should not be written: Error
+/// (output) for a place that cannot be written, Error (usage) for an existing file that does not
+/// begin with `first_bytes` as results do: "--json scene.json" must not replace a scene. Accepts ""
+/// and "-".
 void check_result_path(const std::string& path, const std::string& first_bytes);
 
-/// Writes the text to stdout ("-") or atomically to a file; for "" it does not ask for it. Throws
-/// Error (output).
-void write_result(const std::string& path, const std::function<std::string()>& text);
+/// Where a verb's results go in addition to its table: for each option a file, or stdout.
+class ResultFiles {
+   public:
+    /// Adds --json, --csv or --junit: alone, the results go to stdout ("-"). The next word is the
+    /// file unless that exists and is not a result file: a scene or a picture. The verb refers to
+    /// this object.
+    void add(Verb& verb, const std::string& option, const std::string& first_bytes,
+             const std::string& help);
 
-/// Rejects several results that go to stdout. `results`: pairs of an option and its path.
-void check_stdout_has_one_use(const std::vector<std::array<std::string, 2>>& results);
+    /// Rejects, before anything is measured, what check_result_path rejects, several results on
+    /// stdout, and files that are one of the inputs or one of the other outputs.
+    void check(const std::vector<std::string>& inputs, std::vector<std::string> outputs) const;
 
-/// --json or --csv: alone, the results go to stdout ("-"). The next word is the file unless that
-/// exists and is not a result file: a scene or a picture.
-void add_result_file(Verb& verb, const std::string& option, std::string& file,
-                     const std::string& help);
-void add_result_files(Verb& verb, ResultFiles& files);
+    bool take_stdout() const;
+
+    /// Writes the text to stdout or atomically to a file; if the option is not given, it does not
+    /// ask for it. Throws Error (output).
+    void write(const std::string& option, const std::function<std::string()>& text) const;
+
+   private:
+    struct File {
+        std::string path;  ///< "-": stdout; empty: none
+        std::string first_bytes;
+    };
+    std::map<std::string, File> files_;  ///< by option
+};
 
 /// --cl-options and --save-kernels, for every verb that builds kernels.
 void add_build_extras(Verb& verb);

@@ -387,7 +387,7 @@ class Pictures {
     std::vector<DeviceChoice> devices_;  ///< of a batch
     std::future<std::vector<DeviceChoice>> finding_;  ///< those of a single picture
     RenderCache cache_;
-    InputFiles inputs_;  ///< as far as they are known
+    UsedFiles inputs_;  ///< as far as they are known
     Scene scene_;
     bool has_path_ = false;  ///< scene_ is the one for all frames
     bool has_said_unsaved_ = false;

@@ -44,7 +44,7 @@ int verdict(const RenderedPicture& rendered, const RenderOptions& options, const
             std::vector<std::string>& notes);
 
 /// Rejects, before anything is computed, AOV files that could not be written, or are inputs.
-void check_aov_files(const RenderOptions& options, const InputFiles& inputs);
+void check_aov_files(const RenderOptions& options, UsedFiles used);
 
 /// Writes the AOVs in options.aovs next to the picture: as channels of NAME.aov.exr if the picture
 /// is an .exr, else each in false color as NAME.depth.png and so on. `scene` is as it was rendered.

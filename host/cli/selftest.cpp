@@ -22,8 +22,8 @@ namespace {
 struct SelftestOptions {
     std::vector<std::string> devices;  ///< empty: every usable OpenCL device
     std::vector<std::string> filters;  ///< globs of names; empty: all
-    std::string json, junit;           ///< files for the results; empty: none
-    std::string expect;                ///< file of checks that are known to fail; empty: none
+    ResultFiles results;
+    std::string expect;  ///< file of checks that are known to fail; empty: none
     bool quick = false;
     bool write_golden = false;
     bool quiet = false;
@@ -47,9 +47,7 @@ int run_selftest(const SelftestOptions& options) {
         print_result(write_golden_pictures() + "\n");
         return 0;
     }
-    check_result_path(options.json, json_start("selftest"));
-    check_result_path(options.junit, "<?xml");
-    check_outputs_differ({options.json, options.junit});
+    options.results.check({options.expect}, {});
     const Stopwatch watch;
     Checks checks(options.filters, known_failures(options.expect));
     const std::vector<DeviceChoice> devices = chosen_devices(options.devices);
@@ -66,9 +64,9 @@ int run_selftest(const SelftestOptions& options) {
     if (stop_flag() != 0) return 128 + stop_flag();
     if (checks.list().empty()) usage_error("--filter fits no check");
     const double seconds = watch.seconds();
-    if (options.json != "-" && options.junit != "-") print_result(checks.text(seconds));
-    write_result(options.json, [&] { return checks.json(seconds); });
-    write_result(options.junit, [&] { return checks.junit(seconds); });
+    if (!options.results.take_stdout()) print_result(checks.text(seconds));
+    options.results.write("--json", [&] { return checks.json(seconds); });
+    options.results.write("--junit", [&] { return checks.junit(seconds); });
     return static_cast<int>(checks.is_all_expected() ? ExitCode::done : ExitCode::different);
 }
 
@@ -87,14 +85,14 @@ void add_selftest(Verb& program, Invocation& call) {
                "names of checks to run, such as dot3/* (default: all)");
     verb.value("--expect", "FILE", selftest.expect,
                "names of checks known to fail, one a line: that one of them passes is an error");
-    add_result_file(verb, "--json", selftest.json, "write JSON, to FILE or to stdout");
-    verb.value("--junit", "FILE", selftest.junit, "write JUnit's XML");
+    selftest.results.add(verb, "--json", json_start("selftest"),
+                         "write JSON, to FILE or to stdout");
+    selftest.results.add(verb, "--junit", "<?xml", "write JUnit's XML, to FILE or to stdout");
     verb.flag("--write-golden", selftest.write_golden,
               "render the golden pictures on threads and write scenes/golden.json (maintainers)");
     add_build_extras(verb);
     verb.flag("-q,--quiet", selftest.quiet, quiet_help);
     verb.chosen = [asked, &call] {
-        check_stdout_has_one_use({{"--json", asked->json}, {"--junit", asked->junit}});
         if (asked->devices.empty()) {
             const std::string device = device_from_environment();
             if (!device.empty()) asked->devices = split_list(device);

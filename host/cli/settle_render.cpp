@@ -2,12 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iomanip>
 #include <optional>
 #include <regex>
-#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -27,11 +25,6 @@ namespace rt {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 28;  ///< of a list
-
-/// Whether a placeholder can end there, rather than being part of a word, as in "50%share".
-bool ends_at(const std::string& name, std::size_t at) {
-    return at == name.size() || std::isalnum(static_cast<unsigned char>(name[at])) == 0;
-}
 
 /// The places of a frame's number; [1] is the least number of digits, if it is given.
 std::vector<std::smatch> frame_numbers(const std::string& name) {
@@ -89,15 +82,6 @@ void add_list(const std::string& path, std::vector<BatchItem>& items) {
     }
 }
 
-void refuse_shared_outputs(const std::vector<BatchItem>& items) {
-    std::set<std::string> outputs;
-    for (const BatchItem& item : items) {
-        if (item.output.empty() || outputs.insert(canonical_output(item.output)).second) continue;
-        usage_error("{}{}: is already the output of another scene; give each scene its own file",
-                    item.where, item.output);
-    }
-}
-
 /// Whether the name of an output has one "%d" or "%04d", to be replaced by a frame's number, unless
 /// a letter or digit follows.
 bool has_frame_number(const std::string& name) { return frame_numbers(name).size() == 1; }
@@ -105,14 +89,9 @@ bool has_frame_number(const std::string& name) { return frame_numbers(name).size
 /// The pattern with each %s, unless a letter or digit follows, replaced by the scene's name,
 /// without folder and extension.
 std::string batch_output(const std::string& pattern, const std::string& scene) {
-    const std::string name = std::filesystem::path(scene).stem().string();
-    std::string output;
-    for (std::size_t i = 0; i < pattern.size(); ++i) {
-        const bool is_name = pattern.compare(i, 2, "%s") == 0 && ends_at(pattern, i + 2);
-        output += is_name ? name : std::string(1, pattern[i]);
-        if (is_name) ++i;
-    }
-    return output;
+    static const std::regex name("%s(?![[:alnum:]])"), dollar("[$]");
+    const std::string text = std::filesystem::path(scene).stem().string();
+    return std::regex_replace(pattern, name, std::regex_replace(text, dollar, "$$$$"));
 }
 
 /// The pictures: the frames, or the scenes of the command line and then those of the list, a line
@@ -129,10 +108,12 @@ std::vector<BatchItem> batch_items(const RenderOptions& options) {
     for (const std::string& scene : options.scenes) items.push_back({"", scene, "", {}});
     if (!options.batch.empty()) add_list(options.batch, items);
     if (items.empty()) usage_error("the list contains no scenes");
+    std::vector<std::string> outputs;
     for (BatchItem& item : items) {
         if (item.output.empty()) item.output = batch_output(options.output, item.scene);
+        outputs.push_back(item.output);
     }
-    refuse_shared_outputs(items);
+    check_outputs(outputs);
     return items;
 }
 

@@ -17,7 +17,7 @@ namespace {
 struct StressCall : StressOptions {
     bool list = false;     ///< name the cases, run none
     bool verbose = false;  ///< a line per case and renderer
-    std::string json;      ///< empty: none; "-": stdout
+    ResultFiles results;
 };
 
 int run_stress(const StressCall& options) {
@@ -27,15 +27,15 @@ int run_stress(const StressCall& options) {
         print_result(stress_list(families));
         return 0;
     }
-    check_result_path(options.json, json_start("stress"));
+    options.results.check({}, {});
     if (!options.output.empty()) {
         create_output_folder(options.output);
         check_output_path(options.output + "/reference.png");
     }
     RenderCache cache;
     const StressResult result = run_stress_cases(families, options, cache);
-    if (options.json != "-") print_result(stress_text(result, options.verbose));
-    write_result(options.json, [&] { return result_json("stress", result); });
+    if (!options.results.take_stdout()) print_result(stress_text(result, options.verbose));
+    options.results.write("--json", [&] { return result_json("stress", result); });
     if (result.interrupted) return 128 + stop_flag();
     return static_cast<int>(result.passed() ? ExitCode::done : ExitCode::different);
 }
@@ -56,15 +56,15 @@ void add_stress(Verb& program, Invocation& call) {
     verb.flag("--all-features", stress.all_features,
               "compile all features into the kernels: one build for all cases");
     verb.flag("--list", stress.list, "list the cases without running them");
-    add_result_file(verb, "--json", stress.json,
-                    "write JSON, to FILE or to stdout instead of the table");
+    stress.results.add(verb, "--json", json_start("stress"),
+                       "write JSON, to FILE or to stdout instead of the table");
     verb.value("-o,--output", "DIR", stress.output,
                "folder for each case's reference, worst picture and error map");
     verb.flag("-v,--verbose", stress.verbose, "print a line per case and renderer");
     add_build_extras(verb);
     verb.flag("-q,--quiet", stress.quiet, quiet_help);
-    verb.chosen = [asked, &call] {
-        if (asked->list && !(asked->json.empty() && asked->output.empty())) {
+    verb.chosen = [asked, &verb, &call] {
+        if (asked->list && (verb.given("--json") || verb.given("-o"))) {
             usage_error("--list cannot be combined with --json or -o");
         }
         call.in_worker([asked] { return run_stress(*asked); }, asked->quiet);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/image/output_path.h"
 
+#include <fmt/format.h>
 #include <linux/magic.h>
 #include <sys/vfs.h>
 #include <unistd.h>
@@ -105,24 +106,6 @@ void check_output_path(const std::string& path) {
     if (::access(directory.c_str(), W_OK | X_OK) != 0) fail_to_write(path, errno);
 }
 
-std::string canonical_output(const std::string& path) {
-    std::error_code error;
-    const fs::path target = find_output_destination(path).file;
-    const fs::path name = fs::weakly_canonical(fs::absolute(target), error);
-    return error ? path : name.string();
-}
-
-void check_outputs_differ(const std::vector<std::string>& outputs) {
-    std::map<std::string, std::string> names;
-    for (const std::string& output : outputs) {
-        if (output.empty() || find_output_destination(output).in_place) continue;
-        const auto [first, is_new] = names.try_emplace(canonical_output(output), output);
-        if (is_new) continue;
-        usage_error("{}: is the same file as {}, which is also written; choose another output",
-                    output, first->second);
-    }
-}
-
 void fail_to_encode(const std::string& path, const std::string& reason) {
     throw Error(ExitCode::output, path + ": cannot encode the picture: " + reason +
                                       "; try .pfm, which needs no library");
@@ -148,26 +131,39 @@ std::string partial_path(const std::string& path) {
     return (name.parent_path() / (stem + ending)).string();
 }
 
-void InputFiles::add(const std::string& path) {
+namespace {
+
+/// The same for all names of a regular file, which need not exist yet; empty for anything else.
+std::string identity(const std::string& path) {
     struct stat status {};
-    if (::stat(path.c_str(), &status) == 0)
-        names_.try_emplace({status.st_dev, status.st_ino}, path);
+    if (path.empty() || path == stdout_path) return "";
+    if (::stat(path.c_str(), &status) == 0) {
+        return S_ISREG(status.st_mode) ? fmt::format("{}:{}", status.st_dev, status.st_ino) : "";
+    }
+    if (errno != ENOENT) return "";  // whoever opens it says why it cannot be
+    std::error_code error;
+    const auto target = follow_links(path);
+    return target ? fs::weakly_canonical(fs::absolute(*target), error).string() : "";
 }
 
-void InputFiles::check(const std::string& output) const {
-    struct stat status {};
-    if (output == stdout_path || ::stat(output.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
-        return;
-    const auto found = names_.find({status.st_dev, status.st_ino});
+}  // namespace
+
+void UsedFiles::add(const std::string& path) {
+    const std::string file = identity(path);
+    if (!file.empty()) names_.try_emplace(file, path);
+}
+
+void UsedFiles::check(const std::string& output) const {
+    const auto found = names_.find(identity(output));
     if (found == names_.end()) return;
-    usage_error("{}: is the same file as the input {}; choose another output", output,
-                found->second);
+    usage_error("{}: is the same file as {}; choose another output", output, found->second);
 }
 
-void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs) {
-    InputFiles files;
-    for (const std::string& input : inputs) files.add(input);
-    files.check(output);
+void check_outputs(const std::vector<std::string>& outputs, UsedFiles used) {
+    for (const std::string& output : outputs) {
+        used.check(output);
+        used.add(output);
+    }
 }
 
 }  // namespace rt

@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "host/base/error.h"
@@ -39,13 +38,6 @@ std::filesystem::path directory_of(const std::filesystem::path& file);
 /// be called before a long computation.
 void check_output_path(const std::string& path);
 
-/// The path through all symbolic links: the same for any name of a file, which need not exist yet.
-std::string canonical_output(const std::string& path);
-
-/// Throws Error(ExitCode::usage) when two of these outputs are one file under any names or links.
-/// An empty name, "-", devices and pipes never match.
-void check_outputs_differ(const std::vector<std::string>& outputs);
-
 /// Throws Error (ExitCode::output) for a picture that cannot be encoded.
 [[noreturn]] void fail_to_encode(const std::string& path, const std::string& reason);
 
@@ -56,20 +48,25 @@ void create_output_folder(const std::string& folder);
 /// long is cut.
 std::string partial_path(const std::string& path);
 
-/// Files that are read, so that no output may replace them.
-class InputFiles {
+/// Files that are read or written, so that no output may replace them.
+class UsedFiles {
    public:
-    /// A name of no file is ignored.
+    UsedFiles() = default;
+    explicit UsedFiles(const std::vector<std::string>& paths) {
+        for (const std::string& path : paths) add(path);
+    }
+
     void add(const std::string& path);
 
-    /// Throws Error(ExitCode::usage) when the output is one of them under any name or link: the
-    /// same device and inode. An empty name and "-" never match.
+    /// Throws Error(ExitCode::usage) when the output is one of them under any name or link. An
+    /// empty name, "-", devices and pipes never match.
     void check(const std::string& output) const;
 
    private:
-    std::map<std::pair<dev_t, ino_t>, std::string> names_;
+    std::map<std::string, std::string> names_;  ///< by what is the same for all names of a file
 };
 
-void check_output_is_no_input(const std::string& output, const std::vector<std::string>& inputs);
+/// Checks that no output is another one, or in use.
+void check_outputs(const std::vector<std::string>& outputs, UsedFiles used = {});
 
 }  // namespace rt

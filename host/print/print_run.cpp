@@ -70,6 +70,11 @@ std::string line_of(const RunRow& row) {
     return fmt::format("{}\n", fmt::join(csv_row(row).cells, ","));
 }
 
+std::string csv_header() {
+    const TimedRun none;
+    return fmt::format("{}\n", fmt::join(csv_row(RunRow{none, "", Verdict::right, 0}).names, ","));
+}
+
 /// `device`: as for --device.
 void add_runs(const TimedRuns& runs, const std::string& device, std::string& text) {
     for (const TimedRun& run : runs.warm_up) text += line_of({run, device, runs.verdict, 0});
@@ -99,20 +104,15 @@ Json bench_environment_json(double load_before) {
     return json;
 }
 
-std::string run_csv_header() {
-    const TimedRun none;
-    return fmt::format("{}", fmt::join(csv_row(RunRow{none, "", Verdict::right, 0}).names, ","));
-}
-
 std::string bench_csv(const BenchResult& result) {
-    std::string text = run_csv_header() + "\n";
+    std::string text = csv_header();
     add_rows(result.rows, text);
     add_rows(result.ablation, text);
     return text;
 }
 
 std::string converge_csv(const ConvergeResult& result) {
-    std::string text = run_csv_header() + "\n";
+    std::string text = csv_header();
     for (const ConvergePoint& point : result.points) add_runs(point, point.asked.device, text);
     return text;
 }

@@ -66,15 +66,15 @@ int report_bad_rows(const std::vector<Row>& rows, bool interrupted, const Name& 
 std::string bench_text(const BenchResult& result);
 std::string converge_text(const ConvergeResult& result);
 
-/// The verdict, then a line per family: its worst figures next to what is allowed, the broken cases
-/// below. Verbose: also why a family matters, and a line per case and renderer.
+/// The verdict, then a line per family: its worst figures, the broken cases below. Verbose: also
+/// why a family matters, and a line per case and renderer.
 std::string stress_text(const StressResult& result, bool verbose);
 
 /// The names of the families and their cases; those of --quick are marked.
 std::string stress_list(const std::vector<StressFamily>& families);
 
-/// The first line of the CSV of bench and converge, without its newline.
-std::string run_csv_header();
+/// The first bytes of every CSV of bench and converge.
+inline constexpr const char* csv_start = "scene,scene_hash,";
 
 /// A header and a line per run, warm-up (round 0) and repeats.
 std::string bench_csv(const BenchResult& result);

@@ -87,7 +87,7 @@ class SeveralScenes(CliTest):
     def test_two_scenes_of_one_name_do_not_overwrite(self):
         result = self.run_cli("render", scene_path("cones"), scene_path("cones"), "-o", "%s.png",
                               *SMALL)
-        self.assert_refused(result, 2, "cones.png: is already the output of another scene")
+        self.assert_refused(result, 2, "cones.png: is the same file as cones.png")
         self.assertEqual(self.files(), [])
 
 
@@ -142,7 +142,7 @@ class List(CliTest):
         for other in ["b.png", "folder/a.png"]:
             self.write_text("list", f"{scene} a.png\n{scene} {other}\n")
             self.assert_refused(self.run_cli("render", "--batch", "list", *SMALL), 2,
-                                f"list:2: {other}: is already the output of another scene")
+                                f"{other}: is the same file as a.png")
 
     def test_that_has_no_scene(self):
         for name, code, words in [(self.write_text("list", "# none\n"), 2, "no scene"), ("nowhere", 3, "nowhere"),
