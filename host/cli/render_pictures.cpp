@@ -104,7 +104,6 @@ class RenderConsole {
         events_.message = message_printer(options);
         if (options.verbose) events_.detail = events_.message;
         const ProgressMode progress = progress_mode_for_stderr(options);
-        if (progress == ProgressMode::bar) events_.compiling = events_.message;
         if (live != nullptr) {
             events_.began = [live](int width, int height) { live->begin(width, height); };
             events_.rendered = [live](const Rect& part, std::vector<float> rgb) {
@@ -112,7 +111,11 @@ class RenderConsole {
             };
         }
         const bool has_bar = !options.view.preview || options.progress != ProgressMode::automatic;
-        events_.opening = [] { watch_worker("rendering"); };
+        events_.opening = [this, progress](const std::string& devices) {
+            watch_worker("rendering");
+            if (progress == ProgressMode::bar)
+                events_.message(devices + ": opening, compiling new kernels");
+        };
         events_.started = [this, progress, has_bar](const TileQueue& queue) {
             install_stop_signals();
             if (has_bar) progress_.emplace(queue, progress);

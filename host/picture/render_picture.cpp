@@ -4,12 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <optional>
-#include <stop_token>
-#include <thread>
 #include <utility>
 
 #include "host/base/error.h"
@@ -43,28 +38,8 @@ bool has_opencl(const Devices& devices) {
                        [](const DeviceChoice& choice) { return !choice.use_threads; });
 }
 
-/// Calls `warn`, on a separate thread, unless destroyed within `patience`: for steps that are
-/// usually short.
-class LateMessage {
-   public:
-    LateMessage(std::chrono::milliseconds patience, std::function<void()> warn)
-        : thread_([patience, warn = std::move(warn)](const std::stop_token& stop) {
-              std::mutex mutex;
-              std::condition_variable_any wake;
-              std::unique_lock lock(mutex);
-              const auto is_over = [&stop] { return stop.stop_requested(); };
-              if (!wake.wait_for(lock, stop, patience, is_over)) warn();
-          }) {}
-
-   private:
-    std::jthread thread_;
-};
-
 /// Of a pixel in a picture's file, which grows by doubling as it is encoded.
 constexpr std::size_t file_bytes = 12;
-
-/// Before users learn what they are waiting for.
-constexpr std::chrono::seconds compile_patience(1);
 
 /// Tile size in pixels for checking a picture that was not rendered in this run.
 constexpr PictureSize final_tile{32, 32};
@@ -167,7 +142,8 @@ class Job {
         if (is_exact_ && !settings_.no_fallback && has_opencl(devices)) spare = maker_->spare();
         Crew<T> crew(maker_->members(devices), std::move(spare), warn_);
         try {
-            open(crew, devices);
+            if (events_.opening && has_opencl(devices)) events_.opening(joined_names(devices));
+            crew.open();
             render_with(crew, joined_names(devices));
         } catch (const Error& error) {
             const bool can_start_over = !is_exact_ && !settings_.no_fallback && has_opencl(devices);
@@ -201,16 +177,6 @@ class Job {
         stats_.shares = std::move(shares);
         stats_.device = threads.stats();
         stats_.device.fallback_from = devices;
-    }
-
-    void open(Crew<T>& crew, const Devices& devices) const {
-        std::optional<LateMessage> late;
-        if (events_.opening && has_opencl(devices)) events_.opening();
-        if (events_.compiling && has_opencl(devices)) {
-            late.emplace(compile_patience,
-                         [&] { events_.compiling(joined_names(devices) + ": compiling kernels"); });
-        }
-        crew.open();
     }
 
     /// Renders the region; a device that fails is left out afterwards. `names`: who renders.

@@ -31,9 +31,8 @@ struct RenderedPicture {
 struct RenderEvents {
     std::function<void(const std::string& line)> message;  ///< what users should know
     std::function<void(const std::string& line)> detail;   ///< what they may want to know
-    std::function<void()> opening;  ///< OpenCL devices begin to work, until `ended`
-    /// A device is still compiling after a second; on a separate thread.
-    std::function<void(const std::string& line)> compiling;
+    /// These begin to work, OpenCL devices among them, until `ended`.
+    std::function<void(const std::string& devices)> opening;
     /// Tracing begins. Until `ended`, any thread may ask the queue for progress.
     std::function<void(const TileQueue&)> started;
     std::function<void()> progressed;  ///< a tile or some pixels are finished; on any thread
