@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -33,13 +32,10 @@ TEST(SecondsSinceProcessStart, CountWhatWasComputedAndWaitedFor) {
     EXPECT_GE(rt::seconds_since_process_start(), rt::processor_seconds() - 0.01);
 }
 
-TEST(ShortDeviceName, NamesPoclByItsProcessor) {
-    std::ifstream file(MIRRORBALL_SCENES_DIR "/../tests/device_names.json");
-    const auto names = nlohmann::json::parse(file);
-    EXPECT_GT(names.size(), 10u);
-    for (const auto& [name, expected] : names.items()) {
-        EXPECT_EQ(rt::short_device_name(name), expected.get<std::string>()) << name;
-    }
+TEST(ShortDeviceName, OfPoclIsItsOwn) {
+    EXPECT_EQ(rt::short_device_name("pthread-haswell-AMD EPYC"), "PoCL");
+    EXPECT_EQ(rt::short_device_name("cpu-znver4-AMD EPYC"), "PoCL");
+    EXPECT_EQ(rt::short_device_name("NVIDIA H100"), "NVIDIA H100");
 }
 
 TEST(RenderStats, TellOfADriverThatCompiledWhileTracing) {

@@ -118,23 +118,7 @@ std::string csv_quoted(const std::string& text) {
 }
 
 std::string short_device_name(const std::string& name) {
-    const std::string head = name.substr(0, name.find('-'));
-    if (head != "pthread" && head != "cpu") return name;
-    const std::size_t at = name.find_first_of(" ABCDEFGHIJKLMNOPQRSTUVWXYZ");
-    if (at == name.npos) return "PoCL";
-    std::string processor = name.substr(name.rfind('-', at) + 1);
-    for (const std::string_view mark : {"(R)", "(TM)"}) {
-        for (std::size_t found; (found = processor.find(mark)) != processor.npos;) {
-            processor.erase(found, mark.size());
-        }
-    }
-    for (const std::string_view rest : {" CPU @", " @"}) {
-        processor.erase(std::min(processor.size(), processor.find(rest)));
-    }
-    if (const auto cores = processor.find("-Core Processor"); cores != processor.npos) {
-        processor.erase(std::min(cores, processor.rfind(' ', cores)));  // " 96"
-    }
-    return "PoCL (" + processor + ")";
+    return name.starts_with("pthread-") || name.starts_with("cpu-") ? "PoCL" : name;
 }
 
 }  // namespace rt

@@ -95,8 +95,8 @@ std::size_t printable_length(std::string_view text);
 /// unprintable byte becomes "\xNN". It cannot break a line or send the terminal escape sequences.
 std::string printable(std::string_view text);
 
-/// The short name of an OpenCL device, for tables: PoCL calls its own "pthread-haswell-AMD EPYC",
-/// which is "PoCL (AMD EPYC)" here. Other names stay. As short_name in python/mirrorball/texts.py.
+/// The name of an OpenCL device, for tables of text: PoCL calls its own "pthread-haswell-AMD EPYC",
+/// which is "PoCL" here. Other names stay.
 std::string short_device_name(const std::string& name);
 
 }  // namespace rt

@@ -83,7 +83,7 @@ def noise_percent(spread: dict[str, Any]) -> float:
 
 def short_name(name: str) -> str:
     """The one short name of an OpenCL device: PoCL calls its own `pthread-haswell-AMD EPYC`, which is
-    PoCL (AMD EPYC) here. Other names are short enough. As short_device_name in host/base/text.cpp."""
+    PoCL (AMD EPYC) here. Other names are short enough."""
     pocl = re.fullmatch(r"(?:pthread|cpu)(?:-[^- A-Z]*)*(?:-(.*))?", name)
     if pocl is None:
         return name
