@@ -5,10 +5,6 @@
 #include <signal.h>
 
 #include <filesystem>
-#include <ranges>
-#include <string_view>
-#include <system_error>
-#include <vector>
 
 #include "host/base/files.h"
 
@@ -20,18 +16,6 @@ namespace rt {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Paths to try for a module, in order.
-std::vector<fs::path> candidates(const char* name) {
-    const fs::path home = program_file().parent_path();
-    std::vector<fs::path> files;
-    if (!home.empty()) files.push_back(home / name);
-    for (const auto& part : std::views::split(std::string_view(MIRRORBALL_MODULE_DIR), ':')) {
-        const std::string_view directory(part.begin(), part.end());
-        if (!directory.empty()) files.push_back(home / directory / name);
-    }
-    return files;
-}
 
 /// Blocks all signals of this thread for its lifetime. The libraries start idle threads of their
 /// own while they are loaded; these inherit the mask and never run the program's handlers.
@@ -71,13 +55,10 @@ const void* load_file(const fs::path& file, const ModuleFile& wanted, ExitCode f
 
 const void* load_module(const ModuleFile& module, ExitCode failure) {
     const SignalsBlocked blocked;
-    std::string tried;
-    for (const fs::path& file : candidates(module.name)) {
-        std::error_code error;
-        if (fs::exists(file, error)) return load_file(file, module, failure);
-        tried += (tried.empty() ? "" : ", ") + file.string();
-    }
-    throw Error(failure, tried + ": no such file; " + module.advice);
+    const fs::path folder = beside_program({".", MIRRORBALL_MODULE_DIR}, module.name);
+    if (!folder.empty()) return load_file(folder / module.name, module, failure);
+    const fs::path last = program_file().parent_path() / MIRRORBALL_MODULE_DIR / module.name;
+    throw Error(failure, last.lexically_normal().string() + ": no such file; " + module.advice);
 }
 
 }  // namespace rt

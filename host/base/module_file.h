@@ -17,10 +17,9 @@ struct ModuleFile {
 };
 
 /// Loads a module, never unloads it, and returns its interface: what the one symbol that it
-/// exports, mirrorball_module, returns. Throws Error(failure). It is looked for
-/// 1. in the directory of the executable,
-/// 2. in the directories of MIRRORBALL_MODULE_DIR, a list separated by colons fixed when the
-///    program was built; a relative one starts at the directory of the executable.
+/// exports, mirrorball_module, returns. Throws Error(failure). It lies next to the executable, or
+/// in the folder MIRRORBALL_MODULE_DIR, relative to the executable's, fixed when the program was
+/// built.
 const void* load_module(const ModuleFile& module, ExitCode failure);
 
 }  // namespace rt
