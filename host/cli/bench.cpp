@@ -22,8 +22,7 @@ struct BenchCall : BenchOptions {
 };
 
 std::string row_name(const BenchCase& asked) {
-    return fmt::format("{} ({}){}", key_of(asked), asked.device_name,
-                       asked.change.empty() ? "" : ", " + asked.change);
+    return fmt::format("{} ({})", key_of(asked), asked.device_name);
 }
 
 /// Whether any row has become slower; reports each on stderr.
@@ -31,9 +30,7 @@ bool has_regressed(const BenchResult& result, const Baseline& baseline, double m
                    bool quiet) {
     const auto found = regressions(result, baseline, max_regress);
     if (found.empty() && !quiet) print_note("no row is slower than the baseline's");
-    for (const Regression& regression : found) {
-        print_note("slower: " + to_string(regression));
-    }
+    for (const std::string& line : found) print_note("slower: " + line);
     return !found.empty();
 }
 
@@ -47,20 +44,10 @@ int run_bench(const BenchCall& options) {
     if (!options.results.take_stdout()) print_result(bench_text(result));
     options.results.write("--json", [&] { return result_json("bench", result); });
     options.results.write("--csv", [&] { return bench_csv(result); });
-    const int status = options.ablate
-                           ? report_bad_rows(result.ablation, result.interrupted, row_name)
-                           : report_bad_rows(result.rows, result.interrupted, row_name);
+    const int status = report_bad_rows(result.rows, result.interrupted, row_name);
     const bool slower = !options.baseline.empty() && !result.interrupted &&
                         has_regressed(result, baseline, options.max_regress, options.quiet);
     return slower ? static_cast<int>(ExitCode::different) : status;
-}
-
-/// Defaults of an ablation: one picture on every device.
-void settle_ablation(Verb& verb, BenchCall& bench) {
-    if (!bench.baseline.empty()) usage_error("--ablate cannot be combined with --baseline");
-    if (!verb.given("--sizes")) bench.sizes = {{500, 500}};
-    if (!verb.given("--aa")) bench.aa = parse_aa_list("grid:2");
-    if (!verb.given("--precision")) bench.precisions = {Precision::float32};
 }
 
 }  // namespace
@@ -90,13 +77,9 @@ void add_bench(Verb& program, Invocation& call) {
                "how much slower a row may become; changes within noise also pass (default: 5%)");
     bench.results.add(verb, "--json", json_start("bench"), "write all measurements as JSON");
     bench.results.add(verb, "--csv", csv_start, "write one row per run as CSV");
-    verb.flag("--ablate", bench.ablate,
-              "measure what leaving out each feature saves, with and without it in alternation "
-              "(default: --sizes 500 --aa grid:2 --precision float)");
     add_build_extras(verb);
     verb.flag("-q,--quiet", bench.quiet, quiet_help);
-    verb.chosen = [asked, &verb, &call] {
-        if (asked->ablate) settle_ablation(verb, *asked);
+    verb.chosen = [asked, &call] {
         call.in_worker([asked] { return run_bench(*asked); }, asked->quiet);
     };
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/measure/bench.h"
@@ -24,7 +25,7 @@ Baseline read_rows(const Json& json, const std::string& path) {
     for (const Json& row : json.at("rows")) {
         const Json& figures = row.at("figures");
         if (figures.is_null()) continue;
-        BaselineRow& known = baseline[row.at("key").get<std::string>()];
+        BenchFigures& known = baseline[row.at("key").get<std::string>()];
         read_json(figures.at("trace"), known.trace);
         read_json(figures.at("total"), known.total);
     }
@@ -47,14 +48,6 @@ bool is_slower(const Spread& before, const Spread& now, double max_regress) {
            now.median - before.median > 3 * (before.mad + now.mad);
 }
 
-std::string to_string(const Regression& regression) {
-    const Spread &before = regression.before, &now = regression.now;
-    return fmt::format("{}: {} {:.6f} s +- {:.1f}% was {:.6f} s +- {:.1f}% ({:+.1f}%)",
-                       regression.key, regression.what, now.median, now.noise_percent(),
-                       before.median, before.noise_percent(),
-                       before.median > 0 ? 100 * (now.median / before.median - 1) : 0);
-}
-
 void check_baseline(const std::vector<BenchCase>& rows, const Baseline& baseline) {
     const auto is_known = [&](const BenchCase& row) { return baseline.contains(key_of(row)); };
     if (std::ranges::any_of(rows, is_known)) return;
@@ -62,19 +55,22 @@ void check_baseline(const std::vector<BenchCase>& rows, const Baseline& baseline
                 "no row matches the baseline; use the same scenes, sizes, AA modes and devices");
 }
 
-std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,
-                                    double max_regress) {
-    std::vector<Regression> slower;
+std::vector<std::string> regressions(const BenchResult& result, const Baseline& baseline,
+                                     double max_regress) {
+    std::vector<std::string> slower;
     for (const BenchRow& row : result.rows) {
         const std::string key = key_of(row.asked);
-        const auto before = baseline.find(key);
-        const auto& now = row.figures;
-        if (before == baseline.end() || !now) continue;
-        const BaselineRow& old = before->second;
-        if (is_slower(old.total, now->total, max_regress)) {
-            slower.push_back({key, "total", old.total, now->total});
-        } else if (is_slower(old.trace, now->trace, max_regress)) {
-            slower.push_back({key, "trace", old.trace, now->trace});
+        const auto known = baseline.find(key);
+        if (known == baseline.end() || !row.figures) continue;
+        for (const auto& [what, figure] :
+             {std::pair{"total", &BenchFigures::total}, std::pair{"trace", &BenchFigures::trace}}) {
+            const Spread &before = known->second.*figure, &now = (*row.figures).*figure;
+            if (!is_slower(before, now, max_regress)) continue;
+            slower.push_back(
+                fmt::format("{}: {} {:.6f} s +- {:.1f}% was {:.6f} s +- {:.1f}% ({:+.1f}%)", key,
+                            what, now.median, now.noise_percent(), before.median,
+                            before.noise_percent(), 100 * (now.median / before.median - 1)));
+            break;
         }
     }
     return slower;

@@ -51,33 +51,10 @@ std::optional<BenchFigures> figures_of(const BenchResult& result, const BenchRow
     return figures;
 }
 
-/// Judges a row of an ablation by its baseline row; both have runs.
-void judge_change(const AblationRow& baseline, AblationRow& row) {
-    if (!row.has_figures() || baseline.repeats.empty()) return;
-    const std::uint64_t found = row.repeats.front().image_hash;
-    const std::uint64_t expected = baseline.repeats.front().image_hash;
-    if (found != expected) {
-        row.verdict = Verdict::wrong;
-        row.why = fmt::format("image {}, but the default row's is {}", hash_text(found),
-                              hash_text(expected));
-    }
-    if (!row.has_figures() || !baseline.has_figures()) return;
-    AblationFigures& figures = row.figures.emplace();
-    figures.trace = spread_of(row.repeats, trace_seconds);
-    if (!row.warm_up.empty()) figures.first_build = row.warm_up.front().phases.renderer.build;
-    const double before = spread_of(baseline.repeats, trace_seconds).median;
-    if (before > 0) figures.ratio = figures.trace.median / before;
-}
-
 }  // namespace
 
 void BenchResult::judge() {
     for (BenchRow& row : rows) row.figures = figures_of(*this, row);
-    const AblationRow* baseline = nullptr;
-    for (AblationRow& row : ablation) {
-        if (row.asked.change.empty()) baseline = &row;
-        judge_change(*baseline, row);
-    }
 }
 
 std::string key_of(const BenchCase& asked) {

@@ -20,7 +20,6 @@ struct BenchCase {
     int threads = 0;          ///< asked for; 0 for OpenCL
     std::string schedule;     ///< "tiles", "buffers" or "scalar" (tiles, one ray at a time); empty
                               ///< for OpenCL
-    std::string change;       ///< in an ablation: what differs from the baseline row
 
     bool uses_threads() const { return !schedule.empty(); }
 };
@@ -55,32 +54,15 @@ void describe(A& a, X& x) {
     a("over_amdahl", or_null(x.over_amdahl), "speed_up - amdahl");
 }
 
-/// Figures of a row of an ablation.
-struct AblationFigures {
-    Spread trace;            ///< seconds
-    double first_build = 0;  ///< seconds to build the kernels before the first picture
-    double ratio = 0;        ///< median trace over that of the baseline row: above 1, slower
-};
-
-template <typename A, Of<AblationFigures> X>
-void describe(A& a, X& x) {
-    a("trace", x.trace, "seconds to trace");
-    a("first_build", x.first_build, "seconds to build the kernels before the first picture");
-    a("ratio", x.ratio, "of the median trace to the baseline row's: above 1, slower");
-}
-
 /// A row: one case and its runs. RenderStats::error is against the double reference, on values
 /// clamped to [0,1].
-template <typename Figures>
-struct Row : TimedRuns {
+struct BenchRow : TimedRuns {
     BenchCase asked;
-    std::optional<Figures> figures;  ///< empty unless the row is right
+    std::optional<BenchFigures> figures;  ///< empty unless the row is right
 };
-using BenchRow = Row<BenchFigures>;
-using AblationRow = Row<AblationFigures>;
 
-template <typename A, typename X>
-void describe_row(A& a, X& x) {
+template <typename A, Of<BenchRow> X>
+void describe(A& a, X& x) {
     a("key", key_of(x.asked), "identifies the row across results");
     a("scene", x.asked.scene, "");
     describe(a, x.asked.picture);
@@ -89,17 +71,6 @@ void describe_row(A& a, X& x) {
     a("threads", x.asked.threads, "asked for; 0 for OpenCL");
     a("schedule", x.asked.schedule, "tiles, buffers or scalar; empty for OpenCL");
     describe_runs(a, x, x.figures);
-}
-
-template <typename A, Of<BenchRow> X>
-void describe(A& a, X& x) {
-    describe_row(a, x);
-}
-
-template <typename A, Of<AblationRow> X>
-void describe(A& a, X& x) {
-    describe_row(a, x);
-    a("change", x.asked.change, "what differs from the baseline row; empty in that row");
 }
 
 /// A picture in double, strict, on threads, and its run.
@@ -120,12 +91,8 @@ struct BenchResult {
     bool interrupted = false;
     std::vector<ReferenceRun> references;  ///< one per scene, size, AA mode
     std::vector<BenchRow> rows;            ///< by scene, size, AA, precision; then devices
-    /// With --ablate (`rows` is then empty): a picture on a device as usual, the baseline row,
-    /// then with each change. Every picture must have the same bits as the baseline's.
-    std::vector<AblationRow> ablation;
 
-    /// Computes the figures of all rows, and marks rows of the ablation whose picture differs from
-    /// the baseline's as wrong.
+    /// Computes the figures of all rows.
     void judge();
 };
 
@@ -135,7 +102,6 @@ void describe(A& a, X& x) {
     a("interrupted", x.interrupted, "whether a signal ended it early");
     a("references", x.references, "double, strict, on threads; one per scene, size and AA mode");
     a("rows", x.rows, "a device, precision and picture each");
-    a("ablation", x.ablation, "with --ablate: the baseline row, then one change at a time");
 }
 
 /// The share of a one-thread run that more threads can shorten, as the paper measures it (section
@@ -145,13 +111,8 @@ double parallel_fraction(double trace_seconds, double total_seconds);
 /// Amdahl's law: how many times faster `threads` threads can be at most, 1 / ((1 - f) + f / n).
 double amdahl_speed_up(double parallel_fraction, int threads);
 
-/// What an earlier bench measured for a row with verdict right.
-struct BaselineRow {
-    Spread trace, total;  ///< seconds
-};
-
-/// By key_of.
-using Baseline = std::map<std::string, BaselineRow>;
+/// What an earlier bench measured for right rows, by key_of.
+using Baseline = std::map<std::string, BenchFigures>;
 
 /// Reads the JSON of an earlier bench. Throws Error (ExitCode::input).
 Baseline load_baseline(const std::string& path);
@@ -160,22 +121,13 @@ Baseline load_baseline(const std::string& path);
 /// `max_regress`, and by more than 3 times the summed MADs, so that noise alone does not count.
 bool is_slower(const Spread& before, const Spread& now, double max_regress);
 
-/// A row that has become slower.
-struct Regression {
-    std::string key;
-    std::string what;  ///< "trace" or "total"
-    Spread before, now;
-};
-
-/// One line: what, from, to, and the noise.
-std::string to_string(const Regression& regression);
-
 /// Throws Error (ExitCode::input) if none of the rows to be measured is in the baseline.
 void check_baseline(const std::vector<BenchCase>& rows, const Baseline& baseline);
 
-/// The rows of the result that are in the baseline and slower now, in total or else in trace.
-std::vector<Regression> regressions(const BenchResult& result, const Baseline& baseline,
-                                    double max_regress);
+/// A line for each row of the result that is in the baseline and slower now, in total or else in
+/// trace: its key, which of them, from, to, and the noise.
+std::vector<std::string> regressions(const BenchResult& result, const Baseline& baseline,
+                                     double max_regress);
 
 /// How threads render a row's picture.
 struct ThreadsWay {
@@ -199,8 +151,7 @@ struct BenchOptions {
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
     std::vector<ThreadsWay> ways;  ///< of threads
     LightOverrides light;
-    int repeats = 5;      ///< not counting the warm-up
-    bool ablate = false;  ///< measure what leaving features out saves, instead of devices
+    int repeats = 5;  ///< not counting the warm-up
     bool quiet = false;
 };
 

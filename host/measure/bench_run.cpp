@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <functional>
 #include <map>
 
 #include "host/base/console.h"
@@ -11,8 +10,6 @@
 #include "host/measure/bench.h"
 #include "host/measure/machine_load.h"
 #include "host/measure/timing.h"
-#include "host/opencl/cl_tiles.h"
-#include "host/render/packet_shape.h"
 #include "host/render/stopwatch.h"
 #include "host/render/threads_renderer.h"
 #include "host/scene/scene.h"
@@ -21,78 +18,6 @@
 namespace rt {
 
 namespace {
-
-/// One deviation from the defaults: compiles something the scene does not need, or removes
-/// something it uses.
-struct Change {
-    std::string what;
-    std::function<void(RenderSettings&)> make;
-};
-
-constexpr std::size_t most_without_hierarchy = 5000;
-
-using Changes = std::vector<Change>;
-
-void add_features(const Features& needed, Changes& changes) {
-    for (const FeatureName& feature : feature_names) {
-        if (needed.*feature.flag) continue;
-        changes.push_back(
-            {std::string(feature.name) + " compiled in", [&feature](RenderSettings& settings) {
-                 settings.kernels.features.*feature.flag = true;
-             }});
-    }
-    if (changes.empty()) return;
-    changes.push_back({"everything compiled in",
-                       [](RenderSettings& settings) { settings.kernels.features = Features{}; }});
-}
-
-/// Whether some kind of primitive could have a hierarchy but has none.
-bool lacks_hierarchy(const FlatScene<float>& flat) {
-    return (flat.spheres.size() > 1 && flat.params.sphere_root == 0) ||
-           (flat.cones.size() > 1 && flat.params.cone_root == 0) ||
-           (flat.triangles.size() > 1 && flat.params.triangle_root == 0);
-}
-
-void add_hierarchies(const FlatScene<float>& flat, Changes& changes) {
-    const std::size_t primitives = flat.spheres.size() + flat.cones.size() + flat.triangles.size();
-    if (!flat.nodes.empty() && primitives <= most_without_hierarchy) {
-        changes.push_back(
-            {"no hierarchies", [](RenderSettings& settings) { settings.hierarchies = false; }});
-    }
-    if (lacks_hierarchy(flat)) {
-        changes.push_back({"hierarchies over few primitives",
-                           [](RenderSettings& settings) { settings.hierarchies = true; }});
-    }
-}
-
-/// The changes that `bench --ablate` tries on this scene and device. Hierarchies are removed only
-/// where testing all primitives one by one does not take too long.
-std::vector<Change> changes_to_measure(const Scene& scene, const DeviceChoice& device,
-                                       Precision precision) {
-    const FlatScene<float> flat = flatten<float>(scene);
-    Changes changes;
-    if (!device.use_threads) add_features(flat.features, changes);
-    if (flat.stats.casters < flat.stats.lit_triangles) {
-        changes.push_back(
-            {"no caster lists", [](RenderSettings& settings) { settings.caster_lists = false; }});
-    }
-    add_hierarchies(flat, changes);
-    const ClDevice& cl = device.device;
-    const int lanes = device.use_threads                ? 0
-                      : precision == Precision::float32 ? packet_lanes<float>(0, cl)
-                                                        : packet_lanes<double>(0, cl);
-    if (lanes > 1) {
-        const int samples = scene.aa.samples();
-        if (packet_shape(lanes, samples).samples == samples) {
-            changes.push_back({"a loop over samples", [](RenderSettings& settings) {
-                                   settings.kernels.any_samples = true;
-                               }});
-        }
-        changes.push_back({"one lane instead of " + std::to_string(lanes),
-                           [](RenderSettings& settings) { settings.kernels.lanes = 1; }});
-    }
-    return changes;
-}
 
 /// The rows of one bench, and the scenes and references they point to.
 class Plan {
@@ -168,9 +93,7 @@ class Plan {
             picture.precision = precision;
             for (const DeviceChoice& device : devices_) {
                 if (precision == Precision::float64 && !device.has_double()) continue;
-                if (options_.ablate) {
-                    add_ablation(loaded, picture, device);
-                } else if (device.use_threads) {
+                if (device.use_threads) {
                     add_threads_rows(loaded, picture, device);
                 } else {
                     add_row(loaded, picture, device);
@@ -197,23 +120,8 @@ class Plan {
         }
     }
 
-    /// The picture with default settings, then with each change.
-    void add_ablation(const TimedScene& loaded, const RenderSettings& picture,
-                      const DeviceChoice& device) {
-        DeviceChoice used = device;
-        if (device.use_threads && device.threads == 0) used.threads = most_threads();
-        add_row(loaded, picture, used);
-        Scene scene = loaded.scene;
-        apply_overrides(scene, picture);
-        for (const Change& change : changes_to_measure(scene, device, picture.precision)) {
-            RenderSettings changed = picture;
-            change.make(changed);
-            add_row(loaded, changed, used, change.what);
-        }
-    }
-
     void add_row(const TimedScene& loaded, const RenderSettings& picture,
-                 const DeviceChoice& device, const std::string& change = "") {
+                 const DeviceChoice& device) {
         BenchCase& row = asked.emplace_back();
         row.scene = loaded.id;
         row.picture = spec_;
@@ -221,7 +129,6 @@ class Plan {
         row.device = device.spec();
         row.device_name = device.name();
         row.threads = device.threads;
-        row.change = change;
         if (device.use_threads) {
             row.schedule = picture.kernels.lanes == 1 ? "scalar" : to_string(picture.schedule);
         }
@@ -255,11 +162,7 @@ BenchResult measure_bench(const BenchOptions& options, const Baseline* baseline)
     }
     for (std::size_t i = 0; i < plan.cases.size(); ++i) {
         TimedRuns& runs = plan.cases[i];
-        if (options.ablate) {
-            result.ablation.push_back({std::move(runs), plan.asked[i], {}});
-        } else {
-            result.rows.push_back({std::move(runs), plan.asked[i], {}});
-        }
+        result.rows.push_back({std::move(runs), plan.asked[i], {}});
     }
     result.judge();
     result.load_before = other_load();

@@ -84,40 +84,6 @@ std::string header_text() {
                        "RMSE");
 }
 
-std::string ablation_row_text(const AblationRow& row) {
-    const bool usual = row.asked.change.empty();
-    const std::string head = fmt::format(" {:<31}", usual ? "default" : row.asked.change);
-    const auto& figures = row.figures;
-    if (figures) {
-        return head + fmt::format(" {:>8.5f} {:>3.0f} {:>5.2f} {:>7.3f}  {}\n",
-                                  figures->trace.median, figures->trace.noise_percent(),
-                                  figures->ratio, figures->first_build,
-                                  hash_text(row.repeats.back().image_hash));
-    }
-    if (row.verdict == Verdict::right) return head + " the default row is missing\n";
-    if (row.verdict == Verdict::unfinished) return head + " not finished\n";
-    return head + fmt::format(" {}, not timed: {}\n", to_string(row.verdict), row.why);
-}
-
-constexpr const char* ablation_legend =
-    "trace s: medians; +-%: median absolute deviation. ratio: relative to the\n"
-    "default row; above 1, slower. build: seconds before the first picture.\n";
-
-std::string ablation_text(const BenchResult& result) {
-    std::string text;
-    for (const AblationRow& row : result.ablation) {
-        if (row.asked.change.empty()) {
-            text += fmt::format("{}{}, {}\n {:<31} {:>8} {:>3} {:>5} {:>7}  {}\n",
-                                text.empty() ? "" : "\n", group_of(row.asked),
-                                row.asked.uses_threads() ? row.asked.device
-                                                         : short_device_name(row.asked.device_name),
-                                "", "trace s", "+-%", "ratio", "build", "image");
-        }
-        text += ablation_row_text(row);
-    }
-    return text;
-}
-
 constexpr const char* legend =
     "Medians; +-%: median absolute deviation. total: flatten, open, build, upload,\n"
     "trace, resolve, read back. speed-up: relative to one thread with the same\n"
@@ -143,13 +109,10 @@ std::string bench_text(const BenchResult& result) {
         const std::string schedule = row.asked.schedule.empty() ? "" : "/" + row.asked.schedule;
         images[hash_text(row.repeats.back().image_hash)].push_back(row.asked.device + schedule);
     }
-    text += images_text(images) + ablation_text(result);
-    text +=
-        fmt::format("\n{}; other load {:.2f}\n{}",
-                    result.ablation.empty()
-                        ? rounds_text(result.rows, result.repeats_asked, result.interrupted)
-                        : rounds_text(result.ablation, result.repeats_asked, result.interrupted),
-                    result.load_before, result.ablation.empty() ? legend : ablation_legend);
+    text += images_text(images);
+    text += fmt::format("\n{}; other load {:.2f}\n{}",
+                        rounds_text(result.rows, result.repeats_asked, result.interrupted),
+                        result.load_before, legend);
     return text;
 }
 

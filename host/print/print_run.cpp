@@ -84,14 +84,6 @@ void add_runs(const TimedRuns& runs, const std::string& device, std::string& tex
     }
 }
 
-template <typename Row>
-void add_rows(const std::vector<Row>& rows, std::string& text) {
-    for (const Row& row : rows) {
-        const std::string& change = row.asked.change;
-        add_runs(row, row.asked.device + (change.empty() ? "" : " " + change), text);
-    }
-}
-
 }  // namespace
 
 std::string json_start(const std::string& format) {
@@ -106,8 +98,7 @@ Json bench_environment_json(double load_before) {
 
 std::string bench_csv(const BenchResult& result) {
     std::string text = csv_header();
-    add_rows(result.rows, text);
-    add_rows(result.ablation, text);
+    for (const BenchRow& row : result.rows) add_runs(row, row.asked.device, text);
     return text;
 }
 

@@ -46,7 +46,7 @@ def bench(*scenes: Scene, **options: Any) -> Rows:
         paths = [stack.enter_context(scene_path(scene)) for scene in scenes]
         report = run_json(["bench", *paths, "--json", "-q", *option_words(options)],
                           accepted=(0, 1))
-    rows = report["rows"] + report.get("ablation", [])
+    rows = report["rows"]
     return Rows([{**_flat(row), **_names(row, report["rows"], options.get("devices"))} for row in rows], report)
 
 
