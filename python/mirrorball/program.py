@@ -124,15 +124,16 @@ def run(words: Iterable[Any], progress: Optional[Progress] = None,
         assert process.stdout is not None
         listener = threading.Thread(target=_listen, args=(process, progress, said, raised, echo),
                                     daemon=True)
-        listener.start()
         try:
+            listener.start()
             printed = process.stdout.read()
             process.wait()
         except BaseException:
             _stop(process)
             raise
         finally:
-            listener.join(_SECONDS_TO_STOP)
+            if listener.is_alive():
+                listener.join(_SECONDS_TO_STOP)
     if raised:
         raise raised[0]
     if process.returncode not in accepted:

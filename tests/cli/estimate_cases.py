@@ -97,8 +97,8 @@ class Target(CliTest):
         self.assertEqual(self.files(), ["out.png"])
 
     def test_out_of_time_keeps_the_first_picture(self):
-        result = self.run_cli("render", scene_path("glass"), "--size", "400", "--aa", "sobol:4",
-                              "--target-rmse", "5e-5", "--timeout", "3", "-o", "out.png")
+        result = self.run_cli("render", scene_path("glass"), "--size", "120", "--aa", "sobol:4",
+                              "--target-rmse", "5e-5", "--timeout", "5", "--threads", "1", "-o", "out.png")
         self.assertEqual(result.returncode, 8)
         self.assertRegex(result.stderr, RMSE + " with sobol:4, not the target of 5e-05: out of")
         self.assertEqual(self.files(), ["out.png"])
