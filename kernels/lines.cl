@@ -6,13 +6,14 @@
 // lies anywhere in between, so the squared error is a twelfth of the squared change; a cut quarters
 // it. So an edge costs as many cuts a line for each digit, where point samples cost a factor.
 //
-// Between lines, means are interpolated. The error of that shows in how the slope from mean to mean
-// changes; where it exceeds that of the segments, lines are added. A thin shape slips between the
-// samples of some lines. So the first signature seen between two others on a line is noted as rare,
-// and each further line has a sample where its neighbors say that the rare surface is.
+// Each line lies in the middle of a strip, whose mean is that of the line. The error of that shows
+// in how the slope from mean to mean changes; where it exceeds that of the segments, strips are
+// divided into three. A thin shape slips between the samples of some lines. So the first signature
+// seen between two others on a line is noted as rare, and each further line has a sample where its
+// neighbors say that the rare surface is.
 //
-// The first step has four lines from side to side of the pixel, with four samples each. Every
-// further step has sixteen samples, too: on four lines more, or at sixteen cuts.
+// The first step has four strips from side to side of the pixel, with four samples on each line.
+// Every further step has sixteen samples, too: on four lines more, or at sixteen cuts.
 #ifndef RT_LINES_CL
 #define RT_LINES_CL
 
@@ -27,11 +28,15 @@ enum {
     RT_MOST_LINE_SAMPLES = 4096
 };
 
-// Squared errors per squared change: of the color along a segment, with an edge or without, and of
-// the slope between means, where lines are a pixel apart.
+// Squared errors per squared change: of the color along a segment, with an edge or without; of the
+// slope between means, where strips are a pixel wide; and of the color from a corner to the line
+// next to it, the same. At the sides of a pixel, an edge may end: the squared change of the slope
+// is taken as this share of its square, a pixel's width.
 #define RT_JUMP_ERROR ((Real)1 / (Real)12)
 #define RT_SMOOTH_ERROR ((Real)0.004f)
-#define RT_BEND_ERROR ((Real)0.01f)
+#define RT_BEND_ERROR ((Real)0.0055f)
+#define RT_CORNER_ERROR ((Real)0.02f)
+#define RT_SIDE_BEND ((Real)1.5f)
 
 // The squared error, in squared tolerances, at which a pixel is done; and the share of it at which
 // a segment is.
@@ -50,8 +55,8 @@ typedef struct {
 } Segment;
 
 typedef struct {
-    Real across;
-    Packed3 settled;  // the sum over segments that are not kept any more
+    Real across, width;  // the middle of its strip, and the strip's width
+    Packed3 settled;     // the sum over segments that are not kept any more
     Packed3 mean;
     Real low, high;  // the rare signature's first and last place; low > high: not met
 } Line;
@@ -59,8 +64,10 @@ typedef struct {
 // An open pixel in the making.
 typedef struct {
     Index x, y;
-    bool upward;                // lines are upright
-    bool is_margin;             // its rays are counted in another tile
+    bool upward;      // lines are upright
+    bool is_margin;   // its rays are counted in another tile
+    Knot corners[4];  // lower left, lower right, upper left, upper right
+    Real cut_off[2];  // squared changes from the first and last line's ends to the corners
     Line lines[RT_MOST_LINES];  // from side to side
     Segment segments[RT_MOST_SEGMENTS];
     Index line_count, segment_count, samples;
@@ -104,8 +111,9 @@ Packed3 clamped_difference(Packed3 a, Packed3 b) {
 // Over channels.
 Real mean_square(Packed3 v) { return (v.x * v.x + v.y * v.y + v.z * v.z) * ((Real)1 / (Real)3); }
 
-void start_line(Line* line, Real across) {
+void start_line(Line* line, Real across, Real width) {
     line->across = across;
+    line->width = width;
     line->settled = line->mean = packed_black();
     line->low = (Real)1;
     line->high = (Real)0;
@@ -158,10 +166,30 @@ void plan_samples(LinePixel* pixel, const Index* lines) {
     }
 }
 
+// The corner whose signature is that of no other; negative: none is.
+Index odd_corner(const LinePixel* pixel) {
+    Index odd = -1;
+    for (Index i = 0; i < 4; ++i) {
+        bool alone = true;
+        for (Index other = 0; other < 4; ++other) {
+            alone &= other == i || pixel->corners[i].signature != pixel->corners[other].signature;
+        }
+        if (alone) odd = odd < 0 ? i : 4;
+    }
+    return odd < 4 ? odd : -1;
+}
+
+// Strips are narrower towards a corner that is cut off.
 void plan_first_lines(LinePixel* pixel) {
     Index lines[RT_STEP_LINES];
+    Index odd = odd_corner(pixel);
+    Index far = odd < 0 ? 0 : pixel->upward ? odd & 1 : odd >> 1;
+    Real from = (Real)0;
     for (Index i = 0; i < RT_STEP_LINES; ++i) {
-        start_line(&pixel->lines[i], (Real)i * ((Real)1 / (Real)(RT_STEP_LINES - 1)));
+        Index number = far ? RT_STEP_LINES - i : i + 1;
+        Real width = odd < 0 ? (Real)0.25f : (Real)0.1f * (Real)number;
+        start_line(&pixel->lines[i], from + (Real)0.5f * width, width);
+        from += width;
         lines[i] = i;
     }
     pixel->line_count = RT_STEP_LINES;
@@ -250,24 +278,6 @@ void cut_segments(LinePixel* pixel) {
     pixel->segment_count = count;
 }
 
-// Takes in the samples just traced.
-void take_step(LinePixel* pixel) {
-    if (!pixel->cuts) find_rare(pixel);
-    note_rare_places(pixel);
-    if (pixel->cuts) {
-        cut_segments(pixel);
-    } else {
-        add_segments(pixel);
-    }
-}
-
-// Half the distance between the lines on both sides: its share of the pixel.
-Real line_share(const LinePixel* pixel, Index line) {
-    Index before = line > 0 ? line - 1 : line;
-    Index after = line + 1 < pixel->line_count ? line + 1 : line;
-    return (Real)0.5f * (pixel->lines[after].across - pixel->lines[before].across);
-}
-
 Packed3 with_segment(Packed3 sum, const Segment* segment) {
     Real half_length = (Real)0.5f * (segment->to.along - segment->from.along);
     sum = packed_add(sum, half_length, segment->from.color);
@@ -283,8 +293,7 @@ void rate_segments(LinePixel* pixel, Real least, Errors* rated) {
         for (Index i = 0; i < pixel->segment_count; ++i) {
             const Segment* segment = &pixel->segments[i];
             Line* line = &pixel->lines[segment->line];
-            Real area =
-                (segment->to.along - segment->from.along) * line_share(pixel, segment->line);
+            Real area = (segment->to.along - segment->from.along) * line->width;
             Packed3 change = clamped_difference(segment->to.color, segment->from.color);
             bool jumps = segment->from.signature != segment->to.signature;
             Real error =
@@ -313,26 +322,29 @@ Packed3 slope_between(const Line* before, const Line* after) {
     return packed_add(packed_black(), (Real)1 / (after->across - before->across), slope);
 }
 
-// The squared change of this slope at a line, none at the sides.
+// The squared change of this slope at a line; at a side, what it may be.
 Real bend_at(const LinePixel* pixel, Index line) {
-    if (line == 0 || line == pixel->line_count - 1) return (Real)0;
     const Line* here = &pixel->lines[line];
+    if (line == 0 || line == pixel->line_count - 1) {
+        const Line* first = line == 0 ? here : here - 1;
+        return RT_SIDE_BEND * here->width * mean_square(slope_between(first, first + 1));
+    }
     return mean_square(
         packed_add(slope_between(here, here + 1), (Real)-1, slope_between(here - 1, here)));
 }
 
-// The errors of the gaps between lines.
-void rate_gaps(const LinePixel* pixel, Errors* rated) {
-    rated->count = pixel->line_count - 1;
+// The errors of lines as means of their strips.
+void rate_strips(const LinePixel* pixel, Errors* rated) {
+    rated->count = pixel->line_count;
     rated->sum = (Real)0;
-    Real before = (Real)0;
     for (Index i = 0; i < rated->count; ++i) {
-        Real after = bend_at(pixel, i + 1);
-        Real width = pixel->lines[i + 1].across - pixel->lines[i].across;
+        Real width = pixel->lines[i].width;
         Real squared = width * width;
-        rated->errors[i] = RT_BEND_ERROR * squared * squared * (before > after ? before : after);
+        rated->errors[i] = RT_BEND_ERROR * squared * squared * bend_at(pixel, i);
+        Real cut_off = (i == 0 ? pixel->cut_off[0] : (Real)0) +
+                       (i == rated->count - 1 ? pixel->cut_off[1] : (Real)0);
+        rated->errors[i] += RT_CORNER_ERROR * squared * cut_off;
         rated->sum += rated->errors[i];
-        before = after;
     }
 }
 
@@ -351,20 +363,35 @@ void deal_parts(const Errors* rated, Index more, Index* parts) {
     }
 }
 
-// Plans lines in the worst gaps.
-void plan_more_lines(LinePixel* pixel, const Errors* gaps) {
+// The number of the largest error.
+Index worst_of(const Errors* rated) {
+    Index worst = 0;
+    for (Index i = 1; i < rated->count; ++i) {
+        worst = rated->errors[i] > rated->errors[worst] ? i : worst;
+    }
+    return worst;
+}
+
+// Plans a line on each side of the two worst.
+void plan_more_lines(LinePixel* pixel, Errors* strips) {
     Line* lines = pixel->lines;
     Index moved[RT_MOST_LINES], added[RT_STEP_LINES];
-    deal_parts(gaps, RT_STEP_LINES, pixel->parts);
+    Index first = worst_of(strips);
+    strips->errors[first] = (Real)-1;
+    Index second = worst_of(strips);
     Index place = pixel->line_count + RT_STEP_LINES, count = 0;
-    for (Index i = pixel->line_count - 1;; --i) {
-        lines[--place] = lines[i];
+    for (Index i = pixel->line_count - 1; i >= 0; --i) {
+        Line line = lines[i];
+        bool splits = i == first || i == second;
+        if (splits) {
+            line.width *= (Real)1 / (Real)3;
+            start_line(&lines[--place], line.across + line.width, line.width);
+            added[count++] = place;
+        }
+        lines[--place] = line;
         moved[i] = place;
-        if (i == 0) break;
-        Real start = lines[i - 1].across, width = lines[place].across - start;
-        Index parts = pixel->parts[i - 1];
-        for (Index part = parts - 1; part > 0; --part) {
-            start_line(&lines[--place], start + (Real)part / (Real)parts * width);
+        if (splits) {
+            start_line(&lines[--place], line.across - line.width, line.width);
             added[count++] = place;
         }
     }
@@ -391,6 +418,40 @@ void plan_cuts(LinePixel* pixel, const Errors* rated) {
     }
 }
 
+// Notes where the corners differ from the ends of the lines next to them, if those are new.
+void compare_corners(LinePixel* pixel) {
+    for (Index side = 0; side < 2; ++side) {
+        Index line = side == 0 ? 0 : pixel->line_count - 1;
+        for (Index i = 0; i < RT_STEP_SAMPLES; ++i) {
+            const Knot* knot = &pixel->step[i];
+            if (pixel->step_lines[i] != line || i % RT_LINE_SAMPLES != 0) continue;
+            pixel->cut_off[side] = (Real)0;
+            for (Index end = 0; end < 2; ++end) {
+                const Knot* from = end == 0 ? knot : knot + RT_LINE_SAMPLES - 1;
+                const Knot* to = &pixel->corners[pixel->upward ? side + 2 * end : end + 2 * side];
+                Real change = mean_square(clamped_difference(from->color, to->color));
+                if (from->signature != to->signature && change > pixel->cut_off[side]) {
+                    pixel->cut_off[side] = change;
+                }
+            }
+        }
+    }
+}
+
+// Takes in the samples just traced.
+void take_step(LinePixel* pixel) {
+    if (!pixel->cuts) {
+        find_rare(pixel);
+        compare_corners(pixel);
+    }
+    note_rare_places(pixel);
+    if (pixel->cuts) {
+        cut_segments(pixel);
+    } else {
+        add_segments(pixel);
+    }
+}
+
 // Takes in the samples of a step and plans the next. False when the pixel is done: its squared
 // error is small enough, or not a number.
 bool plan_step(LinePixel* pixel, Real tolerance) {
@@ -398,7 +459,7 @@ bool plan_step(LinePixel* pixel, Real tolerance) {
     Real done = RT_DONE_ERROR * tolerance * tolerance;
     Errors rated, gaps;
     rate_segments(pixel, RT_LEAST_SHARE * done, &rated);
-    rate_gaps(pixel, &gaps);
+    rate_strips(pixel, &gaps);
     if (pixel->line_count + RT_STEP_LINES > RT_MOST_LINES) gaps.sum = (Real)0;
     if (!(rated.sum + gaps.sum > done)) return false;
     if (pixel->samples >= RT_MOST_LINE_SAMPLES) return false;
@@ -413,7 +474,7 @@ bool plan_step(LinePixel* pixel, Real tolerance) {
 Packed3 mean_of_lines(const LinePixel* pixel) {
     Packed3 mean = packed_black();
     for (Index i = 0; i < pixel->line_count; ++i) {
-        mean = packed_add(mean, line_share(pixel, i), pixel->lines[i].mean);
+        mean = packed_add(mean, pixel->lines[i].width, pixel->lines[i].mean);
     }
     return mean;
 }

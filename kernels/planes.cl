@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an adaptive or edges mode knows of a tile. First come samples at the pixels' centers
-// (centers_item), then rounds over packets of pixels side by side, each of which looks at the
-// pixels around them (kernels/adaptive.cl, kernels/edges.cl).
+// What an adaptive or edges mode knows of a tile. First comes a sample of each pixel
+// (centers_item), at its center or, in an edges mode, at its lower left corner. Then come rounds
+// over packets of pixels side by side, each of which looks at the pixels around them
+// (kernels/adaptive.cl, kernels/edges.cl).
 //
 // A tile brings along the pixels that its own depend on, in a margin around it. So a pixel depends
 // on nothing but the scene.
@@ -83,7 +84,7 @@ RowPacket row_packet(const LaunchParams* params, const Tile* tile, Index margin,
     return packet;
 }
 
-// A sample at the center of each pixel of a packet, margin included.
+// The first sample of each pixel of a packet, margin included.
 RayCounts centers_item(__global Real* planes, const SceneView* scene, const Tile* tile,
                        Index item) {
     RayCounts sums = {0, 0, 0, 0};

@@ -94,6 +94,10 @@ Position grid_position(Index grid, Indices k) {
 
 // Sample k of pixel (x, y) in the unit square.
 Position unit_position(const LaunchParams* params, Indices x, Indices y, Indices k) {
+    if (RT_HAS_EDGES && params->tolerance > (Real)0) {  // kernels/edges.cl
+        Position corner = {(Reals)0, (Reals)0};
+        return corner;
+    }
     if (!RT_HAS_SOBOL || params->sampling == RT_SAMPLES_GRID) {
         return grid_position(params->grid, k);
     }

@@ -193,9 +193,9 @@ enum { RT_TREE_STACK = 16 };
 // Most samples per pixel in a packet of neighboring pixels (kernels/packet.cl).
 enum { RT_SAMPLES_TOGETHER = 4 };
 
-// Pixels around a tile that adaptive and edges modes look at, and rounds in which they do
-// (kernels/planes.cl).
-enum { RT_ADAPTIVE_MARGIN = 2, RT_EDGE_MARGIN = 3 };
+// Pixels around a tile that adaptive and edges modes look at (kernels/planes.cl), and the rounds of
+// an edges mode; an adaptive one has two.
+enum { RT_ADAPTIVE_MARGIN = 2, RT_EDGE_MARGIN = 5, RT_EDGE_ROUNDS = 4 };
 
 // Sample positions in a pixel (kernels/sampling.cl).
 enum { RT_SAMPLES_GRID = 0, RT_SAMPLES_SOBOL = 1 };

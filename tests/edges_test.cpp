@@ -54,20 +54,18 @@ std::uint64_t all_samples(const Scene& scene) {
     return std::accumulate(samples.begin(), samples.end(), std::uint64_t{0});
 }
 
-/// How many pixels of a row have more samples than the one at their center.
+/// How many pixels of a row have more samples than the one at their corner.
 int open_in_row(const Scene& scene, int y) {
     const auto samples = samples_of(scene);
     const auto row = samples.begin() + std::ptrdiff_t{y} * scene.width;
     return static_cast<int>(std::count_if(row, row + scene.width, [](auto n) { return n > 1; }));
 }
 
-TEST(Edges, OpensThePixelsAtASilhouette) {
+TEST(Edges, OpensThePixelsOnASilhouette) {
     Scene scene = flat_world();
     add_triangle(scene, {10.3, -99, 0}, {10.3, 99, 0}, {-500, 0, 0});
-    EXPECT_EQ(open_in_row(scene, size / 2), 2);
-    const auto samples = samples_of(scene);
-    EXPECT_GT(samples[std::size_t{size} * 20 + 10], 17u);  // .3 of it is white
-    EXPECT_EQ(samples[std::size_t{size} * 20 + 9], 17u);   // all its samples agree
+    EXPECT_EQ(open_in_row(scene, size / 2), 1);
+    EXPECT_GT(samples_of(scene)[std::size_t{size} * 20 + 10], 17u);  // .3 of it is white
 }
 
 TEST(Edges, OpensNoPixelsInsideASurface) {
@@ -94,7 +92,7 @@ TEST(Edges, OpensPixelsWhereOnePlaneEndsBeforeAnother) {
     add_triangle(scene, {-500, -500, 0}, {500, -500, 0}, {0, 900, 0});
     const std::uint64_t without = all_samples(scene);
     add_triangle(scene, {24.4, -500, 20}, {24.4, 500, 20}, {-900, 0, 20});
-    EXPECT_GT(all_samples(scene), without + 16 * size);
+    EXPECT_GE(all_samples(scene), without + 16 * size);
 }
 
 TEST(Edges, OpensPixelsAtTheEdgeOfAShadow) {
@@ -113,43 +111,58 @@ TEST(Edges, LeavesEdgesAloneThatAreNotWorthTheirSamples) {
     EXPECT_EQ(all_samples(scene), std::uint64_t{size} * size);
 }
 
-/// A bar 0.3 pixel wide, almost upright, meets no center in some 17 rows after another.
-TEST(Edges, FollowsThinShapesBetweenCenters) {
+/// A bar 0.3 pixel wide, almost upright, lies between corners in some 17 rows after another.
+TEST(Edges, FollowsThinShapesBetweenCorners) {
     Scene scene = flat_world("edges:0.003");
     add_triangle(scene, {20.1, -1, 0}, {20.4, -1, 0}, {22.1, 49, 0});
     add_triangle(scene, {20.4, -1, 0}, {22.4, 49, 0}, {22.1, 49, 0});
     const auto samples = samples_of(scene);
     int open = 0;
     for (int y = 0; y < size; ++y) {
-        for (int x = 20; x < 23; ++x) {
-            open += samples[static_cast<std::size_t>(y * size + x)] > 1;
-        }
+        const double middle = 20.25 + 2 * (size - y + 0.5) / 50;
+        open += samples[static_cast<std::size_t>(y * size) + static_cast<std::size_t>(middle)] > 1;
     }
-    EXPECT_GT(open, 54);  // 50 next to centers
+    EXPECT_GE(open, 22);  // 14 at corners, and a few rows up and down from these
 }
 
-TEST(Edges, SettledPixelsAreTheMeansOfParabolas) {
+/// The scene, half a pixel to the lower left.
+Scene at_corners(Scene scene) {
+    Scene::Window window = camera_window(scene.camera, scene.width, scene.height);
+    const double x = (window.right - window.left) / (2 * scene.width);
+    const double y = (window.top - window.bottom) / (2 * scene.height);
+    window = {window.left - x, window.right - x, window.bottom - y, window.top - y};
+    scene.camera.window = window;
+    scene.camera.field_of_view = {};
+    return scene;
+}
+
+TEST(Edges, SettledPixelsAreTheMeansOfTheirCornersLessTheirCurvature) {
     for (const char* stem : {"cornell-box", "glass"}) {
         Scene scene = load_named_scene(stem);
         set_image_size(scene, 64, 48);
         scene.aa = *parse_aa_mode("none");
-        const Film<float> centers = render_on_threads<float>(scene);
+        const Film<float> corners = render_on_threads<float>(at_corners(scene));
         scene.aa = *parse_aa_mode("edges:0.002");
         const Film<float> film = render_on_threads<float>(scene);
         const auto samples = samples_of(scene);
-        int settled = 0;
-        for (std::size_t y = 1; y < 47; ++y) {
-            for (std::size_t x = 1; x < 63; ++x) {
+        int settled = 0, alike = 0;
+        for (std::size_t y = 2; y < 47; ++y) {
+            for (std::size_t x = 1; x < 62; ++x) {
                 if (samples[64 * y + x] > 1) continue;
-                ++settled;
                 for (std::size_t i = 3 * (64 * y + x); i < 3 * (64 * y + x) + 3; ++i) {
-                    const auto at = [&](std::size_t place) { return double{centers.rgb[place]}; };
-                    const double sides = at(i - 3) + at(i + 3) + at(i - 3 * 64) + at(i + 3 * 64);
-                    EXPECT_NEAR(film.rgb[i], at(i) + (sides - 4 * at(i)) / 24, 1e-6) << stem;
+                    const auto at = [&](int right, int down) {
+                        return double{corners.rgb[i + std::size_t(3 * (right + 64 * down))]};
+                    };
+                    const double inner = at(0, 0) + at(1, 0) + at(0, -1) + at(1, -1);
+                    const double outer = at(-1, 0) + at(2, 0) + at(-1, -1) + at(2, -1) + at(0, 1) +
+                                         at(1, 1) + at(0, -2) + at(1, -2);
+                    ++settled;
+                    alike += std::abs(film.rgb[i] - (14 * inner - outer) / 48) < 2e-6;
                 }
             }
         }
-        EXPECT_GT(settled, 500) << stem;
+        EXPECT_GT(settled, 1500) << stem;
+        EXPECT_GT(alike, settled * 2 / 3) << stem;  // the others lie next to edges
     }
 }
 
@@ -215,7 +228,7 @@ TEST(Edges, OpenPixelsCoverWhatTheirPolygonsDo) {
          {std::pair{"edges:0.001", 1e-3}, {"edges:0.0001", 1e-4}, {"edges:0.00001", 1e-5}}) {
         const Coverage found = coverage(slanted, aa);
         EXPECT_LT(found.rmse, 2 * std::sqrt(26.0) * tolerance) << aa;
-        EXPECT_LT(found.worst, 40 * tolerance) << aa;
+        EXPECT_LT(found.worst, 100 * tolerance) << aa;
     }
 }
 

@@ -50,8 +50,9 @@ auto counts_of(const NativeKernels<T>& kernels, const NativeView<T>& view, const
                            wide.width * wide.height);  // packets of a pixel, or more
     const auto render = round_kernel(kernels, view.params);
     // Row by row, each of which has one pixel that is not in the margin.
-    for (int round = 0; round < margin; ++round) {
-        const int around = margin - 1 - round;
+    const int rounds = round_count(view.params);
+    for (int round = 0; round < rounds; ++round) {
+        const int around = rounds - 1 - round;
         const Index across = (1 + 2 * around + kernels.lanes - 1) / kernels.lanes;
         for (Index row = 0; row < strip.height + 2 * around; ++row) {
             const auto i = static_cast<std::size_t>(row - around);  // huge in the margin above

@@ -203,6 +203,7 @@ class ClRenderer : public Renderer<T> {
 
     bool in_rounds() const { return renders_in_rounds(params_); }
     int margin() const { return tile_margin(params_); }
+    int rounds() const { return round_count(params_); }
     /// Of a pixel, for the pacer.
     std::int64_t paced_samples() const {
         return in_rounds() ? round_samples_guess : static_cast<std::int64_t>(params_.samples);
@@ -220,7 +221,7 @@ class ClRenderer : public Renderer<T> {
         if (launch_samples_) return traced <= static_cast<std::int64_t>(most_items(device_));
         const FlatTile tile = flat_tile<T>(rect, rect);
         if (!in_rounds()) return packets(tile, shape(samples())) <= most_items(device_);
-        const FlatTile first_round = size_with_margin(tile, margin() - 1);
+        const FlatTile first_round = size_with_margin(tile, rounds() - 1);
         return packets(size_with_margin(tile, margin()), shape(1)) <= most_items(device_) &&
                packets(first_round, {1, lanes_, 1}) <= most_items(device_);
     }
@@ -332,7 +333,7 @@ class ClRenderer : public Renderer<T> {
             planes_ = make_buffer(bytes, "the pixels' centers");
             plane_bytes_ = bytes;
         }
-        std::vector<cl::Event> events(1 + margin());
+        std::vector<cl::Event> events(1 + rounds());
         render_.setArg(0, planes_);
         render_.setArg(tile_argument_, tile);
         enqueue(render_, packets(size_with_margin(tile, margin()), shape(1)), events[0]);
@@ -340,9 +341,9 @@ class ClRenderer : public Renderer<T> {
         round_.setArg(0, film);
         round_.setArg(tile_argument_, tile);
         round_.setArg(tile_argument_ + 1, planes_);
-        for (int round = 0; round < margin(); ++round) {
+        for (int round = 0; round < rounds(); ++round) {
             round_.setArg(tile_argument_ + 2, static_cast<typename Flat<T>::Index>(round));
-            const FlatTile wide = size_with_margin(tile, margin() - 1 - round);
+            const FlatTile wide = size_with_margin(tile, rounds() - 1 - round);
             enqueue(round_, packets(wide, {1, lanes_, 1}), events[1 + round]);
         }
         is_half_launched_ = false;

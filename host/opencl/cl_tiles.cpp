@@ -52,7 +52,7 @@ TileSizes cl_tile_sizes(const typename Flat<T>::LaunchParams& params, const ClDe
     const bool in_rounds = renders_in_rounds(params);
     std::size_t most = most_items(device);
     if (launches_samples(options.kernels.launch, device, in_rounds)) most /= samples;
-    if (in_rounds) most /= 8;  // with its margin, the narrowest tile has seven times its pixels
+    if (in_rounds) most /= 12;  // with its margin, the narrowest tile has 11 times its pixels
     return {{0, 0, width, std::max(blocks / across, 1) * block.height},
             static_cast<std::int64_t>(most)};
 }

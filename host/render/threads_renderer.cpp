@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 
 #include "host/base/memory.h"
@@ -30,10 +31,14 @@ class ThreadsRenderer : public Renderer<T> {
           kernels_(native_kernels_for(scene, options)),
           view_(native_view(scene)) {}
 
-    /// Rounds keep more of a tile than its pixels; the margin of a larger tile is a smaller part of
-    /// it. Kernels count the numbers in a tile's sample buffers in an Index.
-    TileSizes tile_sizes(int) const override {
-        if (in_rounds()) return {{0, 0, 64, 64}, 1 << 20};
+    /// In rounds, the margin of a larger tile is a smaller part of it, but each thread should have
+    /// a few tiles. Kernels count the numbers in a tile's sample buffers in an Index.
+    TileSizes tile_sizes(int film_width) const override {
+        if (in_rounds()) {
+            const int threads = thread_count(options_, samples());
+            const int side = film_width >= 340 * std::sqrt(threads) ? 128 : 64;  // 7 tiles a thread
+            return {{0, 0, side, side}, 1 << 20};
+        }
         TileSizes sizes{{0, 0, 32, 32}};
         if (options_.schedule == Schedule::buffers) {
             sizes.most_pixels = std::numeric_limits<Index>::max() / (3 * samples());

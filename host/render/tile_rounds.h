@@ -22,6 +22,12 @@ int tile_margin(const Params& params) {
     return params.tolerance > 0 ? f32::RT_EDGE_MARGIN : f32::RT_ADAPTIVE_MARGIN;
 }
 
+/// Rounds after the one sample per pixel.
+template <typename Params>
+int round_count(const Params& params) {
+    return params.tolerance > 0 ? f32::RT_EDGE_ROUNDS : f32::RT_ADAPTIVE_MARGIN;
+}
+
 /// As many pixels as a tile and those around it.
 template <typename FlatTile>
 FlatTile size_with_margin(FlatTile tile, int margin) {
@@ -35,7 +41,7 @@ template <typename Params, typename FlatTile>
 std::size_t plane_values(const Params& params, const FlatTile& tile, int lanes) {
     // The centers with their signatures, and states of each round but the last; or the centers, and
     // what the first round leaves.
-    const int planes = params.tolerance > 0 ? 4 + f32::RT_EDGE_MARGIN - 1 : 3 + 4;
+    const int planes = params.tolerance > 0 ? 4 + f32::RT_EDGE_ROUNDS - 1 : 3 + 4;
     const FlatTile wide = size_with_margin(tile, tile_margin(params));
     return static_cast<std::size_t>(planes * (wide.width * wide.height + lanes));
 }
@@ -66,8 +72,9 @@ bool render_tile_in_rounds(const NativeKernels<T>& kernels, const NativeView<T>&
                                (row + 1) * packets);
     }
     const auto render = round_kernel(kernels, view.params);
-    for (int round = 0; round < margin; ++round) {
-        const auto seen = size_with_margin(tile, margin - 1 - round);
+    const int rounds = round_count(view.params);
+    for (int round = 0; round < rounds; ++round) {
+        const auto seen = size_with_margin(tile, rounds - 1 - round);
         const Index across = (seen.width + kernels.lanes - 1) / kernels.lanes;
         for (Index row = 0; row < seen.height; ++row) {
             if (is_stopped()) return false;

@@ -45,19 +45,19 @@ MUTANTS = [
         (K + "planes.cl", "used.shadow *= inside;", ""),
     ], ROUNDS),
     Mutant("an edges mode opens edges that do not pay", [
-        (K + "edges.cl", "same | (contrast <=", "same & (contrast <="),
+        (K + "edges.cl", "(known == (Reals)8) | (contrast <=", "(known == (Reals)8) & (contrast <="),
     ], edges("LeavesEdgesAlone*")),
     Mutant("an edges mode does not follow thin shapes", [
         (K + "edges.cl", "Index sides = 0;", "return 0;"),
     ], edges("FollowsThinShapes*")),
-    Mutant("a settled pixel is its center", [
-        (K + "edges.cl", "(Reals)((Real)5 / (Real)6)", "(Reals)1"),
+    Mutant("a settled pixel is the mean of its corners", [
+        (K + "edges.cl", "sub3(scale3((Reals)(Real)0.25f, sum), change)", "scale3((Reals)(Real)0.25f, sum)"),
     ], edges("SettledPixels*")),
     Mutant("no segment with an edge in it is cut", [
         (K + "lines.cl", "#define RT_JUMP_ERROR ((Real)1 / (Real)12)", "#define RT_JUMP_ERROR ((Real)0)"),
     ], edges("OpenPixelsCover*")),
     Mutant("no lines are added at corners", [
-        (K + "lines.cl", "#define RT_BEND_ERROR ((Real)0.01f)", "#define RT_BEND_ERROR ((Real)0)"),
+        (K + "lines.cl", "#define RT_BEND_ERROR ((Real)0.0055f)", "#define RT_BEND_ERROR ((Real)0)"),
     ], edges("OpenPixelsCover*")),
     Mutant("cuts go to any segment", [
         (K + "lines.cl", "worst = left[i] > left[worst] ? i : worst;", "worst = more % rated->count;"),
