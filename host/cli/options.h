@@ -78,7 +78,7 @@ std::vector<std::string> split_list(
 
 /// A list separated by commas, each part read by `parse`.
 template <typename Parse>
-auto list_of(const Parse& parse) {
+auto list_of(Parse parse) {
     return [parse](const std::string& text) {
         std::vector<std::decay_t<decltype(parse(text))>> values;
         for (const std::string& part : split_list(text)) values.push_back(parse(part));
@@ -88,7 +88,7 @@ auto list_of(const Parse& parse) {
 
 /// The same without duplicates.
 template <typename Parse>
-auto set_of(const Parse& parse) {
+auto set_of(Parse parse) {
     return [parse](const std::string& text) {
         decltype(list_of(parse)(text)) values;
         for (const auto& value : list_of(parse)(text)) {
