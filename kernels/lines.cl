@@ -440,16 +440,14 @@ void compare_corners(LinePixel* pixel) {
 
 // Takes in the samples just traced.
 void take_step(LinePixel* pixel) {
-    if (!pixel->cuts) {
-        find_rare(pixel);
-        compare_corners(pixel);
-    }
-    note_rare_places(pixel);
     if (pixel->cuts) {
         cut_segments(pixel);
     } else {
+        find_rare(pixel);
+        compare_corners(pixel);
         add_segments(pixel);
     }
+    note_rare_places(pixel);
 }
 
 // Takes in the samples of a step and plans the next. False when the pixel is done: its squared
@@ -457,14 +455,14 @@ void take_step(LinePixel* pixel) {
 bool plan_step(LinePixel* pixel, Real tolerance) {
     take_step(pixel);
     Real done = RT_DONE_ERROR * tolerance * tolerance;
-    Errors rated, gaps;
+    Errors rated, strips;
     rate_segments(pixel, RT_LEAST_SHARE * done, &rated);
-    rate_strips(pixel, &gaps);
-    if (pixel->line_count + RT_STEP_LINES > RT_MOST_LINES) gaps.sum = (Real)0;
-    if (!(rated.sum + gaps.sum > done)) return false;
+    rate_strips(pixel, &strips);
+    if (pixel->line_count + RT_STEP_LINES > RT_MOST_LINES) strips.sum = (Real)0;
+    if (!(rated.sum + strips.sum > done)) return false;
     if (pixel->samples >= RT_MOST_LINE_SAMPLES) return false;
-    if (gaps.sum > rated.sum) {
-        plan_more_lines(pixel, &gaps);
+    if (strips.sum > rated.sum) {
+        plan_more_lines(pixel, &strips);
     } else {
         plan_cuts(pixel, &rated);
     }
