@@ -146,6 +146,7 @@ TEST(ErrorEstimate, SaysWhatIsTooSmallToTell) {
     EXPECT_EQ(to_string(ErrorEstimate{8.1e-4, 6e-4, 1.1e-3}),
               "RMSE about 8.1e-4 (6.0e-4 to 1.1e-3)");
     EXPECT_EQ(to_string(ErrorEstimate{0, 0, 1.1e-3}), "RMSE below 1.1e-3");
+    EXPECT_EQ(to_string(ErrorEstimate{0, 0, 0}), "no error found");
 }
 
 TEST(ErrorEstimate, EndsAtAStopSignal) {

@@ -163,6 +163,7 @@ ErrorEstimate ControlPixels::estimate(std::span<const double> colors) const {
 }
 
 std::string to_string(const ErrorEstimate& estimate) {
+    if (estimate.high == 0) return "no error found";
     if (!estimate.known_rmse()) return "RMSE below " + short_text(estimate.high);
     return fmt::format("RMSE about {} ({} to {})", short_text(estimate.rmse),
                        short_text(estimate.low), short_text(estimate.high));

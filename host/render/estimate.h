@@ -37,7 +37,7 @@ struct ErrorEstimate {
     bool reaches(double target_rmse) const { return known_rmse().value_or(high) <= target_rmse; }
 };
 
-/// "RMSE about 8.1e-4 (6.0e-4 to 1.1e-3)", or "RMSE below 1.1e-3".
+/// "RMSE about 8.1e-4 (6.0e-4 to 1.1e-3)", "RMSE below 1.1e-3" or "no error found".
 std::string to_string(const ErrorEstimate& estimate);
 
 template <typename A, Of<ErrorEstimate> X>
