@@ -52,7 +52,9 @@ int run_selftest(const SelftestOptions& options) {
     Checks checks(options.filters, known_failures(options.expect));
     const std::vector<DeviceChoice> devices = chosen_devices(options.devices);
     install_stop_signals();
+    std::vector<ClDevice> checked;
     for (const DeviceChoice& device : devices) {
+        if (!device.use_threads) checked.push_back(device.device);
         const std::string prefix = devices.size() > 1 ? device.spec() + ":" : "";
         if (!options.quiet) print_note("checking " + device.name());
         if (!device.use_threads) {
@@ -65,7 +67,7 @@ int run_selftest(const SelftestOptions& options) {
     if (checks.list().empty()) usage_error("--filter fits no check");
     const double seconds = watch.seconds();
     if (!options.results.take_stdout()) print_result(checks.text(seconds));
-    options.results.write("--json", [&] { return checks.json(seconds); });
+    options.results.write("--json", [&] { return checks.json(seconds, checked); });
     options.results.write("--junit", [&] { return checks.junit(seconds); });
     return static_cast<int>(checks.is_all_expected() ? ExitCode::done : ExitCode::different);
 }

@@ -101,10 +101,11 @@ std::string Checks::text(double seconds) const {
     return text + fmt::format(", {:.1f} s\n", seconds);
 }
 
-std::string Checks::json(double seconds) const {
+std::string Checks::json(double seconds, const std::vector<ClDevice>& devices) const {
     return json_text({{"format", "mirrorball-selftest"},
                       {"version", 1},
                       {"program", fmt::format("{} ({})", version, git_revision)},
+                      {"devices", json_of(devices)},
                       {"passed", is_all_expected()},
                       {"seconds", seconds},
                       {"checks", json_of(list_)}});

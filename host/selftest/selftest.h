@@ -47,7 +47,7 @@ class Checks {
     bool is_all_expected() const;
 
     std::string text(double seconds) const;  ///< a line for each failure or surprise, one for all
-    std::string json(double seconds) const;
+    std::string json(double seconds, const std::vector<ClDevice>& devices) const;
     std::string junit(double seconds) const;
 
    private:

@@ -45,6 +45,7 @@ class Selftest(WrongDriver):
         figures = json.loads(report.read_text())
         names = [check["name"] for check in figures["checks"]]
         self.assertEqual([names[0], names[-1]], ["dot3/float/1", "picture/empty/adaptive:0.05/float"])
+        self.assertEqual([device["index"] for device in figures["devices"]], [0])
         self.assertTrue(figures["passed"] and all(check["right"] for check in figures["checks"]))
         suite = ElementTree.parse(junit).getroot()
         self.assertEqual([suite.get("tests"), suite.get("failures")], [str(len(names)), "0"])
