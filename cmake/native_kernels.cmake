@@ -30,7 +30,7 @@ set(NATIVE_SETS plain_4 plain mesh_4 mesh plain_edges mesh_edges all)
 if(MIRRORBALL_SANITIZE)
     set(NATIVE_SETS all)
     set(NATIVE_FEWER_ISAS x86-64-v3)
-    set(NATIVE_FEWER_WIDTHS 1 16)  # and that of a vector
+    set(NATIVE_FEWER_WIDTHS 1)  # and that of a vector
     # The bits of numbers are added as integers that may wrap (kernels/power.cl).
     list(APPEND NATIVE_KERNEL_FLAGS -O1 -g1 -fsanitize=${SANITIZERS} -fno-sanitize-recover=all
         -fno-sanitize=signed-integer-overflow -fno-omit-frame-pointer)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # tests/native_probes.cl compiled ahead of time: a shared object for each precision and width of a
-# packet in NATIVE_PROBES. With the flags of pthreads' kernels, but less optimized: each probe holds
+# packet in NATIVE_PROBES: the narrowest, a middle one and the widest. With the flags of pthreads' kernels, but less optimized: each probe holds
 # all it calls, and would take long.
 file(MAKE_DIRECTORY ${NATIVE_PROBES})
 set(native_probe_flags ${NATIVE_KERNEL_FLAGS} -O1
@@ -11,7 +11,7 @@ endif()
 
 set(native_probe_objects "")
 foreach(type float double)
-    foreach(lanes 1 2 4 8 16)
+    foreach(lanes 1 4 16)
         set(object ${NATIVE_PROBES}/probes_${type}_${lanes}.so)
         set(real "")
         if(type STREQUAL double)

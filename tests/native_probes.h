@@ -9,7 +9,7 @@
 // shared object per precision and packet width.
 namespace rt {
 
-inline constexpr int native_probe_lanes[] = {1, 2, 4, 8, 16};
+inline constexpr int native_probe_lanes[] = {1, 4, 16};
 
 /// Runs probe_FUNCTION over `count` items in packets of `lanes`, on this thread; `arrays` are the
 /// inputs, then the outputs. Throws Error (ExitCode::device) if there is no such probe, or if this
