@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <map>
+#include <mutex>
+#include <numbers>
 #include <optional>
+#include <random>
+#include <vector>
 
+#include "host/base/parallel.h"
 #include "host/flatten/flat_scene.h"
 #include "host/render/threads_renderer.h"
 #include "host/stress/families.h"
-#include "host/stress/many_rays.h"
 #include "host/stress/wide_shapes.h"
 
 namespace rt {
@@ -18,6 +25,124 @@ using stress::dot;
 using stress::Quad;
 using stress::unit;
 using stress::Wide3;
+
+template <typename T>
+using Query = typename Flat<T>::RayQuery;
+template <typename T>
+using Answer = typename Flat<T>::RayAnswer;
+
+/// Random numbers, the same on every machine.
+class RandomNumbers {
+   public:
+    explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
+
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+    }
+    double log_uniform(double low, double high) {
+        return std::exp(uniform(std::log(low), std::log(high)));
+    }
+    std::size_t index(std::size_t count) { return engine_() % count; }
+    glm::dvec3 direction() {
+        const double z = uniform(-1, 1), angle = uniform(0, 2 * std::numbers::pi);
+        const double radius = std::sqrt(1 - z * z);
+        return {radius * std::cos(angle), radius * std::sin(angle), z};
+    }
+
+   private:
+    std::mt19937_64 engine_;
+};
+
+/// `dir`, of any length, normalized, rounded to T and normalized again in T.
+template <typename T>
+typename Flat<T>::Packed3 rounded_unit(const glm::dvec3& dir) {
+    const auto d = pack<T>(dir / glm::length(dir));
+    const T inverse = T(1) / std::sqrt(std::fma(d.z, d.z, std::fma(d.y, d.y, d.x * d.x)));
+    return {inverse * d.x, inverse * d.y, inverse * d.z};
+}
+
+/// An endless ray.
+template <typename T>
+Query<T> ray_query(const glm::dvec3& origin, const glm::dvec3& dir) {
+    Query<T> query{};
+    query.origin = pack<T>(origin);
+    query.dir = rounded_unit<T>(dir);
+    query.t_max = std::numeric_limits<T>::infinity();
+    query.from = Flat<T>::none;
+    return query;
+}
+
+/// Traces many rays and sums up the results. rays.start(random) returns a query; rays.go_on(random,
+/// query, answer), if there is such a function, may set the direction of a secondary ray from the
+/// hit; rays.judge(query, answer, figures) counts. Each block of rays has its own numbers, so that
+/// the rays are the same on any number of cores.
+template <typename T, typename Rays>
+RayFigures trace_many(const RayTracer<T>& trace, std::uint64_t ray_count, const Rays& rays) {
+    constexpr std::size_t block = 4096, batch = 16 * block;
+    std::vector<Query<T>> queries;
+    std::vector<Answer<T>> answers;
+    RayFigures sum;
+    std::mutex mutex;
+    for (std::uint64_t at = 0; at < ray_count; at += batch) {
+        const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(ray_count - at, batch));
+        std::vector<RandomNumbers> random;
+        for (std::size_t i = 0; i < count; i += block) random.emplace_back(at + i + 1);
+        queries.resize(count);
+        answers.resize(count);
+        const auto in_blocks = [&](const auto& work) {
+            for_each_run(count, block, available_cores(), [&](std::size_t first, std::size_t last) {
+                work(random[first / block], first, last);
+            });
+        };
+        in_blocks([&](RandomNumbers& own, std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) queries[i] = rays.start(own);
+        });
+        trace(queries, answers);
+        if constexpr (requires { &Rays::go_on; }) {
+            in_blocks([&](RandomNumbers& own, std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) rays.go_on(own, queries[i], answers[i]);
+            });
+            trace(queries, answers);
+        }
+        in_blocks([&](RandomNumbers&, std::size_t first, std::size_t last) {
+            RayFigures own;
+            for (std::size_t i = first; i < last; ++i) rays.judge(queries[i], answers[i], own);
+            const std::lock_guard lock(mutex);
+            sum.rays += own.rays;
+            sum.failures += own.failures;
+            sum.max_error = std::max(sum.max_error, own.max_error);
+        });
+    }
+    return sum;
+}
+
+/// A trial of the rays that make_rays(flat scene) returns, in float and in double.
+template <typename MakeRays>
+RayTrial trial_of(const Scene& scene, const MakeRays& make_rays) {
+    return {[=](std::uint64_t ray_count, const RayCaster& caster, Precision precision) {
+        const auto run = [&]<typename T>(const FlatScene<T>& flat) {
+            return trace_many<T>(caster.tracer(flat), ray_count, make_rays(flat));
+        };
+        return precision == Precision::float64 ? run(flatten<double>(scene))
+                                               : run(flatten<float>(scene));
+    }};
+}
+
+/// A random direction at this angle above a surface with this normal.
+glm::dvec3 at_angle(RandomNumbers& random, const glm::dvec3& normal, double angle) {
+    const glm::dvec3 other = std::fabs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 across = glm::normalize(glm::cross(normal, other));
+    const double turn = random.uniform(0, 2 * std::numbers::pi);
+    const glm::dvec3 tangent =
+        std::cos(turn) * across + std::sin(turn) * glm::cross(normal, across);
+    return std::cos(angle) * tangent + std::sin(angle) * normal;
+}
+
+/// Whether the ray was continued.
+template <typename T>
+bool has_left(const Query<T>& query) {
+    return glm::length(in_double(query.next)) > 0;
+}
 
 template <typename V>
 Wide3<Quad> in_quad(const V& v) {
@@ -34,40 +159,6 @@ void note_hit(RayFigures& figures, bool found, double t, Quad exact,
     ++figures.rays;
     figures.failures += found == expected && error <= tolerance ? 0 : 1;
     figures.max_error = std::max(figures.max_error, error);
-}
-
-/// Continues an eye ray from its hit on primitive prim, three times in four outwards: two in three
-/// at less than 0.1 rad above the surface, down to 1e-6. Inwards, down to `shallowest`.
-template <typename T>
-void leave_primitive(RandomNumbers& random, typename Flat<T>::RayQuery& query,
-                     const typename Flat<T>::RayAnswer& answer, typename Flat<T>::Index prim,
-                     double shallowest) {
-    if (answer.prim != prim) return;
-    const glm::dvec3 normal = glm::normalize(in_double(answer.normal));
-    constexpr double steepest = std::numbers::pi / 2;
-    const double angle = random.index(4) == 0   ? -random.log_uniform(shallowest, steepest)
-                         : random.index(3) == 0 ? random.uniform(0.1, steepest)
-                                                : random.log_uniform(1e-6, 0.1);
-    query.next = rounded_unit<T>(at_angle(random, normal, angle));
-}
-
-/// Center and smallest half extent of the flat triangles.
-struct Bounds {
-    glm::dvec3 middle;
-    double radius;
-};
-
-template <typename T>
-Bounds bounds_of(const FlatScene<T>& flat) {
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-    for (const auto& triangle : flat.triangles) {
-        for (const auto& p : {triangle.p0, triangle.p1, triangle.p2}) {
-            low = glm::min(low, in_double(p));
-            high = glm::max(high, in_double(p));
-        }
-    }
-    const glm::dvec3 half = 0.5 * (high - low);
-    return {low + half, std::min({half.x, half.y, half.z})};
 }
 
 /// The scene's first sphere, as the tracer sees it.
@@ -89,7 +180,7 @@ struct FirstSphere {
     }
 
     /// Distance to the far side, for a ray from the exact point with the answer's normal.
-    std::optional<Quad> way_back(const typename Flat<T>::RayAnswer& start,
+    std::optional<Quad> way_back(const Answer<T>& start,
                                  const typename Flat<T>::Packed3& dir) const {
         return Quad(-2) * exact.radius * dot(unit(in_quad(start.normal)), unit(in_quad(dir)));
     }
@@ -119,7 +210,7 @@ struct FirstCone {
 
     /// Distance at which an exact ray from the answer's point hits the cone again, negative if it
     /// does not; empty if that is within a thousandth of the length of a rim.
-    std::optional<Quad> way_back(const typename Flat<T>::RayAnswer& start,
+    std::optional<Quad> way_back(const Answer<T>& start,
                                  const typename Flat<T>::Packed3& dir) const {
         const Wide3<Quad> along = in_quad(start.point) - exact.base;
         const Quad height = dot(along, exact.axis);
@@ -143,47 +234,64 @@ struct FirstCone {
 };
 
 /// Rays that leave a shape: outwards, nothing must be hit; inwards, the way back.
+template <typename T, template <typename> typename Shape>
+struct Leaving {
+    Shape<T> shape;
+    double shallowest, tolerance;
+
+    Query<T> start(RandomNumbers& random) const {
+        return ray_query<T>(glm::dvec3(0), shape.point_on(random));
+    }
+
+    /// From the hit, three times in four outwards: two in three at less than 0.1 rad above the
+    /// surface, down to 1e-6. Inwards, down to `shallowest`.
+    void go_on(RandomNumbers& random, Query<T>& query, const Answer<T>& answer) const {
+        if (answer.prim != shape.prim) return;
+        const glm::dvec3 normal = glm::normalize(in_double(answer.normal));
+        constexpr double steepest = std::numbers::pi / 2;
+        const double angle = random.index(4) == 0   ? -random.log_uniform(shallowest, steepest)
+                             : random.index(3) == 0 ? random.uniform(0.1, steepest)
+                                                    : random.log_uniform(1e-6, 0.1);
+        query.next = rounded_unit<T>(at_angle(random, normal, angle));
+    }
+
+    void judge(const Query<T>& query, const Answer<T>& answer, RayFigures& figures) const {
+        if (!has_left<T>(query)) return;
+        const bool is_outwards = glm::dot(in_double(query.next), in_double(answer.normal)) > 0;
+        const std::optional<Quad> exact =
+            is_outwards ? Quad(-1) : shape.way_back(answer, query.next);
+        if (!exact) return;
+        note_hit(figures, answer.next_prim == shape.prim, double(answer.next_t), *exact, tolerance);
+    }
+};
+
 template <template <typename> typename Shape>
 RayTrial leaving(const Scene& scene, double shallowest, double tolerance) {
-    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-        const FlatScene<T> flat = flatten<T>(scene);
-        const Shape<T> shape(flat);
-        const auto make = [&](RandomNumbers& random) {
-            return ray_query<T>(glm::dvec3(0), shape.point_on(random));
-        };
-        const auto continue_ray = [&](RandomNumbers& random, auto& query, const auto& answer) {
-            leave_primitive<T>(random, query, answer, shape.prim, shallowest);
-        };
-        return many_rays<T>(caster.tracer(flat), rays, make, continue_ray,
-                            [&](const auto& query, const auto& answer, RayFigures& figures) {
-                                if (!has_left<T>(query)) return;
-                                const bool is_outwards =
-                                    glm::dot(in_double(query.next), in_double(answer.normal)) > 0;
-                                const std::optional<Quad> exact =
-                                    is_outwards ? Quad(-1) : shape.way_back(answer, query.next);
-                                if (!exact) return;
-                                note_hit(figures, answer.next_prim == shape.prim,
-                                         double(answer.next_t), *exact, tolerance);
-                            });
+    return trial_of(scene, [=]<typename T>(const FlatScene<T>& flat) {
+        return Leaving<T, Shape>{Shape<T>(flat), shallowest, tolerance};
     });
 }
 
 /// Rays past a shape.
+template <typename T, template <typename> typename Shape>
+struct Passing {
+    Shape<T> shape;
+
+    Query<T> start(RandomNumbers& random) const {
+        return ray_query<T>(glm::dvec3(0), shape.point_near(random));
+    }
+
+    void judge(const Query<T>& query, const Answer<T>& answer, RayFigures& figures) const {
+        const stress::WideRay<Quad> ray{in_quad(query.origin), in_quad(query.dir)};
+        note_hit(figures, answer.prim == shape.prim, double(answer.t),
+                 hit_shape(ray, shape.exact, false).t);
+    }
+};
+
 template <template <typename> typename Shape>
 RayTrial past(const Scene& scene) {
-    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-        const FlatScene<T> flat = flatten<T>(scene);
-        const Shape<T> shape(flat);
-        const auto make = [&](RandomNumbers& random) {
-            return ray_query<T>(glm::dvec3(0), shape.point_near(random));
-        };
-        return many_rays<T>(
-            caster.tracer(flat), rays, make, nullptr,
-            [&](const auto& query, const auto& answer, RayFigures& figures) {
-                const stress::WideRay<Quad> ray{in_quad(query.origin), in_quad(query.dir)};
-                note_hit(figures, answer.prim == shape.prim, double(answer.t),
-                         hit_shape(ray, shape.exact, false).t);
-            });
+    return trial_of(scene, []<typename T>(const FlatScene<T>& flat) {
+        return Passing<T, Shape>{Shape<T>(flat)};
     });
 }
 
@@ -230,12 +338,50 @@ std::vector<std::array<std::size_t, 3>> neighbors_of(const std::vector<MeshTrian
     return neighbors;
 }
 
+/// The rays of `leaks`.
+template <typename T>
+class LeakRays {
+   public:
+    LeakRays(const FlatScene<T>& flat, RayAim aim) : triangles_(triangles_of(flat)), aim_(aim) {
+        glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+        for (const MeshTriangle& triangle : triangles_) {
+            for (const glm::dvec3& corner : triangle.corners) {
+                low = glm::min(low, corner);
+                high = glm::max(high, corner);
+            }
+        }
+        const glm::dvec3 half = 0.5 * (high - low);
+        middle_ = low + half;
+        reach_ = 0.15 * std::min({half.x, half.y, half.z});
+    }
+
+    Query<T> start(RandomNumbers& random) const {
+        const auto& corners = triangles_[random.index(triangles_.size())].corners;
+        const std::size_t first = random.index(3);
+        const double share = aim_ == RayAim::edges ? random.uniform(0, 1) : 0;
+        const glm::dvec3 target =
+            corners[first] + share * (corners[(first + 1) % 3] - corners[first]);
+        const double spread = reach_ * random.uniform(0, 1);
+        const glm::dvec3 origin = in_double(pack<T>(middle_ + spread * random.direction()));
+        return ray_query<T>(origin, target - origin);
+    }
+
+    void judge(const Query<T>&, const Answer<T>& answer, RayFigures& figures) const {
+        ++figures.rays;
+        figures.failures += answer.prim == Flat<T>::none ? 1 : 0;
+    }
+
+   private:
+    const std::vector<MeshTriangle> triangles_;
+    const RayAim aim_;
+    glm::dvec3 middle_{0};  ///< of the mesh
+    double reach_ = 0;      ///< from there, where rays start
+};
+
 /// The rays of edge_escapes.
 template <typename T>
 class EdgeRays {
    public:
-    using Query = typename Flat<T>::RayQuery;
-
     EdgeRays(const FlatScene<T>& flat, MeshSide side)
         : is_inside_(side == MeshSide::inside), triangles_(triangles_of(flat)) {
         double size = 0;
@@ -248,7 +394,7 @@ class EdgeRays {
 
     /// Towards a point next to an edge or, one in four, a vertex; almost parallel to one of the
     /// edge's two triangles.
-    Query start(RandomNumbers& random) const {
+    Query<T> start(RandomNumbers& random) const {
         constexpr double rim = 64 * roundoff;
         for (;;) {
             const std::size_t number = random.index(triangles_.size()), edge = random.index(3);
@@ -272,8 +418,7 @@ class EdgeRays {
     }
 
     /// On as a mirror ray, or to a light in any direction.
-    void go_on(RandomNumbers& random, Query& query,
-               const typename Flat<T>::RayAnswer& answer) const {
+    void go_on(RandomNumbers& random, Query<T>& query, const Answer<T>& answer) const {
         if (answer.prim == Flat<T>::none) return;
         const glm::dvec3 dir = in_double(query.dir), normal = in_double(answer.normal);
         const double arriving = glm::dot(dir, normal);
@@ -288,8 +433,7 @@ class EdgeRays {
 
     /// Where a tie has a ray from outside meet a triangle from behind, or the slope is below the
     /// least, it does not go on, and does not count.
-    void judge(const Query& query, const typename Flat<T>::RayAnswer& answer,
-               RayFigures& figures) const {
+    void judge(const Query<T>& query, const Answer<T>& answer, RayFigures& figures) const {
         const bool met = answer.prim != Flat<T>::none;
         if (!has_left<T>(query) && (met || !is_inside_)) return;
         ++figures.rays;
@@ -324,28 +468,8 @@ RayCaster threads_ray_caster(int lanes) {
 }
 
 RayTrial leaks(const Scene& mesh, RayAim aim) {
-    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-        const FlatScene<T> flat = flatten<T>(mesh);
-        const Bounds bounds = bounds_of(flat);
-        const auto make = [&](RandomNumbers& random) {
-            const auto& triangle = flat.triangles[random.index(flat.triangles.size())];
-            const std::array<glm::dvec3, 3> corners{in_double(triangle.p0), in_double(triangle.p1),
-                                                    in_double(triangle.p2)};
-            const std::size_t first = random.index(3);
-            const double share = aim == RayAim::edges ? random.uniform(0, 1) : 0;
-            const glm::dvec3 target =
-                corners[first] + share * (corners[(first + 1) % 3] - corners[first]);
-            const double spread = 0.15 * bounds.radius * random.uniform(0, 1);
-            const glm::dvec3 origin =
-                in_double(pack<T>(bounds.middle + spread * random.direction()));
-            return ray_query<T>(origin, target - origin);
-        };
-        return many_rays<T>(caster.tracer(flat), rays, make, nullptr,
-                            [](const auto&, const auto& answer, RayFigures& figures) {
-                                ++figures.rays;
-                                figures.failures += answer.prim == Flat<T>::none ? 1 : 0;
-                            });
-    });
+    return trial_of(mesh,
+                    [=]<typename T>(const FlatScene<T>& flat) { return LeakRays<T>(flat, aim); });
 }
 
 RayTrial leaving_sphere(const Scene& scene, double shallowest) {
@@ -361,18 +485,8 @@ RayTrial past_sphere(const Scene& scene) { return past<FirstSphere>(scene); }
 RayTrial past_cone(const Scene& scene) { return past<FirstCone>(scene); }
 
 RayTrial edge_escapes(const Scene& mesh, MeshSide side) {
-    return both_precisions([=]<typename T>(std::uint64_t rays, const RayCaster& caster) {
-        const FlatScene<T> flat = flatten<T>(mesh);
-        const EdgeRays<T> edge(flat, side);
-        return many_rays<T>(
-            caster.tracer(flat), rays, [&](RandomNumbers& random) { return edge.start(random); },
-            [&](RandomNumbers& random, auto& query, const auto& answer) {
-                edge.go_on(random, query, answer);
-            },
-            [&](const auto& query, const auto& answer, RayFigures& figures) {
-                edge.judge(query, answer, figures);
-            });
-    });
+    return trial_of(mesh,
+                    [=]<typename T>(const FlatScene<T>& flat) { return EdgeRays<T>(flat, side); });
 }
 
 }  // namespace rt
