@@ -11,8 +11,7 @@ namespace {
 /// Two facing mirror walls, 8192 wide, with a ball between them; reflections repeat up to the
 /// bounce limit.
 Scene facing_mirrors(double mirror, double ambient, int bounces, int width, int height) {
-    Scene scene = bare_scene();
-    set_image_size(scene, width, height);
+    Scene scene = bare_scene(width, height);
     scene.max_bounces = bounces;
     const int glass = add_mirror(scene, mirror, ambient);
     const int red = add_matt(scene, {0.875, 0.25, 0.125});
@@ -27,8 +26,7 @@ Scene facing_mirrors(double mirror, double ambient, int bounces, int width, int 
 
 /// The eye inside a mirror ball, off its center, with a lit ball next to it.
 Scene mirror_ball(int bounces) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
+    Scene scene = bare_scene(80, 60);
     scene.max_bounces = bounces;
     const int glass = add_mirror(scene, 0.9375, 0.0625);
     const int red = add_matt(scene, {0.875, 0.25, 0.125});
@@ -58,8 +56,7 @@ void add_checkered_wall(Scene& scene) {
 
 /// In front of a checkered wall. Even clear glass casts shadows, so the light is close to the wall.
 Scene glass_scene() {
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
+    Scene scene = bare_scene(80, 60);
     scene.lights = {{{0.75, 1, -2.5}, glm::dvec3(0.625)}};
     set_view(scene, {0, 0.25, 5}, {0, 0, 0}, 40);
     add_checkered_wall(scene);
@@ -134,8 +131,7 @@ Scene light_pipe(int bounces) {
 
 /// All light comes from the background, and glass whose weights add up to 1 must not add to it.
 Scene lit_by_background(double mirror) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
+    Scene scene = bare_scene(80, 60);
     scene.lights.clear();
     scene.ambient_light = glm::dvec3(0);
     scene.background = {0.5, 0.25, 0.75};
@@ -205,8 +201,7 @@ Scene highlight(double shininess) {
 
 /// A light below, in or above the plane of a floor.
 Scene grazed_plane(double height) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
+    Scene scene = bare_scene(80, 60);
     const int shiny = add_matt(scene, glm::dvec3(0.25), 0.5, 0.5);
     add_floor(scene, {0, 0, 0}, 8, shiny);
     scene.lights = {{{0, height, -4}, glm::dvec3(0.5)}};

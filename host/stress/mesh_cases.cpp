@@ -69,27 +69,22 @@ Scene triangle_with_normals(const char* normals) {
 
 /// Everything is the same gray, in front of a glaring blue background. A leak is a wrong pixel.
 Scene gray_scene(int width, int height, int grid) {
-    Scene scene = bare_scene();
+    Scene scene = bare_scene(width, height);
     scene.aa.count = grid;
     scene.lights.clear();
     scene.ambient_light = glm::dvec3(1);
     scene.background = {0, 0, 4};
-    set_image_size(scene, width, height);
     add_matt(scene, glm::dvec3(0.5));
     return scene;
 }
 
-/// The correct picture of such a scene: the inside of one big ball.
-Scene all_gray(int width, int height, int grid) {
-    Scene scene = gray_scene(width, height, grid);
-    add_sphere(scene, scene.camera.from, 100, 0);
-    return scene;
-}
-
+/// The correct picture of such a scene is the inside of one big ball.
 StressCase leak_case(const MakeScene& scene) {
     const auto filled = [=] {
         const Scene of = scene();
-        return all_gray(of.width, of.height, 1);
+        Scene ball = gray_scene(of.width, of.height, 1);
+        add_sphere(ball, ball.camera.from, 100, 0);
+        return ball;
     };
     return seen_as(filled, picture_case(scene, {.most_wrong_at_edges = 0}));
 }

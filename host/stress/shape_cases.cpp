@@ -34,8 +34,7 @@ struct SceneDice {
 /// Balls and triangles of many sizes about the origin, in random colors.
 Scene random_scene(unsigned seed) {
     SceneDice random{std::mt19937(seed)};
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
+    Scene scene = bare_scene(80, 60);
     set_view(scene, {0.3, 1.1, 7.7}, random.point(0.5), random.number(30, 70));
     scene.lights.push_back({random.point(6), glm::dvec3(random.number(0, 0.5))});
     for (int i = 0; i < 10; ++i) {
@@ -107,8 +106,7 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 /// A small picture of a shape to be added around the origin in material 0, which is shiny and
 /// two-sided; the eye is 1 unit in front. The view is at most 120 degrees high.
 Scene shape_scene(double fov_degrees) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
+    Scene scene = bare_scene(80, 60);
     add_matt(scene, {0.75, 0.5, 0.25}, 0.25, 20);
     scene.materials.back().two_sided = true;
     scene.lights = {{{0.25, 0.5, 0.5}, glm::dvec3(0.5)}};
@@ -168,8 +166,7 @@ Scene sized_cone(double radius) {
 /// A tube and a cone of radius 0.25 and 0.5 that run off to the horizon, over a floor; or that come
 /// from there.
 Scene long_cones(double length, bool from_afar = false) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 80, 60);
+    Scene scene = bare_scene(80, 60);
     const int red = add_matt(scene, {0.875, 0.25, 0.125}, 0.25, 20);
     const int mirror = add_mirror(scene, 0.5);
     for (auto& material : scene.materials) material.two_sided = true;

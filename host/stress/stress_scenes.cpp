@@ -102,10 +102,9 @@ void set_view(Scene& scene, glm::dvec3 from, glm::dvec3 at, double fov_degrees) 
 }
 
 void set_orthographic(Scene& scene, glm::dvec3 from, glm::dvec3 at, double height) {
+    set_view(scene, from, at, height);
     scene.camera.projection = Scene::Projection::orthographic;
-    scene.camera.from = from;
-    scene.camera.at = at;
-    scene.camera.field_of_view = {Scene::FieldOfView::Fixed::view_height, height};
+    scene.camera.field_of_view.fixed = Scene::FieldOfView::Fixed::view_height;
     set_image_size(scene, scene.width, scene.height);
 }
 
@@ -162,10 +161,10 @@ void add_box(Scene& scene, glm::dvec3 low, glm::dvec3 high, int material) {
     add_mesh(scene, box, material);
 }
 
-Scene bare_scene() {
+Scene bare_scene(int width, int height) {
     Scene scene;
-    scene.width = 160;
-    scene.height = 120;
+    scene.width = width;
+    scene.height = height;
     scene.aa.pattern = AaMode::Pattern::grid;
     scene.aa.count = 1;
     scene.max_bounces = 5;

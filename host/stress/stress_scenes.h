@@ -23,7 +23,7 @@ std::function<Scene()> still_life_with(const std::function<void(Scene&)>& change
 Scene glass_still_life();
 
 /// A camera, two lights, a small picture; no materials or objects.
-Scene bare_scene();
+Scene bare_scene(int width = 160, int height = 120);
 
 /// A scene with the shape that add_shape(scene, middle) adds in material 0, this far from the eye,
 /// and three specks that keep the scene's scale at 1. The shape comes first.

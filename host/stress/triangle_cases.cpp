@@ -107,8 +107,7 @@ Scene two_sheets() {
 
 /// Many copies of one triangle and one ball: one of each is visible, and the others do no harm.
 Scene pile(int count) {
-    Scene scene = bare_scene();
-    set_image_size(scene, 8, 6);
+    Scene scene = bare_scene(8, 6);
     const int first = add_matt(scene, {0.875, 0.25, 0.125});
     const int rest = add_matt(scene, {0.125, 0.25, 0.875});
     scene.lights.resize(1);
@@ -171,8 +170,7 @@ Scene long_prism(double length) {
 
 /// Sees the square from -1 to 1 so that samples fall on its diagonal.
 Scene square_view() {
-    Scene scene = bare_scene();
-    set_image_size(scene, 48, 48);
+    Scene scene = bare_scene(48, 48);
     scene.background = {0.25, 0.5, 0.75};
     set_orthographic(scene, {0, 0, 5}, {0, 0, 0}, 2.5);
     return scene;
