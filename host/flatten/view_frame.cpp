@@ -96,17 +96,10 @@ glm::dvec2 half_pixel(const Scene& scene, const Scene::Window& window) {
     using Fixed = Scene::FieldOfView::Fixed;
     const double x = (window.right - window.left) / (2.0 * scene.width);
     const double y = (window.top - window.bottom) / (2.0 * scene.height);
-    switch (scene.camera.field_of_view.fixed) {
-        case Fixed::window:
-            return {x, y};
-        case Fixed::horizontal:
-        case Fixed::view_width:
-            return {x, x};
-        case Fixed::vertical:
-        case Fixed::view_height:
-            return {y, y};
-    }
-    return {x, y};
+    const Fixed fixed = scene.camera.field_of_view.fixed;
+    if (fixed == Fixed::window) return {x, y};
+    if (fixed == Fixed::horizontal || fixed == Fixed::view_width) return {x, x};
+    return {y, y};
 }
 
 /// Adaptive and edges modes begin with one sample a pixel.
@@ -120,20 +113,9 @@ void set_sampling(const Scene& scene, LaunchParams& params) {
     using Real = decltype(params.tolerance);
     params.tolerance = scene.aa.finds_edges() ? static_cast<Real>(scene.aa.threshold) : Real(0);
     params.threshold = scene.aa.refines() ? static_cast<Real>(scene.aa.threshold) : Real(0);
-    switch (scene.filter) {
-        case Filter::box:
-            params.filter = f32::RT_FILTER_BOX;
-            break;
-        case Filter::tent:
-            params.filter = f32::RT_FILTER_TENT;
-            break;
-        case Filter::gaussian:
-            params.filter = f32::RT_FILTER_GAUSSIAN;
-            break;
-        case Filter::mitchell:
-            params.filter = f32::RT_FILTER_MITCHELL;
-            break;
-    }
+    constexpr int filters[] = {f32::RT_FILTER_BOX, f32::RT_FILTER_TENT, f32::RT_FILTER_GAUSSIAN,
+                               f32::RT_FILTER_MITCHELL};  // in the order of Filter
+    params.filter = filters[static_cast<std::size_t>(scene.filter)];
 }
 
 }  // namespace
