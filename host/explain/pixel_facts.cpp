@@ -14,19 +14,6 @@ namespace rt {
 
 namespace {
 
-/// Calls work(index, x, y) for the pixels of a region on all threads, until stopped.
-template <typename Work>
-void for_each_pixel(const Rect& region, const StopFlag& stop, const Work& work) {
-    const auto width = static_cast<std::size_t>(region.width);
-    for_each_run(static_cast<std::size_t>(region.height), 1, available_cores(),
-                 [&](std::size_t first, std::size_t last) {
-                     for (std::size_t i = first * width; i < last * width && stop == 0; ++i) {
-                         work(i, region.x + static_cast<int>(i % width),
-                              region.y + static_cast<int>(i / width));
-                     }
-                 });
-}
-
 /// What each pixel of a strip, pixels below each other, counts beyond its eye rays; in adaptive and
 /// edges modes also the samples beyond that at its center.
 template <typename T>
@@ -75,7 +62,9 @@ PixelHits pixel_hits(const Scene& scene, const Rect& region, const StopFlag& sto
     const auto pixels = static_cast<std::size_t>(region.pixels());
     PixelHits hits{std::vector<float>(pixels), std::vector<float>(3 * pixels),
                    std::vector<std::int32_t>(pixels)};
-    for_each_pixel(region, stop, [&](std::size_t i, int x, int y) {
+    const auto note_pixel = [&](std::size_t i) {
+        const int x = region.x + static_cast<int>(i) % region.width;
+        const int y = region.y + static_cast<int>(i) / region.width;
         for (const PathEvent& event : explain_pixel(flat, x, y).events) {
             if (event.what != RT_EVENT_HIT) continue;
             hits.depth[i] = static_cast<float>(event.distance / scale);
@@ -84,6 +73,9 @@ PixelHits pixel_hits(const Scene& scene, const Rect& region, const StopFlag& sto
                 hits.normal[3 * i + k] = static_cast<float>(event.normal[k]);
             }
         }
+    };
+    for_each_run(pixels, 64, available_cores(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last && stop == 0; ++i) note_pixel(i);
     });
     return hits;
 }
