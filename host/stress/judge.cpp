@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <span>
 
+#include "host/base/parallel.h"
 #include "host/base/text.h"
 
 namespace rt {
@@ -30,28 +32,19 @@ PictureFigures count_non_numbers(const Picture& picture) {
 
 PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& reference) {
     PictureFigures figures = count_non_numbers(picture);
-    std::vector<std::size_t> doubtful;
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < picture.pixels.size() / 3; ++i) {
+    std::mutex mutex;
+    const auto judge = [&](std::size_t i) {
         const float* const pixel = &picture.pixels[3 * i];
         const double error = color_difference({pixel[0], pixel[1], pixel[2]}, reference.color(i));
-        if (error > edge_matters) {
-            doubtful.push_back(i);
-            errors.push_back(error);
-        } else {
-            figures.max_error = std::max(figures.max_error, error);
-        }
-    }
-    const std::vector<bool> at_edge = reference.at_edges(doubtful);
-    for (std::size_t i = 0; i < doubtful.size(); ++i) {
-        const bool is_wrong = errors[i] > wrong_error;
-        if (at_edge[i]) {
-            figures.wrong_at_edges += is_wrong ? 1 : 0;
-        } else {
-            figures.wrong += is_wrong ? 1 : 0;
-            figures.max_error = std::max(figures.max_error, errors[i]);
-        }
-    }
+        const bool at_edge = error > edge_matters && reference.is_at_edge(i);
+        const std::scoped_lock lock(mutex);
+        if (!at_edge) figures.max_error = std::max(figures.max_error, error);
+        if (error > wrong_error) ++(at_edge ? figures.wrong_at_edges : figures.wrong);
+    };
+    for_each_run(picture.pixels.size() / 3, 16, available_cores(),
+                 [&](std::size_t first, std::size_t last) {
+                     for (std::size_t i = first; i < last; ++i) judge(i);
+                 });
     return figures;
 }
 

@@ -34,7 +34,8 @@ void describe(A& a, X& x) {
     a("hash", hash_text(x.hash), "of every bit");
 }
 
-/// Edges are looked up only for pixels off by more than 2e-5; all others count as away from edges.
+/// Edges are looked up, on all cores, only for pixels off by more than 2e-5; all others count as
+/// away from edges.
 PictureFigures judge_stress_picture(const Picture& picture, ReferencePicture& reference);
 
 /// The same for a picture without a reference: counts NaN and infinities only.

@@ -299,7 +299,6 @@ class Tracer {
 
 constexpr double nearby = 0.02;  // pixels
 constexpr double least_change = 0.5 / 255;
-constexpr std::size_t pixel_run = 16;
 
 /// The eight moves of a sample: along the axes and the diagonals.
 constexpr double diagonal = 0.70710678 * nearby;
@@ -329,10 +328,9 @@ ReferencePicture::ReferencePicture(const Scene& scene, ReferenceKind kind)
       tracer_(make_reference_tracer(scene, kind)),
       colors_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)),
       edges_(colors_.size(), -1) {
-    for_each_run(colors_.size(), stress::pixel_run, available_cores(),
-                 [&](std::size_t first, std::size_t last) {
-                     for (std::size_t i = first; i < last; ++i) colors_[i] = pixel_color(i, {0, 0});
-                 });
+    for_each_run(colors_.size(), 16, available_cores(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) colors_[i] = pixel_color(i, {0, 0});
+    });
 }
 
 glm::dvec3 ReferencePicture::pixel_color(std::size_t pixel, glm::dvec2 move) const {
@@ -346,23 +344,13 @@ glm::dvec3 ReferencePicture::pixel_color(std::size_t pixel, glm::dvec2 move) con
     return sum;
 }
 
-bool ReferencePicture::changes_nearby(std::size_t pixel) const {
-    return std::ranges::any_of(stress::moves, [&](glm::dvec2 move) {
+bool ReferencePicture::is_at_edge(std::size_t pixel) {
+    const auto changes = [&](glm::dvec2 move) {
         return color_difference(colors_[pixel], pixel_color(pixel, move)) > stress::least_change;
-    });
-}
-
-std::vector<bool> ReferencePicture::at_edges(std::span<const std::size_t> pixels) {
-    for_each_run(pixels.size(), stress::pixel_run, available_cores(),
-                 [&](std::size_t first, std::size_t last) {
-                     for (std::size_t i = first; i < last; ++i) {
-                         std::int8_t& edge = edges_[pixels[i]];
-                         if (edge < 0) edge = changes_nearby(pixels[i]) ? 1 : 0;
-                     }
-                 });
-    std::vector<bool> answer;
-    for (const std::size_t pixel : pixels) answer.push_back(edges_[pixel] == 1);
-    return answer;
+    };
+    std::int8_t& edge = edges_[pixel];
+    if (edge < 0) edge = std::ranges::any_of(stress::moves, changes) ? 1 : 0;
+    return edge == 1;
 }
 
 Picture ReferencePicture::as_picture() const {

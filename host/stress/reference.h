@@ -5,7 +5,6 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 #include "host/image/picture.h"
@@ -37,15 +36,15 @@ class ReferencePicture {
     /// Color of a pixel, counted row by row from the top left; linear, not clamped.
     const glm::dvec3& color(std::size_t pixel) const { return colors_[pixel]; }
 
-    /// Which of these pixels lie at an edge: a channel, clamped to [0, 1], changes by more than
-    /// 0.5/255 as the samples move by 0.02 pixel. Traced on first use, on all cores.
-    std::vector<bool> at_edges(std::span<const std::size_t> pixels);
+    /// Whether a pixel lies at an edge: a channel, clamped to [0, 1], changes by more than 0.5/255
+    /// as the samples move by 0.02 pixel. Traced on first use. Threads may ask about different
+    /// pixels.
+    bool is_at_edge(std::size_t pixel);
 
     Picture as_picture() const;
 
    private:
     glm::dvec3 pixel_color(std::size_t pixel, glm::dvec2 move) const;
-    bool changes_nearby(std::size_t pixel) const;
 
     int width_, height_;
     int grid_;
