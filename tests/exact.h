@@ -9,7 +9,7 @@
 #include <string>
 
 #include "host/flatten/flat_types.h"
-#include "host/stress/wide_real.h"
+#include "host/stress/wide_shapes.h"
 
 // The reference arithmetic of the kernel tests, as of the stress suite: 113 bits, enough for exact
 // products of two doubles and for any formula here with 2^-50 of a double's error to spare.

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "host/base/parallel.h"
-#include "host/stress/wide_real.h"
 #include "host/stress/wide_shapes.h"
 
 namespace rt {
