@@ -157,9 +157,8 @@ class TreeBuilder {
         for (const JsonMember& member : members) {
             const JsonMember* const first = seen.emplace(member.key, &member).first->second;
             if (first == &member) continue;
-            const SourcePosition position = position_of(text_, first->key_offset);
-            mistakes_.add(member.key_offset, "key {} is repeated, first at {}:{}; keep one of them",
-                          in_quotes(member.key), position.line, position.column);
+            mistakes_.add(member.key_offset, "key {} is repeated, first at {}; keep one of them",
+                          in_quotes(member.key), position_of(text_, first->key_offset));
         }
     }
 

@@ -139,13 +139,10 @@ std::optional<double> scan_number(LineScanner& scanner, std::string_view name, M
     const std::size_t offset = scanner.word_offset();
     const auto number = scanner.number();
     if (number && std::abs(*number) <= max_scene_number) return number;
-    std::string message = fmt::format("{} is {}; write a number from -1e30 to 1e30", name,
-                                      found_text(scanner, number));
-    if (remedy) {
-        mistakes.note_in({}, *remedy, offset, std::move(message), count);
-    } else {
-        mistakes.add(offset, std::move(message));
-    }
+    mistakes.report(remedy, offset,
+                    fmt::format("{} is {}; write a number from -1e30 to 1e30", name,
+                                found_text(scanner, number)),
+                    count);
     return std::nullopt;
 }
 

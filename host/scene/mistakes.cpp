@@ -9,7 +9,7 @@
 
 namespace rt {
 
-SourcePosition position_of(std::string_view text, std::size_t offset) {
+std::string position_of(std::string_view text, std::size_t offset) {
     if (text.starts_with(utf8_byte_order_mark)) {
         text.remove_prefix(utf8_byte_order_mark.size());
         offset -= std::min(offset, utf8_byte_order_mark.size());
@@ -21,30 +21,29 @@ SourcePosition position_of(std::string_view text, std::size_t offset) {
     const auto characters =
         std::count_if(line.begin(), line.end(), [](char c) { return !is_utf8_continuation(c); });
     const auto lines = std::count(before.begin(), before.end(), '\n');
-    return {static_cast<std::size_t>(lines) + 1, static_cast<std::size_t>(characters) + 1};
+    return fmt::format("{}:{}", lines + 1, characters + 1);
 }
 
 Mistakes::Mistakes(std::string_view text, std::string_view file_name)
     : text_(text), file_name_(printable(file_name)) {}
 
-void Mistakes::add_in(std::string where, std::size_t offset, std::string message) {
-    found_.push_back({offset, std::move(message), std::move(where)});
-    if (found_.size() >= max_count) throw_if_any();
-}
-
-void Mistakes::note_in(std::string where, const Remedy& remedy, std::size_t offset,
-                       std::string message, std::size_t count) {
-    const auto same = std::ranges::find(notes_, &remedy, &Note::remedy);
-    if (same != notes_.end()) {
+void Mistakes::report(const Remedy* remedy, std::size_t offset, std::string message,
+                      std::size_t count, std::string where) {
+    Mistake mistake{offset, std::move(message), std::move(where)};
+    const auto same = std::ranges::find(notes_, remedy, &Note::remedy);
+    if (!remedy) {
+        found_.push_back(std::move(mistake));
+        if (found_.size() >= max_count) throw_if_any();
+    } else if (same != notes_.end()) {
         same->count += count;
     } else {
-        notes_.push_back({{offset, std::move(message), std::move(where)}, &remedy, count});
+        notes_.push_back({std::move(mistake), remedy, count});
     }
 }
 
 void Mistakes::take_notes(const Mistakes& part) {
     for (const auto& [first, remedy, count] : part.notes_) {
-        note_in(first.where, *remedy, first.offset, first.message, count);
+        report(remedy, first.offset, first.message, count, first.where);
     }
 }
 
@@ -66,8 +65,7 @@ void Mistakes::refuse_notes() {
 }
 
 std::string Mistakes::place(std::size_t offset) const {
-    const SourcePosition position = position_of(text_, offset);
-    return fmt::format("{}:{}:{}", file_name_, position.line, position.column);
+    return file_name_ + ":" + position_of(text_, offset);
 }
 
 std::string Mistakes::line(const Mistake& mistake) const {

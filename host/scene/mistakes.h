@@ -11,12 +11,8 @@
 
 namespace rt {
 
-/// Both count from 1; a column is one Unicode code point, tabs included.
-struct SourcePosition {
-    std::size_t line = 1, column = 1;
-};
-
-SourcePosition position_of(std::string_view text, std::size_t offset);
+/// "line:column": both count from 1; a column is one Unicode code point, tabs included.
+std::string position_of(std::string_view text, std::size_t offset);
 
 /// What is done about a blemish, to be counted: "face left out", "faces left out".
 struct Remedy {
@@ -32,7 +28,9 @@ class Mistakes {
     Mistakes(std::string_view text, std::string_view file_name);
 
     /// Notes "what is wrong; what to do" at a byte offset. Throws when max_count is reached.
-    void add(std::size_t offset, std::string message) { add_in({}, offset, std::move(message)); }
+    void add(std::size_t offset, std::string message) {
+        report(nullptr, offset, std::move(message));
+    }
 
     /// The same with a message to be formatted.
     template <typename... Args>
@@ -41,16 +39,12 @@ class Mistakes {
         add(offset, fmt::format(message, std::forward<Args>(args)...));
     }
 
-    /// The same for data without lines: `where` ("element 'face' 17") replaces line and column in
-    /// the message.
-    void add_in(std::string where, std::size_t offset, std::string message);
-
     std::size_t count() const { return found_.size(); }
 
     /// Notes a blemish. Of those with the same remedy, the first is kept and all are counted, so
     /// that a million of them are one line.
     void note(const Remedy& remedy, std::size_t offset, std::string message) {
-        note_in({}, remedy, offset, std::move(message), 1);
+        report(&remedy, offset, std::move(message));
     }
     template <typename... Args>
     requires(sizeof...(Args) > 0) void note(const Remedy& remedy, std::size_t offset,
@@ -58,9 +52,11 @@ class Mistakes {
         note(remedy, offset, fmt::format(message, std::forward<Args>(args)...));
     }
 
-    /// A `count` of 0 only gives the reason for later ones; `where` is as for add_in.
-    void note_in(std::string where, const Remedy& remedy, std::size_t offset, std::string message,
-                 std::size_t count);
+    /// Notes a blemish or, without a remedy, adds an error. A `count` of 0 only gives the reason
+    /// for later ones. `where` ("element 'face' 17") replaces line and column, for data without
+    /// lines.
+    void report(const Remedy* remedy, std::size_t offset, std::string message,
+                std::size_t count = 1, std::string where = {});
 
     bool has_notes() const { return !notes_.empty(); }
 

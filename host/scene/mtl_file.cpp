@@ -288,9 +288,9 @@ void ObjMaterials::assign(Model& model, const OpenLibrary& open, Mistakes& mista
         std::string advice = "the libraries contain none";
         if (libraries_.empty()) advice = "the file has no mtllib";
         if (!names.empty()) advice = suggestion(first.name, names, "the libraries contain");
-        mistakes.note_in({}, unknown, first.offset,
-                         fmt::format("unknown material {}; {}", in_quotes(first.name), advice),
-                         unknown_ones.size());
+        mistakes.report(&unknown, first.offset,
+                        fmt::format("unknown material {}; {}", in_quotes(first.name), advice),
+                        unknown_ones.size());
     }
     std::vector<int>& faces = model.mesh.face_materials;
     if (libraries_.empty()) {

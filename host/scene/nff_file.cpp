@@ -124,11 +124,7 @@ class NffReader {
     /// Notes what is wrong with the entity at hand, or in a view adds it to the errors.
     void report(std::size_t offset, std::string message) {
         has_lost_ = has_lost_ || remedy_ == &left_out;
-        if (remedy_) {
-            mistakes_.note(*remedy_, offset, std::move(message));
-        } else {
-            mistakes_.add(offset, std::move(message));
-        }
+        mistakes_.report(remedy_, offset, std::move(message));
     }
 
     std::size_t next_offset() {

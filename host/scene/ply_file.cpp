@@ -98,7 +98,7 @@ class Rows {
 
     /// Notes what is wrong with the row at hand.
     void note(const Remedy& remedy, std::string message, std::size_t count = 1) {
-        mistakes_->note_in(is_text_ ? "" : row_name(), remedy, start_, std::move(message), count);
+        mistakes_->report(&remedy, start_, std::move(message), count, is_text_ ? "" : row_name());
     }
 
     /// Notes what follows the last row, save for a line end left by an editor or a program.
@@ -125,12 +125,12 @@ class Rows {
     /// Gives the row up.
     void fail(std::string message, std::size_t count = 1) {
         is_good_ = false;
-        mistakes_->note_in(is_text_ ? "" : row_name(), *remedy_, scanner_.offset(),
-                           std::move(message), remedy_ == &bad_ply_vertex ? 0 : count);
+        mistakes_->report(remedy_, scanner_.offset(), std::move(message),
+                          remedy_ == &bad_ply_vertex ? 0 : count, is_text_ ? "" : row_name());
     }
 
     void refuse(std::string message) {
-        mistakes_->add_in(row_name(), scanner_.offset(), std::move(message));
+        mistakes_->report(nullptr, scanner_.offset(), std::move(message), 1, row_name());
         mistakes_->throw_if_any();
     }
 
