@@ -222,6 +222,12 @@ std::string ply_grid(const std::string& format, int side, bool quads,
                      "property float quality\n");
 }
 
+/// The notes without the places, which are lines in text and rows in bytes.
+std::vector<std::string> without_places(std::vector<std::string> notes) {
+    for (std::string& note : notes) note.erase(0, note.find(": the polygon"));
+    return notes;
+}
+
 /// ASCII is the reference: it is read row by row.
 TEST(ParsePly, RowsReadSideBySideAreTheSame) {
     for (const bool quads : {false, true}) {
@@ -236,7 +242,7 @@ TEST(ParsePly, RowsReadSideBySideAreTheSame) {
                     EXPECT_EQ(bytes.mesh.positions, text.mesh.positions);
                     EXPECT_EQ(bytes.mesh.normals, text.mesh.normals);
                     EXPECT_EQ(bytes.mesh.faces, text.mesh.faces);
-                    EXPECT_EQ(bytes.notes, text.notes);
+                    EXPECT_EQ(without_places(bytes.notes), without_places(text.notes));
                 }
             }
         }

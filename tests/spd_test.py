@@ -97,7 +97,10 @@ class Databases(unittest.TestCase):
             path = pathlib.Path(folder, f"{name}.nff")
             path.write_text(text, encoding="utf-8")
             check = run("scene", "check", path)
-            self.assertRegex(check.stderr, r"^(mirrorball: .*: ignored \d+ zero-area polygons\n)?$")
+            self.assertRegex(
+                check.stderr,
+                r"^(mirrorball: .*:\d+:\d+: zero-area polygon.* \(\d+ polygons ignored\)\n)?$",
+            )
             info = info_of(path)
         expected = counts(text)
         self.assertEqual(info["spheres"], expected.get("s", 0))

@@ -129,15 +129,15 @@ bool append_usual_face(std::span<const std::uint32_t> corners,
     return true;
 }
 
-void MeshBuilder::add_face(std::span<const std::uint32_t> corners,
-                           std::span<const std::uint32_t> normals) {
+const PolygonBlemish* MeshBuilder::add_face(std::span<const std::uint32_t> corners,
+                                            std::span<const std::uint32_t> normals) {
     auto* const rows = mesh.normals.empty() ? nullptr : &mesh.face_normals;
-    if (append_usual_face(corners, normals, mesh.positions, mesh.faces, rows)) return;
+    if (append_usual_face(corners, normals, mesh.positions, mesh.faces, rows)) return nullptr;
     outline_.clear();
     for (const std::uint32_t corner : corners) outline_.push_back(mesh.positions[corner]);
-    for (const Face& which : splitter_.split(outline_)) {
-        append_triangle(which, corners, normals, mesh.faces, rows);
-    }
+    const PolygonBlemish* const blemish = split_polygon(outline_, polygon_work_, parts_);
+    for (const Face& which : parts_) append_triangle(which, corners, normals, mesh.faces, rows);
+    return blemish;
 }
 
 void MeshBuilder::use_material(int material) {

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "host/scene/geometry.h"
@@ -43,8 +42,9 @@ class MeshBuilder {
     Scene::Mesh mesh;
 
     /// `corners` are at least 3 indices into mesh.positions; `normals` as many into mesh.normals,
-    /// or none. All must be in range.
-    void add_face(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> normals);
+    /// or none. All must be in range. Returns what is wrong with the face, or null.
+    const PolygonBlemish* add_face(std::span<const std::uint32_t> corners,
+                                   std::span<const std::uint32_t> normals);
 
     /// Sets the material of subsequent faces. Faces before the first call have material -1.
     void use_material(int material);
@@ -52,15 +52,11 @@ class MeshBuilder {
     /// The mesh, complete with face_materials.
     Scene::Mesh take();
 
-    /// What add_face dropped or could not triangulate exactly, a sentence each.
-    std::vector<std::string> notes(const std::string& file_name) const {
-        return splitter_.notes(file_name);
-    }
-
    private:
     int material_ = -1;                ///< of subsequent faces
     std::vector<glm::dvec3> outline_;  ///< of the face at hand
-    PolygonSplitter splitter_;
+    std::vector<Scene::Mesh::Face> parts_;
+    std::int64_t polygon_work_ = max_polygon_work;
 };
 
 /// What was dropped from a mesh.

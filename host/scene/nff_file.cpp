@@ -80,7 +80,6 @@ class NffReader {
         if (shape_count() == 0 && has_lost_) mistakes_.refuse_notes();
         set_light();
         scene_.notes = mistakes_.notes();
-        std::ranges::move(splitter_.notes(mistakes_.file_name()), std::back_inserter(scene_.notes));
         return std::move(scene_);
     }
 
@@ -424,7 +423,10 @@ class NffReader {
             }
         }
         const bool smooth = normals_.size() == corners_.size();
-        for (const auto& [a, b, c] : splitter_.split(corners_)) {
+        if (const auto* blemish = split_polygon(corners_, polygon_work_, parts_)) {
+            mistakes_.note(blemish->remedy, offset, blemish->message);
+        }
+        for (const auto& [a, b, c] : parts_) {
             Scene::Triangle triangle{{corners_[a], corners_[b], corners_[c]}, {}, material()};
             if (smooth) triangle.normals = {normals_[a], normals_[b], normals_[c]};
             if (!zero_area(triangle.vertices)) scene_.triangles.push_back(triangle);
@@ -452,7 +454,8 @@ class NffReader {
     std::map<Fill, int> fills_;                     ///< equal ones share a material
     int material_ = -1;                             ///< -1: no fill yet
     std::vector<glm::dvec3> corners_, normals_;     ///< of the polygon at hand
-    PolygonSplitter splitter_;
+    std::vector<std::array<std::uint32_t, 3>> parts_;
+    std::int64_t polygon_work_ = max_polygon_work;
     bool skips_words_ = false;
     bool has_lost_ = false;  ///< a shape, or a statement that may be one
 };

@@ -44,7 +44,7 @@ bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
 struct Event {
     std::size_t faces_before = 0;
     std::vector<std::uint32_t> corners, normals;
-    ObjMaterials::Use material;
+    ObjMaterials::Use material;  ///< of a face, the offset alone
 };
 
 /// The number of vertices defined above a statement.
@@ -241,7 +241,7 @@ class FaceReader {
             if (!read_normals(offset)) normals_.clear();
             auto* const rows = all_normals_.empty() ? nullptr : &chunk_.face_normals;
             if (append_usual_face(corners_, normals_, positions_, chunk_.faces, rows)) return;
-            chunk_.events.push_back({chunk_.faces.size(), corners_, normals_, {}});
+            chunk_.events.push_back({chunk_.faces.size(), corners_, normals_, {{}, offset}});
         }
     }
 
@@ -307,11 +307,8 @@ class ObjReader {
         } else {
             model.mesh.face_materials = {-1};
         }
-        const auto add_notes = [&](const std::vector<std::string>& notes) {
-            model.notes.insert(model.notes.begin(), notes.begin(), notes.end());
-        };
-        add_notes(builder_.notes(mistakes_.file_name()));
-        add_notes(mistakes_.notes());
+        const std::vector<std::string> notes = mistakes_.notes();
+        model.notes.insert(model.notes.begin(), notes.begin(), notes.end());
         return model;
     }
 
@@ -370,8 +367,8 @@ class ObjReader {
             add_up_to(event.faces_before);
             if (event.corners.empty()) {
                 builder_.use_material(materials_.use(event.material));
-            } else {
-                builder_.add_face(event.corners, event.normals);
+            } else if (const auto* blemish = builder_.add_face(event.corners, event.normals)) {
+                mistakes_.note(blemish->remedy, event.material.offset, blemish->message);
             }
         }
         add_up_to(chunk.faces.size());

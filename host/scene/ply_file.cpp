@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -248,7 +247,6 @@ class BodyReader {
         if (!normals_.empty()) model.mesh.face_normals = model.mesh.faces;
         model.mesh.normals = std::move(normals_);
         model.notes = mistakes_.notes();
-        std::ranges::move(builder_.notes(mistakes_.file_name()), std::back_inserter(model.notes));
         return model;
     }
 
@@ -362,7 +360,9 @@ class BodyReader {
         for (const double index : indices) {
             if (!take_corner(index, bad_ply_face, 1)) return;
         }
-        builder_.add_face(corners_, {});
+        if (const auto* blemish = builder_.add_face(corners_, {})) {
+            rows_.note(blemish->remedy, blemish->message);
+        }
     }
 
     /// Appends a vertex to corners_ if it exists and can be read; notes it otherwise.

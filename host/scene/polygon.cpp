@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/polygon.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -10,7 +8,6 @@
 #include <glm/vec2.hpp>
 #include <utility>
 
-#include "host/base/text.h"
 #include "host/scene/geometry.h"
 
 namespace rt {
@@ -322,52 +319,40 @@ class EarClipper {
     std::vector<std::array<std::uint32_t, 3>>& triangles_;
 };
 
-}  // namespace
+constexpr PolygonBlemish no_area{{"polygon ignored", "polygons ignored"},
+                                 "zero-area polygon; remove it"};
+constexpr PolygonBlemish not_simple{
+    {"polygon split as a fan", "polygons split as fans"},
+    "the polygon is self-intersecting or too complex and may look wrong; split it"};
 
+/// Returns whether the triangles are exact.
 bool triangulate(std::span<const glm::dvec3> corners, std::int64_t& work,
                  std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    triangles.clear();
-    if (corners.size() == 3) {
-        if (!zero_area({corners[0], corners[1], corners[2]})) triangles.push_back({0, 1, 2});
-        return true;
+    if (corners.size() == 3) triangles.push_back({0, 1, 2});
+    if (corners.size() > 3 && !on_one_line(corners)) {
+        const glm::dvec3 normal = normal_of(corners);
+        if (largest(normal) == 0) return false;
+        if (!EarClipper(flattened(corners, normal), work, triangles).run()) return false;
     }
-    if (corners.size() < 3 || on_one_line(corners)) return true;
-    const glm::dvec3 normal = normal_of(corners);
-    if (largest(normal) == 0) return false;
-    const bool exact = EarClipper(flattened(corners, normal), work, triangles).run();
     std::erase_if(triangles, [&](const auto& triangle) {
         return zero_area({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
     });
-    return exact;
+    return true;
 }
 
-const std::vector<std::array<std::uint32_t, 3>>& PolygonSplitter::split(
-    std::span<const glm::dvec3> corners) {
+}  // namespace
+
+const PolygonBlemish* split_polygon(std::span<const glm::dvec3> corners, std::int64_t& work,
+                                    std::vector<std::array<std::uint32_t, 3>>& triangles) {
     constexpr std::int64_t work_of_a_corner = 64;
-    work_ = std::min(max_polygon_work,
-                     std::max<std::int64_t>(work_, 0) +
-                         work_of_a_corner * static_cast<std::int64_t>(corners.size()));
-    if (!triangulate(corners, work_, parts_)) {
-        ++fans_;
-        parts_.clear();
-        for (std::uint32_t i = 2; i < corners.size(); ++i) parts_.push_back({0, i - 1, i});
-    } else if (parts_.empty()) {
-        ++zero_areas_;
-    }
-    return parts_;
-}
-
-std::vector<std::string> PolygonSplitter::notes(const std::string& file_name) const {
-    std::vector<std::string> notes;
-    if (zero_areas_ > 0) {
-        notes.push_back(
-            fmt::format("{}: ignored {}", file_name, counted(zero_areas_, "zero-area polygon")));
-    }
-    if (fans_ > 0) {
-        notes.push_back(fmt::format("{}: {} self-intersecting or too complex and may look wrong",
-                                    file_name, counted(fans_, "polygon is", "polygons are")));
-    }
-    return notes;
+    work = std::min(max_polygon_work,
+                    std::max<std::int64_t>(work, 0) +
+                        work_of_a_corner * static_cast<std::int64_t>(corners.size()));
+    triangles.clear();
+    if (triangulate(corners, work, triangles)) return triangles.empty() ? &no_area : nullptr;
+    triangles.clear();
+    for (std::uint32_t i = 2; i < corners.size(); ++i) triangles.push_back({0, i - 1, i});
+    return &not_simple;
 }
 
 }  // namespace rt
