@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
+#include <algorithm>
 #include <iterator>
 #include <span>
 #include <utility>
 
-#include "host/scene/mesh.h"
+#include "host/scene/line_scanner.h"
 #include "host/scene/words.h"
 
 namespace rt {
@@ -229,45 +229,6 @@ void check_header(const PlyHeader& header, Mistakes& mistakes) {
     mistakes.throw_if_any();
 }
 
-/// Calls work(row) for all rows in parallel; returns whether all calls did.
-template <typename Work>
-bool all_rows(std::size_t rows, std::size_t row_bytes, const ReadPace& pace, Work work) {
-    std::atomic<bool> good = true;
-    const std::size_t grain = std::max<std::size_t>(pace.chunk_bytes / row_bytes, 1);
-    for_each_run(rows, grain, pace.threads, [&](std::size_t first, std::size_t last) {
-        bool all = true;
-        for (std::size_t i = first; i < last; ++i) all &= work(i);
-        if (!all) good = false;
-    });
-    return good;
-}
-
-/// Reads the N corners of a list; returns whether it has so many, and all exist. `usual` lists have
-/// a count byte, then 32-bit indices.
-template <std::size_t N>
-bool read_corners(const char* at, const PlyProperty& list, bool usual, bool swapped,
-                  std::size_t vertices, std::array<std::uint32_t, N>& corners) {
-    bool good = true;
-    if (usual) {
-        std::memcpy(corners.data(), at + 1, sizeof corners);
-        good = *at == N;
-        for (std::uint32_t& corner : corners) {
-            if (swapped) corner = __builtin_bswap32(corner);
-            good &= corner < vertices;
-        }
-        return good;
-    }
-    if (ply_number(at, *list.count_type, swapped) != N) return false;
-    at += size_of(*list.count_type);
-    for (std::uint32_t& corner : corners) {
-        const double index = ply_number(at, list.type, swapped);
-        at += size_of(list.type);
-        good &= index >= 0 && index < static_cast<double>(vertices);
-        corner = static_cast<std::uint32_t>(static_cast<std::int64_t>(index));
-    }
-    return good;
-}
-
 }  // namespace
 
 std::size_t PlyElement::find(std::string_view property) const {
@@ -296,66 +257,6 @@ PlyHeader parse_ply_header(Mistakes& mistakes) {
     PlyHeader header = HeaderReader(mistakes).read();
     check_header(header, mistakes);
     return header;
-}
-
-bool read_columns(const char* rows, const PlyElement& element,
-                  const std::array<std::size_t, 3>& properties, bool swapped,
-                  std::vector<glm::dvec3>& target, const ReadPace& pace) {
-    std::array<PlyType, 3> types{};
-    std::array<std::size_t, 3> offsets{};
-    bool usual = !swapped;  // three floats in a row, read without branching on each one's type
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        types[axis] = element.properties[properties[axis]].type;
-        offsets[axis] = element.offset_of(properties[axis], 0);
-        usual &= types[axis] == PlyType::float32 && offsets[axis] == offsets[0] + 4 * axis;
-    }
-    const std::size_t stride = element.row_bytes(0);
-    target.resize(element.count);
-    return all_rows(target.size(), stride, pace, [&](std::size_t i) {
-        const char* row = rows + i * stride;
-        if (usual) {
-            std::array<float, 3> v;
-            std::memcpy(v.data(), row + offsets[0], sizeof v);
-            target[i] = glm::dvec3(v[0], v[1], v[2]);
-        } else {
-            for (int axis = 0; axis < 3; ++axis) {
-                target[i][axis] = ply_number(row + offsets[axis], types[axis], swapped);
-            }
-        }
-        return is_within(target[i]);
-    });
-}
-
-std::size_t read_face_block(std::string_view data, const PlyElement& element, bool swapped,
-                            const std::vector<glm::dvec3>& positions,
-                            std::vector<Scene::Mesh::Face>& faces, const ReadPace& pace) {
-    const std::size_t place = element.find_corners(), start = element.offset_of(place, 0);
-    if (element.list_count() != 1 || element.count == 0 || data.size() < element.row_bytes(0)) {
-        return 0;
-    }
-    const PlyProperty& list = element.properties[place];
-    const double corners = ply_number(data.data() + start, *list.count_type, swapped);
-    if (corners != 3 && corners != 4) return 0;
-    const std::size_t stride = element.row_bytes(corners == 3 ? 3 : 4);
-    if (data.size() / stride < element.count) return 0;
-    const bool usual = size_of(*list.count_type) == 1 && size_of(list.type) == 4;
-    const std::size_t first = faces.size();
-    faces.resize(first + element.count * (corners == 3 ? 1 : 2));
-    const auto& p = positions;
-    const auto read_row = [&](std::size_t i) {
-        const char* at = data.data() + i * stride + start;
-        if (corners == 3) {
-            return read_corners<3>(at, list, usual, swapped, p.size(), faces[first + i]);
-        }
-        std::array<std::uint32_t, 4> c{};
-        if (!read_corners<4>(at, list, usual, swapped, p.size(), c)) return false;
-        faces[first + 2 * i] = {c[0], c[1], c[2]};
-        faces[first + 2 * i + 1] = {c[0], c[2], c[3]};
-        return parts_well({p[c[0]], p[c[1]], p[c[2]], p[c[3]]});
-    };
-    if (all_rows(element.count, stride, pace, read_row)) return element.count * stride;
-    faces.resize(first);
-    return 0;
 }
 
 }  // namespace rt

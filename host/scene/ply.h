@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "host/scene/line_scanner.h"
 #include "host/scene/mistakes.h"
-#include "host/scene/scene.h"
 
 namespace rt {
 
@@ -64,51 +57,5 @@ struct PlyHeader {
 /// Reads the header of a PLY file (Turk 1994), up to the line end after end_header, and checks that
 /// it declares a mesh. Throws all of the header's mistakes at once.
 PlyHeader parse_ply_header(Mistakes& mistakes);
-
-/// Reads a number from bytes, byte-swapped if `swapped`.
-template <typename T>
-T ply_bytes(const char* at, bool swapped) {
-    std::array<unsigned char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), at, sizeof(T));
-    if (swapped) std::reverse(bytes.begin(), bytes.end());
-    return std::bit_cast<T>(bytes);
-}
-
-inline double ply_number(const char* at, PlyType type, bool swapped) {
-    switch (type) {
-        case PlyType::int8:
-            return static_cast<std::int8_t>(*at);
-        case PlyType::uint8:
-            return static_cast<std::uint8_t>(*at);
-        case PlyType::int16:
-            return ply_bytes<std::int16_t>(at, swapped);
-        case PlyType::uint16:
-            return ply_bytes<std::uint16_t>(at, swapped);
-        case PlyType::int32:
-            return ply_bytes<std::int32_t>(at, swapped);
-        case PlyType::uint32:
-            return ply_bytes<std::uint32_t>(at, swapped);
-        case PlyType::float32:
-            return ply_bytes<float>(at, swapped);
-        case PlyType::float64:
-            break;
-    }
-    return ply_bytes<double>(at, swapped);
-}
-
-// A fast parallel path for the rows of a binary file that all have the same length.
-
-/// Reads three properties, given by their places, of an element's rows, which have no lists;
-/// returns whether all numbers are within max_scene_number.
-bool read_columns(const char* rows, const PlyElement& element,
-                  const std::array<std::size_t, 3>& properties, bool swapped,
-                  std::vector<glm::dvec3>& target, const ReadPace& pace);
-
-/// Appends faces that are all triangles, or all quadrilaterals that pass parts_well, from the start
-/// of `data`, and returns their bytes; a row must have one list. Returns 0 for all others: rows
-/// must then be read one by one.
-std::size_t read_face_block(std::string_view data, const PlyElement& element, bool swapped,
-                            const std::vector<glm::dvec3>& positions,
-                            std::vector<Scene::Mesh::Face>& faces, const ReadPace& pace);
 
 }  // namespace rt

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
@@ -32,6 +35,76 @@ constexpr std::string_view column_names[] = {"x", "y", "z", "nx", "ny", "nz"};
 
 using Vectors = std::vector<glm::dvec3>;
 using Places = std::array<std::size_t, 6>;  ///< of properties in an element
+
+/// Reads a number from bytes, byte-swapped if `swapped`.
+template <typename T>
+T ply_bytes(const char* at, bool swapped) {
+    std::array<unsigned char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), at, sizeof(T));
+    if (swapped) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+}
+
+double ply_number(const char* at, PlyType type, bool swapped) {
+    switch (type) {
+        case PlyType::int8:
+            return static_cast<std::int8_t>(*at);
+        case PlyType::uint8:
+            return static_cast<std::uint8_t>(*at);
+        case PlyType::int16:
+            return ply_bytes<std::int16_t>(at, swapped);
+        case PlyType::uint16:
+            return ply_bytes<std::uint16_t>(at, swapped);
+        case PlyType::int32:
+            return ply_bytes<std::int32_t>(at, swapped);
+        case PlyType::uint32:
+            return ply_bytes<std::uint32_t>(at, swapped);
+        case PlyType::float32:
+            return ply_bytes<float>(at, swapped);
+        case PlyType::float64:
+            break;
+    }
+    return ply_bytes<double>(at, swapped);
+}
+
+/// Calls work(row) for all rows in parallel; returns whether all calls did.
+template <typename Work>
+bool all_rows(std::size_t rows, std::size_t row_bytes, const ReadPace& pace, Work work) {
+    std::atomic<bool> good = true;
+    const std::size_t grain = std::max<std::size_t>(pace.chunk_bytes / row_bytes, 1);
+    for_each_run(rows, grain, pace.threads, [&](std::size_t first, std::size_t last) {
+        bool all = true;
+        for (std::size_t i = first; i < last; ++i) all &= work(i);
+        if (!all) good = false;
+    });
+    return good;
+}
+
+/// Reads the N corners of a list; returns whether it has so many, and all exist. `usual` lists have
+/// a count byte, then 32-bit indices.
+template <std::size_t N>
+bool read_corners(const char* at, const PlyProperty& list, bool usual, bool swapped,
+                  std::size_t vertices, std::array<std::uint32_t, N>& corners) {
+    bool good = true;
+    if (usual) {
+        std::memcpy(corners.data(), at + 1, sizeof corners);
+        good = *at == N;
+        for (std::uint32_t& corner : corners) {
+            if (swapped) corner = __builtin_bswap32(corner);
+            good &= corner < vertices;
+        }
+        return good;
+    }
+    if (ply_number(at, *list.count_type, swapped) != N) return false;
+    at += size_of(*list.count_type);
+    for (std::uint32_t& corner : corners) {
+        const double index = ply_number(at, list.type, swapped);
+        at += size_of(list.type);
+        good &= index >= 0 && index < static_cast<double>(vertices);
+        corner = static_cast<std::uint32_t>(static_cast<std::int64_t>(index));
+    }
+    return good;
+}
 
 /// Reads the rows of elements one by one: of text, where each has its own line, or of bytes in
 /// either order. A text row that cannot be read is noted; bytes that are missing are an error.
@@ -283,8 +356,8 @@ class BodyReader {
         const std::size_t bytes = element.count * element.row_bytes(0);
         if (!rows_.is_text() && element.list_count() == 0 && bytes <= rows_.left().size()) {
             rows_.start_element(element, wanted);
-            read_block(element, places, 0, positions);
-            if (smooth) read_block(element, places, 3, normals_);
+            read_columns(element, places, 0, positions);
+            if (smooth) read_columns(element, places, 3, normals_);
             return rows_.advance(bytes);
         }
         positions.reserve(element.count);
@@ -300,14 +373,40 @@ class BodyReader {
         });
     }
 
-    void read_block(const PlyElement& element, const Places& places, std::size_t first,
-                    Vectors& target) {
-        const bool good = read_columns(rows_.left().data(), element,
-                                       {places[first], places[first + 1], places[first + 2]},
-                                       rows_.swapped(), target, pace_);
+    /// Reads three columns, from the one with this number on, of an element without lists: in
+    /// parallel, since its rows all have the same length.
+    void read_columns(const PlyElement& element, const Places& places, std::size_t column,
+                      Vectors& target) {
+        std::array<PlyType, 3> types{};
+        std::array<std::size_t, 3> offsets{};
+        const bool swapped = rows_.swapped();
+        bool usual = !swapped;  // three floats in a row, read without branching on their types
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t place = places[column + axis];
+            types[axis] = element.properties[place].type;
+            offsets[axis] = element.offset_of(place, 0);
+            usual &= types[axis] == PlyType::float32 && offsets[axis] == offsets[0] + 4 * axis;
+        }
+        const char* const data = rows_.left().data();
+        const std::size_t stride = element.row_bytes(0);
+        target.resize(element.count);
+        const bool good = all_rows(target.size(), stride, pace_, [&](std::size_t i) {
+            const char* row = data + i * stride;
+            if (usual) {
+                std::array<float, 3> v;
+                std::memcpy(v.data(), row + offsets[0], sizeof v);
+                target[i] = glm::dvec3(v[0], v[1], v[2]);
+            } else {
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    target[i][static_cast<int>(axis)] =
+                        ply_number(row + offsets[axis], types[axis], swapped);
+                }
+            }
+            return is_within(target[i]);
+        });
         for (std::size_t i = 0; !good && i < target.size(); ++i) {
             rows_.set_row(i);
-            target[i] = checked(target[i], first);
+            target[i] = checked(target[i], column);
         }
     }
 
@@ -337,18 +436,50 @@ class BodyReader {
                 if (rows_.is_good()) add_strip(rows_.values(list[0]));
             });
         }
-        if (!rows_.is_text() && all_readable_) {
-            const std::size_t bytes =
-                read_face_block(rows_.left(), element, rows_.swapped(), builder_.mesh.positions,
-                                builder_.mesh.faces, pace_);
-            rows_.advance(bytes);
-            if (bytes > 0) return;
-        }
+        if (!rows_.is_text() && all_readable_ && read_face_block(element)) return;
         constexpr std::uint64_t triangle_bytes = 8;  // "3 0 1 2\n"; usual binary rows take more
         builder_.mesh.faces.reserve(std::min(element.count, rows_.left().size() / triangle_bytes));
         read_rows(element, list, [&] {
             if (rows_.is_good()) add_face(rows_.values(list[0]));
         });
+    }
+
+    /// Reads faces that are all triangles, or all quadrilaterals that pass parts_well, in parallel;
+    /// a row must have one list. Returns false for all others: their rows are read one by one.
+    bool read_face_block(const PlyElement& element) {
+        const std::string_view data = rows_.left();
+        const bool swapped = rows_.swapped();
+        const std::size_t place = element.find_corners(), start = element.offset_of(place, 0);
+        if (element.list_count() != 1 || element.count == 0 || data.size() < element.row_bytes(0)) {
+            return false;
+        }
+        const PlyProperty& list = element.properties[place];
+        const double corners = ply_number(data.data() + start, *list.count_type, swapped);
+        if (corners != 3 && corners != 4) return false;
+        const std::size_t stride = element.row_bytes(corners == 3 ? 3 : 4);
+        if (data.size() / stride < element.count) return false;
+        const bool usual = size_of(*list.count_type) == 1 && size_of(list.type) == 4;
+        const Vectors& p = builder_.mesh.positions;
+        std::vector<Scene::Mesh::Face>& faces = builder_.mesh.faces;
+        const std::size_t first = faces.size();
+        faces.resize(first + element.count * (corners == 3 ? 1 : 2));
+        const auto read_row = [&](std::size_t i) {
+            const char* at = data.data() + i * stride + start;
+            if (corners == 3) {
+                return read_corners<3>(at, list, usual, swapped, p.size(), faces[first + i]);
+            }
+            std::array<std::uint32_t, 4> c{};
+            if (!read_corners<4>(at, list, usual, swapped, p.size(), c)) return false;
+            faces[first + 2 * i] = {c[0], c[1], c[2]};
+            faces[first + 2 * i + 1] = {c[0], c[2], c[3]};
+            return parts_well({p[c[0]], p[c[1]], p[c[2]], p[c[3]]});
+        };
+        if (!all_rows(element.count, stride, pace_, read_row)) {
+            faces.resize(first);
+            return false;
+        }
+        rows_.advance(element.count * stride);
+        return true;
     }
 
     void add_face(std::span<const double> indices) {
