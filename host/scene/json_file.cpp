@@ -9,7 +9,7 @@
 
 #include "host/base/text.h"
 #include "host/scene/geometry.h"
-#include "host/scene/json_fields.h"
+#include "host/scene/json_document.h"
 #include "host/scene/model.h"
 #include "host/scene/scene.h"
 #include "host/scene/scene_file.h"

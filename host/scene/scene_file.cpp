@@ -5,7 +5,6 @@
 
 #include "host/base/error.h"
 #include "host/base/text.h"
-#include "host/scene/json_document.h"
 #include "host/scene/mistakes.h"
 #include "host/scene/model.h"
 #include "host/scene/text_file.h"

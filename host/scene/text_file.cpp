@@ -19,7 +19,6 @@
 #include "host/base/error.h"
 #include "host/base/parallel.h"
 #include "host/base/text.h"
-#include "host/scene/json_document.h"
 #include "host/scene/words.h"
 
 namespace rt {

@@ -16,6 +16,8 @@
 
 namespace rt {
 
+inline constexpr std::size_t max_json_bytes = std::size_t{256} << 20;
+
 /// What a file held when it was read.
 class FileText {
    public:
