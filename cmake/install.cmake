@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 
 set(module_folder ${CMAKE_INSTALL_LIBDIR}/mirrorball)
 file(RELATIVE_PATH modules_from_program /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${module_folder})
-set_source_files_properties(host/base/module_file.cpp PROPERTIES
+set_source_files_properties(host/base/files.cpp PROPERTIES
     COMPILE_DEFINITIONS "MIRRORBALL_MODULE_DIR=\"${modules_from_program}\"")
 
 install(TARGETS mirrorball RUNTIME)

@@ -8,9 +8,8 @@
 #include <bit>
 
 #include "host/flatten/flat_scene.h"
-#include "host/opencl/cl_options.h"
-#include "host/opencl/cl_program.h"
-#include "host/opencl/cl_tiles.h"
+#include "host/opencl/cl_renderer.h"
+#include "host/opencl/opencl.h"
 #include "tests/feature_scenes.h"
 #include "tests/refusals.h"
 #include "tests/render_helpers.h"

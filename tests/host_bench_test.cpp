@@ -9,7 +9,7 @@
 
 #include "host/measure/bench.h"
 #include "host/measure/converge.h"
-#include "host/measure/machine_load.h"
+#include "host/measure/timing.h"
 #include "host/print/print_run.h"
 
 namespace rt {

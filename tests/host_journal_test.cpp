@@ -5,7 +5,7 @@
 
 #include "host/base/error.h"
 #include "host/journal/journal_file.h"
-#include "host/journal/merge.h"
+#include "host/journal/shares.h"
 #include "host/picture/render_picture.h"
 #include "host/scene/scene_file.h"
 #include "tests/picture_files.h"

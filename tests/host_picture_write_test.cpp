@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
 #include "host/image/picture_module.h"
 #include "tests/picture_files.h"

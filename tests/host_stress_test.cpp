@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "host/picture/crew_members.h"
+#include "host/picture/crew.h"
 #include "host/print/print_run.h"
 #include "host/record/record.h"
 #include "host/stress/families.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "host/picture/tile_check.h"
+#include "host/picture/crew.h"
 
 namespace rt {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/opencl/device_spec.h"
+#include "host/opencl/devices.h"
 #include "host/opencl/pocl.h"
 #include "host/record/record.h"
 #include "host/selftest/selftest.h"

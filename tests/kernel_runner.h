@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "host/flatten/flat_scene.h"
-#include "host/selftest/probes.h"
+#include "host/selftest/selftest.h"
 
 // Runs the probe kernels of kernels/probes/probes.cl. To test a new device function, add a probe
 // there and

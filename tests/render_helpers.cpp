@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "host/flatten/flat_scene.h"
-#include "host/opencl/cl_program.h"
-#include "host/opencl/device_spec.h"
+#include "host/opencl/devices.h"
+#include "host/opencl/opencl.h"
 #include "host/scene/scene_file.h"
 #include "tests/whole_film.h"
 

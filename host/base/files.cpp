@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/files.h"
 
+#include <dlfcn.h>
+#include <signal.h>
 #include <stdlib.h>
 
 #include <system_error>
+
+#ifndef MIRRORBALL_MODULE_DIR
+#define MIRRORBALL_MODULE_DIR ""
+#endif
 
 namespace rt {
 
@@ -32,6 +38,52 @@ TemporaryFolder::TemporaryFolder() {
 TemporaryFolder::~TemporaryFolder() {
     std::error_code error;
     if (!name_.empty()) fs::remove_all(name_, error);
+}
+
+namespace {
+
+/// Blocks all signals of this thread for its lifetime. The libraries start idle threads of their
+/// own while they are loaded; these inherit the mask and never run the program's handlers.
+class SignalsBlocked {
+   public:
+    SignalsBlocked() {
+        sigset_t all;
+        ::sigfillset(&all);
+        ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+    }
+    SignalsBlocked(const SignalsBlocked&) = delete;
+    SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+    ~SignalsBlocked() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+   private:
+    sigset_t before_;
+};
+
+const void* load_file(const fs::path& file, const ModuleFile& wanted, ExitCode failure) {
+    // Never closed: destructors of the libraries run when the program ends.
+    void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) {
+        const char* reason = ::dlerror();
+        throw Error(failure, (reason == nullptr ? file.string() : reason) +
+                                 (": cannot load " + wanted.what) + "; " + wanted.advice);
+    }
+    const auto entry = reinterpret_cast<const void* (*)()>(::dlsym(handle, "mirrorball_module"));
+    const void* interface = entry == nullptr ? nullptr : entry();
+    if (interface != nullptr && *static_cast<const std::uint32_t*>(interface) == wanted.version) {
+        return interface;
+    }
+    throw Error(failure,
+                file.string() + ": belongs to a different version of mirrorball; " + wanted.advice);
+}
+
+}  // namespace
+
+const void* load_module(const ModuleFile& module, ExitCode failure) {
+    const SignalsBlocked blocked;
+    const fs::path folder = beside_program({".", MIRRORBALL_MODULE_DIR}, module.name);
+    if (!folder.empty()) return load_file(folder / module.name, module, failure);
+    const fs::path last = program_file().parent_path() / MIRRORBALL_MODULE_DIR / module.name;
+    throw Error(failure, last.lexically_normal().string() + ": no such file; " + module.advice);
 }
 
 }  // namespace rt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <sstream>
@@ -21,6 +22,24 @@ std::istringstream stat_fields(const std::string& file);
 /// Seconds since the system started this process: its processor time, if its one thread has not
 /// waited; else up to 0.01 s too little, the resolution of the system's own record.
 double seconds_since_process_start();
+
+/// Wall-clock seconds since construction or the last restart; monotonic.
+class Stopwatch {
+   public:
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+    /// Returns the seconds so far and restarts.
+    double lap() {
+        const Clock::time_point now = Clock::now();
+        const double elapsed = std::chrono::duration<double>(now - start_).count();
+        start_ = now;
+        return elapsed;
+    }
+
+   private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+};
 
 /// Runs work(0) .. work(count - 1), each on its own POSIX thread, and joins them all; work begins
 /// once every thread exists. Rethrows the lowest-numbered thread's exception. Throws Error

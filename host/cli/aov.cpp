@@ -12,7 +12,7 @@
 #include "host/cli/render_pictures.h"
 #include "host/explain/pixel_facts.h"
 #include "host/image/false_color.h"
-#include "host/image/output_path.h"
+#include "host/image/output_file.h"
 #include "host/image/picture_io.h"
 #include "host/process/stop_signal.h"
 

@@ -14,7 +14,6 @@
 #include "host/cli/verb.h"
 #include "host/image/false_color.h"
 #include "host/image/image_error.h"
-#include "host/image/picture_format.h"
 #include "host/image/picture_io.h"
 #include "host/print/print_run.h"
 #include "host/print/print_stats.h"

@@ -9,7 +9,6 @@
 #include "host/base/text.h"
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
-#include "host/measure/machine_load.h"
 #include "host/measure/timing.h"
 #include "host/opencl/pocl.h"
 #include "host/print/print_stats.h"

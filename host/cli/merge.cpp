@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/journal/merge.h"
-
 #include <fmt/format.h>
 
 #include <vector>
@@ -12,7 +10,7 @@
 #include "host/cli/render_pictures.h"
 #include "host/cli/verb.h"
 #include "host/image/image_error.h"
-#include "host/image/output_path.h"
+#include "host/image/output_file.h"
 #include "host/image/picture_io.h"
 #include "host/journal/shares.h"
 

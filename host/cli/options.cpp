@@ -15,10 +15,9 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
-#include "host/image/atomic_file.h"
-#include "host/image/output_path.h"
-#include "host/opencl/cl_options.h"
-#include "host/opencl/device_spec.h"
+#include "host/image/output_file.h"
+#include "host/opencl/cl_renderer.h"
+#include "host/opencl/devices.h"
 #include "host/scene/words.h"
 
 namespace rt {

@@ -16,7 +16,7 @@
 #include "host/base/text.h"
 #include "host/cli/command_line.h"
 #include "host/image/encoding.h"
-#include "host/image/picture_format.h"
+#include "host/image/picture_io.h"
 #include "host/picture/render_settings.h"
 
 // Parsing of option values, and the options that several verbs share.

@@ -5,8 +5,8 @@
 #include <string>
 #include <thread>
 
+#include "host/base/parallel.h"
 #include "host/cli/render_options.h"
-#include "host/render/stopwatch.h"
 #include "host/render/tile_queue.h"
 
 namespace rt {

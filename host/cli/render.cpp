@@ -11,10 +11,10 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/cli/render_pictures.h"
 #include "host/process/drivers.h"
 #include "host/process/stop_signal.h"
-#include "host/render/stopwatch.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/text_file.h"
 

@@ -12,8 +12,8 @@
 #include "host/base/text.h"
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
-#include "host/image/output_path.h"
-#include "host/opencl/device_spec.h"
+#include "host/image/output_file.h"
+#include "host/opencl/devices.h"
 #include "host/render/native_kernels.h"
 
 namespace rt {

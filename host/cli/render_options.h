@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/image/encoding.h"
-#include "host/image/picture_format.h"
+#include "host/image/picture_io.h"
 #include "host/picture/render_settings.h"
 #include "host/scene/scene_file.h"
 #include "host/view/viewer.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/cli/render_options.h"
-#include "host/image/output_path.h"
+#include "host/image/output_file.h"
 #include "host/picture/render_picture.h"
 #include "host/view/live_picture.h"
 

@@ -12,7 +12,7 @@
 #include "host/base/version.h"
 #include "host/cli/render_pictures.h"
 #include "host/image/image_error.h"
-#include "host/image/output_path.h"
+#include "host/image/output_file.h"
 #include "host/image/picture_io.h"
 #include "host/journal/journal_file.h"
 #include "host/process/stop_signal.h"

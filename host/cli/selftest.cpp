@@ -7,12 +7,12 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
 #include "host/measure/timing.h"
 #include "host/print/print_run.h"
 #include "host/process/stop_signal.h"
-#include "host/render/stopwatch.h"
 
 namespace rt {
 

@@ -15,7 +15,7 @@
 #include "host/base/text.h"
 #include "host/cli/options.h"
 #include "host/cli/render_options.h"
-#include "host/image/output_path.h"
+#include "host/image/output_file.h"
 #include "host/image/picture_io.h"
 #include "host/scene/scene_file.h"
 #include "host/scene/text_file.h"

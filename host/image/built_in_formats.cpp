@@ -19,8 +19,7 @@
 #include "host/base/error.h"
 #include "host/base/memory.h"
 #include "host/base/text.h"
-#include "host/image/atomic_file.h"
-#include "host/image/output_path.h"
+#include "host/image/output_file.h"
 
 namespace rt {
 

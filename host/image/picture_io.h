@@ -1,24 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "host/image/encoding.h"
 #include "host/image/picture.h"
-#include "host/image/picture_format.h"
 
 namespace rt {
+
+/// The formats pictures are read and written in.
+enum class PictureFormat { png, exr, pfm, tiff, jpeg, webp, hdr, tga, bmp, pnm, dpx };
+
+/// What is known of a format.
+struct PictureFormatFacts {
+    PictureFormat format;
+    std::string_view name;    ///< "PNG"
+    const char* module_name;  ///< OpenImageIO's: "png", "openexr", "targa"
+    std::array<std::string_view, 3> extensions;
+    bool stores_floats = false;  ///< exactly, but for .hdr's 8-bit mantissas; else 8-bit integers
+    int longest_side = std::numeric_limits<int>::max();  ///< in pixels
+};
+const PictureFormatFacts& facts_of(PictureFormat format);
+
+/// The format of a file name's extension, case-insensitive; empty if unknown.
+std::optional<PictureFormat> known_picture_format(const std::string& path);
+
+/// The same; throws Error(ExitCode::usage) with the list of formats if unknown.
+PictureFormat picture_format_of_name(const std::string& path);
 
 /// Writes a picture in the format of its extension: .png (8 bits a channel, 1 to 4 channels), .exr
 /// (32-bit float, zip, lossless), .pfm (32-bit float, 1 or 3 channels), or what OpenImageIO writes:
 /// .tif (32-bit float), .hdr (shared exponents), .jpg .webp .tga .bmp .ppm .dpx (8 bits). The
 /// encoding applies to 8 bits only. A given format overrides the extension. The file appears whole
-/// or not at all (atomic_file.h), and the same arguments always give the same bytes: no time stamp,
+/// or not at all (output_file.h), and the same arguments always give the same bytes: no time stamp,
 /// no program name.
 ///
 /// Metadata goes to .png as text chunks and to .exr as string attributes, under its own names; the
@@ -40,7 +62,7 @@ void check_picture_path(const std::string& path, std::optional<PictureFormat> fo
 void check_picture_fits(const std::string& path, int width, int height,
                         std::optional<PictureFormat> format = {});
 
-/// Reads a picture in the format of its extension, any in picture_format.h. Integers become exactly
+/// Reads a picture in the format of its extension, any of PictureFormat. Integers become exactly
 /// v / 255 or v / 65535, floats are unchanged; no color conversion, alpha as stored. Regular files
 /// only; checks the size (check_picture_size) and free memory before allocating. Throws
 /// Error(ExitCode::input), or limit when memory is short.

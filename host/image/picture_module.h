@@ -10,7 +10,7 @@
 
 #include "host/base/error.h"
 #include "host/image/picture.h"
-#include "host/image/picture_format.h"
+#include "host/image/picture_io.h"
 
 namespace rt {
 

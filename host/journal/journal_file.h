@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "host/base/files.h"
+#include "host/base/parallel.h"
 #include "host/journal/journal_format.h"
 #include "host/render/film.h"
-#include "host/render/stopwatch.h"
 
 namespace rt {
 

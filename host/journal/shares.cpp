@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/journal/shares.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 
+#include "host/base/error.h"
+#include "host/base/memory.h"
 #include "host/base/text.h"
+#include "host/image/built_in_formats.h"
 #include "host/render/tile_queue.h"
 
 namespace rt {
@@ -93,6 +101,193 @@ std::vector<Rect> shared_blocks(const Shares& shares, const Rect& region) {
         if (std::ranges::binary_search(shares.numbers, share_of[i])) shared.push_back(blocks[i]);
     }
     return shared;
+}
+
+namespace {
+
+Shares shares_of(const JournalHeader& header) {
+    const auto shares = parse_shares(header.shares);
+    if (shares) return *shares;
+    throw Error(ExitCode::input, "its header is damaged (shares); render it again");
+}
+
+/// Calls read(reader) with a part, and adds its name to errors.
+template <typename Read>
+void read_part(const std::string& path, const Read& read) {
+    InputFile file = open_input_file(path);
+    try {
+        JournalReader reader(file.stream, file.size);
+        read(reader);
+    } catch (const DamagedJournal& error) {
+        throw DamagedJournal(error.exit_code(), path + ": " + error.what());
+    } catch (const Error& error) {
+        if (error.exit_code() != ExitCode::input) throw;
+        throw Error(ExitCode::input, path + ": " + error.what());
+    }
+}
+
+void check_same_picture(const JournalHeader& header, const std::string& first_path,
+                        const JournalHeader& first) {
+    if (header.key == first.key && header.picture == first.picture) {
+        return;
+    }
+    const auto what = [&]() -> std::string {
+        if (header.scene_hash != first.scene_hash) return "the scene differs";
+        if (header.picture != first.picture) return "the settings differ";
+        return "the version of mirrorball, or the device's rounding, differs";
+    };
+    throw Error(ExitCode::input,
+                printable(fmt::format("is not a part of the same picture as {}: {} ({}, {}; "
+                                      "{}, {})",
+                                      first_path, what(), header.scene, to_string(header.picture),
+                                      first.scene, to_string(first.picture))));
+}
+
+template <typename T>
+class Merger {
+   public:
+    explicit Merger(const JournalHeader& header)
+        : region_(header.picture.region),
+          film_(region_.width, region_.height),
+          owner_(static_cast<std::size_t>(region_.pixels()), -1) {}
+
+    void add(const std::string& path, JournalReader& reader, std::vector<std::string>& notes) {
+        parts_.push_back({path, {}});
+        while (const auto record = reader.next()) {
+            if (record->kind == RecordKind::writer) {
+                parts_.back().writers.push_back(record->writer);
+            }
+            for_each_row(*record, region_, [&](std::size_t at, std::span<const std::byte> row) {
+                for (; !row.empty(); row = row.subspan(pixel_bytes)) take_pixel(at++, row.data());
+            });
+        }
+        if (const auto damaged = reader.bytes() - reader.good_bytes(); damaged > 0) {
+            notes.push_back(fmt::format("{}: ignored the last {}, which are damaged", path,
+                                        counted(damaged, "byte")));
+        }
+    }
+
+    /// Throws Error where parts differ.
+    void check() const {
+        if (differences_.empty()) return;
+        const auto& [pair, difference] = *differences_.begin();
+        const auto width = static_cast<std::size_t>(region_.width);
+        throw Error(ExitCode::different,
+                    fmt::format("{} and {} differ in {}, the first at {},{}; one of the devices "
+                                "is wrong: render both shares again",
+                                described(pair.first), described(pair.second),
+                                counted(difference.pixels, "pixel"),
+                                static_cast<std::size_t>(region_.x) + difference.first % width,
+                                static_cast<std::size_t>(region_.y) + difference.first / width));
+    }
+
+    MergedPicture result(const JournalHeader& header) {
+        MergedPicture merged;
+        merged.header = header;
+        merged.missing_pixels =
+            static_cast<std::size_t>(std::count(owner_.begin(), owner_.end(), -1));
+        if (merged.missing_pixels > 0) merged.missing = missing(shares_of(header).of);
+        merged.image_hash = hash_of(film_);
+        merged.picture.width = film_.width;
+        merged.picture.height = film_.height;
+        merged.picture.pixels = as_floats(std::move(film_));
+        return merged;
+    }
+
+   private:
+    struct Part {
+        std::string path;
+        std::vector<JournalWriterInfo> writers;
+    };
+    struct Difference {
+        std::size_t pixels = 0, first = 0;
+    };
+
+    static constexpr std::size_t pixel_bytes = 3 * sizeof(T);
+
+    void take_pixel(std::size_t i, const std::byte* values) {
+        const auto part = static_cast<int>(parts_.size()) - 1;
+        if (owner_[i] < 0) {
+            owner_[i] = part;
+            std::memcpy(&film_.rgb[3 * i], values, pixel_bytes);
+        } else if (std::memcmp(&film_.rgb[3 * i], values, pixel_bytes) != 0) {
+            const auto added = differences_.insert({{owner_[i], part}, {0, i}}).first;
+            ++added->second.pixels;
+        }
+    }
+
+    std::string described(int number) const {
+        const Part& part = parts_[static_cast<std::size_t>(number)];
+        std::string who;
+        for (const JournalWriterInfo& writer : part.writers) {
+            const std::string one = printable(writer.device + " on " + writer.host);
+            if (who.find(one) == who.npos) who += (who.empty() ? "" : ", ") + one;
+        }
+        return who.empty() ? part.path : fmt::format("{} ({})", part.path, who);
+    }
+
+    /// Which shares, out of `of`, have missing pixels.
+    Shares missing(int of) const {
+        std::set<int> numbers;
+        const std::vector<Rect> blocks = share_blocks(region_);
+        const std::vector<int> share_of = block_shares(blocks.size(), of);
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            const Rect& block = blocks[b];
+            for (int y = block.y; y < block.y + block.height; ++y) {
+                const std::size_t first = index_in(region_, block.x, y);
+                const std::span row(&owner_[first], static_cast<std::size_t>(block.width));
+                if (std::ranges::count(row, -1) > 0) numbers.insert(share_of[b]);
+            }
+        }
+        return {{numbers.begin(), numbers.end()}, of};
+    }
+
+    const Rect region_;
+    Film<T> film_;
+    std::vector<int> owner_;  ///< index of the part that each pixel came from; -1: none
+    std::vector<Part> parts_;
+    std::map<std::pair<int, int>, Difference> differences_;
+};
+
+template <typename T>
+MergedPicture merge(const std::vector<std::string>& paths, const JournalHeader& first,
+                    std::vector<std::string> notes) {
+    check_memory(
+        static_cast<std::uint64_t>(first.picture.region.pixels()) * (3 * sizeof(T) + sizeof(int)),
+        "the merged film", "render parts with --crop");
+    Merger<T> merger(first);
+    for (const std::string& path : paths) {
+        read_part(path, [&](JournalReader& reader) {
+            check_same_picture(reader.header(), paths.front(), first);
+            merger.add(path, reader, notes);
+        });
+    }
+    merger.check();
+    MergedPicture merged = merger.result(first);
+    merged.notes = std::move(notes);
+    return merged;
+}
+
+}  // namespace
+
+MergedPicture merge_journals(const std::vector<std::string>& parts) {
+    std::vector<std::string> readable, notes;
+    JournalHeader first;
+    for (const std::string& path : parts) {
+        try {
+            read_part(path, [&](JournalReader& reader) {
+                if (readable.empty()) first = reader.header();
+                readable.push_back(path);
+            });
+        } catch (const DamagedJournal& error) {
+            notes.emplace_back(error.what());
+        }
+    }
+    if (readable.empty()) throw Error(ExitCode::input, notes.front());
+    check_picture_size(readable.front(), first.picture.region.width, first.picture.region.height,
+                       3);
+    return first.is_double() ? merge<double>(readable, first, std::move(notes))
+                             : merge<float>(readable, first, std::move(notes));
 }
 
 }  // namespace rt

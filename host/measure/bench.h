@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/measure/runs.h"
+#include "host/measure/timing.h"
 #include "host/picture/render_settings.h"
 
 namespace rt {

@@ -2,10 +2,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "host/opencl/cl_options.h"
-#include "host/opencl/cl_program.h"
 #include "host/opencl/cl_renderer.h"
-#include "host/opencl/cl_tiles.h"
 #include "host/opencl/opencl.h"
 
 namespace rt {

@@ -12,14 +12,9 @@
 #include <thread>
 
 #include "host/base/error.h"
-#include "host/opencl/cl_options.h"
-#include "host/opencl/cl_program.h"
-#include "host/opencl/cl_tiles.h"
+#include "host/base/parallel.h"
 #include "host/opencl/opencl.h"
 #include "host/opencl/pocl.h"
-#include "host/render/launch_pacer.h"
-#include "host/render/packet_shape.h"
-#include "host/render/stopwatch.h"
 #include "host/render/tile_rounds.h"
 
 namespace rt {

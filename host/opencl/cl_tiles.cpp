@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opencl/cl_tiles.h"
-
 #include <algorithm>
 #include <bit>
 
-#include "host/render/packet_shape.h"
+#include "host/opencl/cl_renderer.h"
 #include "host/render/tile_rounds.h"
 
 namespace rt {

@@ -3,8 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+
 #include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/base/text.h"
+#include "host/opencl/cl_renderer.h"
+#include "host/opencl/pocl.h"
 
 namespace rt {
 
@@ -84,6 +94,129 @@ template std::vector<cl::Buffer> upload_scene(const FlatScene<double>&, const cl
 cl_uint set_arguments(cl::Kernel& kernel, cl_uint first, const std::vector<cl::Buffer>& scene) {
     for (const cl::Buffer& list : scene) kernel.setArg(first++, list);
     return first;
+}
+
+namespace {
+
+/// Empty where the driver has none.
+std::string build_log(const cl::Program& program, const ClDevice& device) {
+    try {
+        return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(handle_of(device));
+    } catch (const cl::Error&) {
+        return "";
+    }
+}
+
+/// HASH.cl, .options, .log and .bin in the folder of build_extras.
+void save_build(const cl::Program& program, const ClDevice& device, const std::string& flags) {
+    const std::filesystem::path folder = build_extras().folder;
+    const auto source = program.getInfo<CL_PROGRAM_SOURCE>();
+    Hasher hasher;
+    for (const std::string& part : {device.name, source, flags}) hasher.add(part);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    const auto save = [&](const char* extension, const std::string& text) {
+        const std::filesystem::path file = folder / (hash_text(hasher.value()) + extension);
+        if (std::ofstream(file, std::ios::binary).write(text.data(), std::ssize(text)).flush()) {
+            return;
+        }
+        throw Error(ExitCode::output, file.string() + ": cannot be written");
+    };
+    save(".cl", source);
+    save(".options", flags + "\n");
+    save(".log", build_log(program, device));
+    const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();  // empty where it did not build
+    for (const auto& binary : binaries) save(".bin", {binary.begin(), binary.end()});
+}
+
+/// The status of clBuildProgram: cl::Program::build hides it where there is no log.
+cl_int build(const cl::Program& program, const ClDevice& device, const std::string& flags) {
+    const cl_int status =
+        clBuildProgram(program(), 1, &device.handle, flags.c_str(), nullptr, nullptr);
+    if (!build_extras().folder.empty()) save_build(program, device, flags);
+    return status;
+}
+
+/// The program as PoCL builds it fastest; empty if it cannot, and on all other devices.
+std::optional<cl::Program> built_for_pocl(const cl::Context& context, const ClDevice& device,
+                                          const char* source, const std::string& flags) {
+    if (!device.is_cpu() || device.platform != pocl_platform) return {};
+    const cl::Program program(context, std::string(source));
+    if (build(program, device, flags + pocl_build_options) != CL_SUCCESS) return {};
+    return program;
+}
+
+}  // namespace
+
+BuildExtras& build_extras() {
+    static BuildExtras extras;
+    return extras;
+}
+
+std::string build_options(const ClDevice& device, const ProgramOptions& options) {
+    std::string text = "-cl-std=CL1.2";
+    if (options.lanes != 1) text += fmt::format(" -DRT_LANES={}", options.lanes);
+    if (options.precision == Precision::float64) text += " -DRT_DOUBLE=1";
+    if (options.math == Math::fast) {
+        text += " -DRT_FAST_MATH=1 -cl-mad-enable";
+    } else if (device.rounds_correctly) {
+        text += " -cl-fp32-correctly-rounded-divide-sqrt";
+    }
+    for (const FeatureName& feature : feature_names) {
+        if (!(options.features.*feature.flag)) text += fmt::format(" -D{}=0", feature.macro);
+    }
+    if (options.samples != 0) text += fmt::format(" -DRT_SAMPLES={}", options.samples);
+    if (!options.entries.pixels) text += " -DRT_RENDERS_PIXELS=0";
+    if (!options.entries.samples) text += " -DRT_RENDERS_SAMPLES=0";
+    if (!options.entries.adaptive && options.samples == 0) text += " -DRT_RENDERS_ADAPTIVE=0";
+    if (!options.entries.edges && options.features.edges) text += " -DRT_RENDERS_EDGES=0";
+    if (!options.entries.rays) text += " -DRT_TRACES_RAYS=0";
+    for (const std::string& more : {build_extras().options, options.more}) {
+        if (!more.empty()) text += " " + more;
+    }
+    return text;
+}
+
+cl::Program build_program(const cl::Context& context, const ClDevice& device, const char* source,
+                          const ProgramOptions& options) {
+    const std::string flags = build_options(device, options);
+    if (auto built = built_for_pocl(context, device, source, flags)) return *built;
+    const cl::Program program(context, std::string(source));
+    const cl_int status = build(program, device, flags);
+    if (status != CL_SUCCESS) {
+        const std::string advice =
+            device.platform == pocl_platform ? pocl_build_advice() : "update the driver";
+        throw Error(
+            ExitCode::device,
+            fmt::format("the kernels do not build on {} (driver {}): {}; {} or use --device "
+                        "threads\noptions: {}\n{}",
+                        device.name, device.driver, cl_status_text(status), advice, flags,
+                        build_log(program, device)));
+    }
+    return program;
+}
+
+std::shared_ptr<OpenDevices> make_open_devices() { return std::make_shared<OpenDevices>(); }
+
+cl::Context OpenDevices::context(const ClDevice& device) {
+    const std::lock_guard lock(mutex_);
+    cl::Context& context = contexts_[device.handle];
+    if (context() == nullptr) context = cl::Context(handle_of(device));
+    return context;
+}
+
+cl::Program OpenDevices::program(const ClDevice& device, const char* source,
+                                 const ProgramOptions& options) {
+    const cl::Context of = context(device);
+    const std::lock_guard lock(mutex_);
+    cl::Program& program = programs_[{device.handle, source, build_options(device, options)}];
+    if (program() == nullptr) program = build_program(of, device, source, options);
+    return program;
+}
+
+void throw_device_error(const ClDevice& device, const cl::Error& error) {
+    throw Error(ExitCode::device, fmt::format("{} failed in {}: {}", device.name, error.what(),
+                                              cl_status_text(error.err())));
 }
 
 }  // namespace rt

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/render/stopwatch.h"
+#include "host/base/parallel.h"
 
 namespace rt {
 

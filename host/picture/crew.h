@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "host/flatten/flat_scene.h"
+#include "host/opencl/cl_renderer.h"
+#include "host/opencl/devices.h"
+#include "host/picture/render_picture.h"
+#include "host/picture/render_settings.h"
 #include "host/picture/render_stats.h"
 #include "host/render/renderer.h"
+#include "host/render/threads_renderer.h"
 
+// The devices that render a picture: who they are, their renderers, whether what they do is right,
+// and what is kept for the next.
 namespace rt {
 
 /// A renderer that may not have been created yet.
@@ -73,5 +83,84 @@ class Crew : public Renderer<T> {
     bool uses_spare_ = false;
     double trace_seconds_ = 0;
 };
+
+/// A scene ready to render, shared by all its renderers.
+template <typename T>
+using SharedScene = std::shared_ptr<const FlatScene<T>>;
+
+/// What is kept between pictures with the same settings: open devices, their programs, and the last
+/// flattened scene.
+struct RenderCache {
+    template <typename T>
+    struct Flattened {
+        std::uint64_t hash = 0;    ///< scene_hash of its scene, and
+        PictureSpec picture;       ///< the settings that flattening reads
+        std::uint64_t shapes = 0;  ///< shapes_hash of its scene
+        SharedScene<T> scene;      ///< null: none yet
+    };
+
+    std::shared_ptr<OpenDevices> devices = make_open_devices();
+    std::tuple<Flattened<float>, Flattened<double>> scenes;
+    bool has_warned = false;  ///< of what users should know of devices and settings
+};
+
+/// "threads + NVIDIA H100".
+std::string joined_names(const std::vector<DeviceChoice>& devices);
+
+/// The names of devices whose bits may differ from the others'; "" if there are none.
+std::string inexact_names(const std::vector<DeviceChoice>& devices);
+
+/// Warns of settings that do not apply to the device and would be dropped silently.
+void warn_of_ignored_settings(const DeviceChoice& choice, const RenderSettings& settings,
+                              const RenderEvents& events);
+
+/// Makes the renderers of a scene, and describes them for figures.
+template <typename T>
+struct CrewMaker {
+    /// A member for each device. An OpenCL device is opened (or reused), compiled and uploaded to,
+    /// and tested by self_test; one that its driver could not list fails.
+    std::vector<CrewMember<T>> members(const std::vector<DeviceChoice>& devices) const;
+
+    /// Threads that stand in for devices, some tiles of which may be finished: they cannot render
+    /// whole sample buffers, and the settings of packets are the devices'.
+    CrewMember<T> spare() const;
+
+    SharedScene<T> scene;
+    const RenderSettings& settings;
+    AaMode aa;
+    std::shared_ptr<OpenDevices> open;  ///< devices to reuse
+    std::function<void()> loaded;  ///< called when a driver was loaded, which may have replaced
+                                   ///< signal handlers
+
+    CrewMember<T> threads_member(const ThreadsOptions& options) const;
+    CrewMember<T> device_member(const ClDevice& device, bool is_alone) const;
+};
+
+/// Renders four strips across the picture on the device and on threads. Throws Error
+/// (ExitCode::device) unless the bits are the same: the driver, or the kernel it keeps in its
+/// cache, is broken. Strict arithmetic only. About 33,000 samples, a millisecond or two.
+template <typename T>
+void self_test(Renderer<T>& device, const std::string& name, const FlatScene<T>& scene,
+               const std::string& isa);
+
+/// Describes a ray count too high for so many lights and bounces, which a device must have
+/// miscounted; empty if it is possible. A path has at most one ray per bounce, with glass a binary
+/// tree; every surface at most one shadow ray per light. Interrupted pictures may have counted
+/// more.
+std::string impossible_rays(const RayCounts& rays, std::size_t lights, int max_bounces,
+                            bool has_glass);
+
+/// The result of tracing part of a finished picture again on threads.
+struct TileCheck {
+    std::size_t tiles = 0;
+    std::size_t wrong_tiles = 0;  ///< with different bits
+};
+
+/// Traces `share` (0 to 1) of the tiles again, at least one, spread over the region that the film
+/// shows, and other ones each time; the tiles lie in it.
+template <typename T>
+TileCheck check_tiles(const FlatScene<T>& scene, const std::string& isa,
+                      const std::vector<Rect>& tiles, double share, const Rect& region,
+                      const Film<T>& film);
 
 }  // namespace rt

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/picture/crew_members.h"
-
 #include <algorithm>
 #include <utility>
 
 #include "host/base/parallel.h"
 #include "host/base/text.h"
 #include "host/opencl/cl_renderer.h"
-#include "host/opencl/cl_tiles.h"
-#include "host/picture/tile_check.h"
+#include "host/picture/crew.h"
 
 namespace rt {
 

@@ -12,7 +12,7 @@
 #include "host/base/hash.h"
 #include "host/base/text.h"
 #include "host/base/version.h"
-#include "host/opencl/cl_options.h"
+#include "host/opencl/cl_renderer.h"
 
 namespace rt {
 

@@ -9,11 +9,10 @@
 
 #include "host/base/error.h"
 #include "host/base/memory.h"
+#include "host/base/parallel.h"
 #include "host/flatten/flat_scene.h"
-#include "host/picture/crew_members.h"
+#include "host/picture/crew.h"
 #include "host/picture/picture_journal.h"
-#include "host/picture/tile_check.h"
-#include "host/render/stopwatch.h"
 #include "host/scene/scene.h"
 
 namespace rt {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host/image/picture.h"
-#include "host/opencl/device_spec.h"
+#include "host/opencl/devices.h"
 #include "host/picture/render_settings.h"
 #include "host/picture/render_stats.h"
 #include "host/render/tile_queue.h"

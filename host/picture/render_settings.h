@@ -5,7 +5,6 @@
 #include <string>
 
 #include "host/journal/shares.h"
-#include "host/render/kernel_choice.h"
 #include "host/render/picture_spec.h"
 #include "host/scene/aa_mode.h"
 #include "host/scene/scene.h"

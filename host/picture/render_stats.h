@@ -12,7 +12,6 @@
 #include "host/flatten/flat_scene.h"
 #include "host/image/image_error.h"
 #include "host/render/estimate.h"
-#include "host/render/kernel_choice.h"
 #include "host/render/picture_spec.h"
 #include "host/render/renderer.h"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/picture/tile_check.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <random>
 
 #include "host/base/error.h"
+#include "host/picture/crew.h"
 #include "host/render/threads_renderer.h"
 #include "host/render/tile_rounds.h"
 

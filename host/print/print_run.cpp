@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/print/print_run.h"
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <map>
+
+#include "host/base/text.h"
 #include "host/base/version.h"
-#include "host/measure/machine_load.h"
 #include "host/print/print_stats.h"
 
 namespace rt {
@@ -106,6 +110,225 @@ std::string converge_csv(const ConvergeResult& result) {
     std::string text = csv_header();
     for (const ConvergePoint& point : result.points) add_runs(point, point.asked.device, text);
     return text;
+}
+
+namespace {
+
+constexpr std::size_t device_columns = 19;
+
+/// The heading of a group of rows.
+std::string group_of(const BenchCase& asked) {
+    const PictureSpec& picture = asked.picture;
+    return fmt::format("{} {}x{}, {}, {} filter, {}", printable(asked.scene.path), picture.width,
+                       picture.height, to_string(picture.aa), to_string(picture.filter),
+                       to_string(picture.precision));
+}
+
+/// What is known of the error of the rows' picture, apart from rounding.
+std::string estimate_line(const BenchResult& result, const BenchCase& asked) {
+    for (const ReferenceRun& run : result.references) {
+        if (run.scene.hash == asked.scene.hash && run.picture.aa == asked.picture.aa &&
+            run.picture.region == asked.picture.region && run.estimate) {
+            return fmt::format("  sampling error: {}\n", to_string(*run.estimate));
+        }
+    }
+    return "";
+}
+
+std::string device_text(const BenchCase& asked) {
+    std::string text = asked.device;
+    text += " " + (asked.uses_threads() ? asked.schedule : short_device_name(asked.device_name));
+    return text.substr(0, device_columns);
+}
+
+/// Three digits at most, and two behind the point: "0.04", "1.95", "14.7", "104".
+std::string ratio_cell(const std::optional<double>& ratio) {
+    if (!ratio) return "-";
+    const int digits = *ratio < 9.995 ? 2 : *ratio < 99.95 ? 1 : 0;
+    return fmt::format("{:.{}f}", *ratio, digits);
+}
+
+std::string row_text(const BenchRow& row) {
+    const std::string head = fmt::format(" {:<19}", device_text(row.asked));
+    const auto& figures = row.figures;
+    if (!figures) {
+        const bool timed = row.verdict == Verdict::right || row.verdict == Verdict::unfinished;
+        return head +
+               (timed ? " not finished"
+                      : fmt::format(" {}, not timed: {}", to_string(row.verdict), row.why)) +
+               "\n";
+    }
+    const auto& error = row.repeats.back().error;
+    return head +
+           fmt::format(" {:>8.5f} {:>3.0f} {:>8.5f} {:>3.0f} {:>6.2f} {:>5} {:>5} {:>6} {:>7.1e}\n",
+                       figures->trace.median, figures->trace.noise_percent(), figures->total.median,
+                       figures->total.noise_percent(), figures->rays_per_second / 1e6,
+                       ratio_cell(figures->trace_speed_up), ratio_cell(figures->speed_up),
+                       ratio_cell(figures->amdahl), error ? error->rmse : 0);
+}
+
+/// Which rows gave which picture; in strict arithmetic they are all the same.
+std::string images_text(const std::map<std::string, std::vector<std::string>>& images) {
+    std::string text;
+    for (const auto& [hash, devices] : images) {
+        const bool is_alone = images.size() == 1;
+        text += fmt::format("  image {} {}\n", hash,
+                            is_alone ? "from all" : fmt::format("{}", fmt::join(devices, ", ")));
+    }
+    return text;
+}
+
+std::string header_text() {
+    return fmt::format("{:>65}\n", "speed-up of") +
+           fmt::format(" {:<19} {:>8} {:>3} {:>8} {:>3} {:>6} {:>5} {:>5} {:>6} {:>7}\n", "device",
+                       "trace s", "+-%", "total s", "+-%", "Mray/s", "trace", "total", "Amdahl",
+                       "RMSE");
+}
+
+constexpr const char* legend =
+    "Medians; +-%: median absolute deviation. total: flatten, open, build, upload,\n"
+    "trace, resolve, read back. speed-up: relative to one thread with the same\n"
+    "schedule (devices: tiles). Amdahl: predicted speed-up of total, 1/((1-f)+f/n),\n"
+    "f = trace/total of one thread. scalar: one ray at a time. RMSE: relative to the\n"
+    "same samples in double, clamped to [0,1].\n";
+
+}  // namespace
+
+std::string bench_text(const BenchResult& result) {
+    std::string text = busy_text(result.load_before), group;
+    if (!text.empty()) text += "\n\n";
+    std::map<std::string, std::vector<std::string>> images;
+    for (const BenchRow& row : result.rows) {
+        if (const std::string next = group_of(row.asked); next != group) {
+            text += images_text(images) + (group.empty() ? "" : "\n") + next + "\n" +
+                    estimate_line(result, row.asked) + header_text();
+            images.clear();
+            group = next;
+        }
+        text += row_text(row);
+        if (row.repeats.empty()) continue;
+        const std::string schedule = row.asked.schedule.empty() ? "" : "/" + row.asked.schedule;
+        images[hash_text(row.repeats.back().image_hash)].push_back(row.asked.device + schedule);
+    }
+    text += images_text(images);
+    text += fmt::format("\n{}; other load {:.2f}\n{}",
+                        rounds_text(result.rows, result.repeats_asked, result.interrupted),
+                        result.load_before, legend);
+    return text;
+}
+
+namespace {
+
+/// "0 PoCL (AMD EPYC 7763)"
+std::string device_text(const std::string& device, const std::string& name) {
+    return name == "threads" ? device : device + " " + short_device_name(name);
+}
+
+/// "0 PoCL (AMD EPYC float  strict"
+std::string who(const ConvergeCase& of) {
+    return fmt::format("{:<16} {:<6} {:<6}", device_text(of.device, of.device_name).substr(0, 16),
+                       to_string(of.picture.precision), to_string(of.picture.math));
+}
+
+/// The heading of the points of one setting.
+std::string group_of(const ConvergeCase& of) {
+    return fmt::format("{}, {}, {}, {}", device_text(of.device, of.device_name),
+                       to_string(of.picture.precision),
+                       of.picture.math == Math::fast ? "fast math" : "strict",
+                       counted(of.picture.max_bounces, "bounce"));
+}
+
+std::string point_text(const ConvergePoint& point, bool on_front) {
+    const std::string head = fmt::format("  {:<16}", to_string(point.asked.picture.aa));
+    const auto& figures = point.figures;
+    if (!figures) return fmt::format("{} {} {}\n", head, to_string(point.verdict), point.why);
+    const auto& about = point.estimate;
+    const std::string promised = !about                ? ""
+                                 : about->known_rmse() ? fmt::format("{:.2e}", about->rmse)
+                                                       : fmt::format("<{:.2e}", about->high);
+    return fmt::format("{} {:>9.5f} {:>4.1f} {:>9.5f} {:>9.2e} {:>9} {}{}\n", head,
+                       figures->seconds.median, figures->seconds.noise_percent(),
+                       figures->seconds.max, figures->rmse, promised, on_front ? "*" : " ",
+                       figures->below_floor ? "<" : "");
+}
+
+std::string points_text(const ConvergeResult& result) {
+    std::string text, group;
+    for (std::size_t i = 0; i < result.points.size(); ++i) {
+        if (const std::string next = group_of(result.points[i].asked); next != group) {
+            text += fmt::format("{}\n  {:<16} {:>9} {:>4} {:>9} {:>9} {:>9}\n", next, "AA",
+                                "seconds", "+-%", "slowest", "RMSE", "estimate");
+            group = next;
+        }
+        const bool on_front = std::ranges::count(result.front, i) > 0;
+        text += point_text(result.points[i], on_front);
+    }
+    return text +
+           "* on the Pareto front; < below the reference's own error, not resolved.\n"
+           "seconds: medians without open and build; +-%: median absolute deviation.\n"
+           "estimate: what 'render --estimate' says of the RMSE.\n";
+}
+
+std::string curves_text(const ConvergeResult& result) {
+    std::string text = "\nslope of log RMSE over log seconds\n";
+    for (const Curve& curve : result.curves) {
+        if (!curve.slope) continue;
+        text += fmt::format("{} {:<10} {:<10} {:>6.2f}\n", who(curve.of),
+                            counted(curve.of.picture.max_bounces, "bounce"), curve.family,
+                            *curve.slope);
+    }
+    return text;
+}
+
+std::string builds_text(const ConvergeResult& result) {
+    std::string text = fmt::format(
+        "\n"
+        "extra time for the first picture, seconds\n"
+        "{:<30} {:>9} {:>11} {:>11} {:>4}\n",
+        "", "open", "first build", "later build", "+-%");
+    for (const BuildOffset& offset : result.builds) {
+        text += fmt::format("{} {:>9.5f} {:>11.5f} {:>11.5f} {:>4.1f}\n", who(offset.of),
+                            offset.open, offset.first_build, offset.warm_build.median,
+                            offset.warm_build.noise_percent());
+    }
+    return text;
+}
+
+std::string target_text(const ConvergeResult& result, const TargetTime& time) {
+    if (time.below_floor) return "below the floor";
+    if (!time.point) return "not reached";
+    const ConvergeCase& of = result.points[*time.point].asked;
+    return fmt::format("{:>8.4f} s  {}{}", *time.seconds, to_string(of.picture.aa),
+                       of.picture.precision == Precision::float64 ? " in double" : "");
+}
+
+std::string targets_text(const ConvergeResult& result) {
+    std::string text = "\ntime to reach an RMSE, with the fastest setting that reaches it\n";
+    for (const TargetTime& time : result.targets) {
+        text += fmt::format("{:<24} {:>5.0e}  {}\n",
+                            device_text(time.device, time.device_name).substr(0, 24), time.target,
+                            target_text(result, time));
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string converge_text(const ConvergeResult& result) {
+    const ConvergeReference& reference = result.reference;
+    std::string text = fmt::format(
+        "{}\n{}x{}, {}; other load {:.2f}\n"
+        "reference: mean of {} and {} in double, {} bounces\n"
+        "its halves differ by RMSE {:.2e}: floor {:.2e}; values clamped to [0,1]\n\n",
+        printable(result.scene.path), result.width, result.height,
+        rounds_text(result.points, result.repeats_asked, result.interrupted), result.load_before,
+        reference.aa_a, reference.aa_b, reference.max_bounces, reference.halves_rmse,
+        reference.floor());
+    if (const std::string busy = busy_text(result.load_before); !busy.empty()) {
+        text.insert(0, busy + "\n\n");
+    }
+    return text + points_text(result) + curves_text(result) + builds_text(result) +
+           targets_text(result);
 }
 
 }  // namespace rt

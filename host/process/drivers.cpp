@@ -16,10 +16,10 @@
 #include <utility>
 
 #include "host/base/console.h"
+#include "host/base/parallel.h"
 #include "host/base/text.h"
 #include "host/process/stop_signal.h"
 #include "host/record/record.h"
-#include "host/render/stopwatch.h"
 
 namespace rt {
 

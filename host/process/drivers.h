@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/base/files.h"
-#include "host/opencl/cl_device.h"
+#include "host/opencl/devices.h"
 #include "host/process/worker.h"
 
 // Which OpenCL drivers work is found out in worker processes: the loader silently skips those that

@@ -26,7 +26,6 @@
 #include "host/base/files.h"
 #include "host/base/parallel.h"
 #include "host/process/stop_signal.h"
-#include "host/render/stopwatch.h"
 
 namespace rt {
 

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "host/base/parallel.h"
-#include "host/render/packet_shape.h"
 #include "host/render/tile_rounds.h"
 
 namespace rt {

@@ -7,7 +7,7 @@
 
 #include "host/flatten/features.h"
 #include "host/flatten/flat_scene.h"
-#include "host/render/kernel_choice.h"
+#include "host/render/picture_spec.h"
 
 // The kernels as machine code, compiled ahead of time (cmake/native_kernels.cmake): what pthreads
 // run.

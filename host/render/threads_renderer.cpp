@@ -8,8 +8,6 @@
 
 #include "host/base/memory.h"
 #include "host/base/parallel.h"
-#include "host/render/packet_shape.h"
-#include "host/render/stopwatch.h"
 #include "host/render/tile_rounds.h"
 
 namespace rt {

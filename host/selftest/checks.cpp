@@ -5,13 +5,13 @@
 #include <algorithm>
 
 #include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/base/text.h"
 #include "host/base/version.h"
-#include "host/picture/crew_members.h"
+#include "host/picture/crew.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
 #include "host/record/record.h"
-#include "host/render/stopwatch.h"
 #include "host/scene/line_scanner.h"
 #include "host/scene/text_file.h"
 #include "host/selftest/selftest.h"

@@ -6,17 +6,16 @@
 
 #include "host/base/console.h"
 #include "host/base/error.h"
+#include "host/base/parallel.h"
 #include "host/base/text.h"
 #include "host/image/false_color.h"
 #include "host/image/picture_io.h"
-#include "host/measure/machine_load.h"
 #include "host/measure/timing.h"
 #include "host/opencl/cl_renderer.h"
-#include "host/opencl/device_spec.h"
-#include "host/picture/crew_members.h"
+#include "host/opencl/devices.h"
+#include "host/picture/crew.h"
 #include "host/process/stop_signal.h"
 #include "host/process/worker.h"
-#include "host/render/stopwatch.h"
 #include "host/stress/judge.h"
 
 namespace rt {

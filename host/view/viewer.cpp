@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "host/base/error.h"
-#include "host/base/module_file.h"
+#include "host/base/files.h"
 #include "host/view/terminal_viewer.h"
 #include "host/view/tev_viewer.h"
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <thread>
 
-#include "host/render/packet_shape.h"
+#include "host/render/tile_rounds.h"
 #include "scripts/embree/lanes.h"
 
 namespace embree_bench {

@@ -161,17 +161,17 @@ MUTANTS = [
         ("host/opencl/cl_renderer.cpp", "times_.kernel += kernel;", "times_.kernel += 7 * kernel;"),
     ], cli("stats_cases.Phases.test_kernels_take_most_of_the_trace_time")),
     Mutant("--math fast without its options", [
-        ("host/opencl/cl_program.cpp", '" -DRT_FAST_MATH=1 -cl-mad-enable"', '""'),
+        ("host/opencl/opencl.cpp", '" -DRT_FAST_MATH=1 -cl-mad-enable"', '""'),
     ], cli("measure_cases.Math.test_fast_lets_the_compiler_contract_and_strict_does_not")),
     Mutant("medians of an even number by the upper one", [
-        (M + "runs.cpp", "(values[middle - 1] + values[middle]) / 2", "values[middle]"),
+        (M + "timing.cpp", "(values[middle - 1] + values[middle]) / 2", "values[middle]"),
     ], [("host_bench_test", "Statistics.*")]),
     Mutant("Amdahl's law without the serial part", [
         (M + "bench.cpp", "1 / ((1 - parallel_fraction) + parallel_fraction / threads)",
          "1 / (parallel_fraction / threads)"),
     ], [("host_bench_test", "Amdahl.*")]),
     Mutant("regressions without regard to noise", [
-        (M + "baseline.cpp", "now.median - before.median > 3 * (before.mad + now.mad)",
+        (M + "bench.cpp", "now.median - before.median > 3 * (before.mad + now.mad)",
          "now.median > before.median"),
     ], [("host_bench_test", "Baseline.*")]),
     Mutant("Pareto front with points beaten in both", [
@@ -216,16 +216,16 @@ MUTANTS = [
     ], [("host_render_test", "MakeTiles.*")]),
     # What is written, kept, limited and checked
     Mutant("pictures are written in place", [
-        (I + "output_path.cpp", "destination.in_place = !S_ISREG(status.st_mode);",
+        (I + "output_file.cpp", "destination.in_place = !S_ISREG(status.st_mode);",
          "destination.in_place = true;"),
-    ], [("host_atomic_file_test", "WriteFileAtomically.*")]),
+    ], [("host_output_file_test", "WriteFileAtomically.*")]),
     Mutant("replaced pictures lose their mode", [
-        (I + "atomic_file.cpp", "&& destination_.existing) {", "&& false) {"),
-    ], [("host_atomic_file_test", "WriteFileAtomically.*")]),
+        (I + "output_file.cpp", "&& destination_.existing) {", "&& false) {"),
+    ], [("host_output_file_test", "WriteFileAtomically.*")]),
     Mutant("an output may be an input", [
-        (I + "output_path.cpp", "names_.find(identity(output))",
+        (I + "output_file.cpp", "names_.find(identity(output))",
          "names_.find(output)"),
-    ], [("host_atomic_file_test", "OutputPath.*")]),
+    ], [("host_output_file_test", "OutputPath.*")]),
     Mutant("a small PNG may promise a huge picture", [
         (I + "built_in_formats.cpp", "picture.pixels.reserve(values * picture.height);",
          "picture.pixels.resize(values * picture.height), picture.pixels.clear();"),
@@ -248,13 +248,13 @@ MUTANTS = [
         (J + "journal_file.cpp", "::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && ", "false && "),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("merge takes parts of other pictures", [
-        (J + "merge.cpp", "if (header.key == first.key && ", "if ("),
+        (J + "shares.cpp", "if (header.key == first.key && ", "if ("),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("merge overlooks pixels that differ", [
-        (J + "merge.cpp", "values, pixel_bytes) != 0) {", "values, pixel_bytes) > 999) {"),
+        (J + "shares.cpp", "values, pixel_bytes) != 0) {", "values, pixel_bytes) > 999) {"),
     ], [("host_journal_test", "Journals.*")]),
     Mutant("merge forgets that pixels are missing", [
-        (J + "merge.cpp", "if (merged.missing_pixels > 0) merged",
+        (J + "shares.cpp", "if (merged.missing_pixels > 0) merged",
          "if (merged.missing_pixels > 9999999) merged"),
     ], cli("journal_cases.Shares.test_that_are_missing_are_named")),
     Mutant("the self-test of a device always passes", [

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/image/atomic_file.h"
+#include "host/image/output_file.h"
 #include "tests/picture_files.h"
 #include "tests/refusals.h"
 
