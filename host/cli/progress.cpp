@@ -11,7 +11,7 @@
 #include <mutex>
 
 #include "host/base/console.h"
-#include "host/view/terminal_viewer.h"
+#include "host/view/viewer.h"
 
 namespace rt {
 

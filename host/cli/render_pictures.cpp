@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -92,7 +94,9 @@ std::function<void(const std::string& line)> message_printer(const RenderOptions
 /// a stop signal, which is not reported, since everything is done.
 void wait_for_viewers(LivePicture& live) {
     const bool before = stop_quietly(true);
-    live.wait([] { return stop_flag() != 0; });
+    while (!live.is_over() && stop_flag() == 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
     stop_quietly(before);
 }
 

@@ -7,7 +7,7 @@
 #include "host/cli/render_options.h"
 #include "host/image/output_file.h"
 #include "host/picture/render_picture.h"
-#include "host/view/live_picture.h"
+#include "host/view/viewer.h"
 
 // Rendering and saving the pictures that render names. All of it may throw Error.
 namespace rt {

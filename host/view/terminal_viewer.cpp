@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/view/terminal_viewer.h"
-
 #include <fmt/format.h>
 #include <langinfo.h>
 #include <sys/ioctl.h>
@@ -12,6 +10,8 @@
 #include <cstdio>
 #include <string_view>
 #include <utility>
+
+#include "host/view/viewer.h"
 
 namespace rt {
 
@@ -79,6 +79,37 @@ std::string half_blocks(std::span<const std::uint8_t> rgb, int width) {
     return text;
 }
 
+/// Draws the picture in stderr's terminal in upper half blocks, two pixels each, scaled down to
+/// fit but never up, redrawing it in the same place.
+class TerminalViewer : public Viewer {
+   public:
+    explicit TerminalViewer(Encoding encoding) : encoding_(encoding) {}
+
+    void begin(int width, int height) override {
+        const TerminalSize size = terminal_size();
+        const double room = 2.0 * std::max(size.rows - lines_below, 1);
+        const double scale = std::min({1.0, double(size.columns) / width, room / height});
+        width_ = std::max(static_cast<int>(std::floor(width * scale)), 1);
+        height_ = std::max(static_cast<int>(std::floor(height * scale)), 1);
+        is_drawn_ = false;
+    }
+    void update(const Picture& picture, std::span<const Rect>) override { draw(picture); }
+    void finish(const Picture& picture) override { draw(picture); }
+
+   private:
+    void draw(const Picture& picture) {
+        std::string text;
+        if (std::exchange(is_drawn_, true)) text = fmt::format("\x1b[{}A\r", (height_ + 1) / 2);
+        text += half_blocks(encode_8bit(shrink(picture, width_, height_), encoding_), width_);
+        std::fwrite(text.data(), 1, text.size(), stderr);
+        std::fflush(stderr);
+    }
+
+    const Encoding encoding_;
+    int width_ = 0, height_ = 0;  ///< pixels that are drawn
+    bool is_drawn_ = false;
+};
+
 }  // namespace
 
 TerminalSize terminal_size() {
@@ -90,25 +121,17 @@ TerminalSize terminal_size() {
     return result;
 }
 
-bool has_half_blocks(const TerminalNames& names) {
-    return !names.kind.empty() && names.kind != "dumb" && !names.without_colors && is_utf8();
-}
-
-void TerminalViewer::begin(int width, int height) {
-    const TerminalSize size = terminal_size();
-    const double room = 2.0 * std::max(size.rows - lines_below, 1);
-    const double scale = std::min({1.0, double(size.columns) / width, room / height});
-    width_ = std::max(static_cast<int>(std::floor(width * scale)), 1);
-    height_ = std::max(static_cast<int>(std::floor(height * scale)), 1);
-    is_drawn_ = false;
-}
-
-void TerminalViewer::draw(const Picture& picture) {
-    std::string text;
-    if (std::exchange(is_drawn_, true)) text = fmt::format("\x1b[{}A\r", (height_ + 1) / 2);
-    text += half_blocks(encode_8bit(shrink(picture, width_, height_), encoding_), width_);
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    std::fflush(stderr);
+std::unique_ptr<Viewer> make_preview(const TerminalNames& names, Encoding encoding,
+                                     const Say& say) {
+    const bool has_colors = !names.kind.empty() && names.kind != "dumb" && !names.without_colors;
+    if (isatty(STDERR_FILENO) != 1) {
+        say("no preview: standard error is not a terminal");
+    } else if (!has_colors || !is_utf8()) {
+        say("no preview: the terminal does not support colors or UTF-8");
+    } else {
+        return std::make_unique<TerminalViewer>(encoding);
+    }
+    return nullptr;
 }
 
 }  // namespace rt

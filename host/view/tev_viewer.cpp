@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/view/tev_viewer.h"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <netdb.h>
@@ -10,10 +8,13 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <cstdint>
+#include <chrono>
 #include <cstring>
-#include <memory>
+#include <deque>
 #include <utility>
+
+#include "host/base/files.h"
+#include "host/view/viewer.h"
 
 namespace rt {
 
@@ -122,85 +123,111 @@ std::vector<std::byte> update_packet(const std::string& name, const Picture& pic
     return packet.take();
 }
 
+/// Sends the picture to the viewer tev: in each tick, what tev reads in a tenth of a second. If tev
+/// cannot be reached, reads nothing for two seconds, or lacks some of the picture ten seconds after
+/// `finish`, reports that once and sends no more of that picture.
+class TevViewer : public Viewer {
+   public:
+    TevViewer(TevAddress address, std::string name, Say say)
+        : address_(std::move(address)), name_(std::move(name)), say_(std::move(say)) {}
+
+    void begin(int width, int height) override {
+        if (!socket_) {
+            std::string why;
+            socket_ = connect_to(address_, why);
+            if (!socket_) {
+                return give_up(fmt::format("cannot reach tev at {}:{} ({}); start tev first",
+                                           address_.host, address_.port, why));
+            }
+        }
+        last_sent_ = Clock::now();
+        deadline_ = Clock::time_point::max();
+        parts_.clear();
+        const auto packet = create_packet(name_, width, height);
+        packets_.insert(packets_.end(), packet.begin(), packet.end());
+    }
+
+    void update(const Picture&, std::span<const Rect> changed) override {
+        for (const Rect& part : changed) note(part);
+    }
+
+    void finish(const Picture& picture) override {
+        parts_.clear();
+        note({0, 0, picture.width, picture.height});
+        deadline_ = Clock::now() + last_patience;
+    }
+
+    void tick(const Picture& picture) override {
+        if (!is_open()) {
+            last_sent_ = Clock::now();
+            return;
+        }
+        send(picture);
+        if (!is_open()) return;
+        const auto now = Clock::now();
+        if (now - last_sent_ > reading_patience)
+            return give_up("tev does not respond; continuing without it");
+        if (now > deadline_) give_up("tev is too slow; continuing without it");
+    }
+
+    bool is_open() const override { return socket_ && (!packets_.empty() || !parts_.empty()); }
+
+   private:
+    using Clock = std::chrono::steady_clock;
+
+    void note(const Rect& part) {
+        if (!socket_) return;
+        const int rows = std::max(most_pixels / part.width, 1);
+        for (int y = 0; y < part.height; y += rows) {
+            parts_.push_back({part.x, part.y + y, part.width, std::min(rows, part.height - y)});
+        }
+    }
+
+    void send(const Picture& picture) {
+        const auto end = Clock::now() + turn;
+        while (is_open() && Clock::now() < end) {
+            if (packets_.empty()) {
+                packets_ = update_packet(name_, picture, parts_.front());
+                parts_.pop_front();
+            }
+            const ssize_t count = ::send(socket_.number(), packets_.data() + sent_,
+                                         packets_.size() - sent_, MSG_NOSIGNAL);
+            if (count > 0) {
+                last_sent_ = Clock::now();
+                sent_ += static_cast<std::size_t>(count);
+                if (sent_ < packets_.size()) continue;
+                packets_.clear();
+                sent_ = 0;
+            } else if (errno == EAGAIN) {
+                is_writable(socket_.number(), turn);
+            } else if (errno != EINTR) {
+                give_up(fmt::format("lost the connection to tev ({}); continuing without it",
+                                    std::strerror(errno)));
+            }
+        }
+    }
+
+    void give_up(const std::string& why) {
+        socket_ = FileDescriptor();
+        say_(why);
+    }
+
+    const TevAddress address_;
+    const std::string name_;
+    const Say say_;
+    FileDescriptor socket_;
+    std::deque<Rect> parts_;          ///< not yet in packets
+    std::vector<std::byte> packets_;  ///< not yet sent, beginning at sent_
+    std::size_t sent_ = 0;
+    Clock::time_point last_sent_;
+    Clock::time_point deadline_ = Clock::time_point::max();
+};
+
 }  // namespace
 
-TevViewer::TevViewer(TevAddress address, std::string name, Say say)
-    : address_(std::move(address)), name_(std::move(name)), say_(std::move(say)) {}
-
-void TevViewer::begin(int width, int height) {
-    if (!socket_) {
-        std::string why;
-        socket_ = connect_to(address_, why);
-        if (!socket_) {
-            return give_up(fmt::format("cannot reach tev at {}:{} ({}); start tev first",
-                                       address_.host, address_.port, why));
-        }
-    }
-    last_sent_ = Clock::now();
-    deadline_ = Clock::time_point::max();
-    parts_.clear();
-    const auto packet = create_packet(name_, width, height);
-    packets_.insert(packets_.end(), packet.begin(), packet.end());
-}
-
-void TevViewer::note(const Rect& part) {
-    if (!socket_) return;
-    const int rows = std::max(most_pixels / part.width, 1);
-    for (int y = 0; y < part.height; y += rows) {
-        parts_.push_back({part.x, part.y + y, part.width, std::min(rows, part.height - y)});
-    }
-}
-
-void TevViewer::update(const Picture&, std::span<const Rect> changed) {
-    for (const Rect& part : changed) note(part);
-}
-
-void TevViewer::finish(const Picture& picture) {
-    parts_.clear();
-    note({0, 0, picture.width, picture.height});
-    deadline_ = Clock::now() + last_patience;
-}
-
-void TevViewer::tick(const Picture& picture) {
-    if (!is_open()) {
-        last_sent_ = Clock::now();
-        return;
-    }
-    send(picture);
-    if (!is_open()) return;
-    const auto now = Clock::now();
-    if (now - last_sent_ > reading_patience)
-        return give_up("tev does not respond; continuing without it");
-    if (now > deadline_) give_up("tev is too slow; continuing without it");
-}
-
-void TevViewer::send(const Picture& picture) {
-    const auto end = Clock::now() + turn;
-    while (is_open() && Clock::now() < end) {
-        if (packets_.empty()) {
-            packets_ = update_packet(name_, picture, parts_.front());
-            parts_.pop_front();
-        }
-        const ssize_t count = ::send(socket_.number(), packets_.data() + sent_,
-                                     packets_.size() - sent_, MSG_NOSIGNAL);
-        if (count > 0) {
-            last_sent_ = Clock::now();
-            sent_ += static_cast<std::size_t>(count);
-            if (sent_ < packets_.size()) continue;
-            packets_.clear();
-            sent_ = 0;
-        } else if (errno == EAGAIN) {
-            is_writable(socket_.number(), turn);
-        } else if (errno != EINTR) {
-            give_up(fmt::format("lost the connection to tev ({}); continuing without it",
-                                std::strerror(errno)));
-        }
-    }
-}
-
-void TevViewer::give_up(const std::string& why) {
-    socket_ = FileDescriptor();
-    say_(why);
+std::unique_ptr<Viewer> make_tev_viewer(const TevAddress& address, const std::string& name,
+                                        const Say& say) {
+    return std::make_unique<TevViewer>(address, name, say);
 }
 
 }  // namespace rt

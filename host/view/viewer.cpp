@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/view/viewer.h"
 
-#include <unistd.h>
-
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/files.h"
-#include "host/view/terminal_viewer.h"
-#include "host/view/tev_viewer.h"
 
 namespace rt {
 
@@ -33,25 +32,13 @@ std::unique_ptr<Viewer> make_window(const std::string& name, Encoding encoding, 
     }
 }
 
-std::unique_ptr<Viewer> make_preview(const TerminalNames& names, Encoding encoding,
-                                     const Say& say) {
-    if (isatty(STDERR_FILENO) != 1) {
-        say("no preview: standard error is not a terminal");
-    } else if (!has_half_blocks(names)) {
-        say("no preview: the terminal does not support colors or UTF-8");
-    } else {
-        return std::make_unique<TerminalViewer>(encoding);
-    }
-    return nullptr;
-}
-
 }  // namespace
 
 std::vector<std::unique_ptr<Viewer>> make_viewers(const ViewSettings& settings,
                                                   const std::string& name, Encoding encoding,
                                                   const Say& say) {
     std::vector<std::unique_ptr<Viewer>> viewers;
-    if (settings.tev) viewers.push_back(std::make_unique<TevViewer>(*settings.tev, name, say));
+    if (settings.tev) viewers.push_back(make_tev_viewer(*settings.tev, name, say));
     if (settings.window) viewers.push_back(make_window(name, encoding, say));
     if (settings.preview) viewers.push_back(make_preview(settings.terminal, encoding, say));
     std::erase(viewers, nullptr);
@@ -73,6 +60,100 @@ Picture cut(const Picture& picture, const Rect& part) {
         result.pixels.insert(result.pixels.end(), from, from + row);
     }
     return result;
+}
+
+namespace {
+
+/// Time between updates: smooth to watch, and cheap.
+constexpr std::chrono::milliseconds interval(100);
+
+constexpr std::chrono::seconds patience(5);
+
+}  // namespace
+
+LivePicture::LivePicture(std::vector<std::unique_ptr<Viewer>> viewers)
+    : viewers_(std::move(viewers)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+void LivePicture::begin(int width, int height) {
+    const std::scoped_lock lock(mutex_);
+    width_ = width;
+    height_ = height;
+    parts_.clear();
+    has_begun_ = true;
+    is_shown_ = is_over_ = false;
+}
+
+void LivePicture::put(const Rect& part, std::vector<float> rgb) {
+    const std::scoped_lock lock(mutex_);
+    parts_.push_back({part, std::move(rgb)});
+}
+
+void LivePicture::add(const Part& part) {
+    const Rect& rect = part.rect;
+    const auto row = 3 * static_cast<std::ptrdiff_t>(rect.width);
+    for (int y = 0; y < rect.height; ++y) {
+        const std::ptrdiff_t at = 3 * (std::ptrdiff_t{rect.y + y} * shown_.width + rect.x);
+        std::copy_n(part.rgb.begin() + y * row, row, shown_.pixels.begin() + at);
+    }
+}
+
+void LivePicture::tell(bool begins, const std::vector<Rect>& parts) {
+    for (const auto& viewer : viewers_) {
+        if (begins) viewer->begin(shown_.width, shown_.height);
+        if (!parts.empty()) viewer->update(shown_, parts);
+        viewer->tick(shown_);
+    }
+}
+
+bool LivePicture::any_open() const {
+    return std::any_of(viewers_.begin(), viewers_.end(),
+                       [](const auto& viewer) { return viewer->is_open(); });
+}
+
+void LivePicture::run(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+        const bool begins = std::exchange(has_begun_, false);
+        const std::vector<Part> parts = std::exchange(parts_, {});
+        std::optional<Picture> last = std::exchange(final_, {});
+        if (begins) shown_ = {width_, height_, 3, {}};
+        lock.unlock();
+        shown_.pixels.resize(3 * static_cast<std::size_t>(shown_.width) * shown_.height);
+        std::vector<Rect> changed;
+        for (const Part& part : parts) {
+            add(part);
+            changed.push_back(part.rect);
+        }
+        tell(begins, changed);
+        if (last) show_last(*std::move(last));
+        lock.lock();
+        if (last && !has_begun_) is_shown_ = true;
+        is_over_ = is_shown_ && !any_open();
+        changed_.notify_all();
+        changed_.wait_for(lock, stop, interval, [this] { return final_.has_value(); });
+    }
+}
+
+void LivePicture::show_last(Picture picture) {
+    const bool has_begun = shown_.width > 0;
+    shown_ = std::move(picture);
+    for (const auto& viewer : viewers_) {
+        if (!has_begun) viewer->begin(shown_.width, shown_.height);
+        viewer->finish(shown_);
+        viewer->tick(shown_);
+    }
+}
+
+void LivePicture::finish(Picture picture) {
+    std::unique_lock lock(mutex_);
+    final_ = std::move(picture);
+    changed_.notify_all();
+    changed_.wait_for(lock, patience, [this] { return is_shown_; });
+}
+
+bool LivePicture::is_over() {
+    const std::scoped_lock lock(mutex_);
+    return is_over_;
 }
 
 }  // namespace rt
