@@ -38,19 +38,6 @@ TEST(ShortDeviceName, OfPoclIsItsOwn) {
     EXPECT_EQ(rt::short_device_name("NVIDIA H100"), "NVIDIA H100");
 }
 
-TEST(RenderStats, TellOfADriverThatCompiledWhileTracing) {
-    rt::RenderStats stats;
-    stats.phases.renderer.trace = 3;
-    stats.phases.renderer.kernel = 0.5;
-    EXPECT_TRUE(stats.driver_took_its_time());
-    EXPECT_TRUE(holds(rt::stats_text(stats), "kernels ran for only 0.500 s of the 3.000 s"));
-    stats.phases.renderer.kernel = 2;
-    EXPECT_FALSE(stats.driver_took_its_time());
-    stats.phases.renderer.kernel = 0;  // pthreads
-    EXPECT_FALSE(stats.driver_took_its_time());
-    EXPECT_FALSE(holds(rt::stats_text(stats), "kernels ran for"));
-}
-
 TEST(StatsText, CountsInWords) {
     rt::RenderStats stats;
     stats.scene.spheres = stats.scene.lights = 1;

@@ -150,9 +150,6 @@ void print_results(const RenderStats& stats, const RenderOptions& options) {
         return print_result(options.is_batch() ? json.dump() + "\n" : json_text(json));
     }
     if (options.stats == StatsFormat::text) return print_result(stats_text(stats));
-    if (!options.quiet && stats.driver_took_its_time()) {
-        print_note(driver_time_text(stats));
-    }
     if (!options.quiet) print_message(summary_line(stats) + "\n");
     if (stats.error) print_result(error_line(*stats.error) + "\n");
 }

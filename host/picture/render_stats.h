@@ -188,14 +188,6 @@ struct RenderStats {
         return seconds > 0 ? static_cast<double>(rays.total()) / seconds : 0;
     }
 
-    /// Whether kernels took less than half of the tracing time, by the device's clock: the driver
-    /// spent the rest, usually compiling. Unknown, so false, for short pictures.
-    bool driver_took_its_time() const {
-        constexpr double short_picture = 0.2;
-        const RendererTimes& times = phases.renderer;
-        return times.kernel > 0 && times.trace > short_picture && times.kernel < times.trace / 2;
-    }
-
     bool complete() const { return tiles_finished == tiles; }
 
     /// How the first device that failed did; empty if none did.

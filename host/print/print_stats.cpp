@@ -146,13 +146,6 @@ std::string error_table(const ImageError& error, std::size_t pixels) {
     return text + fmt::format("  {:<12}{:.4e}\n", "relMSE", error.rel_mse);
 }
 
-std::string driver_time_text(const RenderStats& stats) {
-    return fmt::format(
-        "kernels ran for only {:.3f} s of the {:.3f} s of tracing, probably because the driver was "
-        "compiling; run again to see the true speed",
-        stats.phases.renderer.kernel, stats.phases.renderer.trace);
-}
-
 std::string stats_text(const RenderStats& stats) {
     const PictureSpec& picture = stats.picture;
     std::string text = fmt::format(
@@ -186,7 +179,6 @@ std::string stats_text(const RenderStats& stats) {
     }
     text += flatten_text(stats.scene.flatten);
     text += phases_text(stats.phases) + rays_text(stats);
-    if (stats.driver_took_its_time()) text += "note    " + driver_time_text(stats) + "\n";
     if (stats.estimate) {
         text += fmt::format("error   {}, estimated from {} of {} pixels in {:.3f} s\n",
                             to_string(*stats.estimate), counted(stats.estimate->samples, "sample"),

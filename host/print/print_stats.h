@@ -29,9 +29,6 @@ std::string error_line(const ImageError& error);
 /// pixels. If no pixel was finite in both, it says so instead.
 std::string error_table(const ImageError& error, std::size_t pixels);
 
-/// If stats.driver_took_its_time(): what that means for the speed shown.
-std::string driver_time_text(const RenderStats& stats);
-
 /// The table of --stats: phases as in the paper (set-up, ray trace, resolve and write, total), rays
 /// by kind, and what the scene needed and did not need.
 std::string stats_text(const RenderStats& stats);
