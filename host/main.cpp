@@ -40,7 +40,7 @@ std::string icd_place() {
 
 /// Measures in a worker process, which the OpenCL drivers it loads may crash.
 int run_in_worker(const Invocation& call) {
-    const WorkerCommand command{call.command, {}, deadline, call.seconds_before_main};
+    const WorkerCommand command{call.command, "", deadline, call.seconds_before_main};
     const WorkerEnd end = run_without_bad_drivers(command, call.drivers, false);
     if (end.is_regular) return end.status;
     throw Error(call.crash, (end.task.empty() ? "" : end.task + ": ") + "the worker process " +
@@ -48,18 +48,17 @@ int run_in_worker(const Invocation& call) {
 }
 
 int run(int argc, char** argv, double seconds_before_main) {
+    become_worker();
     Verb program("mirrorball",
                  "a headless OpenCL ray tracer that measures its own speed and error");
     Invocation call;
     call.command.assign(argv, argv + argc);
     call.drivers = icd_place();
-    call.seconds_before_main = seconds_before_main;
+    call.seconds_before_main = seconds_before_main + seconds_before_worker();
     for (AddVerb* const add : verbs) add(program, call);
     const std::string text =
         read_command_line(program, fmt::format("mirrorball {} ({})", version, git_revision),
                           {argv + 1, argv + std::max(argc, 1)});
-    become_worker();
-    call.seconds_before_main += seconds_before_worker();
     if (call.quiet) stop_quietly();
     if (!call.run) {
         print_result(text);

@@ -178,11 +178,12 @@ class ProbeEnvironment : public testing::Environment {
 };
 
 /// GoogleTest owns it.
-ProbeEnvironment* const environment = new ProbeEnvironment;
-[[maybe_unused]] const auto* const registered = testing::AddGlobalTestEnvironment(environment);
+ProbeEnvironment* const probe_environment = new ProbeEnvironment;
+[[maybe_unused]] const auto* const registered =
+    testing::AddGlobalTestEnvironment(probe_environment);
 
 void launch_on_device(ProbeRecord& launch) {
-    ProbeDevice& probes = environment->open();
+    ProbeDevice& probes = probe_environment->open();
     const auto failed = [&](const std::string& what) {
         return Error(ExitCode::device,
                      fmt::format("probe_{} in {} on {}: {}", launch.function,
@@ -223,10 +224,10 @@ FastMath::FastMath() { fast_math = true; }
 FastMath::~FastMath() { fast_math = false; }
 
 std::string test_device_name() {
-    return is_native_alone() ? "pthreads" : environment->open().device().name;
+    return is_native_alone() ? "pthreads" : probe_environment->open().device().name;
 }
 bool test_device_has_double() {
-    return is_native_alone() || environment->open().device().has_double;
+    return is_native_alone() || probe_environment->open().device().has_double;
 }
 
 }  // namespace rt

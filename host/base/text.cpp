@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 
@@ -108,6 +109,11 @@ std::string printable(std::string_view text) {
         text.remove_prefix(length > 0 ? length : 1);
     }
     return result;
+}
+
+std::string environment(const char* name) {
+    const char* const value = std::getenv(name);
+    return value == nullptr ? "" : value;
 }
 
 std::string csv_quoted(const std::string& text) {

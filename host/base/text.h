@@ -22,6 +22,9 @@ std::optional<N> parse_number(std::string_view text) {
     return number;
 }
 
+/// The value of an environment variable, or "".
+std::string environment(const char* name);
+
 /// The text with the letters of ASCII in lower case.
 inline std::string lower(std::string text) {
     for (char& c : text) {

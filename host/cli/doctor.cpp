@@ -99,14 +99,14 @@ int test_device(const std::string& spec) {
 
 /// Tests a device in a worker process.
 Finding test_in_worker(const DoctorOptions& options, const std::string& spec,
-                       const std::string& name, const std::vector<std::string>& changes) {
+                       const std::string& name, const std::string& drivers) {
     const Stopwatch watch;
     std::vector<std::string> command{"mirrorball", "doctor", "--device", spec};
     const auto& [cl_options, folder] = build_extras();
     if (!cl_options.empty()) command.push_back("--cl-options=" + cl_options);
     if (!folder.empty()) command.push_back("--save-kernels=" + folder);
     const WorkerEnd end =
-        run_worker({command, changes, options.deadline, 0, longest_test * options.deadline});
+        run_worker({command, drivers, options.deadline, 0, longest_test * options.deadline});
     end_if_stopped(end);
     Finding finding{State::broken, name, ""};
     if (!end.is_regular) {
@@ -156,10 +156,10 @@ Finding test_kernel_cache() {
 }
 
 void examine_device(const DoctorOptions& options, const ClDevice& device,
-                    const std::vector<std::string>& changes, std::vector<Finding>& findings) {
+                    const std::string& drivers, std::vector<Finding>& findings) {
     const std::string name = fmt::format("device {}, {}", device.index, device.name);
     if (!device.unusable.empty()) return findings.push_back({State::broken, name, device.unusable});
-    findings.push_back(test_in_worker(options, std::to_string(device.index), name, changes));
+    findings.push_back(test_in_worker(options, std::to_string(device.index), name, drivers));
 }
 
 /// Of drivers, and of the devices that they list.
@@ -185,7 +185,7 @@ void examine_opencl(const DoctorOptions& options, std::vector<Finding>& findings
         findings.push_back({State::broken, "OpenCL", problem});
     }
     for (const ClDevice& device : drivers.devices) {
-        examine_device(options, device, drivers.change, findings);
+        examine_device(options, device, drivers.place, findings);
     }
     findings.push_back(test_kernel_cache());
 }

@@ -123,11 +123,6 @@ std::optional<std::vector<int>> parse_integers(std::string_view text, char separ
     }
 }
 
-std::string environment(const char* name) {
-    const char* value = std::getenv(name);
-    return value == nullptr ? "" : value;
-}
-
 std::string device_from_environment() {
     const std::string platform = environment("CL_PLATFORM_INDEX"),
                       device = environment("CL_DEVICE_INDEX"),

@@ -102,9 +102,6 @@ auto set_of(Parse parse) {
 /// range checks to reject. Empty for any other text.
 std::optional<std::vector<int>> parse_integers(std::string_view text, char separator);
 
-/// The value of an environment variable, or "".
-std::string environment(const char* name);
-
 /// The device where --device is not given: MIRRORBALL_DEVICE, or what test suites of drivers set:
 /// CL_PLATFORM_INDEX with CL_DEVICE_INDEX, CL_PLATFORM_NAME, CL_DEVICE_TYPE; "" without any. Throws
 /// Error (ExitCode::usage) for what --device would refuse.

@@ -90,7 +90,7 @@ std::filesystem::file_time_type journal_time(RenderOptions options) {
 
 /// A worker gets extra time to save its picture at --timeout: its driver may never finish.
 WorkerCommand worker_command(const RenderOptions& options, double seconds_before_main) {
-    WorkerCommand command{options.command, {}, options.deadline, seconds_before_main};
+    WorkerCommand command{options.command, "", options.deadline, seconds_before_main};
     if (options.timeout > 0) command.longest = options.timeout + options.deadline;
     return command;
 }

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "host/base/files.h"
+#include "host/base/text.h"
 
 namespace rt {
 
@@ -47,11 +48,6 @@ void set_threads(int count) {
     if (count == cores && !getenv(least_threads)) setenv("POCL_AFFINITY", "1", !overwrite);
 }
 
-std::string variable(const char* name) {
-    const char* const value = getenv(name);
-    return value == nullptr ? "" : value;
-}
-
 /// Whether only we can write there; a missing folder will be made by us.
 bool is_ours(const fs::path& folder) {
     struct stat status {};
@@ -61,9 +57,9 @@ bool is_ours(const fs::path& folder) {
 
 /// Empty if there is no home.
 fs::path own_cache_folder() {
-    const fs::path xdg = variable("XDG_CACHE_HOME");
+    const fs::path xdg = environment("XDG_CACHE_HOME");
     if (xdg.is_absolute()) return xdg;  // as its specification says
-    const std::string home = variable("HOME");
+    const std::string home = environment("HOME");
     return home.empty() ? fs::path() : fs::path(home) / ".cache";
 }
 
@@ -111,7 +107,7 @@ fs::path kept_cache_folder() {
 }
 
 void set_cache_folder() {
-    const std::string given = variable(cache_variable);
+    const std::string given = environment(cache_variable);
     if (!given.empty() && is_ours(given)) return;
     kept_cache = kept_cache_folder();
     const fs::path folder =
@@ -120,7 +116,7 @@ void set_cache_folder() {
 }
 
 void find_linker() {
-    std::istringstream folders(variable("PATH"));
+    std::istringstream folders(environment("PATH"));
     std::string path;
     bool is_found = false;
     for (std::string folder; std::getline(folders, folder, ':');) {
@@ -146,7 +142,7 @@ void leave_pocl_cache() {
 }
 
 fs::path pocl_cache_folder() {
-    const std::string folder = variable(cache_variable);
+    const std::string folder = environment(cache_variable);
     return folder.empty() ? "/tmp/pocl/kcache" : folder;
 }
 

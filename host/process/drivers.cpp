@@ -86,10 +86,8 @@ struct Listing {
 
 /// `drivers`: an .icd file or a folder of them; empty: those of the environment.
 Listing list_in_worker(const std::string& drivers, double deadline) {
-    WorkerCommand command{{"mirrorball", "devices"}, {}, deadline};
-    command.longest = most_seconds;
-    if (!drivers.empty()) command.changes = {"OCL_ICD_VENDORS=" + drivers};
-    const WorkerEnd end = run_worker(command);
+    const WorkerEnd end =
+        run_worker({{"mirrorball", "devices"}, drivers, deadline, 0, most_seconds});
     end_if_stopped(end);
     if (end.is_regular && !end.records.empty()) return {true, "", Json::parse(end.records.front())};
     const std::string how =
@@ -97,77 +95,62 @@ Listing list_in_worker(const std::string& drivers, double deadline) {
     return {end.is_started, how + (end.task.empty() ? "" : " while " + end.task), {}};
 }
 
-/// Lists drivers step by step, in as few workers as will do.
-class Lister {
-   public:
-    Lister(const std::string& place, double deadline) : deadline_(deadline) {
-        drivers_.files = icd_files(place);
-    }
+/// Leaves out drivers that fail in a worker of their own; an only one has failed already, in this
+/// listing.
+void leave_out_failing(Drivers& drivers, const Listing& together, double deadline) {
+    const bool is_only = drivers.files.size() == 1;
+    std::erase_if(drivers.files, [&](const std::string& file) {
+        const Listing alone = is_only ? together : list_in_worker(file, deadline);
+        if (!alone.failure.empty()) drivers.bad_files.push_back(problem_of(file, alone.failure));
+        return !alone.failure.empty();
+    });
+}
 
-    Drivers list() {
-        Listing listing = list_in_worker("", deadline_);
-        if (listing.is_started && !listing.failure.empty()) {
-            leave_out_failing(listing);
-            if (drivers_.files.empty()) return std::move(drivers_);
-            if (!drivers_.bad_files.empty()) listing = list_rest();
+Listing list_rest(Drivers& drivers, double deadline) {
+    drivers.place = drivers.files.front();
+    std::error_code error;
+    if (drivers.files.size() > 1) {
+        drivers.folder = std::make_unique<TemporaryFolder>();
+        drivers.place = drivers.folder->name();
+        for (std::size_t i = 0; i < drivers.files.size(); ++i) {
+            const std::string link = fmt::format("{}/{:04}.icd", drivers.place, i);
+            fs::create_symlink(drivers.files[i], link, error);
         }
-        if (listing.failure.empty()) {
-            add(listing.answer);
-        } else {
-            const bool may_choose = listing.is_started && drivers_.files.size() > 1;
-            drivers_.problems.push_back(printable(fmt::format(
-                "a process that loads {} {}{}", fmt::join(drivers_.files, " and "), listing.failure,
-                may_choose ? "; choose one of them with OCL_ICD_VENDORS" : "")));
-        }
-        return std::move(drivers_);
     }
+    if (error) drivers.place.clear();
+    if (drivers.place.empty()) return {false, "has no temporary folder", {}};
+    return list_in_worker(drivers.place, deadline);
+}
 
-   private:
-    /// Leaves out those that fail in a worker of their own; an only one has failed there already.
-    void leave_out_failing(const Listing& together) {
-        const bool is_only = drivers_.files.size() == 1;
-        std::erase_if(drivers_.files, [&](const std::string& file) {
-            const Listing alone = is_only ? together : list_in_worker(file, deadline_);
-            if (!alone.failure.empty()) {
-                drivers_.bad_files.push_back(problem_of(file, alone.failure));
-            }
-            return !alone.failure.empty();
-        });
+void add(Drivers& drivers, const Json& answer) {
+    for (const auto& [file, why] : answer.at("skipped").get<std::map<std::string, std::string>>()) {
+        drivers.bad_files.push_back(problem_of(file, "cannot be loaded: " + why));
+        std::erase(drivers.files, file);
     }
-
-    Listing list_rest() {
-        std::string place = drivers_.files.front();
-        if (drivers_.files.size() > 1) {
-            drivers_.folder = std::make_unique<TemporaryFolder>();
-            place = drivers_.folder->name();
-        }
-        std::error_code error;
-        for (std::size_t i = 0; i < drivers_.files.size() && drivers_.folder; ++i) {
-            fs::create_symlink(drivers_.files[i], fmt::format("{}/{:04}.icd", place, i), error);
-        }
-        if (error || place.empty()) return {false, "has no temporary folder", {}};
-        drivers_.change = {"OCL_ICD_VENDORS=" + place};
-        return list_in_worker(place, deadline_);
-    }
-
-    void add(const Json& answer) {
-        for (const auto& [file, why] :
-             answer.at("skipped").get<std::map<std::string, std::string>>()) {
-            drivers_.bad_files.push_back(problem_of(file, "cannot be loaded: " + why));
-            std::erase(drivers_.files, file);
-        }
-        read_json(answer.at("devices"), drivers_.devices);
-        for (const Json& problem : answer.at("problems")) drivers_.problems.push_back(problem);
-    }
-
-    const double deadline_;
-    Drivers drivers_;
-};
+    read_json(answer.at("devices"), drivers.devices);
+    for (const Json& problem : answer.at("problems")) drivers.problems.push_back(problem);
+}
 
 }  // namespace
 
 Drivers list_drivers(const std::string& place, double deadline) {
-    return Lister(place, deadline).list();
+    Drivers drivers;
+    drivers.files = icd_files(place);
+    Listing listing = list_in_worker("", deadline);
+    if (listing.is_started && !listing.failure.empty()) {
+        leave_out_failing(drivers, listing, deadline);
+        if (drivers.files.empty()) return drivers;
+        if (!drivers.bad_files.empty()) listing = list_rest(drivers, deadline);
+    }
+    if (listing.failure.empty()) {
+        add(drivers, listing.answer);
+    } else {
+        const bool may_choose = listing.is_started && drivers.files.size() > 1;
+        drivers.problems.push_back(printable(fmt::format(
+            "a process that loads {} {}{}", fmt::join(drivers.files, " and "), listing.failure,
+            may_choose ? "; choose one of them with OCL_ICD_VENDORS" : "")));
+    }
+    return drivers;
 }
 
 std::vector<std::string> unlisted_drivers(const std::string& place, const std::string& folders) {
@@ -212,9 +195,9 @@ WorkerEnd run_without_bad_drivers(const WorkerCommand& command, const std::strin
     if (end.has_failed() && end.task == listing_devices) {
         const Drivers drivers = list_drivers(place, command.deadline);
         if (!is_quiet) print_notes(drivers.bad_files);
-        if (!drivers.change.empty() && !drivers.files.empty()) {
+        if (!drivers.place.empty() && !drivers.files.empty()) {
             WorkerCommand again = command;
-            again.changes.insert(again.changes.end(), drivers.change.begin(), drivers.change.end());
+            again.drivers = drivers.place;
             again.seconds_before += watch.seconds();
             again.longest = std::max(again.longest - watch.seconds(), again.deadline);
             end = run_worker(again);

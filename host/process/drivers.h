@@ -23,11 +23,11 @@ struct Drivers {
     std::vector<ClDevice> devices;       ///< without handles
     std::vector<std::string> problems;   ///< of listing them, one line each
 
-    /// The environment that leaves out drivers that crash or hang: "NAME=value"; empty if there are
-    /// none, or only such.
-    std::vector<std::string> change;
+    /// The OCL_ICD_VENDORS that leaves out drivers that crash or hang; empty if there are none, or
+    /// only such.
+    std::string place;
 
-    std::unique_ptr<TemporaryFolder> folder;  ///< of links to the files, if `change` needs it
+    std::unique_ptr<TemporaryFolder> folder;  ///< of links to the files, if `place` needs it
 };
 
 /// Lists the devices of all drivers in a worker; if it fails, each driver's in one of its own, to

@@ -25,6 +25,7 @@
 
 #include "host/base/files.h"
 #include "host/base/parallel.h"
+#include "host/base/text.h"
 #include "host/process/stop_signal.h"
 
 namespace rt {
@@ -126,30 +127,11 @@ class Watchdog {
     double processor_before_ = 0;
 };
 
-std::vector<char*> pointers(std::vector<std::string>& texts) {
-    std::vector<char*> result;
-    for (std::string& text : texts) result.push_back(text.data());
-    result.push_back(nullptr);
-    return result;
-}
-
-std::vector<std::string> changed_environment(const std::vector<std::string>& changes) {
-    std::vector<std::string> variables = changes;
-    for (char** variable = environ; *variable != nullptr; ++variable) {
-        const std::string_view text = *variable;
-        const std::string_view name = text.substr(0, text.find('=') + 1);
-        const bool is_changed =
-            std::any_of(changes.begin(), changes.end(),
-                        [&](const std::string& change) { return change.starts_with(name); });
-        if (!is_changed) variables.emplace_back(text);
-    }
-    return variables;
-}
-
 /// Returns 0, and says how, if none could be started.
-pid_t start(std::vector<std::string> command, const std::vector<std::string>& changes,
-            std::string& how) {
-    std::vector<std::string> variables = changed_environment(changes);
+pid_t start(std::vector<std::string> command, std::string& how) {
+    std::vector<char*> arguments;
+    for (std::string& argument : command) arguments.push_back(argument.data());
+    arguments.push_back(nullptr);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t none;
@@ -158,8 +140,7 @@ pid_t start(std::vector<std::string> command, const std::vector<std::string>& ch
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     pid_t process = 0;
     constexpr const char* own = "/proc/self/exe";
-    const int error = ::posix_spawn(&process, own, nullptr, &attributes, pointers(command).data(),
-                                    pointers(variables).data());
+    const int error = ::posix_spawn(&process, own, nullptr, &attributes, arguments.data(), environ);
     posix_spawnattr_destroy(&attributes);
     if (error != 0) how = fmt::format("could not be started ({}: {})", own, std::strerror(error));
     return error == 0 ? process : 0;
@@ -220,7 +201,7 @@ std::string name_of_signal(int number) {
 
 }  // namespace
 
-WorkerEnd run_worker(WorkerCommand command) {
+WorkerEnd run_worker(const WorkerCommand& command) {
     int ends[2];
     WorkerEnd end;
     if (::pipe2(ends, O_CLOEXEC) != 0) {
@@ -230,11 +211,12 @@ WorkerEnd run_worker(WorkerCommand command) {
     const FileDescriptor ours(ends[0]);
     FileDescriptor theirs(ends[1]);
     ::fcntl(theirs.number(), F_SETFD, 0);
-    command.changes.push_back(fmt::format("{}={},{},{:.6f}", link_name, theirs.number(), ::getpid(),
-                                          command.seconds_before));
+    const std::string link = fmt::format("{},{},{:.6f},{}", theirs.number(), ::getpid(),
+                                         command.seconds_before, command.drivers);
     pid_t process = 0;
-    pass_stop_signals_to(
-        [&] { return process = start(command.arguments, command.changes, end.how); });
+    ::setenv(link_name, link.c_str(), 1);
+    pass_stop_signals_to([&] { return process = start(command.arguments, end.how); });
+    ::unsetenv(link_name);
     theirs = FileDescriptor();
     if (process == 0) return end;
     end.is_started = true;
@@ -260,13 +242,15 @@ void end_if_stopped(const WorkerEnd& end) {
 }
 
 void become_worker() {
-    const char* const link = std::getenv(link_name);
-    int pipe = -1;
+    const std::string link = environment(link_name);
+    int pipe = -1, drivers = 0;
     pid_t parent = 0;
-    if (link == nullptr || std::sscanf(link, "%d,%d,%lf", &pipe, &parent, &link_seconds) != 3)
-        return;
+    const int found =
+        std::sscanf(link.c_str(), "%d,%d,%lf,%n", &pipe, &parent, &link_seconds, &drivers);
     ::unsetenv(link_name);
-    if (::fcntl(pipe, F_SETFD, FD_CLOEXEC) != 0) return;
+    if (found != 3 || drivers == 0 || ::fcntl(pipe, F_SETFD, FD_CLOEXEC) != 0) return;
+    const char* const place = link.c_str() + drivers;
+    if (*place != '\0') ::setenv("OCL_ICD_VENDORS", place, 1);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::prctl(PR_SET_NAME, "mirrorball");     // not "exe"
     if (::getppid() != parent) ::_exit(1);  // it has already ended

@@ -12,7 +12,7 @@ namespace rt {
 /// What to run in a worker.
 struct WorkerCommand {
     std::vector<std::string> arguments;                        ///< of the program, its name first
-    std::vector<std::string> changes;                          ///< of the environment: "NAME=value"
+    std::string drivers{};                                     ///< its OCL_ICD_VENDORS; empty: ours
     double deadline = 10;                                      ///< seconds without progress
     double seconds_before = 0;                                 ///< since this process began
     double longest = std::numeric_limits<double>::infinity();  ///< seconds it may take in all
@@ -35,13 +35,13 @@ struct WorkerEnd {
 /// there, it counts as hung after `deadline` seconds in which neither it nor its children computed,
 /// or 60 times as many in which they did, without progress. A worker that is hung, or takes longer
 /// than `longest`, is killed with its children.
-WorkerEnd run_worker(WorkerCommand command);
+WorkerEnd run_worker(const WorkerCommand& command);
 
 /// Ends this process as its worker ended, if a stop signal ended that.
 void end_if_stopped(const WorkerEnd& end);
 
 /// Makes this process a worker, which dies with its parent, if environment variable
-/// MIRRORBALL_WORKER has a valid link to it. Call it before any thread has started.
+/// MIRRORBALL_WORKER has a valid link to it. Call it first: it sets the worker's drivers, too.
 void become_worker();
 
 bool is_worker();
