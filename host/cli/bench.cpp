@@ -7,7 +7,7 @@
 #include "host/base/error.h"
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
-#include "host/measure/timing.h"
+#include "host/opencl/pocl.h"
 #include "host/print/print_run.h"
 
 namespace rt {
@@ -38,7 +38,7 @@ int run_bench(const BenchCall& options) {
     options.results.check({options.baseline}, {});
     Baseline baseline;
     if (!options.baseline.empty()) baseline = load_baseline(options.baseline);
-    const FreshKernelCache kernels;
+    start_fresh_pocl_cache();
     const BenchResult result =
         measure_bench(options, options.baseline.empty() ? nullptr : &baseline);
     if (!options.results.take_stdout()) print_result(bench_text(result));

@@ -8,7 +8,7 @@
 #include "host/cli/options.h"
 #include "host/cli/verb.h"
 #include "host/image/picture_io.h"
-#include "host/measure/timing.h"
+#include "host/opencl/pocl.h"
 #include "host/print/print_run.h"
 
 namespace rt {
@@ -23,7 +23,7 @@ struct ConvergeCall : ConvergeOptions {
 int run_converge(const ConvergeCall& options) {
     options.results.check({}, {options.reference});
     if (!options.reference.empty()) check_picture_path(options.reference);
-    const FreshKernelCache kernels;
+    start_fresh_pocl_cache();
     const ConvergeResult result = measure_converge(options);
     if (!options.results.take_stdout()) print_result(converge_text(result));
     options.results.write("--json", [&] { return result_json("converge", result); });

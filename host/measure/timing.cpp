@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <sched.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -264,10 +263,6 @@ void say_busy(bool quiet) {
     if (quiet || said || text.empty()) return;
     said = true;
     print_note(text);
-}
-
-FreshKernelCache::FreshKernelCache() {
-    if (!folder_.name().empty()) setenv("POCL_CACHE_DIR", folder_.name().c_str(), 1);
 }
 
 }  // namespace rt

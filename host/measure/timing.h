@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "host/base/files.h"
 #include "host/image/picture.h"
 #include "host/opencl/devices.h"
 #include "host/picture/render_picture.h"
@@ -172,16 +171,5 @@ bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet);
 
 /// Warns on stderr, once and unless `quiet`, that the machine is busy with other work.
 void say_busy(bool quiet);
-
-/// An empty kernel cache for PoCL in its own folder, removed at the end: the first build of
-/// each kernel is then cold and all others are warm, whatever ran before. Create it before OpenCL
-/// starts. Has no effect if no folder can be made.
-class FreshKernelCache {
-   public:
-    FreshKernelCache();
-
-   private:
-    TemporaryFolder folder_;
-};
 
 }  // namespace rt

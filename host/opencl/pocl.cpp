@@ -110,9 +110,8 @@ void set_cache_folder() {
     const std::string given = environment(cache_variable);
     if (!given.empty() && is_ours(given)) return;
     kept_cache = kept_cache_folder();
-    const fs::path folder =
-        kept_cache.empty() ? fs::path(private_cache.emplace().name()) : kept_cache;
-    setenv(cache_variable, folder.c_str(), overwrite);
+    if (kept_cache.empty()) return start_fresh_pocl_cache();
+    setenv(cache_variable, kept_cache.c_str(), overwrite);
 }
 
 void find_linker() {
@@ -134,6 +133,10 @@ void prepare_pocl(int count) {
     set_threads(count);
     set_cache_folder();
     find_linker();
+}
+
+void start_fresh_pocl_cache() {
+    setenv(cache_variable, private_cache.emplace().name().c_str(), overwrite);
 }
 
 void leave_pocl_cache() {

@@ -26,6 +26,10 @@ inline constexpr const char* pocl_platform = "Portable Computing Language";
 /// ending the process if it is missing.
 void prepare_pocl(int count);
 
+/// Has PoCL begin with an empty kernel cache, in the temporary folder: the first build of each
+/// kernel is then cold and all others are warm, whatever ran before. Call it before prepare_pocl.
+void start_fresh_pocl_cache();
+
 /// Removes the temporary folder, or what PoCL leaves in the permanent one, when OpenCL is no longer
 /// needed.
 void leave_pocl_cache();
