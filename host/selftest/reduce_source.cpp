@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,27 +17,10 @@ struct SourcePart {
     std::vector<std::string> words;
 };
 
-std::string without_comments(const std::string& source) {
-    std::string text;
-    for (std::size_t at = 0; at < source.size(); ++at) {
-        if (source.compare(at, 2, "//") == 0) at = std::min(source.find('\n', at), source.size());
-        if (source.compare(at, 2, "/*") == 0) at = source.find("*/", at) + 2;
-        if (at < source.size()) text += source[at];
-    }
-    return text;
-}
-
 std::vector<std::string> words_of(const std::string& text) {
-    std::vector<std::string> words(1);
-    for (const char c : text) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
-            words.back() += c;
-        } else if (!words.back().empty()) {
-            words.emplace_back();
-        }
-    }
-    if (words.back().empty()) words.pop_back();
-    return words;
+    static const std::regex word("\\w+");
+    const std::sregex_token_iterator first(text.begin(), text.end(), word), end;
+    return {first, end};
 }
 
 /// The word before the first parenthesis: a function's name. PROBE2(dot3, ..) makes probe_dot3.
@@ -58,10 +41,10 @@ std::string next_line(const std::string& text, std::size_t& at) {
     return text.substr(start, at - start);
 }
 
-/// The functions of the text, and what is between them.
+/// The functions of the kernels, and what is between them.
 std::vector<SourcePart> parts_of(const std::string& source) {
     std::vector<SourcePart> parts;
-    const std::string text = without_comments(source);
+    const std::string text = std::regex_replace(source, std::regex("//[^\n]*"), "");
     std::string open;  // a declaration or function so far
     int depth = 0;
     for (std::size_t at = 0; at < text.size();) {
