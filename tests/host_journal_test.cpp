@@ -259,7 +259,7 @@ TEST_F(Journals, HaveNoTileThatIsRenderedAgain) {
     header.picture.height = 2;
     header.picture.region = {0, 0, 4, 2};
     JournalFile file(path("f.mbj"));
-    file.restart([&] { return journal_start(header); });
+    file.restart(journal_start(header));
     {
         JournalKeeper<float> keeper(file, {"host", "device", "1", 1}, film, header.picture.region,
                                     0, true, [] {});

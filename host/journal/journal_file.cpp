@@ -94,7 +94,7 @@ void JournalFile::read(const std::function<void(JournalReader&)>& read) {
     end_ = reader.good_bytes();
 }
 
-void JournalFile::restart(std::function<std::vector<std::byte>()> start) {
+void JournalFile::restart(std::vector<std::byte> start) {
     start_ = std::move(start);
     end_ = 0;
 }
@@ -134,18 +134,17 @@ bool JournalFile::write_all(std::span<const std::byte> bytes) {
 
 void JournalFile::append(std::span<const std::byte> records) {
     if (!failure_.empty()) return;
-    const std::vector<std::byte> start = start_ ? start_() : std::vector<std::byte>();
     if (!file_ && !create()) return;
     const std::uint64_t before = end_;
     if (::ftruncate(file_.number(), static_cast<off_t>(end_)) != 0) return fail("cut", errno);
-    if (start_) found_ = Found::nothing;
-    if (!write_all(start) || !write_all(records)) {
+    if (!exists()) found_ = Found::nothing;
+    if (!write_all(start_) || !write_all(records)) {
         // The old contents stay valid; if this fails too, readers stop at the first bad record.
         [[maybe_unused]] const int ignored =
             ::ftruncate(file_.number(), static_cast<off_t>(before));
         return;
     }
-    start_ = {};
+    start_.clear();
     if (::fdatasync(file_.number()) != 0 && errno != EINVAL && errno != ENOTSUP) {
         fail("write", errno);
     }
@@ -162,7 +161,7 @@ void JournalFile::empty() {
 
 void JournalFile::remove() {
     if (!file_) return;
-    const bool is_of_another_picture = start_ && found_ == Found::journal;
+    const bool is_of_another_picture = !exists() && found_ == Found::journal;
     if (!is_of_another_picture) ::unlink(path_.c_str());
     file_ = FileDescriptor();
 }

@@ -38,11 +38,11 @@ class JournalFile {
     /// the next write. Throws Error (ExitCode::input) when its header cannot be read.
     void read(const std::function<void(JournalReader&)>& read);
 
-    /// Replaces its contents on the next write, which begins with what `start` returns.
-    void restart(std::function<std::vector<std::byte>()> start);
+    /// Replaces its contents on the next write, which begins with `start`.
+    void restart(std::vector<std::byte> start);
 
     /// Whether the file exists and holds this picture.
-    bool exists() const { return file_ && !start_; }
+    bool exists() const { return file_ && start_.empty(); }
 
     /// Appends whole records and flushes them to disk. Throws Error (ExitCode::output) when another
     /// process has created it since, and holds its lock.
@@ -71,8 +71,8 @@ class JournalFile {
     FileDescriptor file_;
     Found found_ = Found::nothing;
     std::string failure_;
-    std::uint64_t end_ = 0;                          ///< length of the good part
-    std::function<std::vector<std::byte>()> start_;  ///< empty once it is written
+    std::uint64_t end_ = 0;         ///< length of the good part
+    std::vector<std::byte> start_;  ///< empty once it is written
 };
 
 /// Appends the finished parts of a film to its journal every second, on its own thread, started

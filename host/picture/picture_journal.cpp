@@ -35,12 +35,12 @@ std::string first_writer(JournalReader& reader) {
 
 template <typename T>
 PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderStats& stats,
-                                  const FlatScene<T>& scene, std::string inexact_devices, Say say)
+                                  const FlatScene<T>& scene, std::string_view inexact_devices,
+                                  Say say)
     : settings_(settings),
       scene_(scene),
       aa_(stats.picture.aa),
       region_(stats.picture.region),
-      inexact_devices_(std::move(inexact_devices)),
       say_(std::move(say)) {
     blocks_ = settings.shares ? shared_blocks(*settings.shares, region_) : std::vector{region_};
     if (settings.journal.empty()) return;
@@ -54,6 +54,7 @@ PictureJournal<T>::PictureJournal(const RenderSettings& settings, const RenderSt
     if (const auto& light = settings.light.ambient_light) {
         header_.ambient_light = {light->x, light->y, light->z};
     }
+    header_.key = key(inexact_devices);
     open();
 }
 
@@ -115,9 +116,9 @@ void PictureJournal<T>::read() {
     const auto read_if_ours = [&](JournalReader& reader) {
         const JournalHeader& header = reader.header();
         if (header.shares != header_.shares || header.picture.region != region_) return;
-        if (reader.header().key != key(inexact_devices_)) {
+        if (header.key != header_.key) {
             const std::string writer = first_writer(reader);
-            is_ours_ = reader.header().key == key(writer + "\n");
+            is_ours_ = header.key == key(writer + "\n");
             if (is_ours_ && !settings_.fresh) {
                 say_(file_->path() + " is by " + writer +
                      ", which may round differently; starting over");
@@ -148,12 +149,7 @@ template <typename T>
 void PictureJournal<T>::start_again() {
     keeper_.reset();
     known_.reset();
-    if (!file_) return;
-    file_->restart([this] {
-        JournalHeader header = header_;
-        header.key = key(inexact_devices_);
-        return journal_start(header);
-    });
+    if (file_) file_->restart(journal_start(header_));
 }
 
 template <typename T>

@@ -27,7 +27,7 @@ class PictureJournal {
     /// process renders the same picture, or if the result of shares would replace something else;
     /// usage for shares that cannot be kept.
     PictureJournal(const RenderSettings& settings, const RenderStats& stats,
-                   const FlatScene<T>& scene, std::string inexact_devices, Say say);
+                   const FlatScene<T>& scene, std::string_view inexact_devices, Say say);
 
     /// Whether the journal has the whole picture.
     bool is_finished() const { return known_ && known_->is_finished; }
@@ -70,7 +70,6 @@ class PictureJournal {
     const FlatScene<T>& scene_;
     const AaMode aa_;
     const Rect region_;
-    const std::string inexact_devices_;
     const Say say_;
     JournalHeader header_;
     std::vector<Rect> blocks_;  ///< of the shares; otherwise the region
