@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The built-in functions of OpenCL C that kernels call, declared as Clang's opencl-c.h does, for
-// compilers made to leave that header out (RT_DECLARES_BUILTINS, host/opencl/cl_program.cpp).
+// compilers made to leave that header out (RT_DECLARES_BUILTINS, host/opencl/pocl.h).
 #ifndef RT_BUILTINS_H
 #define RT_BUILTINS_H
 
