@@ -26,24 +26,9 @@ function(add_file_tests PROGRAM LABEL PREFIX ENVIRONMENT)
     endforeach()
 endfunction()
 
-# optimize_tests(FILES...): for tests that compute much. Others are compiled without optimization, in
-# half the time; the libraries that they test are the program's.
-if(MIRRORBALL_SANITIZE)
-    set(TEST_OPTIMIZATION -O1)
-else()
-    set(TEST_OPTIMIZATION -O2)
-endif()
-function(optimize_tests)
-    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS ${TEST_OPTIMIZATION}
-        SKIP_PRECOMPILE_HEADERS ON)
-endfunction()
-
-# The first program that has sources without optimization.
-if(MIRRORBALL_HOST_TESTS)
-    set(PRECOMPILED_BY host_tests)
-else()
-    set(PRECOMPILED_BY kernel_tests)
-endif()
+# Tests that compute much are optimized; others are compiled in half the time. The libraries that they
+# test are the program's.
+set(OPTIMIZED_PROGRAMS geometry_tests kernel_tests)
 
 # add_test_program(NAME LABEL SOURCES...): a program of the sources; each that ends in _test.cpp is a
 # ctest test of its own. NAME_whole fails where a suite is in none of them.
@@ -51,12 +36,18 @@ function(add_test_program NAME LABEL)
     add_executable(${NAME} ${ARGN})
     set_target_properties(${NAME} PROPERTIES UNITY_BUILD OFF)  # test files have helpers of one name
     target_link_libraries(${NAME} PRIVATE mirrorball_print GTest::gtest_main)
-    target_compile_options(${NAME} PRIVATE -O0)
-    if(NOT CMAKE_CXX_COMPILER_LAUNCHER)  # ccache and precompiled headers do not go together
-        if(NAME STREQUAL PRECOMPILED_BY)
+    set(level 0)
+    if(NAME IN_LIST OPTIMIZED_PROGRAMS)
+        set(level 1)
+    endif()
+    target_compile_options(${NAME} PRIVATE -O${level})
+    if(NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)  # ccache and precompiled headers do not go together
+        get_property(first GLOBAL PROPERTY PRECOMPILED_AT_${level})
+        if(first)
+            target_precompile_headers(${NAME} REUSE_FROM ${first})
+        else()
             target_precompile_headers(${NAME} PRIVATE precompiled.h)
-        elseif(TARGET ${PRECOMPILED_BY})
-            target_precompile_headers(${NAME} REUSE_FROM ${PRECOMPILED_BY})
+            set_property(GLOBAL PROPERTY PRECOMPILED_AT_${level} ${NAME})
         endif()
     endif()
     target_compile_definitions(${NAME} PRIVATE
