@@ -258,51 +258,6 @@ TYPED_TEST(BuildBvh, SplitsFewBoxesWhereItCostsLeast) {
     }
 }
 
-TYPED_TEST(BuildBvh, FitsAHierarchyToOtherBoxes) {
-    for (const Cloud& cloud : clouds()) {
-        if (cloud.count > 100000) continue;
-        SCOPED_TRACE(cloud.name);
-        auto bvh = built<TypeParam>(boxes_of<TypeParam>(cloud));
-        Random random(11);
-        Boxes<TypeParam> moved;
-        for (std::size_t i = 0; i < cloud.count; ++i) {
-            moved.push_back(box_about<TypeParam>(random.in_cube(3), random.uniform(0, 1)));
-        }
-        Boxes<TypeParam> in_leaf_order;
-        for (const auto& box : bvh.boxes) {
-            in_leaf_order.push_back(moved[static_cast<std::size_t>(box.first)]);
-        }
-        refit_bvh<TypeParam>(in_leaf_order, bvh.root, 2, bvh.nodes);
-        expect_sound<TypeParam>(bvh, moved);
-        const auto& root = bvh.nodes[static_cast<std::size_t>(bvh.root)];
-        EXPECT_LE(double(root.high.x), 4.0);  // no larger than it must be
-        EXPECT_GE(double(root.low.z), -4.0);
-    }
-}
-
-TYPED_TEST(BuildBvh, FitsTheHierarchyOfTheSameShapesAsIfBuiltForThem) {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.camera.from = {0, 0, 5};
-    add_mesh(scene, bumpy_mesh(3), 0);
-    for (int i = 0; i < 40; ++i) {
-        scene.spheres.push_back({{i % 7, i % 5, i % 3}, 0.25, 0});
-        scene.cones.push_back({{i % 5, i % 3, i % 7}, {i % 5, i % 3 + 1, i % 7}, 0.25, 0.125, 0});
-    }
-    const FlatScene<TypeParam> built = flatten<TypeParam>(scene);
-    const FlatScene<TypeParam> fitted = flatten<TypeParam>(scene, {}, &built);
-    ASSERT_EQ(fitted.nodes.size(), built.nodes.size());
-    EXPECT_EQ(std::memcmp(fitted.nodes.data(), built.nodes.data(),
-                          built.nodes.size() * sizeof(built.nodes[0])),
-              0);
-    EXPECT_EQ(fitted.order, built.order);
-    EXPECT_GT(fitted.params.sphere_root, 0);
-    EXPECT_EQ(fitted.params.sphere_root, built.params.sphere_root);
-    EXPECT_EQ(fitted.params.cone_root, built.params.cone_root);
-    EXPECT_EQ(fitted.params.triangle_root, built.params.triangle_root);
-    EXPECT_EQ(fitted.stats.cones.nodes, built.stats.cones.nodes);
-}
-
 TYPED_TEST(BuildBvh, KeepsAMeshWithinAHundredBytesATriangle) {
     Scene scene;
     scene.materials.emplace_back();

@@ -46,21 +46,13 @@ struct Numbered {
     }
 };
 
-/// A scene flattened without hierarchies (every primitive is tested), with them, and with those of
-/// another view fitted to it.
+/// A scene flattened without hierarchies (every primitive is tested), and with them.
 template <typename T>
 struct BothWays {
-    Numbered<T> plain, bvh, fitted;
+    Numbered<T> plain, bvh;
 
     explicit BothWays(const Scene& scene)
-        : plain(flatten<T>(scene, all())), bvh(flatten<T>(scene)), fitted(fitted_to(scene)) {}
-
-    static FlatScene<T> fitted_to(const Scene& scene) {
-        Scene moved = scene;
-        moved.camera.from += glm::dvec3(7, -20, 3);
-        const FlatScene<T> elsewhere = flatten<T>(moved);
-        return flatten<T>(scene, {}, &elsewhere);
-    }
+        : plain(flatten<T>(scene, all())), bvh(flatten<T>(scene)) {}
 
     static FlattenOptions all() {
         FlattenOptions options;

@@ -38,12 +38,6 @@ template <typename T>
 typename Flat<T>::Index build_bvh(std::span<BvhBox<T>> boxes, const BvhSettings& settings,
                                   HugeVector<typename Flat<T>::BvhNode>& nodes);
 
-/// Fits the last hierarchy in `nodes`, whose root is given, to new boxes of the primitives in its
-/// leaves, in their order.
-template <typename T>
-void refit_bvh(std::span<const BvhBox<T>> boxes, typename Flat<T>::Index root, int threads,
-               std::span<typename Flat<T>::BvhNode> nodes);
-
 /// Measures the last hierarchy in `nodes`, whose root is given.
 template <typename T>
 BvhShape shape_of(std::span<const typename Flat<T>::BvhNode> nodes, typename Flat<T>::Index root,

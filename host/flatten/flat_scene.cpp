@@ -29,8 +29,8 @@ class Flattener {
     using Index = typename Flat<T>::Index;
     using Params = typename Flat<T>::LaunchParams;
 
-    Flattener(const Scene& scene, const FlattenOptions& options, const FlatScene<T>* same_shapes)
-        : scene_(scene), options_(options), same_shapes_(same_shapes), triangles_(scene) {
+    Flattener(const Scene& scene, const FlattenOptions& options)
+        : scene_(scene), options_(options), triangles_(scene) {
         if (options_.threads == 0) options_.threads = available_cores();
         check_limits();
         view_ = make_view_frame(scene, triangles_, options_.threads);
@@ -40,10 +40,9 @@ class Flattener {
 
     FlatScene<T> run() {
         flat_.params = flatten_params<T>(view_, scene_);
-        const Kind spheres{sphere_crossover, 0, &Params::sphere_root, &FlattenStats::spheres};
+        const Kind spheres{sphere_crossover, &Params::sphere_root, &FlattenStats::spheres};
         spheres_order_ = flatten_kind(spheres, scene_.spheres, flatten_sphere<T>, flat_.spheres);
-        const Kind cones{cone_crossover, scene_.spheres.size(), &Params::cone_root,
-                         &FlattenStats::cones};
+        const Kind cones{cone_crossover, &Params::cone_root, &FlattenStats::cones};
         cones_order_ = flatten_kind(cones, scene_.cones, flatten_cone<T>, flat_.cones);
         flatten_triangles();
         for (const auto& material : scene_.materials) {
@@ -68,7 +67,6 @@ class Flattener {
     /// One kind of primitive.
     struct Kind {
         std::size_t crossover;
-        std::size_t first;  ///< number of its first primitive
         Index Params::*root;
         BvhShape FlattenStats::*shape;
     };
@@ -119,41 +117,19 @@ class Flattener {
         const auto start = std::chrono::steady_clock::now();
         BvhSettings settings;
         settings.threads = options_.threads;
-        Index& root = flat_.params.*kind.root;
         Order order(count);
         HugeVector<BvhBox<T>> boxes(count);
-        if (same_shapes_ != nullptr) {
-            const auto kept = same_shapes_->order.begin() + static_cast<std::ptrdiff_t>(kind.first);
-            for_each(count, [&](std::size_t i) {
-                order[i] = kept[static_cast<std::ptrdiff_t>(i)] - static_cast<Index>(kind.first);
-                boxes[i] = box(static_cast<std::size_t>(order[i]));
-            });
-            root = keep_nodes(kind);
-            refit_bvh<T>(boxes, root, options_.threads, flat_.nodes);
-        } else {
-            for_each(count, [&](std::size_t i) {
-                boxes[i] = box(i);
-                boxes[i].first = static_cast<Index>(i);
-            });
-            root = build_bvh<T>(boxes, settings, flat_.nodes);
-            for_each(count, [&](std::size_t i) { order[i] = boxes[i].first; });
-        }
+        for_each(count, [&](std::size_t i) {
+            boxes[i] = box(i);
+            boxes[i].first = static_cast<Index>(i);
+        });
+        const Index root = build_bvh<T>(boxes, settings, flat_.nodes);
+        flat_.params.*kind.root = root;
+        for_each(count, [&](std::size_t i) { order[i] = boxes[i].first; });
         flat_.stats.*kind.shape = shape_of<T>(flat_.nodes, root, settings);
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
         flat_.stats.bvh_seconds += taken.count();
         return order;
-    }
-
-    /// Copies a kind's nodes from same_shapes_ to where they are there; returns their root.
-    Index keep_nodes(const Kind& kind) {
-        const Index root = same_shapes_->params.*kind.root;
-        const std::size_t start = flat_.nodes.size();
-        const std::size_t end =
-            static_cast<std::size_t>(root) + (same_shapes_->stats.*kind.shape).nodes;
-        flat_.nodes.resize(end);
-        for_each(end - start,
-                 [&](std::size_t i) { flat_.nodes[start + i] = same_shapes_->nodes[start + i]; });
-        return root;
     }
 
     template <typename Primitive>
@@ -193,8 +169,7 @@ class Flattener {
     /// leaf order: memory never holds them twice, nor along with the boxes.
     void flatten_triangles() {
         const auto count = static_cast<std::size_t>(triangles_.size());
-        const Kind kind{triangle_crossover, scene_.spheres.size() + scene_.cones.size(),
-                        &Params::triangle_root, &FlattenStats::triangles};
+        const Kind kind{triangle_crossover, &Params::triangle_root, &FlattenStats::triangles};
         triangles_order_ = add_hierarchy(kind, count, [&](std::size_t i) {
             const TriangleList::Corners corners = triangles_.corners(i);
             return box_of<T>(pack_position<T>(view_, corners[0]),
@@ -323,7 +298,6 @@ class Flattener {
 
     const Scene& scene_;
     FlattenOptions options_;
-    const FlatScene<T>* const same_shapes_;  ///< may be null
     const TriangleList triangles_;
     ViewFrame view_;
     MaterialUse material_use_;
@@ -348,14 +322,13 @@ std::size_t FlatScene<T>::bytes() const {
 }
 
 template <typename T>
-FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options,
-                     const FlatScene<T>* same_shapes) {
-    return Flattener<T>(scene, options, same_shapes).run();
+FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options) {
+    return Flattener<T>(scene, options).run();
 }
 
 template struct FlatScene<float>;
 template struct FlatScene<double>;
-template FlatScene<float> flatten(const Scene&, const FlattenOptions&, const FlatScene<float>*);
-template FlatScene<double> flatten(const Scene&, const FlattenOptions&, const FlatScene<double>*);
+template FlatScene<float> flatten(const Scene&, const FlattenOptions&);
+template FlatScene<double> flatten(const Scene&, const FlattenOptions&);
 
 }  // namespace rt

@@ -64,10 +64,7 @@ struct FlattenOptions {
 /// Flattens a scene with its picture size, sampling and bounce limit. Lights that shine on nothing
 /// are left out. Throws Error (ExitCode::input) if something lies too far away for T,
 /// (ExitCode::limit) if there is more than can be numbered or than fits into memory.
-/// `same_shapes`: a scene of the same primitives flattened with the same options, perhaps seen from
-/// elsewhere; its hierarchies are fitted to this one instead of building new ones. Null: none.
 template <typename T>
-FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options = {},
-                     const FlatScene<T>* same_shapes = nullptr);
+FlatScene<T> flatten(const Scene& scene, const FlattenOptions& options = {});
 
 }  // namespace rt

@@ -8,7 +8,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "host/flatten/flat_scene.h"
@@ -88,19 +87,9 @@ class Crew : public Renderer<T> {
 template <typename T>
 using SharedScene = std::shared_ptr<const FlatScene<T>>;
 
-/// What is kept between pictures with the same settings: open devices, their programs, and the last
-/// flattened scene.
+/// What is kept between pictures with the same settings: open devices and their programs.
 struct RenderCache {
-    template <typename T>
-    struct Flattened {
-        std::uint64_t hash = 0;    ///< scene_hash of its scene, and
-        PictureSpec picture;       ///< the settings that flattening reads
-        std::uint64_t shapes = 0;  ///< shapes_hash of its scene
-        SharedScene<T> scene;      ///< null: none yet
-    };
-
     std::shared_ptr<OpenDevices> devices = make_open_devices();
-    std::tuple<Flattened<float>, Flattened<double>> scenes;
     bool has_warned = false;  ///< of what users should know of devices and settings
 };
 

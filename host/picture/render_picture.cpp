@@ -43,22 +43,6 @@ constexpr std::size_t file_bytes = 12;
 /// Tile size in pixels for checking a picture that was not rendered in this run.
 constexpr PictureSize final_tile{32, 32};
 
-/// The scene that the cache keeps if it is the same, flattened; else the cache keeps this one,
-/// built with the hierarchies of the one before if only the shapes are the same. `hash`:
-/// scene_hash.
-template <typename T>
-SharedScene<T> flattened_scene(const Scene& scene, std::uint64_t hash, PictureSpec picture,
-                               const FlattenOptions& options, RenderCache& cache) {
-    auto& kept = std::get<RenderCache::Flattened<T>>(cache.scenes);
-    picture.region = {};
-    if (kept.scene && kept.hash == hash && kept.picture == picture) return kept.scene;
-    const std::uint64_t shapes = shapes_hash(scene);
-    const FlatScene<T>* same_shapes = kept.shapes == shapes ? kept.scene.get() : nullptr;
-    auto scene_now = std::make_shared<const FlatScene<T>>(flatten<T>(scene, options, same_shapes));
-    kept = {hash, picture, shapes, std::move(scene_now)};
-    return kept.scene;
-}
-
 /// What is known of a picture's error before it is rendered again with more samples.
 struct ErrorControl {
     std::optional<ControlPixels> pixels;  ///< empty: to be chosen
@@ -70,30 +54,23 @@ template <typename T>
 class Job {
    public:
     Job(const Scene& scene, const RenderSettings& settings, const RenderEvents& events,
-        const StopFlag& stop, RenderCache* cache, ErrorControl& control)
+        const StopFlag& stop, RenderCache& cache, ErrorControl& control)
         : settings_(settings),
           events_(events),
           stop_(stop),
           control_(control),
-          is_first_(cache == nullptr || !std::exchange(cache->has_warned, true)),
+          is_first_(!std::exchange(cache.has_warned, true)),
           picture_(picture_spec(scene, settings)) {
         FlattenOptions options;
         options.hierarchies = settings.hierarchies;
         options.caster_lists = settings.caster_lists;
         const Stopwatch watch;
-        if (cache == nullptr) {
-            auto figures = std::async(scene_stats, std::cref(scene));
-            scene_ = std::make_shared<const FlatScene<T>>(flatten<T>(scene, options));
-            stats_.phases.flatten = watch.seconds();
-            stats_.scene = figures.get();
-        } else {
-            stats_.scene = scene_stats(scene);
-            scene_ = flattened_scene<T>(scene, stats_.scene.hash, picture_, options, *cache);
-            stats_.phases.flatten = watch.seconds();
-        }
-        maker_.emplace(CrewMaker<T>{scene_, settings, picture_.aa,
-                                    cache ? cache->devices : make_open_devices(),
-                                    events.driver_loaded});
+        auto figures = std::async(scene_stats, std::cref(scene));
+        scene_ = std::make_shared<const FlatScene<T>>(flatten<T>(scene, options));
+        stats_.phases.flatten = watch.seconds();
+        stats_.scene = figures.get();
+        maker_.emplace(
+            CrewMaker<T>{scene_, settings, picture_.aa, cache.devices, events.driver_loaded});
         stats_.scene.triangles = scene_->triangles.size();
         stats_.scene.smooth_triangles = scene_->vertex_normals.size();
         stats_.scene.bytes = scene_->bytes();
@@ -327,7 +304,7 @@ class Job {
 template <typename T>
 RenderedPicture render_in(const Scene& scene, const RenderSettings& settings,
                           const std::function<Devices()>& devices, const RenderEvents& events,
-                          const StopFlag& stop, RenderCache* cache, ErrorControl& control) {
+                          const StopFlag& stop, RenderCache& cache, ErrorControl& control) {
     Job<T> job(scene, settings, events, stop, cache, control);
     const Stopwatch watch;
     const Devices chosen = devices();
@@ -340,16 +317,16 @@ RenderedPicture render_on(const Scene& scene, RenderSettings settings,
     const auto render_once =
         settings.precision == Precision::float64 ? render_in<double> : render_in<float>;
     ErrorControl control;
+    RenderCache own;
+    if (cache == nullptr) cache = &own;
     if (settings.target_rmse <= 0) {
-        return render_once(scene, settings, devices, events, stop, cache, control);
+        return render_once(scene, settings, devices, events, stop, *cache, control);
     }
     settings.estimate = true;
     settings.kernels.any_samples = true;  // the same programs for both pictures
-    RenderCache own;
-    if (cache == nullptr) cache = &own;
     Devices chosen;
     const auto choose = [&] { return chosen = devices(); };
-    RenderedPicture first = render_once(scene, settings, choose, events, stop, cache, control);
+    RenderedPicture first = render_once(scene, settings, choose, events, stop, *cache, control);
     if (!control.finer || stop != 0) return first;
     if (events.message) {
         events.message(fmt::format("{} with {}; rendering again with {}",
@@ -360,7 +337,7 @@ RenderedPicture render_on(const Scene& scene, RenderSettings settings,
     Scene finer = scene;
     finer.aa = *control.finer;
     const auto same = [&] { return chosen; };
-    RenderedPicture second = render_once(finer, settings, same, events, stop, cache, control);
+    RenderedPicture second = render_once(finer, settings, same, events, stop, *cache, control);
     if (!second.stats.complete()) return first;
     second.stats.estimate->seconds += first.stats.estimate->seconds;
     if (const std::string& failed = first.stats.device.fallback_from; !failed.empty()) {

@@ -188,7 +188,4 @@ std::vector<std::string> scene_warnings(const Scene& scene);
 /// sampling (size, AA, bounces).
 std::uint64_t scene_hash(const Scene& scene);
 
-/// A hash of its spheres, cones, triangles and meshes alone.
-std::uint64_t shapes_hash(const Scene& scene);
-
 }  // namespace rt

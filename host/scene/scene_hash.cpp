@@ -94,10 +94,4 @@ std::uint64_t scene_hash(const Scene& scene) {
     return hasher.value();
 }
 
-std::uint64_t shapes_hash(const Scene& scene) {
-    SceneHasher hasher;
-    hasher.add(scene.spheres, scene.cones, scene.triangles, scene.meshes);
-    return hasher.value();
-}
-
 }  // namespace rt
