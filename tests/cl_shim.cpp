@@ -6,7 +6,6 @@
 //   CL_SHIM_FROM               the first program to change, counted from 1; 1 if not given
 //   CL_SHIM_LOG                a file for the options of each build, one line each
 //   CL_SHIM_FAIL_LAUNCH        the kernel launch that fails, and all after it, counted from 1
-//   CL_SHIM_FAIL_READ          if not empty, reads and maps fail once a launch has failed
 //   CL_SHIM_INEXACT            if not empty, devices do not promise to round correctly
 //   CL_SHIM_GPU                if not empty, devices are GPUs
 //   CL_SHIM_NO_CHILD           if not empty, no child process can be started
@@ -191,8 +190,6 @@ bool has_failed() {
     return !first.empty() && launches >= std::stoi(first);
 }
 
-bool fails_to_read() { return has_failed() && !setting("CL_SHIM_FAIL_READ").empty(); }
-
 }  // namespace
 
 extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel,
@@ -204,18 +201,6 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
     if (has_failed()) return CL_OUT_OF_RESOURCES;
     return real<decltype(clEnqueueNDRangeKernel)>("clEnqueueNDRangeKernel")(
         queue, kernel, dimensions, offset, size, local, count, waits, event);
-}
-
-extern "C" void* clEnqueueMapBuffer(cl_command_queue queue, cl_mem buffer, cl_bool is_blocking,
-                                    cl_map_flags flags, std::size_t offset, std::size_t size,
-                                    cl_uint count, const cl_event* waits, cl_event* event,
-                                    cl_int* error) {
-    if (fails_to_read()) {
-        *error = CL_OUT_OF_HOST_MEMORY;
-        return nullptr;
-    }
-    return real<decltype(clEnqueueMapBuffer)>("clEnqueueMapBuffer")(
-        queue, buffer, is_blocking, flags, offset, size, count, waits, event, error);
 }
 
 extern "C" cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices,

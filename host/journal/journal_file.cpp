@@ -217,12 +217,6 @@ void JournalKeeper<T>::tile_finished(const Rect& tile) {
     }
 }
 
-template <typename T>
-void JournalKeeper<T>::tile_lost(const Rect& tile) {
-    const std::scoped_lock lock(mutex_);
-    std::erase(tiles_, tile);
-}
-
 /// The thread calls it, and close() after that has ended.
 template <typename T>
 void JournalKeeper<T>::write(bool is_last) {

@@ -92,9 +92,6 @@ class JournalKeeper {
     /// A rectangle of the picture is now in the film. Callable from any thread.
     void tile_finished(const Rect& tile);
 
-    /// It will be rendered again, to the same bits. Callable from any thread.
-    void tile_lost(const Rect& tile);
-
     /// Whether there ever was anything worth keeping.
     bool has_pixels() const { return has_pixels_; }
 

@@ -160,14 +160,16 @@ class ClRenderer : public Renderer<T> {
             const double read_before = times_.read_back;
             ClFilm<T> on_device(film, context_, queue_, device_,
                                 device_.is_cpu() && !options_.shares_film);
-            Progress progress{queue, on_device, {}, {}, counted_};
+            Progress progress{queue, on_device, {}};
+            const RayCounts counted_before = counted_;
             try {
                 trace_tiles(progress, region);
                 const Stopwatch finishing;
                 on_device.finish();
                 times_.read_back += finishing.seconds();
             } catch (const cl::Error&) {
-                save_finished(progress, region);
+                queue.add_rays(counted_before - counted_);  // negative: those of others remain
+                for (const InFlight& launch : progress.in_flight) queue.give_back(launch.run);
                 throw;
             }
             times_.trace += watch.seconds() - (times_.read_back - read_before);
@@ -192,8 +194,6 @@ class ClRenderer : public Renderer<T> {
         TileQueue& queue;
         ClFilm<T>& film;
         std::deque<InFlight> in_flight;
-        std::vector<TileRun> finished;
-        RayCounts counted_before;
     };
 
     bool in_rounds() const { return renders_in_rounds(params_); }
@@ -312,11 +312,9 @@ class ClRenderer : public Renderer<T> {
             launch_samples_ ? samples() / static_cast<std::size_t>(packet.samples) : 1;
         enqueue(render_, packets(tile, packet) * rounds, events[0]);
         if (launch_samples_) {
-            is_half_launched_ = true;
             resolve_.setArg(0, film);
             resolve_.setArg(3, tile);
             enqueue(resolve_, packets(tile, shape(1)), events[1]);
-            is_half_launched_ = false;
         }
         queue_.flush();
         return events;
@@ -332,7 +330,6 @@ class ClRenderer : public Renderer<T> {
         render_.setArg(0, planes_);
         render_.setArg(tile_argument_, tile);
         enqueue(render_, packets(size_with_margin(tile, margin()), shape(1)), events[0]);
-        is_half_launched_ = true;
         round_.setArg(0, film);
         round_.setArg(tile_argument_, tile);
         round_.setArg(tile_argument_ + 1, planes_);
@@ -341,7 +338,6 @@ class ClRenderer : public Renderer<T> {
             const FlatTile wide = size_with_margin(tile, rounds() - 1 - round);
             enqueue(round_, packets(wide, {1, lanes_, 1}), events[1 + round]);
         }
-        is_half_launched_ = false;
         queue_.flush();
         return events;
     }
@@ -383,25 +379,7 @@ class ClRenderer : public Renderer<T> {
         times_.pixels += whole.pixels();
         pacer_.note(whole.pixels() * paced_samples(), kernel);
         progress.queue.finish(oldest.run);
-        progress.finished.push_back(oldest.run);
         progress.in_flight.pop_front();
-    }
-
-    /// After a failure: keeps earlier launches, with their rays, that can still be waited for and
-    /// read; the rest is for other devices.
-    void save_finished(Progress& progress, const Rect& region) {
-        try {
-            if (is_half_launched_) throw cl::Error(CL_INVALID_OPERATION, "its rays are counted");
-            while (!progress.in_flight.empty() && !progress.in_flight.front().events.empty()) {
-                finish_oldest(progress, region);
-            }
-            progress.film.finish();
-            count_rays(progress.queue);
-        } catch (const cl::Error&) {
-            progress.queue.take_back(progress.finished, counted_ - progress.counted_before);
-            for (const TileRun& run : progress.finished) times_.pixels -= run.whole.pixels();
-        }
-        for (const InFlight& launch : progress.in_flight) progress.queue.give_back(launch.run);
     }
 
     /// Adds to the queue the rays traced since the last call.
@@ -431,7 +409,6 @@ class ClRenderer : public Renderer<T> {
     OpenDevices& programs_;
     typename Flat<T>::LaunchParams params_;
     bool launch_samples_ = false;
-    bool is_half_launched_ = false;  ///< the first of a tile's kernels is launched, but not all
     int lanes_ = 1;
     std::size_t group_ = 1;  ///< work items per group
     LaunchPacer pacer_;

@@ -192,10 +192,8 @@ void PictureJournal<T>::tell_failure() {
 }
 
 template <typename T>
-TileEvents PictureJournal<T>::tile_events() {
-    if (!keeper_) return {};
-    return {[this](const Rect& tile) { keeper_->tile_finished(tile); },
-            [this](const Rect& tile) { keeper_->tile_lost(tile); }};
+void PictureJournal<T>::tile_finished(const Rect& tile) {
+    if (keeper_) keeper_->tile_finished(tile);
 }
 
 template <typename T>

@@ -11,7 +11,7 @@
 #include "host/journal/journal_file.h"
 #include "host/picture/render_settings.h"
 #include "host/picture/render_stats.h"
-#include "host/render/tile_queue.h"
+#include "host/render/rect.h"
 
 namespace rt {
 
@@ -45,10 +45,10 @@ class PictureJournal {
     std::vector<Rect> shared_tiles(int width, int height) const;
 
     /// Starts saving what is finished of this film. `device`: who renders it. Throws Error (output)
-    /// if another process has begun the same picture since, or shares cannot be saved; the events
-    /// throw it if that turns out later.
+    /// if another process has begun the same picture since, or shares cannot be saved;
+    /// tile_finished throws it if that turns out later.
     void begin(const Film<T>& film, const std::string& device);
-    TileEvents tile_events();
+    void tile_finished(const Rect& tile);
 
     /// Closes it, once what was rendered is known to be right. Throws Error (ExitCode::output) if
     /// shares are not on disk.

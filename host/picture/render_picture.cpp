@@ -167,7 +167,8 @@ class Job {
         if (events_.began) events_.began(region_.width, region_.height);
         if (stats_.resumed > 0) report_rendered(region_);
         journal_->begin(film_, names);
-        TileQueue queue(journal_->tiles(tile_.width, tile_.height), stop_, tile_events());
+        TileQueue queue(journal_->tiles(tile_.width, tile_.height), stop_,
+                        [this](const Rect& tile) { finish_tile(tile); });
         if (events_.started) events_.started(queue);
         try {
             crew.render(queue, region_, film_);
@@ -183,16 +184,10 @@ class Job {
         stats_.tiles_finished = queue.tiles_finished();
     }
 
-    /// The journal's events, which also notify our caller.
-    TileEvents tile_events() {
-        TileEvents events = journal_->tile_events();
-        if (!events_.progressed && !events_.rendered) return events;
-        events.finished = [this, keep = events.finished](const Rect& tile) {
-            if (keep) keep(tile);
-            report_rendered(tile);
-            if (events_.progressed) events_.progressed();
-        };
-        return events;
+    void finish_tile(const Rect& tile) {
+        journal_->tile_finished(tile);
+        report_rendered(tile);
+        if (events_.progressed) events_.progressed();
     }
 
     /// Reports the pixels of a part of the region to our caller.

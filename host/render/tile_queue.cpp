@@ -35,8 +35,9 @@ TileRun side_by_side(const std::vector<Rect>& tiles, std::size_t first,
 
 }  // namespace
 
-TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop, TileEvents events)
-    : tiles_(std::move(tiles)), stop_(stop), events_(std::move(events)) {
+TileQueue::TileQueue(std::vector<Rect> tiles, const StopFlag& stop,
+                     std::function<void(const Rect&)> finished)
+    : tiles_(std::move(tiles)), stop_(stop), finished_(std::move(finished)) {
     for (const Rect& tile : tiles_) pixels_ += tile.pixels();
 }
 
@@ -91,7 +92,7 @@ TileRun TileQueue::longest_run(std::size_t first,
 }
 
 void TileQueue::finish(const TileRun& run) {
-    if (events_.finished) events_.finished(run.whole);
+    if (finished_) finished_(run.whole);
     pixels_finished_ += run.whole.pixels();
     tiles_finished_ += run.tiles;
 }
@@ -100,19 +101,6 @@ void TileQueue::give_back(const TileRun& run) {
     const std::scoped_lock lock(returned_mutex_);
     for (std::size_t i = run.tiles; i > 0; --i) returned_.push_back(run.first + i - 1);
     any_returned_ = true;
-}
-
-void TileQueue::take_back(const std::vector<TileRun>& runs, const RayCounts& rays) {
-    for (const TileRun& run : runs) {
-        if (events_.lost) events_.lost(run.whole);
-        pixels_finished_ -= run.whole.pixels();
-        tiles_finished_ -= run.tiles;
-        give_back(run);
-    }
-    primary_ -= rays.primary;
-    shadow_ -= rays.shadow;
-    mirror_ -= rays.mirror;
-    transmitted_ -= rays.transmitted;
 }
 
 void TileQueue::add_rays(const RayCounts& rays) {

@@ -55,17 +55,13 @@ struct TileRun {
 using StopFlag = std::atomic<int>;
 static_assert(StopFlag::is_always_lock_free);  // otherwise no signal handler may set it
 
-/// Events for a queue's owner, from any thread; each may be empty.
-struct TileEvents {
-    std::function<void(const Rect&)> finished;  ///< its pixels are in the film
-    std::function<void(const Rect&)> lost;      ///< and these are gone, before others take them
-};
-
 /// The shared state of a picture in progress: hands out tiles until none is left or the stop flag
 /// is set, and counts what is finished. Every member may be called from any thread.
 class TileQueue {
    public:
-    TileQueue(std::vector<Rect> tiles, const StopFlag& stop, TileEvents events = {});
+    /// `finished` is called, on any thread, once a tile's pixels are in the film; it may be empty.
+    TileQueue(std::vector<Rect> tiles, const StopFlag& stop,
+              std::function<void(const Rect&)> finished = {});
 
     /// The next tile; empty if there is none or the work was stopped. A renderer finishes every
     /// tile it takes, or gives it back.
@@ -84,9 +80,6 @@ class TileQueue {
     /// Hands out again tiles that were taken and will not be finished.
     void give_back(const TileRun& run);
 
-    /// The same for finished tiles whose pixels are lost; `rays` is what they added.
-    void take_back(const std::vector<TileRun>& runs, const RayCounts& rays);
-
     /// Adds to the rays traced so far; for progress, and for the totals at the end.
     void add_rays(const RayCounts& rays);
 
@@ -102,7 +95,7 @@ class TileQueue {
 
     const std::vector<Rect> tiles_;
     const StopFlag& stop_;
-    const TileEvents events_;
+    const std::function<void(const Rect&)> finished_;
     std::int64_t pixels_ = 0;
     std::atomic<std::size_t> next_ = 0;
     std::mutex returned_mutex_;
