@@ -157,7 +157,9 @@ TEST(ErrorEstimate, EndsAtAStopSignal) {
     RenderSettings settings;
     settings.estimate = true;
     const RenderStats stats =
-        render_picture(scene, settings, {threads_choice()}, events, stop).stats;
+        render_picture(
+            scene, settings, [] { return std::vector{threads_choice()}; }, events, stop)
+            .stats;
     EXPECT_TRUE(stats.complete());
     EXPECT_FALSE(stats.estimate);
 }
@@ -182,7 +184,8 @@ TEST(ErrorEstimate, UsesNoMoreThreadsThanTheRenderer) {
     };
     RenderSettings settings;
     settings.estimate = true;
-    render_picture(scene, settings, {threads_choice(1)}, events, go);
+    render_picture(
+        scene, settings, [] { return std::vector{threads_choice(1)}; }, events, go);
     watcher = {};
     EXPECT_LE(most, expected);
 }

@@ -44,8 +44,8 @@ RenderStats render(const RenderSettings& settings, std::vector<std::string>* sai
     events.message = [&](const std::string& line) {
         if (said != nullptr) said->push_back(line);
     };
-    const RenderedPicture rendered =
-        render_picture(changed, settings, {threads_choice()}, events, stop);
+    const RenderedPicture rendered = render_picture(
+        changed, settings, [] { return std::vector{threads_choice()}; }, events, stop);
     return rendered.stats;
 }
 

@@ -66,7 +66,8 @@ std::uint64_t hash_of_known_picture(const DeviceChoice& device, Precision precis
     Scene scene = load_default_scene();
     apply_overrides(scene, settings);
     static const StopFlag never_stopped{0};
-    return render_picture(scene, settings, {device}, {}, never_stopped).stats.image_hash;
+    const auto devices = [&] { return std::vector{device}; };
+    return render_picture(scene, settings, devices, {}, never_stopped).stats.image_hash;
 }
 
 /// Empty if the device renders the right picture.

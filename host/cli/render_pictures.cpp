@@ -295,11 +295,9 @@ class Pictures {
 
     RenderedPicture render(const Scene& scene, const RenderOptions& options,
                            const RenderEvents& events) {
-        if (!is_batch_) {
-            return render_picture(scene, options, std::move(finding_), events, stop_flag());
-        }
+        const auto devices = [this] { return is_batch_ ? devices_ : finding_.get(); };
         RenderedPicture rendered =
-            render_picture(scene, options, devices_, events, stop_flag(), &cache_);
+            render_picture(scene, options, devices, events, stop_flag(), &cache_);
         leave_out_failed(devices_, rendered.stats);
         return rendered;
     }

@@ -240,7 +240,8 @@ RenderedPicture render_quietly(const Scene& scene, const RenderSettings& setting
     events.driver_loaded = restore_stop_signals;
     if (is_worker()) events.progressed = note_worker_progress;
     const DriverTask task(device.use_threads ? "" : device.device.name);
-    return render_picture(scene, settings, std::vector{device}, events, stop_flag(), cache);
+    const auto devices = [&] { return std::vector{device}; };
+    return render_picture(scene, settings, devices, events, stop_flag(), cache);
 }
 
 bool run_rounds(std::vector<TimedCase>& cases, int repeats, bool quiet) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 #include <optional>
 #include <utility>
 
@@ -295,7 +296,6 @@ class Job {
     RenderStats stats_;
 };
 
-/// `devices` is called once the scene is flattened.
 template <typename T>
 RenderedPicture render_in(const Scene& scene, const RenderSettings& settings,
                           const std::function<Devices()>& devices, const RenderEvents& events,
@@ -306,9 +306,11 @@ RenderedPicture render_in(const Scene& scene, const RenderSettings& settings,
     return job.run(chosen, watch.seconds());
 }
 
-RenderedPicture render_on(const Scene& scene, RenderSettings settings,
-                          const std::function<Devices()>& devices, const RenderEvents& events,
-                          const StopFlag& stop, RenderCache* cache) {
+}  // namespace
+
+RenderedPicture render_picture(const Scene& scene, RenderSettings settings,
+                               const std::function<Devices()>& devices, const RenderEvents& events,
+                               const StopFlag& stop, RenderCache* cache) {
     const auto render_once =
         settings.precision == Precision::float64 ? render_in<double> : render_in<float>;
     ErrorControl control;
@@ -339,22 +341,6 @@ RenderedPicture render_on(const Scene& scene, RenderSettings settings,
         second.stats.note_failed(failed, first.stats.failure());
     }
     return second;
-}
-
-}  // namespace
-
-RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
-                               std::future<Devices> devices, const RenderEvents& events,
-                               const StopFlag& stop) {
-    const auto found = [&] { return devices.get(); };
-    return render_on(scene, settings, found, events, stop, nullptr);
-}
-
-RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
-                               const Devices& devices, const RenderEvents& events,
-                               const StopFlag& stop, RenderCache* cache) {
-    const auto known = [&] { return devices; };
-    return render_on(scene, settings, known, events, stop, cache);
 }
 
 void leave_out_failed(std::vector<DeviceChoice>& devices, const RenderStats& stats) {

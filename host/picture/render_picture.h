@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,15 +50,13 @@ struct RenderEvents {
 /// settings.journal it resumes. With settings.target_rmse, it renders first with the scene's AA
 /// mode, which must not refine, and if the estimated error is larger, once more with as many
 /// samples as it takes; the first picture is the result if the second is stopped. Throws Error.
-RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
-                               std::future<std::vector<DeviceChoice>> devices,
-                               const RenderEvents& events, const StopFlag& stop);
-
-/// The same on devices already chosen. The cache serves one picture at a time, and devices are
-/// warned of in the first only; null: no cache.
-RenderedPicture render_picture(const Scene& scene, const RenderSettings& settings,
-                               const std::vector<DeviceChoice>& devices, const RenderEvents& events,
-                               const StopFlag& stop, RenderCache* cache = nullptr);
+///
+/// `devices` is called once the scene is flattened. The cache serves one picture at a time, and
+/// devices are warned of in the first only; null: no cache.
+RenderedPicture render_picture(const Scene& scene, RenderSettings settings,
+                               const std::function<std::vector<DeviceChoice>()>& devices,
+                               const RenderEvents& events, const StopFlag& stop,
+                               RenderCache* cache = nullptr);
 
 /// The devices for the next picture of several: threads, if one of these failed.
 void leave_out_failed(std::vector<DeviceChoice>& devices, const RenderStats& stats);

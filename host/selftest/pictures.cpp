@@ -106,7 +106,8 @@ RenderedPicture render_golden(const GoldenPicture& picture, const DeviceChoice& 
                               const KernelChoice& kernels, RenderCache* cache) {
     RenderSettings settings = golden_settings(picture);
     settings.kernels = kernels;
-    return render_picture(golden_scene(picture), settings, {device}, {}, stop_flag(), cache);
+    const auto devices = [&] { return std::vector{device}; };
+    return render_picture(golden_scene(picture), settings, devices, {}, stop_flag(), cache);
 }
 
 void check_pictures(Checks& checks, const DeviceChoice& device, const std::string& prefix,
